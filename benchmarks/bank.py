@@ -13,9 +13,9 @@ import subprocess
 import sys
 import time
 
-from quizgen.bank.draw import draw
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 from quizgen.bank.template import Template
+from quizgen.bank.variant import draw_variant
 
 ROUNDS, SEEDS, DEAREST = 5, 40, 8
 TARGET, LINT_TARGET = 5000, 60
@@ -23,24 +23,24 @@ TARGET, LINT_TARGET = 5000, 60
 
 def seconds_per_draw(template: Template) -> float:
     """CPU seconds of one draw, best of some rounds."""
-    draw(template, "warm")
+    draw_variant(template, "warm")
     best = float("inf")
     for _ in range(ROUNDS):
         started = time.process_time()
         for seed in range(SEEDS):
-            draw(template, seed)
+            draw_variant(template, seed)
         best = min(best, time.process_time() - started)
     return best / SEEDS
 
 
 def draws() -> None:
     """Print draws per second and the dearest templates."""
-    bank = builtin()
-    cost = {name: seconds_per_draw(bank.template(name)) for name in bank.paths}
+    bank = builtin_bank()
+    cost = {name: seconds_per_draw(bank.template(name)) for name in bank.template_paths}
     rate = len(cost) / sum(cost.values())
     print(f"draw + solve + trap checks: {rate:,.0f}/s over {len(cost)} templates ({TARGET:,})")
     for name in sorted(cost, key=cost.__getitem__, reverse=True)[:DEAREST]:
-        tries = sum(draw(bank.template(name), seed).tries for seed in range(SEEDS)) / SEEDS
+        tries = sum(draw_variant(bank.template(name), seed).tries for seed in range(SEEDS)) / SEEDS
         print(f"  {1e6 * cost[name]:6.0f} us  {tries:5.1f} tries  {name}")
 
 

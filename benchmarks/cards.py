@@ -60,35 +60,35 @@ def commands(repeats: int) -> None:
 
 
 def kinds() -> None:
-    from quizgen.cards import build
+    from quizgen.cards import build_deck
     from quizgen.cards.kinds import KINDS
 
     row("\nwarm, by kind (both languages)", "CPU ms", "cards", "ms/card")
-    build("both")
+    build_deck("both")
     for kind in KINDS:
-        seconds, deck = timed(lambda kind=kind: build("both", kinds=(kind,), seed=7))
+        seconds, deck = timed(lambda kind=kind: build_deck("both", kinds=(kind,), seed=7))
         row(kind, f"{seconds * 1e3:.0f}", deck.cards, f"{seconds * 1e3 / deck.cards:.2f}")
 
 
 def outputs() -> None:
-    from quizgen.cards import build
-    from quizgen.cards.apkg import package
-    from quizgen.cards.tables import as_csv, tsv
+    from quizgen.cards import build_deck
+    from quizgen.cards.apkg import write_apkg
+    from quizgen.cards.delimited import write_csv, write_tsv
 
     row("\nwarm, by output (full deck)", "CPU ms", "KB")
-    deck = build("both")
-    for name, write in (("apkg", package), ("tsv", tsv), ("csv", as_csv)):
+    deck = build_deck("both")
+    for name, write in (("apkg", write_apkg), ("tsv", write_tsv), ("csv", write_csv)):
         seconds, data = timed(lambda write=write: write(deck))
         row(name, f"{seconds * 1e3:.0f}", f"{len(data) / 1024:.0f}")
 
 
 def memory(count: int) -> None:
-    from quizgen.cards import build
-    from quizgen.cards.apkg import package
+    from quizgen.cards import build_deck
+    from quizgen.cards.apkg import write_apkg
 
     row(f"\n{count} decks in one process", "CPU s/deck", "peak MB")
     for done in range(1, count + 1):
-        seconds, _ = timed(lambda done=done: package(build("both", seed=done)))
+        seconds, _ = timed(lambda done=done: write_apkg(build_deck("both", seed=done)))
         if done in {1, 2, 5, 10, 20, 50}:
             peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
             row(f"deck {done}", f"{seconds:.2f}", f"{peak:.0f}")

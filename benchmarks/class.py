@@ -29,19 +29,19 @@ from unittest.mock import patch
 
 import msgspec
 
-from quizgen.bank.folder import builtin
-from quizgen.classes import make as made_by
-from quizgen.classes.folder import ANSWERS, ClassFolder, Settings, line_of
-from quizgen.classes.keys import Keys
-from quizgen.classes.make import CHUNK, make, new_settings
-from quizgen.classes.overview import analyse
-from quizgen.classes.roster import Student
-from quizgen.classes.run import mark_class
+from quizgen.bank.bank import builtin_bank
+from quizgen.classes import generation as made_by
+from quizgen.classes.analysis_page import write_analysis_page
+from quizgen.classes.class_folder import ANSWERS, ClassFolder, ClassSettings, format_record
+from quizgen.classes.generation import CHUNK, create_settings, generate_papers
+from quizgen.classes.grading_run import grade_class
+from quizgen.classes.key_index import KeyIndex
+from quizgen.classes.roster import RosterStudent
 from quizgen.executors import Here, workers
-from quizgen.marking.mark import show
+from quizgen.grading.mark import show_key
+from quizgen.paper.answer_key import AnswerKey
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.key import Key
-from quizgen.paper.paper import Progress, silent
+from quizgen.paper.paper import ProgressCallback, silent
 
 PROCESSES = 4
 MOST_CPU, MOST_MEMORY = 0.3, 400
@@ -84,22 +84,22 @@ def digest(folder: Path) -> str:
 
 def made(
     home: Path,
-    settings: Settings,
-    students: list[Student],
+    settings: ClassSettings,
+    students: list[RosterStudent],
     executor: Executor,
     ahead: int,
-    told: Progress = silent,
+    told: ProgressCallback = silent,
 ) -> str:
     """Make a class anew; digest of its folder."""
     folder = ClassFolder(home / "class")
     shutil.rmtree(folder.path, ignore_errors=True)
     folder.create(settings, students)
-    plan = load_blueprint(settings.blueprint, builtin())
-    make(folder, students, plan, executor, ahead, told)
+    plan = load_blueprint(settings.blueprint, builtin_bank())
+    generate_papers(folder, students, plan, executor, ahead, told)
     return digest(folder.path)
 
 
-def here(home: Path, settings: Settings, students: list[Student]) -> str:
+def here(home: Path, settings: ClassSettings, students: list[RosterStudent]) -> str:
     """In this process: the digest."""
     marks: list[tuple[float, float]] = []
     name = made(home, settings, students, Here(), 1, lambda _: marks.append((cpu(), memory())))
@@ -110,7 +110,9 @@ def here(home: Path, settings: Settings, students: list[Student]) -> str:
     return name
 
 
-def processes(home: Path, settings: Settings, students: list[Student], count: int) -> str:
+def processes(
+    home: Path, settings: ClassSettings, students: list[RosterStudent], count: int
+) -> str:
     """In processes: the digest."""
     started, before = time.monotonic(), cpu()
     with workers(count) as (executor, ahead):
@@ -133,7 +135,7 @@ def cluster() -> Iterator[tuple[str, list[int]]]:
         yield local.scheduler_address, list(client.run(os.getpid).values())
 
 
-def on_a_cluster(home: Path, settings: Settings, students: list[Student]) -> str:
+def on_a_cluster(home: Path, settings: ClassSettings, students: list[RosterStudent]) -> str:
     """On a cluster, one of whose workers is killed half way."""
     done: list[str] = []
 
@@ -151,7 +153,7 @@ def on_a_cluster(home: Path, settings: Settings, students: list[Student]) -> str
 
 def answered(folder: ClassFolder, count: int) -> int:
     """Write a table of what students answered; how many answers are in it."""
-    chance, number, keys = random.Random(1), 0, Keys(folder)
+    chance, number, keys = random.Random(1), 0, KeyIndex(folder)
     drawn = list(keys.places)
     first = keys.key(drawn[0])
     names = [part.id for question in first.questions for part in question.parts]
@@ -168,9 +170,9 @@ def answered(folder: ClassFolder, count: int) -> int:
     return number
 
 
-def _typed(key: Key) -> dict[str, str]:
+def _typed(key: AnswerKey) -> dict[str, str]:
     """What is right in each part."""
-    return {part.id: show(part.in_order()) for one in key.questions for part in one.parts}
+    return {part.id: show_key(part.ordered_spec()) for one in key.questions for part in one.parts}
 
 
 def _answer(right: str, chance: random.Random) -> str:
@@ -179,32 +181,34 @@ def _answer(right: str, chance: random.Random) -> str:
     return right if way < 0.6 else "" if way < 0.7 else wrong
 
 
-def marks(home: Path, settings: Settings, students: list[Student]) -> None:
+def marks(home: Path, settings: ClassSettings, students: list[RosterStudent]) -> None:
     """Mark and analyse a class, in this process."""
-    folder, plan = ClassFolder(home / "class"), load_blueprint(settings.blueprint, builtin())
+    folder, plan = ClassFolder(home / "class"), load_blueprint(settings.blueprint, builtin_bank())
     folder.create(settings, students)
     with patch.object(made_by, "render_paper", lambda *_: b""):
-        make(folder, students[:DRAWN], plan, Here(), 1, silent)
-    keys, heads = Keys(folder), folder.heads()
+        generate_papers(folder, students[:DRAWN], plan, Here(), 1, silent)
+    keys, heads = KeyIndex(folder), folder.heads()
     for place in range(DRAWN, len(students)):
         own, other = students[place].id, students[place % DRAWN].id
         head = msgspec.structs.replace(heads[other], id=own, code=f"{heads[other].code}{place}")
-        folder.append([line_of(head, keys.key(other))])
+        folder.append([format_record(head, keys.key(other))])
     folder.write_roster(students)
     number = answered(folder, len(students))
     before = cpu()
-    run = mark_class(folder, Here(), 1)
+    run = grade_class(folder, Here(), 1)
     between = cpu()
-    analyse(folder)
+    write_analysis_page(folder)
     print(f"{number} answers marked in {between - before:.1f} CPU s ({run.groups} groups to "
           f"decide), analysed in {cpu() - between:.1f}; {memory():.0f} MB")  # fmt: skip
 
 
 def main(count: int, mode: str = "") -> None:
     """Print the table."""
-    students = [Student(str(10_000 + number), f"Student {number}") for number in range(count)]
+    students = [RosterStudent(str(10_000 + number), f"Student {number}") for number in range(count)]
     with patch.object(made_by, "new_secret", lambda: "5" * 32):  # the same papers in every run
-        settings = new_settings("class", builtin(), load_blueprint("mock", builtin()), "en")
+        settings = create_settings(
+            "class", builtin_bank(), load_blueprint("mock", builtin_bank()), "en"
+        )
     print(f"{count} students, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}")
     with tempfile.TemporaryDirectory() as temporary:
         home = Path(temporary)

@@ -33,8 +33,9 @@ from documented import VALUES, load_examples
 from figure_cases import FIGURES, REFERENCE, draws, module
 from matplotlib.figure import Figure as StockFigure
 
-from quizgen import figures, kept
+from quizgen import figures
 from quizgen.__main__ import ALGEBRA
+from quizgen.core import cache
 from quizgen.figures import complete_parameters, draw_figure
 from quizgen.figures.axes import Sheet
 from quizgen.figures.contract import parameters_of
@@ -74,12 +75,12 @@ def milliseconds(work: Callable[[], object]) -> float:
 @contextmanager
 def nothing_kept() -> Iterator[None]:
     """Have every figure drawn."""
-    find, keep = kept.find, kept.keep
-    kept.find, kept.keep = (lambda *_: None), (lambda *_: None)
+    find, keep = cache.read_cached, cache.write_cached
+    cache.read_cached, cache.write_cached = (lambda *_: None), (lambda *_: None)
     try:
         yield
     finally:
-        kept.find, kept.keep = find, keep
+        cache.read_cached, cache.write_cached = find, keep
 
 
 class StockSheet(Sheet):
@@ -112,7 +113,7 @@ def time_figure(figure: ModuleType, some: Sequence[Values]) -> tuple[float, floa
     of all only warms up.
     """
     rounds, slow = [], [slowness()]
-    figures._draw.cache_clear()  # noqa: SLF001
+    figures._draw_items.cache_clear()  # noqa: SLF001
     with nothing_kept():
         for quiz in (True, False):
             time_drawing(figure, some[0], quiz=quiz)
@@ -135,7 +136,7 @@ def time_kept(figure: ModuleType, values: Values) -> float:
     draw_figure(figure, values, quiz=False, lang="en")
     times = []
     for _ in range(15):
-        figures._draw.cache_clear()  # noqa: SLF001
+        figures._draw_items.cache_clear()  # noqa: SLF001
         times.append(time_drawing(figure, values, quiz=False))
     return median(times)
 

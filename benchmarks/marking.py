@@ -12,9 +12,9 @@ from typing import Any
 
 from flint import fmpq
 
-from quizgen.marking.mark import Context, mark
+from quizgen.grading.mark import QuestionContext, mark
 from quizgen.maths.chain import Chain, ChainStep
-from quizgen.maths.notation import parse
+from quizgen.maths.notation import parse_formula
 
 Task = tuple[dict[str, Any], str]
 BANGLA = str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯")
@@ -86,12 +86,12 @@ def formulas(indices: range) -> Iterator[Task]:
         yield {"kind": "expression", "value": value, "symbols": symbols}, forms[i // 3 % 4]
 
 
-def _context() -> Context:
+def _context() -> QuestionContext:
     steps = [("h", "f*X/Z", "mm"), ("n", "h/pitch", "px"), ("c", "n + o", "px")]
     given = {"f": "mm", "X": "m", "Z": "m", "pitch": "um", "o": "px"}
-    chain = Chain(given, tuple(ChainStep(n, parse(t), u) for n, t, u in steps))
+    chain = Chain(given, tuple(ChainStep(n, parse_formula(t), u) for n, t, u in steps))
     values = [fmpq(1, 20), fmpq(30), fmpq(600), fmpq(5, 10**6), fmpq(320)]
-    return Context(chain, dict(zip(given, values, strict=True)))
+    return QuestionContext(chain, dict(zip(given, values, strict=True)))
 
 
 def wrong(indices: range) -> Iterator[Task]:
@@ -101,7 +101,7 @@ def wrong(indices: range) -> Iterator[Task]:
 
 
 def rate(
-    tasks: Callable[[range], Iterator[Task]], count: int, context: Context | None = None
+    tasks: Callable[[range], Iterator[Task]], count: int, context: QuestionContext | None = None
 ) -> float:
     """Answers per CPU second, best of three.
 

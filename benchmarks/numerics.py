@@ -4,7 +4,7 @@ Run: ``python benchmarks/numerics.py [--worst]``. Prints nanoseconds per value (
 runs, the ways taken in turn), first for a million draws of every argument, then for a million
 points or pixels of one camera, whose settings are plain numbers. Exits with 1 when a stable
 function is slower on draws than allowed: 1.5 times the textbook formula where that is right on
-every hard row of ``tests/arrays/rows`` (to 5 units in the last place; both are measured here),
+every hard row of ``tests/numerics/rows`` (to 5 units in the last place; both are measured here),
 else 3 times, and 20 times for the inverse of the distortion.
 
 ``--worst`` prints instead what the slowest element of each function takes: of many rows of zeros,
@@ -27,7 +27,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "arrays"))
 from functions import COUNTS, FUNCTIONS
 
-from quizgen.arrays import distortion, gamma, gaussian, hsv, luminosity, projection
+from quizgen.numerics import distortion, gamma, gaussian, hsv, luminosity, projection
 from quizgen.tradeoff.lines import fixed_point
 
 COUNT, RUNS = 10**6, 7
@@ -96,15 +96,15 @@ def cases(rng: np.random.Generator) -> Iterator[Case]:
         (
             "pixel",
             textbook_pixel,
-            projection.pixel,
+            projection.pixel_coordinate,
             [0.004, 5e-6, unit, 1 + other, 320.0],
         ),
-        ("inverse tail", textbook_quantile, gaussian.inverse_tail, [(unit + 0.01) / 2]),
+        ("inverse tail", textbook_quantile, gaussian.inverse_upper_tail, [(unit + 0.01) / 2]),
         ("srgb decode", textbook_linear, gamma.srgb_decode, [unit]),
         ("distort", textbook_distort, distortion.distort, [unit, other, -0.2, 0.05]),
-        ("to rgb", textbook_rgb, hsv.to_rgb, [360 * unit, other, third]),
+        ("to rgb", textbook_rgb, hsv.hsv_to_rgb, [360 * unit, other, third]),
         ("fold radius", textbook_fold, distortion.fold_radius, [-unit - 1]),
-        ("V(lambda)", textbook_v, luminosity.efficiency, [380 + 400 * unit]),
+        ("V(lambda)", textbook_v, luminosity.luminous_efficiency, [380 + 400 * unit]),
     ):
         peer = scipy_quantile if name == "inverse tail" else None
         yield Case(name, textbook, stable, columns, peer, rows=ROWS.get(name) or named(stable))

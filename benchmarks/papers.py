@@ -55,25 +55,25 @@ def memory() -> float:
 
 
 def made(seed: int, *, figures: bool = True):  # noqa: ANN201
-    from quizgen.bank.folder import builtin
+    from quizgen.bank.bank import builtin_bank
     from quizgen.paper.blueprint import Blueprint, SlotRule
-    from quizgen.paper.paper import build
+    from quizgen.paper.paper import build_paper
 
     slots = tuple(SlotRule(templates=(name,)) for name in FIGURES + PLAIN)
-    return build(builtin(), Blueprint({"en": "Benchmark"}, slots, name="bench"), seed, "en",
+    return build_paper(builtin_bank(), Blueprint({"en": "Benchmark"}, slots, name="bench"), seed, "en",
                  figures=figures)  # fmt: skip
 
 
 def paper_bytes(seed: int) -> int:
     """Everything that ``quizgen exam`` writes, as a number of bytes."""
-    from quizgen.paper.form import form_bytes
-    from quizgen.paper.key import key_bytes
+    from quizgen.paper.answer_form import write_blank_form
+    from quizgen.paper.answer_key import write_answer_key
     from quizgen.render import KINDS, RENDERERS, render_paper
 
     paper = made(seed)
     assert sum(item.questions[0].figure is not None for item in paper.items) == len(FIGURES)
     rendered = [render_paper(paper, kind, output) for output in RENDERERS for kind in KINDS]
-    return sum(map(len, rendered)) + len(key_bytes(paper)) + len(form_bytes(paper))
+    return sum(map(len, rendered)) + len(write_answer_key(paper)) + len(write_blank_form(paper))
 
 
 def timed(work: Callable[[int], object], seeds: range) -> float:
@@ -115,16 +115,16 @@ def stages(seeds: range) -> dict[str, float]:
 
 def draws_per_second() -> float:
     """Questions drawn and solved per CPU second, all trap checks included."""
-    from quizgen.bank.draw import draw
-    from quizgen.bank.folder import builtin
+    from quizgen.bank.bank import builtin_bank
+    from quizgen.bank.variant import draw_variant
 
-    templates = [builtin().template(name) for name in FIGURES + PLAIN]
+    templates = [builtin_bank().template(name) for name in FIGURES + PLAIN]
     for template in templates:
-        draw(template, 0)
+        draw_variant(template, 0)
     count, started = 0, cpu()
     for seed in range(1, 121):
         for template in templates:
-            draw(template, seed)
+            draw_variant(template, seed)
             count += 1
     return count / (cpu() - started)
 

@@ -26,19 +26,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from quizgen.audit.lint import lint_template
-    from quizgen.bank.folder import Bank, builtin
+    from quizgen.bank.bank import Bank, builtin_bank
     from quizgen.bank.template import Template
-    from quizgen.errors import QuizgenError
+    from quizgen.core.errors import QuizgenError
     from quizgen.figures import Figure
-    from quizgen.marking.mark import mark, show
-    from quizgen.marking.verdict import Verdict
+    from quizgen.grading.mark import mark, show_key
+    from quizgen.grading.verdict import Verdict
+    from quizgen.lint.template_checks import lint_template
     from quizgen.maths.model import Model, Step
+    from quizgen.paper.answer_key import make_answer_key
     from quizgen.paper.blueprint import Blueprint, load_blueprint
-    from quizgen.paper.key import key_of
-    from quizgen.paper.marking import PaperResult, mark_paper
-    from quizgen.paper.paper import Paper, build, rebuild
-    from quizgen.question.compose import Key, Question, compose
+    from quizgen.paper.grading import PaperResult, grade_paper
+    from quizgen.paper.paper import Paper, build_paper, rebuild_paper
+    from quizgen.question.compose import Question, QuestionKey, compose_question
     from quizgen.render import render_paper
 
     __version__: str
@@ -72,26 +72,26 @@ HOMES = {
 
 __all__ = [  # noqa: RUF022 - in the order of the line
     "Bank",
-    "builtin",
+    "builtin_bank",
     "Template",
     "Model",
     "Step",
     "Question",
-    "Key",
+    "QuestionKey",
     "Figure",
-    "compose",
+    "compose_question",
     "Blueprint",
     "load_blueprint",
     "Paper",
-    "build",
-    "rebuild",
-    "key_of",
+    "build_paper",
+    "rebuild_paper",
+    "make_answer_key",
     "render_paper",
     "Verdict",
     "mark",
-    "show",
+    "show_key",
     "PaperResult",
-    "mark_paper",
+    "grade_paper",
     "lint_template",
     "QuizgenError",
     "__version__",

@@ -28,7 +28,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.reduction import ForkingPickler
 from typing import Any, ParamSpec, TypeVar, cast
 
-from quizgen.errors import ChoiceError, WorkerError
+from quizgen.core.errors import InvalidChoiceError, WorkerError
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -241,11 +241,11 @@ def _cluster(scheduler: str) -> Iterator[tuple[Executor, int]]:
     try:
         from distributed import Client
     except ImportError:
-        raise ChoiceError("a scheduler needs Dask: install quizgen[cluster]") from None
+        raise InvalidChoiceError("a scheduler needs Dask: install quizgen[cluster]") from None
     try:
         client = Client(scheduler, timeout=10, set_as_default=False)
     except (OSError, ValueError) as error:
-        raise ChoiceError(f"scheduler {scheduler}: {error or 'no answer'}") from None
+        raise InvalidChoiceError(f"scheduler {scheduler}: {error or 'no answer'}") from None
     with client:
         threads = sum(client.nthreads().values())
         yield client.get_executor(pure=False), max(1, threads) * AHEAD

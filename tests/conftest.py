@@ -8,8 +8,8 @@ import sys
 import pytest
 from needed import installed
 
-from quizgen import kept
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.core import cache
 
 # Containers forbid bytecode to be kept; then every cold process that a test starts would compile
 # SymPy and all the rest again, two seconds each.
@@ -19,15 +19,15 @@ sys.dont_write_bytecode = False
 
 @pytest.fixture(scope="session")
 def bank() -> Bank:
-    return builtin()
+    return builtin_bank()
 
 
 @pytest.fixture
 def empty_cache(tmp_path, monkeypatch):
     """The folder of a cache of one's own, of which a process has not yet heard."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(kept, "SHIPPED", tmp_path / "shipped")
-    heard_of = kept.own, kept.swept
+    monkeypatch.setattr(cache, "SHIPPED", tmp_path / "shipped")
+    heard_of = cache.user_cache_folder, cache.remove_stale
     for one in heard_of:
         one.cache_clear()
     yield tmp_path / "cache" / "quizgen"

@@ -14,8 +14,8 @@ import pytest
 import quizgen
 from quizgen import typeset
 from quizgen.bank.rules import Rules
-from quizgen.cli.main import COMMANDS, group
-from quizgen.locale import languages, table
+from quizgen.cli.main import COMMANDS, root_group
+from quizgen.locale import list_languages, load_words
 from quizgen.maths import model
 
 ROOT = Path(__file__).parent.parent
@@ -43,7 +43,7 @@ def test_examples_in_docstrings_run(module):
 
 @pytest.mark.parametrize("name", list(COMMANDS))
 def test_every_command_loads_and_is_in_the_readme(name):
-    command = group.get_command(None, name)
+    command = root_group.get_command(None, name)
     assert command is not None
     assert command.help
     assert (
@@ -71,10 +71,10 @@ def blanks(text):
     return {part.split("}")[0] for part in text.split("{")[1:]}
 
 
-@pytest.mark.parametrize("lang", sorted({*languages()} - {"en"}))
+@pytest.mark.parametrize("lang", sorted({*list_languages()} - {"en"}))
 @pytest.mark.parametrize("file", ["interface", "messages", "web", "classes", "cards"])
 def test_every_word_has_the_same_blanks_in_every_language(file, lang):
-    english, other = (dict(words(table(one, file))) for one in ("en", lang))
+    english, other = (dict(words(load_words(one, file))) for one in ("en", lang))
     assert english.keys() == other.keys()
     for name, text in english.items():
         assert blanks(str(text)) == blanks(str(other[name])), name
@@ -103,7 +103,7 @@ def test_every_option_of_exam_and_key_of_blueprints_is_documented():
     from quizgen.paper.blueprint import Blueprint, SlotRule
 
     text = (ROOT / "docs" / "papers.md").read_text(encoding="utf-8")
-    for option in group.get_command(None, "exam").params:
+    for option in root_group.get_command(None, "exam").params:
         assert any(name in text for name in option.opts), option.opts
     internal = {"name", "source", "topic", "budget"}
     for struct, hidden in ((Blueprint, internal), (SlotRule, set())):
@@ -113,14 +113,14 @@ def test_every_option_of_exam_and_key_of_blueprints_is_documented():
 
 def called(name, inner=""):
     """A command, or one of those that it holds."""
-    command = group.get_command(None, name)
+    command = root_group.get_command(None, name)
     return getattr(command, "commands", {}).get(inner, command)
 
 
 PAIRS = [
     (name, inner)
     for name in COMMANDS
-    for inner in getattr(group.get_command(None, name), "commands", [""])
+    for inner in getattr(root_group.get_command(None, name), "commands", [""])
 ]
 
 
@@ -152,7 +152,7 @@ LONG = (
     "uv run quizgen exam --topic noise --minutes 9 --format html --out noise",
     "uv run quizgen check noise/key.json noise/answers.toml --json > marks.json",
     "uv run quizgen cards --from-marks marks.json",
-    "uv run python -m quizgen.cards.renew",
+    "uv run python -m quizgen.cards.update_versions",
     "uv run quizgen tradeoff --out precision",
 )
 """Commands that take long and prepare nothing for the others: run with the slow tests."""

@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from quizgen import kept
+from quizgen.core import cache as cache_module
 
 KEY = "a" * 64
 
@@ -17,8 +17,8 @@ def cache(empty_cache):
     """Begin as a new process does."""
 
     def begin():
-        kept.own.cache_clear()
-        kept.swept.cache_clear()
+        cache_module.user_cache_folder.cache_clear()
+        cache_module.remove_stale.cache_clear()
         return empty_cache
 
     return begin
@@ -26,17 +26,17 @@ def cache(empty_cache):
 
 def test_what_is_kept_is_found_again(cache):
     cache()
-    assert kept.find("kind", KEY) is None
-    kept.keep("kind", KEY, b"said\n")
-    assert kept.find("kind", KEY) == b"said\n"
-    assert kept.find("kind", "b" * 64) is None
-    assert kept.find("other", KEY) is None
+    assert cache_module.read_cached("kind", KEY) is None
+    cache_module.write_cached("kind", KEY, b"said\n")
+    assert cache_module.read_cached("kind", KEY) == b"said\n"
+    assert cache_module.read_cached("kind", "b" * 64) is None
+    assert cache_module.read_cached("other", KEY) is None
 
 
 def test_what_a_wheel_brings_is_found_before_anybody_asks_for_a_cache(cache, monkeypatch):
-    kept.write(kept.SHIPPED, "kind", KEY, b"said")
-    monkeypatch.setattr(kept, "own", lambda: pytest.fail("asked"))
-    assert kept.find("kind", KEY) == b"said"
+    cache_module.write_entry(cache_module.SHIPPED, "kind", KEY, b"said")
+    monkeypatch.setattr(cache_module, "user_cache_folder", lambda: pytest.fail("asked"))
+    assert cache_module.read_cached("kind", KEY) == b"said"
 
 
 @pytest.mark.parametrize("change", [
@@ -45,29 +45,29 @@ def test_what_a_wheel_brings_is_found_before_anybody_asks_for_a_cache(cache, mon
 ])  # fmt: skip
 def test_what_is_damaged_is_as_if_it_had_never_been_kept(cache, change):
     file = cache() / "kind" / KEY
-    kept.keep("kind", KEY, b"said")
+    cache_module.write_cached("kind", KEY, b"said")
     file.write_bytes(change(file.read_bytes()))
-    assert kept.find("kind", KEY) is None
-    kept.keep("kind", KEY, b"said")
-    assert kept.find("kind", KEY) == b"said"
+    assert cache_module.read_cached("kind", KEY) is None
+    cache_module.write_cached("kind", KEY, b"said")
+    assert cache_module.read_cached("kind", KEY) == b"said"
 
 
 def test_what_was_kept_for_another_place_is_not_believed(cache):
     home = cache()
-    kept.keep("kind", KEY, b"said")
+    cache_module.write_cached("kind", KEY, b"said")
     (home / "kind" / ("b" * 64)).write_bytes((home / "kind" / KEY).read_bytes())
-    assert kept.find("kind", "b" * 64) is None
+    assert cache_module.read_cached("kind", "b" * 64) is None
 
 
 @pytest.mark.skipif(os.name == "nt", reason="files have no modes there")
 def test_a_cache_is_its_owners_alone(cache):
     home = cache()
-    kept.keep("kind", KEY, b"said")
+    cache_module.write_cached("kind", KEY, b"said")
     assert home.stat().st_mode & 0o077 == 0
     home.chmod(0o777)
     cache()
-    assert kept.find("kind", KEY) is None
-    kept.keep("kind", "b" * 64, b"said")
+    assert cache_module.read_cached("kind", KEY) is None
+    cache_module.write_cached("kind", "b" * 64, b"said")
     assert [path.name for path in (home / "kind").iterdir()] == [KEY]
 
 
@@ -75,32 +75,32 @@ def test_a_cache_is_its_owners_alone(cache):
 def test_without_a_cache_nothing_is_kept_and_nothing_is_said(cache, monkeypatch, home):
     monkeypatch.setenv("XDG_CACHE_HOME", home)
     cache()
-    kept.keep("kind", KEY, b"said")
-    assert kept.find("kind", KEY) is None
+    cache_module.write_cached("kind", KEY, b"said")
+    assert cache_module.read_cached("kind", KEY) is None
 
 
 def test_a_cache_is_never_begun_beside_the_user(cache, monkeypatch, tmp_path):
     monkeypatch.setattr("platformdirs.user_cache_path", lambda name: type(tmp_path)("~") / name)
     monkeypatch.chdir(tmp_path)
     cache()
-    kept.keep("kind", KEY, b"said")
+    cache_module.write_cached("kind", KEY, b"said")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_what_a_wheel_brings_needs_no_cache(cache, monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", "/dev/null/nowhere")
     cache()
-    kept.write(tmp_path / "shipped", "kind", KEY, b"said")
-    assert kept.find("kind", KEY) == b"said"
+    cache_module.write_entry(tmp_path / "shipped", "kind", KEY, b"said")
+    assert cache_module.read_cached("kind", KEY) == b"said"
 
 
 def test_what_is_old_is_swept_away(cache):
     home = cache()
-    kept.keep("kind", KEY, b"said")
-    old = time.time() - kept.OLD - 60
+    cache_module.write_cached("kind", KEY, b"said")
+    old = time.time() - cache_module.OLD - 60
     os.utime(home / "kind" / KEY, (old, old))
     cache()
-    kept.keep("kind", "b" * 64, b"said")
-    assert kept.find("kind", KEY) is None
-    assert kept.find("kind", "b" * 64) == b"said"
+    cache_module.write_cached("kind", "b" * 64, b"said")
+    assert cache_module.read_cached("kind", KEY) is None
+    assert cache_module.read_cached("kind", "b" * 64) == b"said"
     assert len(list((home / "kind").iterdir())) == 1

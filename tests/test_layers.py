@@ -168,12 +168,14 @@ def test_help_loads_no_heavy_package():
 
 
 def test_checking_loads_neither_sympy_nor_matplotlib():
-    code = "import quizgen.marking.mark as c\nc.mark({'kind':'number','value':'20/3','decimals':3},'6,67')"
+    code = "import quizgen.grading.mark as c\nc.mark({'kind':'number','value':'20/3','decimals':3},'6,67')"
     assert not {"numpy", "sympy", "matplotlib"} & loaded(code)
 
 
 def test_marking_a_class_loads_what_marking_one_loads():
-    assert not {"numpy", "sympy", "matplotlib", "typst"} & loaded("import quizgen.classes.run")
+    assert not {"numpy", "sympy", "matplotlib", "typst"} & loaded(
+        "import quizgen.classes.grading_run"
+    )
 
 
 def test_a_server_is_ready_without_what_only_its_workers_need(tmp_path):

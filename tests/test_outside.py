@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.errors import BankError, CodeError, FormulaError
-from quizgen.outside import located
+from quizgen.core.errors import BankError, FormulaError, PaperCodeError
+from quizgen.core.untrusted import error_context
 
 
 @pytest.mark.parametrize(
@@ -22,17 +22,20 @@ from quizgen.outside import located
     ],
 )
 def test_an_error_names_its_file_once(file, said, shown):
-    with pytest.raises(BankError) as caught, located(file and Path(file)):
+    with pytest.raises(BankError) as caught, error_context(file and Path(file)):
         raise BankError(said)
     assert str(caught.value) == shown
 
 
 def test_an_error_keeps_its_kind_and_its_column():
-    with pytest.raises(FormulaError) as caught, located(Path("x.toml")):
+    with pytest.raises(FormulaError) as caught, error_context(Path("x.toml")):
         raise FormulaError("unknown unit", 4)
     assert (str(caught.value), caught.value.column) == ("x.toml: unknown unit", 4)
 
 
 def test_only_errors_of_the_kind_that_is_about_the_file_name_it():
-    with pytest.raises(BankError, match=r"^elsewhere$"), located(Path("x.toml"), CodeError):
+    with (
+        pytest.raises(BankError, match=r"^elsewhere$"),
+        error_context(Path("x.toml"), PaperCodeError),
+    ):
         raise BankError("elsewhere")

@@ -67,14 +67,16 @@ def test_a_type_checker_accepts_right_calls_and_refuses_wrong_ones():
 
 @pytest.fixture(scope="module")
 def asked():
-    template = quizgen.builtin().template("point-to-pixel")
-    return quizgen.compose(template, seed="reference")
+    template = quizgen.builtin_bank().template("point-to-pixel")
+    return quizgen.compose_question(template, seed="reference")
 
 
 def test_values_show_themselves_in_one_short_line(asked):
     question, key = asked
     verdict = quizgen.mark(key.specs[0], "(440; 160)")
-    paper = quizgen.build(quizgen.builtin(), quizgen.load_blueprint("trial"), 5, figures=False)
+    paper = quizgen.build_paper(
+        quizgen.builtin_bank(), quizgen.load_blueprint("trial"), 5, figures=False
+    )
     assert repr(question) == f"<Question 1 of point-to-pixel (en): {question.title}>"
     assert repr(verdict) == "<Verdict correct, read as (440; 160) px>"
     assert repr(paper) == f"<Paper {paper.code}: 5 questions, 10 points>"

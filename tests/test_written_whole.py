@@ -9,13 +9,13 @@ import sys
 
 import pytest
 
-from quizgen.errors import RenderError
-from quizgen.files import STALE, write_all
+from quizgen.core.errors import RenderError
+from quizgen.core.files import STALE, write_all
 
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from quizgen.files import write_all
+from quizgen.core.files import write_all
 left = int(sys.argv[2])
 def dying(name):
     before = getattr(Path, name)
@@ -85,7 +85,7 @@ def test_what_killed_runs_left_behind_is_swept_when_it_is_old(tmp_path):
 INTERRUPTED = """
 import signal, sys
 from pathlib import Path
-from quizgen.files import write_all
+from quizgen.core.files import write_all
 signal.signal(signal.SIGINT, signal.default_int_handler)
 before = Path.replace
 def step(self, target):
@@ -111,8 +111,8 @@ def test_ctrl_c_waits_until_all_files_stand_where_they_belong(tmp_path):
 def test_cards_and_their_pictures_are_one_set(tmp_path, monkeypatch, formats):
     from click.testing import CliRunner
 
-    from quizgen import files
     from quizgen.cli.cards import cards
+    from quizgen.core import files
 
     sets = []
     monkeypatch.setattr(
@@ -207,14 +207,14 @@ def written_by(words, folder, monkeypatch) -> dict[str, bytes]:
     """The one set of files that a command writes, their contents shortened."""
     from click.testing import CliRunner
 
-    from quizgen import files
-    from quizgen.cli.main import group
+    from quizgen.cli.main import root_group
+    from quizgen.core import files
     from quizgen.tradeoff import page
 
     sets = []
     for module in (files, page):
         monkeypatch.setattr(module, "write_all", lambda _, made: sets.append(made) or [])
-    done = CliRunner().invoke(group, [*words, "--out", str(folder / "none")])
+    done = CliRunner().invoke(root_group, [*words, "--out", str(folder / "none")])
     assert done.exit_code == 0, done.output
     (only,) = sets
     return {name: hashlib.sha256(data).digest() for name, data in only.items()}
@@ -224,7 +224,7 @@ def test_a_folder_that_cannot_be_written_is_named_as_it_was_asked_for(tmp_path, 
     def refused(path, *_args, **_options):
         raise PermissionError(13, "Permission denied", f"{path}")
 
-    monkeypatch.setattr("quizgen.files._stage", refused)
+    monkeypatch.setattr("quizgen.core.files._stage", refused)
     for folder in (tmp_path / "paper", tmp_path):
         with pytest.raises(RenderError) as found:
             write_all(folder, {"exam.html": b"x"})

@@ -5,17 +5,17 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 from quizgen.tradeoff.page import describe_arrays, describe_digits, describe_questions
 from quizgen.tradeoff.plot import draw_digits
-from quizgen.tradeoff.report import Report, measure
+from quizgen.tradeoff.report import TradeoffReport, measure_tradeoff
 from quizgen.tradeoff.texts import words
 
 PAGE = Path("docs/accuracy.md")
 MEASURED = re.compile(r"(?<=<!-- measured -->\n).*?(?=<!-- end -->)", re.DOTALL)
 
 
-def told(report: Report) -> str:
+def told(report: TradeoffReport) -> str:
     """What the page says, as Markdown."""
     text, questions = words("en"), describe_questions(report, "en")
     arrays = describe_arrays(report, "en")
@@ -46,7 +46,7 @@ def rows(columns: list[str], lines: list[tuple[str, ...]]) -> str:
 
 def main() -> None:
     """Measure, and write what came out."""
-    report = measure(builtin())
+    report = measure_tradeoff(builtin_bank())
     plot = draw_digits(report, words("en")["plot"]["alt"], "en")
     PAGE.with_suffix("").joinpath("digits.svg").write_bytes(plot.standalone_svg)
     text = PAGE.read_text("utf-8")

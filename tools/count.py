@@ -18,16 +18,16 @@ from pathlib import Path
 import msgspec
 from flint import fmpq
 
-from quizgen.bank.draw import Draw, draw
-from quizgen.bank.folder import Bank, builtin
-from quizgen.marking.mark import mark, show
-from quizgen.marking.specs import AnySpec
-from quizgen.maths.numbers import rational, round_to
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.bank.variant import Variant, draw_variant
+from quizgen.grading.mark import mark, show_key
+from quizgen.grading.spec import AnySpec
+from quizgen.maths.numbers import round_to, to_rational
 from quizgen.maths.precision import working_precision
 from quizgen.maths.values import Value
 from quizgen.question.kinds import build
 from quizgen.tradeoff.questions import Counted
-from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, solved
+from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, solve_in
 
 COUNTED = Path(__file__).parents[1] / "quizgen" / "tradeoff" / "counted.json"
 ROUND = 10_000
@@ -44,20 +44,20 @@ def count_wrong(bank: Bank, drawn: int = ROUND) -> Counted:
     Templates without a computation count, and have none.
     """
     wrong: dict[str, Counter[str]] = {system: Counter() for system in ARITHMETICS}
-    names = list(bank.paths)
+    names = list(bank.template_paths)
     for i in range(drawn):
         name = names[i % len(names)]
         template = bank.template(name)
         if not template.chain.steps:
             continue
-        one = draw(template, i // len(names))
+        one = draw_variant(template, i // len(names))
         for system, counts in wrong.items():
             counts[name] += is_wrong(one, system)
     kept = {system: dict(sorted((+counts).items())) for system, counts in wrong.items()}
     return Counted(datetime.now(UTC).date().isoformat(), len(names), drawn, kept)
 
 
-def is_wrong(drawn: Draw, system: str) -> bool:
+def is_wrong(drawn: Variant, system: str) -> bool:
     """Whether an arithmetic would print or mark a question wrongly, or have no key for it.
 
     Of doubles as they are only the digits count: nobody marks by equality with them.
@@ -66,12 +66,12 @@ def is_wrong(drawn: Draw, system: str) -> bool:
     return bool(found - {"accepted", "rejected"} if system == "float64" else found)
 
 
-def specs(drawn: Draw) -> list[AnySpec]:
+def specs(drawn: Variant) -> list[AnySpec]:
     """What each part of a question is marked by."""
     return [build(drawn, index).spec for index in range(len(drawn.template.rules.part))]
 
 
-def faults(drawn: Draw, name: str) -> set[str]:
+def faults(drawn: Variant, name: str) -> set[str]:
     """What goes wrong with one question in an arithmetic, by comparing its key with the exact one.
 
     Returns
@@ -82,7 +82,7 @@ def faults(drawn: Draw, name: str) -> set[str]:
     """
     found: set[str] = set()
     try:
-        others = specs(solved(drawn, name))
+        others = specs(solve_in(drawn, name))
         for index, (right, other) in enumerate(zip(specs(drawn), others, strict=True)):
             if right.kind not in FREE and other != right:
                 found |= _compared(drawn, index, right, other)
@@ -91,8 +91,8 @@ def faults(drawn: Draw, name: str) -> set[str]:
     return found
 
 
-def _compared(drawn: Draw, index: int, right: AnySpec, other: AnySpec) -> set[str]:
-    printed, made = show(right), show(other)
+def _compared(drawn: Variant, index: int, right: AnySpec, other: AnySpec) -> set[str]:
+    printed, made = show_key(right), show_key(other)
     tried = dict.fromkeys([printed, made, *_neighbours(printed), *_mistaken(drawn, index)])
     verdicts = {(_correct(right, typed), _correct(other, typed)) for typed in tried}
     found = {
@@ -107,10 +107,10 @@ def _correct(spec: AnySpec, typed: str) -> bool:
     return mark(spec, typed, decimal="point").verdict == "correct"
 
 
-def _mistaken(drawn: Draw, index: int) -> Iterator[str]:
+def _mistaken(drawn: Variant, index: int) -> Iterator[str]:
     """What those type who make a known mistake."""
     for spec in build(drawn, index).mistakes.values():
-        yield show(spec)
+        yield show_key(spec)
 
 
 def _neighbours(printed: str) -> Iterator[str]:
@@ -124,11 +124,11 @@ def _neighbours(printed: str) -> Iterator[str]:
         yield f"{printed[: found.start()]}{near:f}{printed[found.end() :]}"
 
 
-def _right_digits(drawn: Draw, index: int, printed: str, made: str) -> bool:
+def _right_digits(drawn: Variant, index: int, printed: str, made: str) -> bool:
     """Whether every number of a key is its value rounded to as many places as it has."""
     numbers = [found[0].translate(_PLAIN) for found in _NUMBER.finditer(made)]
-    percent = 100 if drawn.plan.parts[index].answer.get("percent") else 1
-    values = [value * percent for value in drawn.answer(index)]
+    percent = 100 if drawn.sampler.parts[index].answer.get("percent") else 1
+    values = [value * percent for value in drawn.answer_of_part(index)]
     if len(numbers) != len(values) or _words(printed) != _words(made):
         return False
     return all(map(_rounds_to, values, numbers))
@@ -140,17 +140,17 @@ def _words(text: str) -> str:
 
 def _rounds_to(value: Value, number: str) -> bool:
     if "/" in number:
-        return isinstance(value, fmpq) and value == rational(number)
+        return isinstance(value, fmpq) and value == to_rational(number)
     mantissa, _, power = number.partition("·10")
     size = fmpq(10) ** int(power or 0)
     places = -int(Decimal(mantissa).as_tuple().exponent)
     with working_precision():
-        return bool(round_to(value / size, places) == rational(mantissa))
+        return bool(round_to(value / size, places) == to_rational(mantissa))
 
 
 def main() -> int:
     """Count and write."""
-    found = msgspec.json.format(msgspec.json.encode(count_wrong(builtin())))
+    found = msgspec.json.format(msgspec.json.encode(count_wrong(builtin_bank())))
     COUNTED.write_bytes(found + b"\n")
     print(COUNTED)
     return 0

@@ -25,7 +25,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     ),
     "counts": ([sys.executable, "tools/count.py"],),
     "accuracy": ([sys.executable, "tools/accuracy.py"],),
-    "bounds": ([sys.executable, "tests/arrays/prove.py"],),
+    "bounds": ([sys.executable, "tests/numerics/prove.py"],),
     "pins": ([sys.executable, "tools/pin.py"],),
     "fonts": ([sys.executable, "tools/pack_fonts.py"],),
     "figures": ([sys.executable, "tools/figures.py"],),

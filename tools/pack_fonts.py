@@ -35,9 +35,9 @@ MATHS_RANGE = [
 def sources() -> dict[Path, tuple[Path, list[int]]]:
     """Packed file to the font that it is made from, and the characters in it."""
     return {
-        fonts.packed(fonts.MATHS): (fonts.maths_file(), MATHS_RANGE),
+        fonts.packed_font_path(fonts.MATHS): (fonts.maths_file(), MATHS_RANGE),
         **{
-            fonts.packed(fonts.BANGLA[weight]): (fonts.bangla_file(weight), BANGLA_RANGE)
+            fonts.packed_font_path(fonts.BANGLA[weight]): (fonts.bangla_file(weight), BANGLA_RANGE)
             for weight in fonts.BANGLA
         },
     }

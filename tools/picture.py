@@ -10,10 +10,10 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-from quizgen.web.store import Store, Which
+from quizgen.store import QuestionRef, Store
 
 PICTURE = Path(__file__).parent.parent / "docs" / "serve.png"
-QUESTION = Which("point-to-image-plane", "3")
+QUESTION = QuestionRef("point-to-image-plane", "3")
 TYPED = ("20", "16")
 """A known mistake, so that the picture shows it named."""
 
@@ -23,7 +23,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         database = f"sqlite:///{Path(folder) / 'learning.sqlite3'}"
         store = Store(database)
-        attempt = store.begin(store.learner().id, QUESTION, {})
+        attempt = store.start_attempt(store.learner().id, QUESTION, {})
         store.close()
         server = subprocess.Popen(
             [sys.executable, "-m", "quizgen", "serve", "--no-open", "--database", database],

@@ -26,7 +26,7 @@ _NONE_OF = re.compile(r"Invalid enum value '?(.*?)'?$")
 _INDEX = re.compile(r"\[(\d+|\.\.\.)\]")
 
 
-def in_words(error: Exception, kind: type[msgspec.Struct]) -> str:
+def explain_validation_error(error: Exception, kind: type[msgspec.Struct]) -> str:
     """What msgspec says of a table that should be of a kind: key, what is there, what may be.
 
     Parameters
@@ -41,33 +41,33 @@ def in_words(error: Exception, kind: type[msgspec.Struct]) -> str:
         return text
     found = _PLACE.search(text)
     path = found[1] if found else ""
-    what = _what(text[: found.start()] if found else text, _kind_at(kind, path))
-    return f"{_written(path)}: {what}" if path else what
+    what = _explain_type_error(text[: found.start()] if found else text, _kind_at(kind, path))
+    return f"{_format_path(path)}: {what}" if path else what
 
 
-def _written(path: str) -> str:
+def _format_path(path: str) -> str:
     """``part[0].points`` as ``part 1: points``: as it is counted by people."""
     parts = re.sub(r"^part\[(\d+)\]\.?", lambda m: f"part {int(m[1]) + 1}: ", path)
     return _INDEX.sub(lambda m: "" if m[1] == "..." else f" {int(m[1]) + 1}", parts).rstrip(": ")
 
 
-def _what(text: str, kind: object) -> str:
+def _explain_type_error(text: str, kind: object) -> str:
     if match := _EXPECTED.match(text):
         wanted = (_TYPES.get(name, name) for name in match[1].split(" | "))
         got = _GOT.get(match[2], match[2])
         return f"{got} stands there, {' or '.join(filter(None, wanted))} is expected"
     if match := _UNKNOWN.match(text):
-        known = _keys(kind)
-        return f"unknown key {match[1]!r}{_meant(match[1], known)}"
+        known = _list_allowed_keys(kind)
+        return f"unknown key {match[1]!r}{_suggest_name(match[1], known)}"
     if match := _MISSING.match(text):
         return f"the key {match[1]!r} is missing"
     if match := _NONE_OF.match(text):
-        allowed = list(map(str, _values(kind)))
-        return f"{match[1]!r} is not allowed{_meant(match[1], allowed)}"
+        allowed = list(map(str, _list_allowed_values(kind)))
+        return f"{match[1]!r} is not allowed{_suggest_name(match[1], allowed)}"
     return text
 
 
-def _meant(name: str, known: Iterable[str]) -> str:
+def _suggest_name(name: str, known: Iterable[str]) -> str:
     allowed = sorted(known)
     from difflib import get_close_matches
 
@@ -76,14 +76,14 @@ def _meant(name: str, known: Iterable[str]) -> str:
     return f"{meant} (allowed: {', '.join(allowed)})" if allowed else meant
 
 
-def _keys(kind: object) -> list[str]:
+def _list_allowed_keys(kind: object) -> list[str]:
     if isinstance(kind, type) and issubclass(kind, msgspec.Struct):
         names = (field.encode_name for field in msgspec.structs.fields(kind))
         return [name for name in names if not name.startswith("/")]
     return []
 
 
-def _values(kind: object) -> tuple[Any, ...]:
+def _list_allowed_values(kind: object) -> tuple[Any, ...]:
     inside = [value for one in get_args(kind) for value in (get_args(one) or (one,))]
     return tuple(value for value in inside if isinstance(value, str))
 
@@ -91,11 +91,11 @@ def _values(kind: object) -> tuple[Any, ...]:
 def _kind_at(kind: object, path: str) -> object:
     """The type that stands at a path."""
     for step in re.findall(r"\[\d*(?:\.\.\.)?\]|[^.\[\]]+", path):
-        kind = _inside(kind, step)
+        kind = _find_type_at_step(kind, step)
     return _struct_in(kind)
 
 
-def _inside(kind: object, step: str) -> object:
+def _find_type_at_step(kind: object, step: str) -> object:
     kind = _struct_in(kind)
     if step.startswith("["):
         args = [one for one in get_args(kind) if one is not Ellipsis]

@@ -10,12 +10,12 @@ from typing import Literal, TypeVar
 
 import msgspec
 
-from quizgen.bank.clashes import told_apart
-from quizgen.bank.complaints import in_words
-from quizgen.bank.folder import Bank
-from quizgen.errors import BankError
-from quizgen.outside import parse_toml, read_text
-from quizgen.shapes import converted
+from quizgen.bank.bank import Bank
+from quizgen.bank.complaints import explain_validation_error
+from quizgen.bank.qualified_names import qualify_names
+from quizgen.core.decoding import convert
+from quizgen.core.errors import BankError
+from quizgen.core.untrusted import parse_toml, read_text
 
 Tier = Literal["A", "B", "C", "D"]
 
@@ -45,7 +45,9 @@ class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=Tru
 E = TypeVar("E", bound=Entry)
 
 
-def load(source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()) -> tuple[E, ...]:
+def load_entries(
+    source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()
+) -> tuple[E, ...]:
     """Read entries.
 
     Parameters
@@ -71,7 +73,7 @@ def load(source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()) ->
     for place, row in enumerate(rows, 1):
         if not isinstance(row, dict):
             raise BankError(f"{where}: entry {place} is no table")
-    found = tuple(_entry(row, kind, where, langs) for row in rows)
+    found = tuple(_read_entry(row, kind, where, langs) for row in rows)
     names = [entry.id for entry in found]
     for name in names:
         if names.count(name) > 1:
@@ -79,26 +81,26 @@ def load(source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()) ->
     return found
 
 
-def _entry(row: dict[str, object], kind: type[E], where: str, langs: tuple[str, ...]) -> E:
+def _read_entry(row: dict[str, object], kind: type[E], where: str, langs: tuple[str, ...]) -> E:
     try:
-        entry = converted({**row, _FROM: where}, kind)
+        entry = convert({**row, _FROM: where}, kind)
     except msgspec.ValidationError as error:
         place = f"{where}: entry {row.get('id', '?')!r}"
-        raise BankError(f"{place}: {in_words(error, kind)}") from error
-    for name in filter(row.__contains__, passages(kind)):
+        raise BankError(f"{place}: {explain_validation_error(error, kind)}") from error
+    for name in filter(row.__contains__, localised_fields(kind)):
         for lang in langs:
             if lang not in getattr(entry, name):
                 raise BankError(f"{where}: entry {entry.id!r}: {name}.{lang} is missing")
     return entry
 
 
-def passages(kind: type[Entry]) -> list[str]:
+def localised_fields(kind: type[Entry]) -> list[str]:
     """Names of the fields that are written in every language."""
     return [field.name for field in msgspec.structs.fields(kind) if field.type == Passage]
 
 
 @cache
-def authored(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
+def read_entries(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
     """Entries of one file of a bank, read once; none if the bank has no such file.
 
     Of several banks as one those of each in turn, and what two call the same is told apart.
@@ -108,8 +110,8 @@ def authored(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
     BankError
         Naming file, entry and key.
     """
-    found = {part: _written(part, name, kind) for part in bank.parts}
-    ids = told_apart({part: [entry.id for entry in rows] for part, rows in found.items()})
+    found = {part: _load_own_entries(part, name, kind) for part in bank.members}
+    ids = qualify_names({part: [entry.id for entry in rows] for part, rows in found.items()})
     return tuple(
         msgspec.structs.replace(entry, id=ids[part][entry.id])
         for part, rows in found.items()
@@ -117,8 +119,8 @@ def authored(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
     )
 
 
-def _written(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
+def _load_own_entries(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
     if name not in bank.cards:
         return ()
     file = bank.cards[name]
-    return load(read_text(file, BankError), kind, str(file), bank.languages)
+    return load_entries(read_text(file, BankError), kind, str(file), bank.languages)

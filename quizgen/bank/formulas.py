@@ -11,10 +11,10 @@ from functools import cache
 
 import msgspec
 
-from quizgen.bank.entries import Entry, Passage, authored
-from quizgen.bank.folder import Bank
-from quizgen.maths.notation import parse
-from quizgen.maths.tree import Call, Expr, Sym, names, substitute, walk
+from quizgen.bank.bank import Bank
+from quizgen.bank.entries import Entry, Passage, read_entries
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.tree import Call, Expr, Sym, names_in, substitute, walk_tree
 
 NAME = "formulas"
 """The file without its suffix."""
@@ -54,76 +54,80 @@ class FormulaEntry(Entry, frozen=True, kw_only=True):
     limits: Passage = msgspec.field(default_factory=dict)
 
 
-def formulas(bank: Bank) -> tuple[FormulaEntry, ...]:
+def read_formulas(bank: Bank) -> tuple[FormulaEntry, ...]:
     """All formulas in their order; none if the bank has no such file."""
-    return authored(bank, NAME, FormulaEntry)
+    return read_entries(bank, NAME, FormulaEntry)
 
 
-def missing_formulas(bank: Bank, name: str) -> list[str]:
+def find_missing_formulas(bank: Bank, name: str) -> list[str]:
     """Formulas that a template's solver says to apply, and the bank does not have."""
     named = bank.template(name).chain.formulas.values()
-    known = {entry.id for entry in formulas(bank)}
+    known = {entry.id for entry in read_formulas(bank)}
     return sorted({*named} - known)
 
 
-def unnamed_formulas(bank: Bank, name: str) -> dict[str, list[str]]:
+def find_unnamed_formulas(bank: Bank, name: str) -> dict[str, list[str]]:
     """Steps of a template's solver that have the form of formulas of the bank, and name none."""
     chain = bank.template(name).chain
-    steps = {step.name: _form(step.expr) for step in chain.steps if step.name not in chain.formulas}
-    known = _forms(bank) if steps else {}
+    steps = {
+        step.name: _erase_letters(step.expr)
+        for step in chain.steps
+        if step.name not in chain.formulas
+    }
+    known = _index_canonical_forms(bank) if steps else {}
     return {step: known[form] for step, form in steps.items() if form in known}
 
 
 @cache
-def _forms(bank: Bank) -> dict[Expr, list[str]]:
+def _index_canonical_forms(bank: Bank) -> dict[Expr, list[str]]:
     """Each form that is rare enough, with the formulas that have it."""
     found = dict[Expr, set[str]]()
-    for entry in formulas(bank):
-        for expr in filter(_tells, _right_sides(entry)):
-            found.setdefault(_form(expr), set()).add(entry.id)
+    for entry in read_formulas(bank):
+        for expr in filter(_is_rare_form, _right_sides(entry)):
+            found.setdefault(_erase_letters(expr), set()).add(entry.id)
     return {form: sorted(ids) for form, ids in found.items()}
 
 
 def _right_sides(entry: FormulaEntry) -> Iterator[Expr]:
     """What a formula is computed by: all sides but the first, pieces outside the grammar aside."""
     for line in entry.lines:
-        for text in cut(line)[1][1:]:
+        for text in split_relations(line)[1][1:]:
             expr = _parsed(text)
-            if not names(expr) & entry.inside.keys():
+            if not names_in(expr) & entry.inside.keys():
                 yield expr
 
 
-def _tells(expr: Expr) -> bool:
+def _is_rare_form(expr: Expr) -> bool:
     """Whether a form is rare enough to be known again."""
-    calls = [node.op for node in walk(expr) if isinstance(node, Call)]
+    calls = [node.op for node in walk_tree(expr) if isinstance(node, Call)]
     return len(calls) > 1 and not _ANYWHERE.issuperset(calls)
 
 
-def _form(expr: Expr) -> Expr:
+def _erase_letters(expr: Expr) -> Expr:
     """A formula whatever its letters are."""
-    return substitute(expr, dict.fromkeys(names(expr), Sym("")))
+    return substitute(expr, dict.fromkeys(names_in(expr), Sym("")))
 
 
-_parsed = cache(parse)
+_parsed = cache(parse_formula)
 
 
-def cut(line: str) -> tuple[list[str], list[str]]:
+def split_relations(line: str) -> tuple[list[str], list[str]]:
     """Cut a line at its relation signs: the signs, and one side more."""
-    cuts = [found for found in _SIGN.finditer(line) if _outside(line[: found.start()])]
+    cuts = [found for found in _SIGN.finditer(line) if _is_outside_brackets(line[: found.start()])]
     starts, ends = [0, *(one.end() for one in cuts)], [*(one.start() for one in cuts), len(line)]
     sides = [line[start:end] for start, end in zip(starts, ends, strict=True)]
     return [found[1] for found in cuts], sides
 
 
-def _outside(before: str) -> bool:
+def _is_outside_brackets(before: str) -> bool:
     """Whether a place is outside all brackets."""
     return before.count("(") == before.count(")")
 
 
-def asked_in(bank: Bank) -> dict[str, tuple[str, ...]]:
+def templates_by_formula(bank: Bank) -> dict[str, tuple[str, ...]]:
     """The templates that cover each formula, by its id."""
-    found: dict[str, tuple[str, ...]] = {entry.id: () for entry in formulas(bank)}
-    for name in bank.paths:
+    found: dict[str, tuple[str, ...]] = {entry.id: () for entry in read_formulas(bank)}
+    for name in bank.template_paths:
         for item in dict.fromkeys(bank.rules(name).covers):
             if item in found:
                 found[item] += (name,)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, get_args
 
-Made = Literal["guided", "transfer"]
+DerivedLevel = Literal["guided", "transfer"]
 """Levels that are made from the chain."""
 EXAM = "exam"
 """As its author wrote it: the level of whoever asks for none."""
@@ -12,5 +12,5 @@ GUIDED = "guided"
 """Its steps, one after another."""
 MIXED = "mixed"
 """One of the others for each question, by the seed."""
-CHOICES: tuple[str, ...] = (EXAM, *get_args(Made), MIXED)
+CHOICES: tuple[str, ...] = (EXAM, *get_args(DerivedLevel), MIXED)
 """What can be asked for."""

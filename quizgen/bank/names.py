@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
-from quizgen.errors import BankError
-from quizgen.outside import named
+from quizgen.core.errors import BankError
+from quizgen.core.untrusted import require_identifier
 
 
-def folders_of(templates: Path, beside: Collection[str]) -> dict[str, list[Path]]:
+def find_template_folders(templates: Path, beside: Collection[str]) -> dict[str, list[Path]]:
     """Name to all folders that are called so, although one alone may be.
 
     Parameters
@@ -36,7 +36,7 @@ def check_name(folders: Sequence[Path]) -> None:
     """
     folder, *others = folders
     file = folder / "template.toml"
-    named(folder.name, f"{file}: folder", BankError)
+    require_identifier(folder.name, f"{file}: folder", BankError)
     if others:
         also = ", ".join(map(str, others))
         raise BankError(f"{file}: two templates share the name {folder.name!r}: also {also}")

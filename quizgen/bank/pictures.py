@@ -19,10 +19,10 @@ from xml.etree import ElementTree as ET
 
 import msgspec
 
-from quizgen.bank.compiled import Compiled
-from quizgen.bank.prose import PictureLink, Text, Words
-from quizgen.errors import BankError
-from quizgen.outside import is_name, read_bytes, read_text
+from quizgen.bank.compile_cache import CompileCache
+from quizgen.bank.markdown import LanguageFile, PictureLink, PlainText
+from quizgen.core.errors import BankError
+from quizgen.core.untrusted import is_identifier, read_bytes, read_text
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -81,7 +81,7 @@ class PictureFile(msgspec.Struct, frozen=True, dict=True):
         )
 
 
-_PICTURES = Compiled("pictures", PictureFile, "PIL")
+_PICTURES = CompileCache("pictures", PictureFile, "PIL")
 
 
 def pictures_beside(folder: Path) -> list[Path]:
@@ -89,7 +89,7 @@ def pictures_beside(folder: Path) -> list[Path]:
     return sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
 
 
-def read_pictures(folder: Path, texts: Mapping[str, Text]) -> dict[str, PictureFile]:
+def read_pictures(folder: Path, texts: Mapping[str, LanguageFile]) -> dict[str, PictureFile]:
     """Read the pictures that the words of a template show.
 
     Parameters
@@ -117,19 +117,21 @@ def read_pictures(folder: Path, texts: Mapping[str, Text]) -> dict[str, PictureF
                 if link.file not in found:
                     found[link.file] = read_picture(folder, link.file)
             except BankError as error:
-                raise BankError(f"{_place(folder / f'{lang}.md', link.file)}: {error}") from error
+                raise BankError(
+                    f"{_find_link_line(folder / f'{lang}.md', link.file)}: {error}"
+                ) from error
     return found
 
 
 def _check_words(link: PictureLink) -> None:
-    if not any(not isinstance(part, Words) or part.text.strip() for part in link.alt):
+    if not any(not isinstance(part, PlainText) or part.text.strip() for part in link.alt):
         raise BankError(
             f"picture {link.file!r} has no words: describe the picture in words for those who "
             f"cannot see it, ![words]({link.file})"
         )
 
 
-def _place(path: Path, name: str) -> str:
+def _find_link_line(path: Path, name: str) -> str:
     lines = read_text(path, BankError).splitlines()
     numbers = (number for number, line in enumerate(lines, 1) if f"({name})" in line)
     return f"{path}:{next(numbers, 1)}"
@@ -144,7 +146,7 @@ def read_picture(folder: Path, name: str) -> PictureFile:
         If the name leads out of the folder, or the file is none that can be shown.
     """
     path = folder / name
-    if not is_name(name) or path.suffix.lower() not in SUFFIXES:
+    if not is_identifier(name) or path.suffix.lower() not in SUFFIXES:
         raise BankError(
             f"picture {name!r}: not the name of a file beside the words that ends in "
             f"{', '.join(SUFFIXES)} (letters A-Z, digits, '_', '.' and '-')"
@@ -157,12 +159,12 @@ def read_picture(folder: Path, name: str) -> PictureFile:
     data = read_bytes(path, BankError, MOST_BYTES)
     pack = _pack_svg if path.suffix.lower() == ".svg" else _pack_pixels
     try:
-        return _PICTURES.find(data) or _PICTURES.keep(pack(data), data)
+        return _PICTURES.get(data) or _PICTURES.put(pack(data), data)
     except BankError as error:
         raise BankError(f"picture {name!r}: {error}") from error
 
 
-def _sized(data: bytes, kind: str, width: float, height: float) -> PictureFile:
+def _fit_picture(data: bytes, kind: str, width: float, height: float) -> PictureFile:
     """A picture in its natural size in points, as far as it fits on a page."""
     if not 0 < min(width, height) <= max(width, height) < 1e6:
         raise BankError("its size is not positive")
@@ -188,10 +190,10 @@ def _pack_pixels(data: bytes) -> PictureFile:
         raise BankError(f"cannot be read as PNG or JPEG ({error})") from None
     to_points = 72 / (dpi if 30 <= dpi <= 2400 else _DPI)
     size = picture.width * to_points, picture.height * to_points
-    return _sized(_encode(picture, kind), kind, *size)
+    return _fit_picture(_reencode_pixels(picture, kind), kind, *size)
 
 
-def _encode(picture: Image, kind: str) -> bytes:
+def _reencode_pixels(picture: Image, kind: str) -> bytes:
     """The pixels, no more of them than a page shows, and nothing beside them."""
     if kind == "jpeg" and picture.mode not in {"L", "RGB"}:
         picture = picture.convert("RGB")
@@ -252,9 +254,9 @@ def _pack_svg(data: bytes) -> PictureFile:
         raise BankError("cannot be read as SVG (its first element is no svg)")
     _check_cost(root)
     drawing = _copy_drawing(root, 0)
-    width, height = _size(root)
+    width, height = _read_svg_size(root)
     drawing.attrib.setdefault("viewBox", f"0 0 {width / 0.75:g} {height / 0.75:g}")
-    packed = _sized(b"", "svg+xml", width, height)
+    packed = _fit_picture(b"", "svg+xml", width, height)
     drawing.attrib |= {
         "xmlns": _SVG, "width": f"{packed.width_pt:g}pt", "height": f"{packed.height_pt:g}pt"
     }  # fmt: skip
@@ -300,7 +302,7 @@ def _stays_inside(style: str) -> bool:
     return not _REACHES_OUT.search(_OWN_PLACE.sub("", style))
 
 
-def _size(root: Any) -> tuple[float, float]:
+def _read_svg_size(root: Any) -> tuple[float, float]:
     """Natural size in points: what the file says, else its view box in CSS pixels."""
     found = [_LENGTH.fullmatch(root.get(name, "")) for name in ("width", "height")]
     if all(found):

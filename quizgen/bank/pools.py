@@ -17,16 +17,16 @@ from typing import Any
 
 import msgspec
 
-from quizgen.bank.draw import Draw
-from quizgen.bank.plan import pick
-from quizgen.bank.rules import claim_of
-from quizgen.errors import BankError
+from quizgen.bank.rules import get_claim
+from quizgen.bank.sampler import pick_index
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import BankError
 
 MIXED = 3
 """Claims of one draw from which on they are neither all true nor all false."""
 
 
-class Taken(msgspec.Struct, frozen=True):
+class PoolSelection(msgspec.Struct, frozen=True):
     """What one part shows in a draw.
 
     Parameters
@@ -41,13 +41,13 @@ class Taken(msgspec.Struct, frozen=True):
     extra: tuple[str, ...] = ()
 
 
-def holds(drawn: Draw, condition: object) -> bool:
+def condition_holds(drawn: Variant, condition: object) -> bool:
     """Whether an authored condition, a truth or a formula, holds in this draw."""
-    return condition if isinstance(condition, bool) else bool(drawn.computed(str(condition)))
+    return condition if isinstance(condition, bool) else bool(drawn.evaluate(str(condition)))
 
 
 @lru_cache(maxsize=128)
-def taken(drawn: Draw, index: int) -> Taken:
+def select_from_pool(drawn: Variant, index: int) -> PoolSelection:
     """What a part shows in this draw; all that is listed where it has no pool.
 
     Raises
@@ -57,19 +57,19 @@ def taken(drawn: Draw, index: int) -> Taken:
     """
     answer = drawn.template.rules.part[index].answer
     if "options" in answer:
-        return Taken(_options(drawn, index, answer["options"]))
+        return PoolSelection(_select_options(drawn, index, answer["options"]))
     if "pairs" in answer:
-        return _pairs(drawn, index)
+        return _select_pairs(drawn, index)
     listed = tuple(answer.get("steps", answer.get("gaps", ())))
-    names = _some(drawn, index, listed, answer.get("take"))
+    names = _select_names(drawn, index, listed, answer.get("take"))
     if "steps" in answer:
         names = tuple(name for name in listed if name in names)
     strangers = tuple(answer.get("distractors", ()))
-    return Taken(names, _some(drawn, index, strangers, answer.get("extra")))
+    return PoolSelection(names, _select_names(drawn, index, strangers, answer.get("extra")))
 
 
 @lru_cache(maxsize=128)
-def claims(drawn: Draw) -> Mapping[int, str]:
+def selected_claims(drawn: Variant) -> Mapping[int, str]:
     """Each part that asks a claim of the pool, and the claim; no claim comes twice.
 
     Whether a claim is true is drawn first, as a fair coin, then which one it is.
@@ -78,13 +78,13 @@ def claims(drawn: Draw) -> Mapping[int, str]:
     parts = [index for index, part in enumerate(rules.part) if "from" in part.answer]
     if not parts:
         return MappingProxyType({})
-    key = _key(drawn, "claims")
+    key = _build_selection_key(drawn, "claims")
     sides: dict[bool, list[str]] = {True: [], False: []}
-    for name in _ranked(key, rules.claims):
-        sides[holds(drawn, claim_of(rules, name).true)].append(name)
-    wanted = [bool(pick(f"{key}/true/{place}", 2)) for place in range(len(parts))]
+    for name in _rank_by_hash(key, rules.claims):
+        sides[condition_holds(drawn, get_claim(rules, name).true)].append(name)
+    wanted = [bool(pick_index(f"{key}/true/{place}", 2)) for place in range(len(parts))]
     if len(parts) >= MIXED and len(set(wanted)) == 1:
-        wanted[pick(f"{key}/other", len(parts))] ^= True
+        wanted[pick_index(f"{key}/other", len(parts))] ^= True
     asked = {
         index: (sides[truth] or sides[not truth]).pop(0)
         for index, truth in zip(parts, wanted, strict=True)
@@ -92,58 +92,62 @@ def claims(drawn: Draw) -> Mapping[int, str]:
     return MappingProxyType(asked)
 
 
-def variants(drawn: Draw) -> int:
+def count_pool_variants(drawn: Variant) -> int:
     """How many different questions its pools can make of the numbers of a draw."""
     parts = range(len(drawn.template.rules.part))
-    return _claim_sets(drawn) * prod(_variants(drawn, index) for index in parts)
+    return _claim_sets(drawn) * prod(_count_selections(drawn, index) for index in parts)
 
 
-def named(drawn: Draw) -> list[str]:
+def pool_identity(drawn: Variant) -> list[str]:
     """What its pools gave, as part of the name of the variant."""
-    asked = sorted(claims(drawn).values())
+    asked = sorted(selected_claims(drawn).values())
     found = [f"claims={'+'.join(asked)}"] if asked else []
     for index, part in enumerate(drawn.template.rules.part):
         if "take" in part.answer or "extra" in part.answer:
-            shown = taken(drawn, index)
+            shown = select_from_pool(drawn, index)
             label = drawn.template.labels[index] or "part"
             found.append(f"{label}={'+'.join(sorted((*shown.names, *shown.extra)))}")
     return found
 
 
-def _key(drawn: Draw, place: object) -> str:
+def _build_selection_key(drawn: Variant, place: object) -> str:
     template = drawn.template
     return f"{template.origin}/{template.rules.version}/{drawn.seed}/{drawn.slot}/take/{place}"
 
 
-def _ranked(key: str, names: Iterable[str]) -> list[str]:
+def _rank_by_hash(key: str, names: Iterable[str]) -> list[str]:
     return sorted(names, key=lambda name: hashlib.sha256(f"{key}/{name}".encode()).digest())
 
 
-def _some(drawn: Draw, index: int, names: Collection[str], count: int | None) -> tuple[str, ...]:
+def _select_names(
+    drawn: Variant, index: int, names: Collection[str], count: int | None
+) -> tuple[str, ...]:
     """So many of the names, or all of them in their order."""
     if count is None:
         return tuple(names)
-    return tuple(_ranked(_key(drawn, index), names)[:count])
+    return tuple(_rank_by_hash(_build_selection_key(drawn, index), names)[:count])
 
 
-def _options(drawn: Draw, index: int, options: Mapping[str, object]) -> tuple[str, ...]:
+def _select_options(drawn: Variant, index: int, options: Mapping[str, object]) -> tuple[str, ...]:
     take = drawn.template.rules.part[index].answer.get("take")
     if take is None:
         return tuple(options)
-    right, wrong = _sides(drawn, options)
+    right, wrong = _split_right_and_wrong(drawn, options)
     counts = _right_counts(drawn, index, len(right), len(wrong))
-    key = _key(drawn, index)
-    count = counts[pick(f"{key}/right", len(counts))]
-    chosen = {*_ranked(key, right)[:count], *_ranked(key, wrong)[: take - count]}
+    key = _build_selection_key(drawn, index)
+    count = counts[pick_index(f"{key}/right", len(counts))]
+    chosen = {*_rank_by_hash(key, right)[:count], *_rank_by_hash(key, wrong)[: take - count]}
     return tuple(name for name in options if name in chosen)
 
 
-def _sides(drawn: Draw, options: Mapping[str, object]) -> tuple[list[str], list[str]]:
-    right = [name for name, condition in options.items() if holds(drawn, condition)]
+def _split_right_and_wrong(
+    drawn: Variant, options: Mapping[str, object]
+) -> tuple[list[str], list[str]]:
+    right = [name for name, condition in options.items() if condition_holds(drawn, condition)]
     return right, [name for name in options if name not in right]
 
 
-def _right_counts(drawn: Draw, index: int, right: int, wrong: int) -> list[int]:
+def _right_counts(drawn: Variant, index: int, right: int, wrong: int) -> list[int]:
     """The numbers of right options that a draw can have."""
     answer = drawn.template.rules.part[index].answer
     take = answer["take"]
@@ -155,15 +159,15 @@ def _right_counts(drawn: Draw, index: int, right: int, wrong: int) -> list[int]:
     return found
 
 
-def pairs_of(drawn: Draw, index: int) -> dict[str, str]:
+def matching_pairs(drawn: Variant, index: int) -> dict[str, str]:
     """Left side to right side of a matching, whatever is taken; a drawn phrase names what it is."""
     pairs = drawn.template.rules.part[index].answer["pairs"]
     return {name: drawn.words.get(target, target) for name, target in pairs.items()}
 
 
-def _pairs(drawn: Draw, index: int) -> Taken:
-    answer, pairs = drawn.template.rules.part[index].answer, pairs_of(drawn, index)
-    ranked = _ranked(_key(drawn, index), pairs)
+def _select_pairs(drawn: Variant, index: int) -> PoolSelection:
+    answer, pairs = drawn.template.rules.part[index].answer, matching_pairs(drawn, index)
+    ranked = _rank_by_hash(_build_selection_key(drawn, index), pairs)
     take = answer.get("take", len(pairs))
     once = {pairs[name]: name for name in reversed(ranked)}
     if len(once) < len(pairs) and len(once) <= take:
@@ -173,27 +177,29 @@ def _pairs(drawn: Draw, index: int) -> Taken:
     strangers = [*answer.get("distractors", ())]
     if "extra" in answer:
         strangers = [*dict.fromkeys((*strangers, *pairs.values()))]
-    spare = _some(drawn, index, [s for s in strangers if s not in used], answer.get("extra"))
-    return Taken(tuple(name for name in pairs if name in names), spare)
+    spare = _select_names(
+        drawn, index, [s for s in strangers if s not in used], answer.get("extra")
+    )
+    return PoolSelection(tuple(name for name in pairs if name in names), spare)
 
 
-def _claim_sets(drawn: Draw) -> int:
+def _claim_sets(drawn: Variant) -> int:
     rules = drawn.template.rules
     count = sum("from" in part.answer for part in rules.part)
-    true = sum(holds(drawn, claim_of(rules, name).true) for name in rules.claims)
+    true = sum(condition_holds(drawn, get_claim(rules, name).true) for name in rules.claims)
     false = len(rules.claims) - true
     alike = comb(true, count) + comb(false, count) if count >= MIXED and true and false else 0
     return comb(true + false, count) - alike
 
 
-def _variants(drawn: Draw, index: int) -> int:
+def _count_selections(drawn: Variant, index: int) -> int:
     answer: Mapping[str, Any] = drawn.template.rules.part[index].answer
     if "options" in answer and "take" in answer:
-        right, wrong = map(len, _sides(drawn, answer["options"]))
+        right, wrong = map(len, _split_right_and_wrong(drawn, answer["options"]))
         counts = _right_counts(drawn, index, right, wrong)
         return sum(comb(right, n) * comb(wrong, answer["take"] - n) for n in counts)
     if "pairs" in answer:
-        return _pair_sets(answer, pairs_of(drawn, index))
+        return _pair_sets(answer, matching_pairs(drawn, index))
     listed = answer.get("steps", answer.get("gaps", ()))
     strangers = len(answer.get("distractors", ()))
     return comb(len(listed), answer.get("take", len(listed))) * comb(
@@ -206,11 +212,13 @@ def _pair_sets(answer: Mapping[str, Any], pairs: Mapping[str, str]) -> int:
     strangers, targets = {*answer.get("distractors", ())}, {*pairs.values()}
     take = answer.get("take", len(pairs))
     if len(targets) == len(pairs):
-        return comb(len(pairs), take) * _spare(answer, len(strangers | targets) - take)
+        return comb(len(pairs), take) * _count_extra_choices(
+            answer, len(strangers | targets) - take
+        )
     sets = [{pairs[name] for name in chosen} for chosen in combinations(pairs, take)]
     whole = [used for used in sets if used == targets or len(targets) > take]
-    return sum(_spare(answer, len((strangers | targets) - used)) for used in whole)
+    return sum(_count_extra_choices(answer, len((strangers | targets) - used)) for used in whole)
 
 
-def _spare(answer: Mapping[str, Any], left: int) -> int:
+def _count_extra_choices(answer: Mapping[str, Any], left: int) -> int:
     return comb(left, answer["extra"]) if "extra" in answer else 1

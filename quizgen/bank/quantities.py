@@ -19,11 +19,11 @@ from pathlib import Path
 
 import msgspec
 
-from quizgen.bank.compiled import Compiled
-from quizgen.bank.prose import Inline, inlines
-from quizgen.errors import BankError
-from quizgen.outside import located, parse_toml, read_text
-from quizgen.shapes import converted
+from quizgen.bank.compile_cache import CompileCache
+from quizgen.bank.markdown import Inline, parse_inlines
+from quizgen.core.decoding import convert
+from quizgen.core.errors import BankError
+from quizgen.core.untrusted import error_context, parse_toml, read_text
 
 
 class _Written(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -33,7 +33,7 @@ class _Written(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     fixed: tuple[str, ...] = ()
 
 
-class Quantities(_Written, frozen=True):
+class QuantityNames(_Written, frozen=True):
     """The quantities of one solver: each name by language, and those that are fixed."""
 
     said: dict[str, dict[str, tuple[Inline, ...]]] = {}
@@ -49,10 +49,10 @@ class Quantities(_Written, frozen=True):
         return hashlib.sha256(msgspec.json.encode(written)).hexdigest()
 
 
-_FILES = Compiled("quantities", dict[str, Quantities], "markdown_it")
+_FILES = CompileCache("quantities", dict[str, QuantityNames], "markdown_it")
 
 
-def read_quantities(paths: Iterable[Path]) -> dict[str, Quantities]:
+def read_quantities(paths: Iterable[Path]) -> dict[str, QuantityNames]:
     """Solver to its quantities, from several files.
 
     Raises
@@ -60,12 +60,12 @@ def read_quantities(paths: Iterable[Path]) -> dict[str, Quantities]:
     BankError
         Naming the file and the key, or a solver that stands twice.
     """
-    found: dict[str, Quantities] = {}
+    found: dict[str, QuantityNames] = {}
     for path in paths:
         source = read_text(path, BankError)
-        read = _FILES.find(source.encode())
+        read = _FILES.get(source.encode())
         if read is None:
-            read = _FILES.keep(_read(path, source), source.encode())
+            read = _FILES.put(_read_quantities(path, source), source.encode())
         for solver in read:
             if solver in found:
                 raise BankError(f"{path}: solver {solver!r} stands twice")
@@ -73,19 +73,19 @@ def read_quantities(paths: Iterable[Path]) -> dict[str, Quantities]:
     return found
 
 
-def _read(path: Path, source: str) -> dict[str, Quantities]:
+def _read_quantities(path: Path, source: str) -> dict[str, QuantityNames]:
     table = parse_toml(source, path, BankError)
     try:
-        read = converted(table, dict[str, _Written])
+        read = convert(table, dict[str, _Written])
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {error}") from error
-    with located(path, BankError):
-        return {solver: _said(written) for solver, written in read.items()}
+    with error_context(path, BankError):
+        return {solver: _parse_quantity_names(written) for solver, written in read.items()}
 
 
-def _said(written: _Written) -> Quantities:
+def _parse_quantity_names(written: _Written) -> QuantityNames:
     said = {
-        quantity: {lang: inlines(text) for lang, text in names.items()}
+        quantity: {lang: parse_inlines(text) for lang, text in names.items()}
         for quantity, names in written.names.items()
     }
-    return Quantities(written.names, written.fixed, said)
+    return QuantityNames(written.names, written.fixed, said)

@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 import msgspec
 
-from quizgen.bank.levels import Made
-from quizgen.maths.numbers import written
+from quizgen.bank.levels import DerivedLevel
+from quizgen.maths.numbers import parse_written_number
 
 Scalar = int | float | str
 Source = Scalar | tuple[Scalar | tuple[Scalar, ...], ...]
@@ -95,10 +95,10 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     apart: tuple[str, ...] = ()
     beyond: bool = False
     precision: tuple[str, ...] = ()
-    levels: tuple[Made, ...] = ("guided", "transfer")
+    levels: tuple[DerivedLevel, ...] = ("guided", "transfer")
 
 
-def claim_of(rules: Rules, name: str) -> ClaimRule:
+def get_claim(rules: Rules, name: str) -> ClaimRule:
     """A claim of the pool; a truth or a condition alone is one without a source."""
     claim = rules.claims[name]
     return claim if isinstance(claim, ClaimRule) else ClaimRule(claim)
@@ -107,11 +107,11 @@ def claim_of(rules: Rules, name: str) -> ClaimRule:
 TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}
 
 
-def minutes_of(rules: Rules) -> int:
+def suggested_minutes(rules: Rules) -> int:
     """Suggested working time of a template."""
     return rules.minutes or TIER_MINUTES[rules.tier]
 
 
-def points_of(rules: Rules) -> Fraction:
+def total_points(rules: Rules) -> Fraction:
     """Marks of all parts of a template."""
-    return sum((written(part.points) for part in rules.part), Fraction(0))
+    return sum((parse_written_number(part.points) for part in rules.part), Fraction(0))

@@ -20,15 +20,15 @@ from importlib.util import spec_from_file_location
 from pathlib import Path
 from types import CodeType, ModuleType
 
-from quizgen.bank.compiled import Compiled
-from quizgen.errors import BankError
-from quizgen.imports import LOCK
-from quizgen.kept import digest_of
+from quizgen.bank.compile_cache import CompileCache
+from quizgen.core.cache import compute_digest
+from quizgen.core.errors import BankError
+from quizgen.core.imports import LOCK
+from quizgen.core.untrusted import read_bytes
 from quizgen.maths.chain import Chain
 from quizgen.maths.model import Model
-from quizgen.outside import read_bytes
 
-_CHAINS = Compiled("chains", Chain, "sympy")
+_CHAINS = CompileCache("chains", Chain, "sympy")
 _PRIVATE = "_quizgen_solvers_"
 _RELATIVE = re.compile(rb"\bfrom[ \t]+\.")
 _PURE = {"__future__", "fractions", "math", "quizgen", "sympy", "typing"}
@@ -72,9 +72,9 @@ class _Finder(MetaPathFinder):
             place = Path(folder, fullname.rpartition(".")[2])
             init, file = place / "__init__.py", place.with_name(f"{place.name}.py")
             if init.is_file():
-                return _spec(fullname, init, [str(place)])
+                return _make_module_spec(fullname, init, [str(place)])
             if file.is_file():
-                return _spec(fullname, file, None)
+                return _make_module_spec(fullname, file, None)
             if place.is_dir():
                 found = ModuleSpec(fullname, None, is_package=True)
                 found.submodule_search_locations = [str(place)]
@@ -86,19 +86,19 @@ class _Finder(MetaPathFinder):
 _FINDER = _Finder()
 
 
-def _spec(name: str, file: Path, inside: list[str] | None) -> ModuleSpec | None:
+def _make_module_spec(name: str, file: Path, inside: list[str] | None) -> ModuleSpec | None:
     loader = _AsWritten(name, str(file))
     return spec_from_file_location(name, file, loader=loader, submodule_search_locations=inside)
 
 
 @lru_cache(maxsize=64)
-def _private(folder: Path) -> str:
-    return _PRIVATE + digest_of(str(folder.resolve()).encode())[:8]
+def _make_package_name(folder: Path) -> str:
+    return _PRIVATE + compute_digest(str(folder.resolve()).encode())[:8]
 
 
-def _mounted(folder: Path) -> str:
+def _mount_folder(folder: Path) -> str:
     """Private name of the package that a folder of solvers or figures is."""
-    name = _private(folder.absolute())
+    name = _make_package_name(folder.absolute())
     with LOCK:
         if _FINDER not in sys.meta_path:
             sys.meta_path.insert(0, _FINDER)
@@ -108,7 +108,7 @@ def _mounted(folder: Path) -> str:
     return name
 
 
-def module_of(folder: Path, name: str) -> ModuleType:
+def import_module_file(folder: Path, name: str) -> ModuleType:
     """Import a solver or a figure.
 
     Raises
@@ -116,19 +116,19 @@ def module_of(folder: Path, name: str) -> ModuleType:
     BankError
         Naming the place, if it fails.
     """
-    with authored(folder / f"{name}.py"), LOCK:
-        return importlib.import_module(f"{_mounted(folder)}.{name.replace('/', '.')}")
+    with author_error_context(folder / f"{name}.py"), LOCK:
+        return importlib.import_module(f"{_mount_folder(folder)}.{name.replace('/', '.')}")
 
 
-def forget(folder: Path) -> None:
+def unload_modules(folder: Path) -> None:
     """Have all modules of a folder read again."""
-    inside = f"{_mounted(folder)}."
+    inside = f"{_mount_folder(folder)}."
     for module in [module for module in list(sys.modules) if module.startswith(inside)]:
         del sys.modules[module]
     importlib.invalidate_caches()
 
 
-def chain_of(folder: Path, name: str) -> tuple[Chain, bytes]:
+def load_chain(folder: Path, name: str) -> tuple[Chain, bytes]:
     """The chain of a solver, kept or compiled, and the solver's source.
 
     Parameters
@@ -143,31 +143,31 @@ def chain_of(folder: Path, name: str) -> tuple[Chain, bytes]:
     BankError
         If the file cannot be run, or holds no model.
     """
-    sources = _sources(folder, name)
-    chain = _CHAINS.find(*sources)
+    sources = _read_solver_sources(folder, name)
+    chain = _CHAINS.get(*sources)
     if chain is None:
         with LOCK:
-            chain = _compiled(folder, name)
-        if all(map(_is_pure, sources)) and sources == _sources(folder, name):
-            _CHAINS.keep(chain, *sources)
+            chain = _compile_solver(folder, name)
+        if all(map(_is_pure, sources)) and sources == _read_solver_sources(folder, name):
+            _CHAINS.put(chain, *sources)
     return chain, sources[0]
 
 
-def _sources(folder: Path, name: str) -> list[bytes]:
+def _read_solver_sources(folder: Path, name: str) -> list[bytes]:
     """A solver, and all of its bank if it imports some of them."""
     own = read_bytes(folder / f"{name}.py", BankError)
     every = sorted(folder.rglob("*.py")) if _RELATIVE.search(own) else []
     return [own, *(read_bytes(path, BankError) for path in every)]
 
 
-def _compiled(folder: Path, name: str) -> Chain:
+def _compile_solver(folder: Path, name: str) -> Chain:
     """Run a solver as it is now, and what it imports."""
-    forget(folder)
-    model = getattr(module_of(folder, name), "MODEL", None)
+    unload_modules(folder)
+    model = getattr(import_module_file(folder, name), "MODEL", None)
     file = folder / f"{name}.py"
     if not isinstance(model, Model):
         raise BankError(f"{file}: no MODEL in this solver")
-    with authored(file):
+    with author_error_context(file):
         return model.chain()
 
 
@@ -188,7 +188,7 @@ def _is_pure(source: bytes) -> bool:
 
 
 @contextmanager
-def authored(file: Path) -> Iterator[None]:
+def author_error_context(file: Path) -> Iterator[None]:
     """Run an author's Python: whatever goes wrong in it is one line that names the place.
 
     Raises

@@ -17,26 +17,26 @@ from typing import Any
 import msgspec
 from flint import fmpq
 
-from quizgen.bank.about import About
-from quizgen.bank.compiled import Compiled
-from quizgen.bank.complaints import in_words
-from quizgen.bank.limits import misshapen, problems
+from quizgen.bank.compile_cache import CompileCache
+from quizgen.bank.complaints import explain_validation_error
+from quizgen.bank.metadata import BankMetadata
 from quizgen.bank.pictures import PictureFile
-from quizgen.bank.quantities import Quantities
-from quizgen.bank.rules import Rules, minutes_of
-from quizgen.bank.solvers import module_of
-from quizgen.errors import BankError, FormulaError
+from quizgen.bank.quantities import QuantityNames
+from quizgen.bank.rules import Rules, suggested_minutes
+from quizgen.bank.solvers import import_module_file
+from quizgen.bank.validation import find_malformed_answers, find_problems
+from quizgen.core.decoding import convert
+from quizgen.core.errors import BankError, FormulaError
+from quizgen.core.untrusted import parse_toml, read_text
 from quizgen.maths.chain import Chain
-from quizgen.maths.notation import parse
-from quizgen.maths.tree import Expr, names
-from quizgen.outside import parse_toml, read_text
-from quizgen.shapes import converted
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.tree import Expr, names_in
 
 PART_LABELS = "abcdefghij"
 QUOTED = 60
 """Letters of a formula by which an author knows it."""
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}\.0")
-_RULES = Compiled("rules", Rules)
+_RULES = CompileCache("rules", Rules)
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Template:
         The checked content of ``template.toml``.
     chain : Chain
         Steps and traps of the solver; empty for questions without a computation.
-    texts : mapping of str to quizgen.bank.prose.Text
+    texts : mapping of str to quizgen.bank.markdown.Text
         Language to its parsed prose.
     digest : str
         Changes whenever any file behind the template changes.
@@ -73,8 +73,8 @@ class Template:
     texts: Mapping[str, Any]
     digest: str
     path: Path = field(default=Path())
-    about: About = field(default=About())
-    quantities: Quantities = field(default=Quantities())
+    about: BankMetadata = field(default=BankMetadata())
+    quantities: QuantityNames = field(default=QuantityNames())
     figure_file: Path | None = None
     pictures: Mapping[str, PictureFile] = field(default_factory=dict)
 
@@ -100,7 +100,7 @@ class Template:
             Naming the place, if its import fails.
         """
         file = self.figure_file
-        return module_of(file.parent, file.stem) if file else None
+        return import_module_file(file.parent, file.stem) if file else None
 
     @cached_property
     def file(self) -> Path:
@@ -115,7 +115,7 @@ class Template:
     @property
     def minutes(self) -> int:
         """Suggested working time."""
-        return minutes_of(self.rules)
+        return suggested_minutes(self.rules)
 
     @cached_property
     def units(self) -> dict[str, str]:
@@ -125,7 +125,7 @@ class Template:
         steps = {step.name: step.unit for step in self.chain.steps}
         return {**given, **{k: v for k, v in drawn.items() if v or k not in given}, **steps}
 
-    def factor(self, unit: str) -> fmpq:
+    def unit_factor(self, unit: str) -> fmpq:
         """Exact factor from a unit, listed or of the bank, to base units."""
         return self.about.system.factor(unit)
 
@@ -136,10 +136,10 @@ class Template:
         return tuple(PART_LABELS[:count]) if count > 1 else ("",)
 
     @cached_property
-    def _formulas(self) -> dict[str, Expr]:
+    def _parsed_formulas(self) -> dict[str, Expr]:
         return {}
 
-    def formula(self, text: str) -> Expr:
+    def parse_formula(self, text: str) -> Expr:
         """Read a formula of ``template.toml`` over the template's quantities, once.
 
         Raises
@@ -147,22 +147,24 @@ class Template:
         BankError
             Naming file and column if it cannot be read.
         """
-        if text not in self._formulas:
-            self._formulas[text] = self._parsed(text)
-        return self._formulas[text]
+        if text not in self._parsed_formulas:
+            self._parsed_formulas[text] = self._parse_template_formula(text)
+        return self._parsed_formulas[text]
 
-    def _parsed(self, text: str) -> Expr:
+    def _parse_template_formula(self, text: str) -> Expr:
         try:
-            expr = parse(text, symbols=tuple(self.units))
+            expr = parse_formula(text, symbols=tuple(self.units))
         except FormulaError as error:
-            raise BankError(f"{self.file}: formula {_quoted(text)}: {error}") from error
-        unknown = names(expr) - set(self.units)
+            raise BankError(f"{self.file}: formula {_quote_formula(text)}: {error}") from error
+        unknown = names_in(expr) - set(self.units)
         if unknown:
-            raise BankError(f"{self.file}: formula {_quoted(text)} uses unknown {sorted(unknown)}")
+            raise BankError(
+                f"{self.file}: formula {_quote_formula(text)} uses unknown {sorted(unknown)}"
+            )
         return expr
 
 
-def _quoted(formula: str) -> str:
+def _quote_formula(formula: str) -> str:
     """A formula for a message, as much of it as tells which one it is."""
     return repr(formula if len(formula) <= QUOTED else f"{formula[:QUOTED]}...")
 
@@ -176,19 +178,19 @@ def read_rules(path: Path) -> Rules:
         Naming the file, the key and what is allowed.
     """
     source = read_text(path, BankError)
-    found = _RULES.find(source.encode())
-    return found or _RULES.keep(_read(path, source), source.encode())
+    found = _RULES.get(source.encode())
+    return found or _RULES.put(_read_rules(path, source), source.encode())
 
 
-def _read(path: Path, source: str) -> Rules:
+def _read_rules(path: Path, source: str) -> Rules:
     try:
-        shape = converted(parse_toml(source, path, BankError, _whole_or(float)), Rules)
-        for place, problem in misshapen(shape):
+        shape = convert(parse_toml(source, path, BankError, _whole_or(float)), Rules)
+        for place, problem in find_malformed_answers(shape):
             raise BankError(f"{path}: {place}: {problem}")
         exact = parse_toml(source, path, BankError, _whole_or(str))
-        rules = converted(exact, Rules)
+        rules = convert(exact, Rules)
     except msgspec.ValidationError as error:
-        raise BankError(f"{path}: {in_words(error, Rules)}") from error
+        raise BankError(f"{path}: {explain_validation_error(error, Rules)}") from error
     _check_draws(path, rules)
     return rules
 
@@ -199,7 +201,7 @@ def _whole_or(kind: type) -> Callable[[str], object]:
 
 
 def _check_draws(path: Path, rules: Rules) -> None:
-    for place, problem in problems(rules):
+    for place, problem in find_problems(rules):
         raise BankError(f"{path}: {place}: {problem}")
     for name, rule in rules.draw.items():
         ways = [w for w in ("pick", "range", "words", "formula") if getattr(rule, w)]
@@ -218,7 +220,7 @@ def check_against_chain(template: Template) -> None:
     path, rules = template.file, template.rules
     for name, unit in template.units.items():
         try:
-            template.factor(unit)
+            template.unit_factor(unit)
         except FormulaError as error:
             place = f"draw.{name}" if name in rules.draw else f"solver {rules.solver!r}: {name}"
             raise BankError(f"{path}: {place}: {error}") from error

@@ -1,6 +1,6 @@
 """Hue, saturation and value of whole pictures in single precision.
 
-`quizgen.arrays.hsv` goes back, in double precision and for any colour; the tests hold the two
+`quizgen.numerics.hsv` goes back, in double precision and for any colour; the tests hold the two
 together.
 """
 

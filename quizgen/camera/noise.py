@@ -8,11 +8,11 @@ from functools import cache
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from quizgen.arrays.gaussian import inverse_tail
 from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.body import FULL_WELL
 from quizgen.camera.view import View
+from quizgen.numerics.gaussian import inverse_upper_tail
 
 Places = NDArray[np.intp]
 
@@ -98,7 +98,7 @@ class Luck:
 @cache
 def _normals(kind: np.dtype[np.floating]) -> Image:
     """Normal quantiles in the middle of 2^16 equal probabilities, scaled to variance 1."""
-    lower = -np.asarray(inverse_tail((np.arange(WORDS // 2) + 0.5) / WORDS))
+    lower = -np.asarray(inverse_upper_tail((np.arange(WORDS // 2) + 0.5) / WORDS))
     lower /= math.sqrt(float(np.mean(lower * lower)))
     return np.concatenate([lower, -lower[::-1]]).astype(kind)
 
@@ -106,7 +106,7 @@ def _normals(kind: np.dtype[np.floating]) -> Image:
 @cache
 def _slopes(kind: np.dtype[np.floating]) -> Image:
     """How wide the cell around each of them is, over 2^8."""
-    edges = np.asarray(inverse_tail(np.arange(1, WORDS // 2 + 1) / WORDS))
+    edges = np.asarray(inverse_upper_tail(np.arange(1, WORDS // 2 + 1) / WORDS))
     lower = np.concatenate([[0.0], -np.diff(edges)]) / 256.0
     return np.concatenate([lower, lower[::-1]]).astype(kind)
 
@@ -120,7 +120,7 @@ def _tail() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     processors.
     """
     cells = np.ldexp(1.0 + np.arange(256) / 256.0, np.arange(-33, 8)[:, None]).reshape(-1)
-    return cells.view(np.int64).astype(float), np.asarray(inverse_tail(cells / WORDS))
+    return cells.view(np.int64).astype(float), np.asarray(inverse_upper_tail(cells / WORDS))
 
 
 def luck(view: View, effect: str) -> Luck:

@@ -18,7 +18,7 @@ from quizgen.camera.prepared import GREY_LEVELS, Prepared
 from quizgen.camera.scene import SceneError
 from quizgen.camera.setup.settings import nearest
 from quizgen.camera.view import View
-from quizgen.outside import located
+from quizgen.core.untrusted import error_context
 
 BUDGETS = {"same": 0.5, "visible": 2.0, "sketch": 8.0}
 """Named budgets in 8-bit grey levels."""
@@ -132,7 +132,7 @@ def read_effect(text: str) -> str:
 
 def plan_everything(prepared: Prepared) -> Plan:
     """The plan that runs every present effect."""
-    with located(prepared.given.scene.file):
+    with error_context(prepared.given.scene.file):
         return _report(prepared, {effect.name: "everything" for effect in prepared.present}, {})
 
 
@@ -150,7 +150,7 @@ def plan_budget(
         What runs, or does not, whatever it changes.
     """
     limit = read_budget(budget)
-    with located(prepared.given.scene.file):
+    with error_context(prepared.given.scene.file):
         bounds = {names: prepared.bound_omission(names) for names in _units(prepared)}
         out: tuple[str, ...] = ()
         for names in sorted(bounds, key=lambda names: (bounds[names], names)):
@@ -185,7 +185,7 @@ def plan_question(
         If no effect answers a kind, or the camera has none that does.
     """
     there = {effect.name: effect for effect in prepared.present}
-    with located(prepared.given.scene.file):
+    with error_context(prepared.given.scene.file):
         for name in (*chosen.only, *chosen.plus):
             if name not in there:
                 raise SceneError(f"this camera has no {name}{_hint(effects.by_name(name))}")

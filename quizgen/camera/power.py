@@ -4,7 +4,7 @@ Library powers differ in the last bit between processors, and a last bit can fli
 The leading bits of a number (its exponent and ten bits more) choose a straight line that is off by
 less than a quarter of the last bit; the line is evaluated the same way everywhere.
 
-`quizgen.arrays.gamma` decodes, in double precision; the tests hold the two together.
+`quizgen.numerics.gamma` decodes, in double precision; the tests hold the two together.
 """
 
 from __future__ import annotations

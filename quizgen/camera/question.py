@@ -33,7 +33,7 @@ from quizgen.camera.prepared import GREY_LEVELS, Prepared
 from quizgen.camera.scene import Image, Question, Reading, Scene, SceneError
 from quizgen.camera.simulate import Photo, run, silent
 from quizgen.camera.view import View
-from quizgen.outside import located
+from quizgen.core.untrusted import error_context
 
 LEAST_LEVELS = 8.0
 """Grey levels from which on two pictures beside each other are seen to differ at a place."""
@@ -280,7 +280,7 @@ def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some
         If an effect besides moves what is read by more than its tolerance, or it is not the value
         that it should have.
     """
-    with located(scene.file):
+    with error_context(scene.file):
         taken = take_photographs(scene, camera, asks, reads, chosen=chosen, told=told)
         for seen in taken.seen:
             check_visible(seen, grey=grey)

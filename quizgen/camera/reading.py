@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from quizgen import png
-from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import codecs, effects
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import MEASURES
@@ -44,7 +43,8 @@ from quizgen.camera.setup.values import (
     words,
 )
 from quizgen.camera.view import View
-from quizgen.outside import LARGEST_PICTURE, parse_toml, read_bytes, read_text
+from quizgen.core.untrusted import LARGEST_PICTURE, parse_toml, read_bytes, read_text
+from quizgen.numerics.gamma import srgb_decode
 
 MOST_THINGS = 1000
 """Things of a scene, corners of a polygon and blades of a propeller."""

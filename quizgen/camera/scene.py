@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.errors import QuizgenError
+from quizgen.core.errors import QuizgenError
 
 Image = NDArray[np.floating]
 Colour = tuple[float, float, float]

@@ -21,7 +21,7 @@ from quizgen.camera.raster.draw import Layer, Sheet, Stack, composite, lay_over,
 from quizgen.camera.raster.layers import cropped, moved_together
 from quizgen.camera.scene import Image, Scene
 from quizgen.camera.view import View
-from quizgen.outside import located
+from quizgen.core.untrusted import error_context
 
 
 class Photo(msgspec.Struct, frozen=True):
@@ -79,7 +79,7 @@ def run(
     last : bool
         Whether the drawn layers are not needed afterwards: each is let go once it is photographed.
     """
-    with located(prepared.given.scene.file):
+    with error_context(prepared.given.scene.file):
         return _Run(prepared, told, last=last).photograph(names)
 
 

@@ -16,12 +16,12 @@ from collections.abc import Iterator
 from html import unescape
 from typing import Any
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 from quizgen.cards.deck import Deck
-from quizgen.cards.looks import FONT, NAMES, identity, note_type
 from quizgen.cards.note import Note
-from quizgen.cards.versions import BASE, modified
-from quizgen.files import zipped
+from quizgen.cards.note_types import FONT, NAMES, note_type, stable_id
+from quizgen.cards.versions import BASE, modification_time
+from quizgen.core.files import build_zip
 from quizgen.locale import FIRST
 
 ROOT = "Quizgen"
@@ -56,7 +56,7 @@ CREATE INDEX ix_notes_csum ON notes (csum);
 """
 
 
-def package(deck: Deck) -> bytes:
+def write_apkg(deck: Deck) -> bytes:
     """Write a deck as an ``.apkg`` file.
 
     Parameters
@@ -68,27 +68,27 @@ def package(deck: Deck) -> bytes:
     bytes
         The same for the same deck, in every process and on every machine.
     """
-    media = {FONT: _font(), **deck.media}
+    media = {FONT: _read_bangla_font(), **deck.media}
     names = sorted(media)
     listed = json.dumps({str(index): name for index, name in enumerate(names)})
-    contents = {"collection.anki2": database(deck), "media": listed.encode()}
+    contents = {"collection.anki2": build_collection(deck), "media": listed.encode()}
     contents |= {str(index): media[name] for index, name in enumerate(names)}
-    return zipped(contents, packed=False)
+    return build_zip(contents, packed=False)
 
 
-def _font() -> bytes:
+def _read_bangla_font() -> bytes:
     from quizgen.render import fonts
 
-    return fonts.web_font(fonts.BANGLA["Regular"])
+    return fonts.read_web_font(fonts.BANGLA["Regular"])
 
 
-def database(deck: Deck) -> bytes:
+def build_collection(deck: Deck) -> bytes:
     """The collection as an SQLite file."""
     connection = sqlite3.connect(":memory:")
     try:
         connection.execute("PRAGMA page_size = 4096")
         connection.executescript(_SCHEMA)
-        _fill(connection, deck)
+        _fill_collection(connection, deck)
         connection.commit()
         data = bytearray(connection.serialize())
     finally:
@@ -97,13 +97,13 @@ def database(deck: Deck) -> bytes:
     return bytes(data)
 
 
-def _fill(connection: sqlite3.Connection, deck: Deck) -> None:
-    latest = max((modified(note, deck.wish.seed) for note in deck.notes), default=BASE)
+def _fill_collection(connection: sqlite3.Connection, deck: Deck) -> None:
+    latest = max((modification_time(note, deck.wish.seed) for note in deck.notes), default=BASE)
     connection.execute(
         "INSERT INTO col VALUES (1,?,?,?,11,0,0,0,?,?,?,?,'{}')",
-        (BASE, latest * 1000, BASE * 1000, *map(_json, _settings(deck))),
+        (BASE, latest * 1000, BASE * 1000, *map(_format_json, _build_collection_settings(deck))),
     )
-    notes, cards = _numbers(deck)
+    notes, cards = _number_notes_and_cards(deck)
     connection.executemany(
         "INSERT INTO notes VALUES (?,?,?,?,-1,?,?,?,?,0,'')",
         (_note_row(notes[note.key], note, deck.wish.seed) for note in deck.notes),
@@ -114,16 +114,16 @@ def _fill(connection: sqlite3.Connection, deck: Deck) -> None:
     )
 
 
-def _json(table: object) -> str:
+def _format_json(table: object) -> str:
     return json.dumps(table, ensure_ascii=False, sort_keys=True)
 
 
-def _numbers(deck: Deck) -> tuple[dict[str, int], dict[tuple[str, int], int]]:
+def _number_notes_and_cards(deck: Deck) -> tuple[dict[str, int], dict[tuple[str, int], int]]:
     """Ids of notes and cards: from the key, and different for every deck that holds them."""
     taken: set[int] = set()
-    notes = {note.key: _free(f"note/{note.key}", taken) for note in _by_key(deck)}
+    notes = {note.key: _take_free_number(f"note/{note.key}", taken) for note in _by_key(deck)}
     cards = {
-        (note.key, number): _free(f"card/{note.key}/{number}", taken)
+        (note.key, number): _take_free_number(f"card/{note.key}/{number}", taken)
         for note in _by_key(deck)
         for number in note.cards()
     }
@@ -134,8 +134,8 @@ def _by_key(deck: Deck) -> list[Note]:
     return sorted(deck.notes, key=lambda note: note.key)
 
 
-def _free(name: str, taken: set[int]) -> int:
-    number = identity(name)
+def _take_free_number(name: str, taken: set[int]) -> int:
+    number = stable_id(name)
     while number in taken:
         number += 1
     taken.add(number)
@@ -148,7 +148,7 @@ def _note_row(number: int, note: Note, seed: int) -> tuple[Any, ...]:
     checksum = int(hashlib.sha1(fields[0].encode(), usedforsecurity=False).hexdigest()[:8], 16)
     kind = note_type(note.form, note.columns)
     sorted_by = unescape(_TAGS.sub("", fields[kind["sortf"]] or fields[2]))
-    return (number, note.guid, kind["id"], modified(note, seed), tags, "\x1f".join(fields),
+    return (number, note.guid, kind["id"], modification_time(note, seed), tags, "\x1f".join(fields),
             sorted_by, checksum)  # fmt: skip
 
 
@@ -157,9 +157,9 @@ def _card_rows(
 ) -> Iterator[tuple[Any, ...]]:
     for place, note in enumerate(deck.notes, 1):
         for number in note.cards():
-            home = identity(deck_name(deck.wish.bank, note.topic))
+            home = stable_id(deck_name(deck.wish.bank, note.topic))
             yield (cards[note.key, number], notes[note.key], home,
-                   number, modified(note, deck.wish.seed), place)  # fmt: skip
+                   number, modification_time(note, deck.wish.seed), place)  # fmt: skip
 
 
 def deck_name(bank: Bank, topic: str) -> str:
@@ -167,27 +167,27 @@ def deck_name(bank: Bank, topic: str) -> str:
     return f"{ROOT}::{bank.topic_title(topic, FIRST)}"
 
 
-def _settings(deck: Deck) -> tuple[dict[str, Any], ...]:
+def _build_collection_settings(deck: Deck) -> tuple[dict[str, Any], ...]:
     names = [ROOT, *sorted({deck_name(deck.wish.bank, note.topic) for note in deck.notes})]
-    decks = {str(identity(name)): _deck(identity(name), name) for name in names}
-    decks["1"] = _deck(1, "Default")
+    decks = {str(stable_id(name)): _build_deck_settings(stable_id(name), name) for name in names}
+    decks["1"] = _build_deck_settings(1, "Default")
     columns = dict.fromkeys([note.columns for note in deck.notes]) or [deck.wish.columns]
     types = [note_type(form, one) for one in columns for form in NAMES]
     models = {str(kind["id"]): kind for kind in types}
-    current = {"curDeck": identity(ROOT), "activeDecks": [identity(ROOT)]}
+    current = {"curDeck": stable_id(ROOT), "activeDecks": [stable_id(ROOT)]}
     conf = {**current, "curModel": types[0]["id"], "nextPos": 1,
             "sortType": "noteFld", "newSpread": 0}  # fmt: skip
-    return conf, models, decks, {"1": _options()}
+    return conf, models, decks, {"1": _build_deck_options()}
 
 
-def _deck(number: int, name: str) -> dict[str, Any]:
+def _build_deck_settings(number: int, name: str) -> dict[str, Any]:
     today = {f"{kind}Today": [0, 0] for kind in ("new", "rev", "lrn", "time")}
     return {"id": number, "name": name, "mod": BASE, "usn": -1, "desc": "", "dyn": 0, "conf": 1,
             "extendNew": 0, "extendRev": 0, "collapsed": False, "browserCollapsed": True,
             **today}  # fmt: skip
 
 
-def _options() -> dict[str, Any]:
+def _build_deck_options() -> dict[str, Any]:
     return {
         "id": 1, "name": "Default", "mod": 0, "usn": 0, "maxTaken": 60, "autoplay": True,
         "timer": 0, "replayq": True, "dyn": False,

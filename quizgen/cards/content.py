@@ -10,13 +10,13 @@ from typing import TypeVar
 
 import msgspec
 
-from quizgen.bank.entries import Entry, Passage, authored
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
+from quizgen.bank.entries import Entry, Passage, read_entries
 from quizgen.bank.formulas import NAME, FormulaEntry
-from quizgen.locale import table
+from quizgen.locale import load_words
 
 
-class Term(Entry, frozen=True, kw_only=True):
+class VocabularyEntry(Entry, frozen=True, kw_only=True):
     """A word to know."""
 
     number: int
@@ -25,21 +25,21 @@ class Term(Entry, frozen=True, kw_only=True):
     meaning: Passage
 
 
-class Trap(Entry, frozen=True, kw_only=True):
+class TrapEntry(Entry, frozen=True, kw_only=True):
     """A wrong claim or calculation, and the right one."""
 
     claim: Passage
     right: Passage
 
 
-class Cheat(Entry, frozen=True, kw_only=True):
+class CheatSheetEntry(Entry, frozen=True, kw_only=True):
     """One entry of the cheat sheet."""
 
     ask: Passage
     answer: Passage
 
 
-class Statement(Entry, frozen=True, kw_only=True):
+class StatementEntry(Entry, frozen=True, kw_only=True):
     """A true or a false statement, and why."""
 
     text: Passage
@@ -58,11 +58,11 @@ class FigureEntry(Entry, frozen=True, kw_only=True):
 
 
 KINDS: dict[str, type[Entry]] = {
-    "vocabulary": Term,
+    "vocabulary": VocabularyEntry,
     NAME: FormulaEntry,
-    "traps": Trap,
-    "cheat": Cheat,
-    "statements": Statement,
+    "traps": TrapEntry,
+    "cheat": CheatSheetEntry,
+    "statements": StatementEntry,
     "figures": FigureEntry,
 }
 """Content file to what its entries are."""
@@ -70,7 +70,7 @@ KINDS: dict[str, type[Entry]] = {
 E = TypeVar("E", bound=Entry)
 
 
-def entries(bank: Bank, kind: type[E]) -> tuple[E, ...]:
+def read_card_entries(bank: Bank, kind: type[E]) -> tuple[E, ...]:
     """Entries of one kind, read once; none if the bank has no such file.
 
     Raises
@@ -79,9 +79,9 @@ def entries(bank: Bank, kind: type[E]) -> tuple[E, ...]:
         Naming file, entry and key.
     """
     (name,) = (name for name, entry in KINDS.items() if entry is kind)
-    return authored(bank, name, kind)
+    return read_entries(bank, name, kind)
 
 
-def words(lang: str) -> dict[str, str]:
+def load_card_words(lang: str) -> dict[str, str]:
     """Short words on the cards, such as *What is wrong here?*, in one language."""
-    return table(lang, "cards")
+    return load_words(lang, "cards")

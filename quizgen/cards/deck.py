@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from quizgen.bank.clashes import told_apart
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.bank.qualified_names import qualify_names
 from quizgen.cards.kinds import KINDS, QUESTION
 from quizgen.cards.note import Note
-from quizgen.cards.versions import version_of
-from quizgen.cards.wish import SEED, Wish
-from quizgen.errors import BankError
+from quizgen.cards.request import SEED, DeckRequest
+from quizgen.cards.versions import note_version
+from quizgen.core.errors import BankError
 from quizgen.executors import in_order, workers
 
 
@@ -28,10 +28,10 @@ class Deck:
     """
 
     notes: tuple[Note, ...]
-    wish: Wish
+    wish: DeckRequest
 
     @property
-    def cards(self) -> int:
+    def card_count(self) -> int:
         """How many cards the notes give."""
         return sum(len(note.cards()) for note in self.notes)
 
@@ -41,7 +41,7 @@ class Deck:
         return {name: data for note in self.notes for name, data in note.media().items()}
 
 
-def build(
+def build_deck(
     lang: str = "en",
     *,
     topics: tuple[str, ...] = (),
@@ -70,55 +70,55 @@ def build(
     BankError
         If a topic or a kind is unknown, or content is wrong.
     """
-    bank = builtin() if bank is None else bank
-    _check(topics, bank.topics, "topic")
-    _check(kinds, tuple(KINDS), "kind")
-    wish = Wish(bank.chosen(lang), topics, seed, bank)
-    return Deck(tuple(_notes(wish, kinds or tuple(KINDS), jobs)), wish)
+    bank = builtin_bank() if bank is None else bank
+    _check_names(topics, bank.topics, "topic")
+    _check_names(kinds, tuple(KINDS), "kind")
+    wish = DeckRequest(bank.resolve_languages(lang), topics, seed, bank)
+    return Deck(tuple(_make_all_notes(wish, kinds or tuple(KINDS), jobs)), wish)
 
 
-def _check(names: tuple[str, ...], allowed: tuple[str, ...], what: str) -> None:
+def _check_names(names: tuple[str, ...], allowed: tuple[str, ...], what: str) -> None:
     for name in names:
         if name not in allowed:
             raise BankError(f"unknown {what} {name!r} (there are {', '.join(allowed)})")
 
 
-def _notes(wish: Wish, kinds: tuple[str, ...], jobs: int) -> Iterator[Note]:
-    banks = {part: replace(wish, bank=part) for part in wish.bank.parts}
+def _make_all_notes(wish: DeckRequest, kinds: tuple[str, ...], jobs: int) -> Iterator[Note]:
+    banks = {part: replace(wish, bank=part) for part in wish.bank.members}
     pieces = [
         (kind, piece)
         for kind in KINDS
         if kind in kinds
         for own in banks.values()
-        for piece in _pieces(kind, own)
+        for piece in _split_request(kind, own)
     ]
     made: dict[str, dict[Bank, list[Note]]] = {kind: {part: [] for part in banks} for kind in KINDS}
     with workers(jobs) as (executor, ahead):
-        results = in_order(executor, _made, pieces, ahead)
+        results = in_order(executor, _make_notes, pieces, ahead)
         for (kind, piece), notes in zip(pieces, results, strict=True):
             made[kind][piece.bank] += notes
     for found in made.values():
-        keys = told_apart({part: [note.key for note in notes] for part, notes in found.items()})
+        keys = qualify_names({part: [note.key for note in notes] for part, notes in found.items()})
         for part, notes in found.items():
             for note in notes:
-                if wish.wants(note.topic):
+                if wish.includes_topic(note.topic):
                     yield replace(
                         note,
                         key=keys[part][note.key],
-                        version=version_of(note, part),
+                        version=note_version(note, part),
                         columns=banks[part].columns,
                     )
 
 
-def _pieces(kind: str, wish: Wish) -> Iterator[Wish]:
+def _split_request(kind: str, wish: DeckRequest) -> Iterator[DeckRequest]:
     """What can be made apart: worked questions, the dear ones, template by template."""
     if kind != QUESTION:
         yield wish
         return
-    for name in wish.bank.paths:
+    for name in wish.bank.template_paths:
         yield replace(wish, templates=(name,))
 
 
-def _made(piece: tuple[str, Wish]) -> list[Note]:
+def _make_notes(piece: tuple[str, DeckRequest]) -> list[Note]:
     kind, wish = piece
     return [*KINDS[kind](wish)]

@@ -14,11 +14,11 @@ from dataclasses import dataclass, field
 from html import escape
 from typing import Any
 
-from quizgen.cards.prose import Hole, Said, html, media, plain
-from quizgen.locale import FIRST, language
+from quizgen.cards.markup import ClozeHole, InLanguage, media, to_card_html, to_card_text
+from quizgen.locale import FIRST, get_language
 
-Blocks = tuple[Any, ...]
-Words = Mapping[str, Blocks]
+CardBlocks = tuple[Any, ...]
+CardWords = Mapping[str, CardBlocks]
 """Language to blocks."""
 
 _NO_TAG = re.compile(r"[^\w:.§+-]")
@@ -81,10 +81,10 @@ class Note:
     form: str
     topic: str
     tier: str
-    words: Mapping[str, Words]
+    words: Mapping[str, CardWords]
     section: str = ""
     refs: tuple[str, ...] = ()
-    shared: Mapping[str, Blocks] = field(default_factory=dict)
+    shared: Mapping[str, CardBlocks] = field(default_factory=dict)
     version: int = 1
     langs: tuple[str, ...] = (FIRST,)
     columns: tuple[str, ...] = (FIRST,)
@@ -107,15 +107,17 @@ class Note:
         named += [f"section::{self.section}"] if self.section else []
         named += [f"lang::{lang}" for lang in self.langs]
         named += [f"ref::{ref}" for ref in self.refs]
-        return tuple(sorted(_tag(f"quizgen::{name}") for name in named))
+        return tuple(sorted(_format_tag(f"quizgen::{name}") for name in named))
 
     def fields(self) -> tuple[str, ...]:
         """HTML of every field of the note type, in order; a language not asked for is empty."""
         filled = {"Key": escape(self.key), "Source": escape(self.source)}
         main = self.langs[0]
-        filled |= {name: html(blocks, main) for name, blocks in self.shared.items()}
+        filled |= {name: to_card_html(blocks, main) for name, blocks in self.shared.items()}
         for name, words in self.words.items():
-            filled |= {field_name(name, lang): html(blocks, lang) for lang, blocks in words.items()}
+            filled |= {
+                field_name(name, lang): to_card_html(blocks, lang) for lang, blocks in words.items()
+            }
         return tuple(filled.get(name, "") for name in field_names(self.form, self.columns))
 
     def media(self) -> dict[str, bytes]:
@@ -126,53 +128,68 @@ class Note:
     def cards(self) -> tuple[int, ...]:
         """Numbers of the cards that the note gives, as Anki counts them (from 0)."""
         if self.form == "cloze":
-            holes = {part.number for part in self.shared["Text"] if isinstance(part, Hole)}
+            holes = {part.number for part in self.shared["Text"] if isinstance(part, ClozeHole)}
             return tuple(sorted(number - 1 for number in holes))
         if self.form == "term":
-            asked = [n for n, lang in enumerate(self._others(), 2) if lang in self.words["Term"]]
+            asked = [
+                n
+                for n, lang in enumerate(self._list_other_languages(), 2)
+                if lang in self.words["Term"]
+            ]
             return (0, 1, *asked)
         return (0,)
 
-    def sides(self) -> Iterator[tuple[str, Blocks, Blocks]]:
+    def sides(self) -> Iterator[tuple[str, CardBlocks, CardBlocks]]:
         """Each card as (name, front, back), for programs that know nothing but two sides."""
         if self.form == "term":
             yield from self._term_sides()
         elif self.form == "cloze":
             text = self.shared["Text"]
-            yield "Formula", (*self.said("Title"), *text), (*text, *self.said("Extra"))
+            yield (
+                "Formula",
+                (*self.in_all_languages("Title"), *text),
+                (*text, *self.in_all_languages("Extra")),
+            )
         else:
-            front = (*self.said("Front"), *self.shared.get("Figure", ()))
+            front = (*self.in_all_languages("Front"), *self.shared.get("Figure", ()))
             shared = (*self.shared.get("Work", ()), *self.shared.get("Answer figure", ()))
-            yield "Question", front, (*self.said("Back"), *shared, *self.said("More"))
+            yield (
+                "Question",
+                front,
+                (*self.in_all_languages("Back"), *shared, *self.in_all_languages("More")),
+            )
 
-    def _term_sides(self) -> Iterator[tuple[str, Blocks, Blocks]]:
-        terms, meaning = self.words["Term"], self.said("Meaning")
-        term, named = terms[FIRST], {lang: terms[lang] for lang in self._others() if lang in terms}
+    def _term_sides(self) -> Iterator[tuple[str, CardBlocks, CardBlocks]]:
+        terms, meaning = self.words["Term"], self.in_all_languages("Meaning")
+        term, named = (
+            terms[FIRST],
+            {lang: terms[lang] for lang in self._list_other_languages() if lang in terms},
+        )
         known = tuple(block for blocks in named.values() for block in blocks)
         yield "Term", term, (*meaning, *known)
         yield "Meaning", meaning, (*term, *known)
         for lang, asked in named.items():
-            yield language(lang).english, asked, (*term, *meaning)
+            yield get_language(lang).english, asked, (*term, *meaning)
 
-    def _others(self) -> tuple[str, ...]:
+    def _list_other_languages(self) -> tuple[str, ...]:
         return tuple(lang for lang in self.columns if lang != FIRST)
 
-    def said(self, name: str) -> Blocks:
+    def in_all_languages(self, name: str) -> CardBlocks:
         """A field in every language of the note, one after the other."""
         words = self.words.get(name, {})
-        return tuple(Said(lang, words[lang]) for lang in self.langs if lang in words)
+        return tuple(InLanguage(lang, words[lang]) for lang in self.langs if lang in words)
 
 
-def _tag(name: str) -> str:
+def _format_tag(name: str) -> str:
     """A tag: blanks would part it, control characters and quotes would leave its cell."""
     return _NO_TAG.sub("_", name)
 
 
-def side_html(blocks: Blocks, lang: str, *, ask: bool) -> str:
+def side_to_html(blocks: CardBlocks, lang: str, *, ask: bool) -> str:
     """One side of a card as HTML, without Anki's own marks."""
-    return html(blocks, lang, ask=ask)
+    return to_card_html(blocks, lang, ask=ask)
 
 
-def side_text(blocks: Blocks, *, ask: bool) -> str:
+def side_to_text(blocks: CardBlocks, *, ask: bool) -> str:
     """One side of a card as plain text."""
-    return plain(blocks, ask=ask).strip()
+    return to_card_text(blocks, ask=ask).strip()

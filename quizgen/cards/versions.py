@@ -3,7 +3,7 @@
 Anki updates a note only if the incoming one was modified later. A deck that depends on nothing but
 its input cannot use the clock, so every note has a version: ``cards/versions.toml`` of the bank
 lists, per note, its version and a digest of what stands on it. A test compares the digests; after a
-change, ``python -m quizgen.cards.renew`` raises the versions of the notes that changed.
+change, ``python -m quizgen.cards.update_versions`` raises the versions of the notes that changed.
 
 A worked question counts its template's files instead: a template that is listed with another digest
 counts as one version newer until the list is written again.
@@ -16,13 +16,13 @@ from functools import cache
 
 import msgspec
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 from quizgen.bank.template import Template
 from quizgen.cards.note import Note
-from quizgen.errors import BankError
+from quizgen.core.decoding import convert
+from quizgen.core.errors import BankError
+from quizgen.core.untrusted import parse_toml, read_text
 from quizgen.locale import FIRST
-from quizgen.outside import parse_toml, read_text
-from quizgen.shapes import converted
 
 BASE = 1_577_836_800
 """Modification time of version 0, 1 January 2020: earlier than any change a learner makes."""
@@ -39,46 +39,46 @@ Registry = dict[str, tuple[int, str]]
 
 
 @cache
-def registry(bank: Bank) -> Registry:
+def read_versions(bank: Bank) -> Registry:
     """Note key to its version and digest, as the bank lists them; nothing if it has no list."""
     if FILE not in bank.cards:
         return {}
     path = bank.cards[FILE]
     try:
-        return converted(parse_toml(read_text(path, BankError), path, BankError), Registry)
+        return convert(parse_toml(read_text(path, BankError), path, BankError), Registry)
     except msgspec.ValidationError as error:
         raise BankError(f"{path}: {error}") from error
 
 
-def version_of(note: Note, bank: Bank) -> int:
+def note_version(note: Note, bank: Bank) -> int:
     """Version of a note: as listed, or the one it came with."""
     if note.kind in DRAWN:
         return note.version
-    return registry(bank).get(note.key, (note.version, ""))[0]
+    return read_versions(bank).get(note.key, (note.version, ""))[0]
 
 
 def template_version(template: Template, bank: Bank) -> int:
     """Version of a worked question, from the files of its template."""
-    version, digest = registry(bank).get(
+    version, digest = read_versions(bank).get(
         f"question/{template.origin}", (template.rules.version, "")
     )
     return version + (bool(digest) and digest != template.digest[: len(digest)])
 
 
-def modified(note: Note, seed: int) -> int:
+def modification_time(note: Note, seed: int) -> int:
     """Modification time of a note in Anki, seconds since 1970.
 
     It rises with the version; within a version with the seed (only for kinds whose
     numbers depend on it) and from one language to both.
     """
     drawn = min(seed, LARGEST_SEED) if note.kind in DRAWN else 0
-    return BASE + note.version * STEP + 3 * drawn + _breadth(note.langs)
+    return BASE + note.version * STEP + 3 * drawn + _count_language_versions(note.langs)
 
 
-def _breadth(langs: tuple[str, ...]) -> int:
+def _count_language_versions(langs: tuple[str, ...]) -> int:
     return 2 if len(langs) > 1 else int(langs != (FIRST,))
 
 
-def digest_of(note: Note) -> str:
+def note_digest(note: Note) -> str:
     """Digest of everything that stands on a note."""
     return hashlib.sha256("\x1f".join((*note.fields(), note.topic)).encode()).hexdigest()[:12]

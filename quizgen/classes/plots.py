@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from quizgen.classes.effects import Effect
+from quizgen.classes.variant_difficulty import VariantEffect
 from quizgen.figures import Figure, plot_figure
-from quizgen.locale import numbers_in, table
+from quizgen.locale import load_words, localise_numbers
 
 MOST_BARS = 24
 WEAK = 0.2
@@ -17,8 +17,8 @@ WEAK = 0.2
 _SIZE = (340.0, 150.0)
 
 
-def _plot(draw: Any, lang: str, axes: tuple[str, str], caption: str, height: float) -> Figure:
-    words = table(lang, "classes")["analysis"]
+def _draw_plot(draw: Any, lang: str, axes: tuple[str, str], caption: str, height: float) -> Figure:
+    words = load_words(lang, "classes")["analysis"]
 
     def draw_named(ax: Any) -> None:
         draw(ax)
@@ -42,7 +42,7 @@ def plot_totals(
         ax.axvline(passing, color="red", linewidth=1.4, linestyle="-")
         ax.yaxis.set_major_locator(MaxNLocator(integer=True))
 
-    return _plot(draw, lang, ("axis_points", "axis_students"), caption, _SIZE[1])
+    return _draw_plot(draw, lang, ("axis_points", "axis_students"), caption, _SIZE[1])
 
 
 def plot_items(rows: Sequence[tuple[str, float, float]], lang: str, caption: str) -> Figure:
@@ -59,10 +59,10 @@ def plot_items(rows: Sequence[tuple[str, float, float]], lang: str, caption: str
             sketch.dot((difficulty, discrimination), 2.0, ink, part="items")
             sketch.label((difficulty, discrimination), name, "lb", 8, ink, shift=(3, 2))
 
-    return _plot(draw, lang, ("axis_difficulty", "axis_discrimination"), caption, 190.0)
+    return _draw_plot(draw, lang, ("axis_difficulty", "axis_discrimination"), caption, 190.0)
 
 
-def plot_effect(effect: Effect, lang: str, caption: str) -> Figure:
+def plot_effect(effect: VariantEffect, lang: str, caption: str) -> Figure:
     """Mean share of the points by value, with 95 % of its error."""
 
     def draw(ax: Any) -> None:
@@ -74,10 +74,10 @@ def plot_effect(effect: Effect, lang: str, caption: str) -> Figure:
             fmt="o", color="ink", markersize=3, capsize=2.5, linewidth=0.8,
         )  # fmt: skip
         names = [
-            f"{numbers_in(lang, level.name[:24])}\n$n$ = {level.students}"
+            f"{localise_numbers(lang, level.name[:24])}\n$n$ = {level.students}"
             for level in effect.levels
         ]
         ax.set_xticks(places, names)
         ax.set(xlim=(-0.5, len(places) - 0.5), ylim=(-0.03, 1.03))
 
-    return _plot(draw, lang, ("", "axis_share"), caption, 120.0)
+    return _draw_plot(draw, lang, ("", "axis_share"), caption, 120.0)

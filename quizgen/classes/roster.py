@@ -19,11 +19,18 @@ from pathlib import Path
 
 import msgspec
 
-from quizgen.errors import ClassError
-from quizgen.locale import BOTH, choices
-from quizgen.locale.brought import is_tag
-from quizgen.outside import defused, is_name, parse_csv, read_text, undefused, visible
-from quizgen.paper.paper import Progress, silent
+from quizgen.core.errors import ClassError
+from quizgen.core.untrusted import (
+    escape_control_characters,
+    escape_csv_formula,
+    is_identifier,
+    parse_csv,
+    read_text,
+    unescape_csv_formula,
+)
+from quizgen.locale import BOTH, list_language_choices
+from quizgen.locale.custom import is_language_tag
+from quizgen.paper.paper import ProgressCallback, silent
 
 COLUMNS = ("id", "name", "lang", "extra", "group", "seat")
 ALSO_CALLED = {"lang": ("language",), "extra": ("extra time", "extra_time")}
@@ -37,7 +44,7 @@ _DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 """Names that Windows gives to devices."""
 
 
-class Student(msgspec.Struct, frozen=True):
+class RosterStudent(msgspec.Struct, frozen=True):
     """A row of the roster.
 
     Parameters
@@ -64,16 +71,21 @@ class Student(msgspec.Struct, frozen=True):
     @property
     def file(self) -> str:
         """The id as the name of a file, on any system, and never that of another student."""
-        if is_name(self.id) and self.id[0] not in ".-" and self.id[-1] != "." and self._short:
+        if (
+            is_identifier(self.id)
+            and self.id[0] not in ".-"
+            and self.id[-1] != "."
+            and self._is_safe_file_name
+        ):
             return self.id
         kept = re.sub(r"[^A-Za-z0-9_]+", "-", self.id)[:LONGEST_FILE].strip("-") or "student"
         return f"{kept}-{hashlib.sha256(self.id.encode()).hexdigest()[:8]}"
 
     @property
-    def _short(self) -> bool:
+    def _is_safe_file_name(self) -> bool:
         return len(self.id) <= LONGEST_FILE and not _DEVICES.fullmatch(self.id)
 
-    def more(self, minutes: int) -> int:
+    def extra_minutes(self, minutes: int) -> int:
         """Minutes besides the working time of the paper."""
         found = _EXTRA.fullmatch(self.extra)
         if found is None:
@@ -85,8 +97,8 @@ class Student(msgspec.Struct, frozen=True):
 def read_roster(
     path: Path,
     columns: Mapping[str, str] | None = None,
-    tell: Progress = silent,
-) -> list[Student]:
+    tell: ProgressCallback = silent,
+) -> list[RosterStudent]:
     """Read a roster in the order of its seats.
 
     Parameters
@@ -106,32 +118,32 @@ def read_roster(
     rows = parse_csv(read_text(path, ClassError), path, ClassError)
     if not rows:
         raise ClassError(f"{path}: is empty (a row of column names is needed, then one a student)")
-    places = _places(rows[0][1], columns or {}, path)
-    for place, name in enumerate(map(cleaned, rows[0][1])):
+    places = _find_columns(rows[0][1], columns or {}, path)
+    for place, name in enumerate(map(clean_cell, rows[0][1])):
         if name and place not in places.values():
-            tell(visible(name))
-    found: dict[str, tuple[int, Student]] = {}
+            tell(escape_control_characters(name))
+    found: dict[str, tuple[int, RosterStudent]] = {}
     for line, row in rows[1:]:
-        one = _student(row, places, f"{path}: line {line}")
+        one = _parse_student(row, places, f"{path}: line {line}")
         before = found.setdefault(one.id.casefold(), (line, one))
         if before[0] != line:
             raise ClassError(f"{path}: lines {before[0]} and {line} have the same id {one.id!r}")
     if not found:
         raise ClassError(f"{path}: has no students")
-    return sorted((one for _, one in found.values()), key=_seating)
+    return sorted((one for _, one in found.values()), key=_make_seating_key)
 
 
-def _places(head: Sequence[str], columns: Mapping[str, str], path: Path) -> dict[str, int]:
+def _find_columns(head: Sequence[str], columns: Mapping[str, str], path: Path) -> dict[str, int]:
     """Which column of the file is which of ours."""
-    there = {cleaned(cell).casefold(): place for place, cell in reversed([*enumerate(head)])}
-    said = ", ".join(visible(cleaned(cell)) for cell in head)
+    there = {clean_cell(cell).casefold(): place for place, cell in reversed([*enumerate(head)])}
+    said = ", ".join(escape_control_characters(clean_cell(cell)) for cell in head)
     for ours, theirs in columns.items():
         if ours not in COLUMNS:
             raise ClassError(f"no column {ours!r} of a roster (there are {', '.join(COLUMNS)})")
-        if cleaned(theirs).casefold() not in there:
+        if clean_cell(theirs).casefold() not in there:
             raise ClassError(f"{path}: has no column {theirs!r} (it has {said})")
     names = {
-        ours: [cleaned(columns[ours]).casefold()] if ours in columns else _known_as(ours)
+        ours: [clean_cell(columns[ours]).casefold()] if ours in columns else _known_as(ours)
         for ours in COLUMNS
     }
     found = {
@@ -149,26 +161,26 @@ def _known_as(column: str) -> list[str]:
     return [column, *ALSO_CALLED.get(column, ())]
 
 
-def _student(row: Sequence[str], places: Mapping[str, int], where: str) -> Student:
+def _parse_student(row: Sequence[str], places: Mapping[str, int], where: str) -> RosterStudent:
     cells = {
-        name: undefused(cleaned(row[place])) if place < len(row) else ""
+        name: unescape_csv_formula(clean_cell(row[place])) if place < len(row) else ""
         for name, place in places.items()
     }
     for name, cell in cells.items():
         if len(cell) > LONGEST:
             raise ClassError(f"{where}: {name} is longer than {LONGEST} characters")
-    one = Student(**cells)
+    one = RosterStudent(**cells)
     if not one.id:
         raise ClassError(f"{where}: has no id")
-    if one.lang and one.lang != BOTH and not is_tag(one.lang):
-        known = ", ".join(choices())
+    if one.lang and one.lang != BOTH and not is_language_tag(one.lang):
+        known = ", ".join(list_language_choices())
         raise ClassError(f"{where}: lang {one.lang!r} (allowed: {known}, or another of the bank)")
     if one.extra and not _EXTRA.fullmatch(one.extra):
         raise ClassError(f"{where}: extra {one.extra!r} (allowed: such as 25%, or 30 for minutes)")
     return one
 
 
-def cleaned(cell: str) -> str:
+def clean_cell(cell: str) -> str:
     """A cell in one line, without marks that nobody sees, such as those that turn writing round."""
     whole = unicodedata.normalize("NFC", cell)
     seen = (c if _is_seen(c) else " " if c.isspace() else "" for c in whole)
@@ -179,13 +191,13 @@ def _is_seen(character: str) -> bool:
     return character in _JOINERS or unicodedata.category(character) not in {"Cc", "Cf", "Cs", "Co"}
 
 
-def _seating(one: Student) -> tuple[str, list[tuple[int, str]]]:
+def _make_seating_key(one: RosterStudent) -> tuple[str, list[tuple[int, str]]]:
     """Groups together, seats in the order that people count them: 9 before 10."""
     pieces = re.findall(r"\d+|\D+", one.seat)
     return one.group, [(int(p), "") if p.isdecimal() else (0, p.casefold()) for p in pieces]
 
 
-def neighbours(students: Sequence[Student]) -> dict[str, list[str]]:
+def seat_neighbours(students: Sequence[RosterStudent]) -> dict[str, list[str]]:
     """For each student's id, the ids of those beside."""
     found: dict[str, list[str]] = {one.id: [] for one in students}
     for left, right in pairwise(students):
@@ -195,10 +207,12 @@ def neighbours(students: Sequence[Student]) -> dict[str, list[str]]:
     return found
 
 
-def roster_bytes(students: Sequence[Student]) -> bytes:
+def write_roster(students: Sequence[RosterStudent]) -> bytes:
     """The roster as a file that ``read_roster`` and any spreadsheet read."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(COLUMNS)
-    writer.writerows([defused(getattr(one, name)) for name in COLUMNS] for one in students)
+    writer.writerows(
+        [escape_csv_formula(getattr(one, name)) for name in COLUMNS] for one in students
+    )
     return out.getvalue().encode("utf-8-sig")

@@ -31,11 +31,11 @@ from pathlib import Path
 
 import msgspec
 
-from quizgen.errors import ClassError, FormulaError
-from quizgen.files import private
-from quizgen.maths.numbers import written
-from quizgen.outside import csv_text, parse_csv, read_text, undefused
-from quizgen.paper.marking import QUARTERS
+from quizgen.core.errors import ClassError, FormulaError
+from quizgen.core.files import open_private
+from quizgen.core.untrusted import format_csv, parse_csv, read_text, unescape_csv_formula
+from quizgen.maths.numbers import parse_written_number
+from quizgen.paper.grading import QUARTERS
 
 FILE = "rulings.csv"
 DECIDE, SECOND, ACCEPT, TOLERANCE, DROP, GIVE, RESTORE = WHAT = (
@@ -79,15 +79,15 @@ class Ruling(msgspec.Struct, frozen=True):
     @property
     def points(self) -> Fraction | None:
         """The points that it gives, if it says so."""
-        return written(self.value) if self.value else None
+        return parse_written_number(self.value) if self.value else None
 
     @property
-    def undone(self) -> bool:
+    def is_revoked(self) -> bool:
         """Whether it says that nobody has decided after all."""
         return self.what == DECIDE and not self.value
 
     @property
-    def said(self) -> str:
+    def describe(self) -> str:
         """What it is, and by whom, for the history of a mark."""
         return f"{self.what} ({self.who})" if self.who else self.what
 
@@ -138,11 +138,11 @@ def read_rulings(folder: Path) -> list[Ruling]:
         Naming file, line and column.
     """
     path = folder / FILE
-    rows = filled_rows(path, {"what", "item"})
-    return [_ruling(cells, f"{path}: line {at}") for at, cells in rows]
+    rows = read_filled_rows(path, {"what", "item"})
+    return [_parse_ruling(cells, f"{path}: line {at}") for at, cells in rows]
 
 
-def filled_rows(path: Path, needed: set[str]) -> list[tuple[int, dict[str, str]]]:
+def read_filled_rows(path: Path, needed: set[str]) -> list[tuple[int, dict[str, str]]]:
     """Rows of a table of ours that people have filled in, each with its line; none without a file.
 
     Parameters
@@ -163,12 +163,12 @@ def filled_rows(path: Path, needed: set[str]) -> list[tuple[int, dict[str, str]]
     if missing := needed - {*head}:
         raise ClassError(f"{path}: the first row names no column {min(missing)!r}")
     return [
-        (at, dict(zip_longest(head, map(undefused, row[: len(head)]), fillvalue="")))
+        (at, dict(zip_longest(head, map(unescape_csv_formula, row[: len(head)]), fillvalue="")))
         for at, row in rows[1:]
     ]
 
 
-def _ruling(cells: Mapping[str, str], where: str) -> Ruling:
+def _parse_ruling(cells: Mapping[str, str], where: str) -> Ruling:
     known = {name: cells.get(name, "").strip()[:LONGEST] for name in COLUMNS}
     found = Ruling(**known)
     try:
@@ -192,13 +192,13 @@ def append_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
         one.check()
     path = folder / FILE
     rows = [[getattr(one, name) for name in COLUMNS] for one in added]
-    lines = csv_text(rows if path.exists() else [COLUMNS, *rows])
-    with private(path) as stream:  # one write at the end: two at once do not mix
+    lines = format_csv(rows if path.exists() else [COLUMNS, *rows])
+    with open_private(path) as stream:  # one write at the end: two at once do not mix
         stream.write(lines.encode())
     return added
 
 
-def alike(answer: str, *, words: bool) -> str:
+def fold_answer(answer: str, *, words: bool) -> str:
     """What equal answers have in common.
 
     Parameters
@@ -211,19 +211,19 @@ def alike(answer: str, *, words: bool) -> str:
     return text.casefold().strip(_ENDS) if words else text
 
 
-def group_of(item: str, key: str, answer: str, *, words: bool) -> str:
+def answer_group(item: str, key: str, answer: str, *, words: bool) -> str:
     """The name of a group of equal answers: to one item, where the same would be right."""
-    whole = "\0".join((item, key, alike(answer, words=words)))
+    whole = "\0".join((item, key, fold_answer(answer, words=words)))
     return f"g{hashlib.sha256(whole.encode()).hexdigest()[:10]}"
 
 
-def last_words(rulings: Iterable[Ruling], what: str) -> dict[str, Ruling]:
+def latest_rulings(rulings: Iterable[Ruling], what: str) -> dict[str, Ruling]:
     """Group of equal answers to the last line of a kind about it, where that was not taken back."""
     last = {one.group: one for one in rulings if one.what == what and one.group}
     return {group: one for group, one in last.items() if one.value}
 
 
-class Book:
+class RulingBook:
     """All rulings, ready to be asked.
 
     Parameters
@@ -238,7 +238,7 @@ class Book:
             if one.what != SECOND:
                 self.items.setdefault(one.item, []).append(one)
 
-    def of(self, item: str, student: str) -> list[Ruling]:
+    def rulings_for(self, item: str, student: str) -> list[Ruling]:
         """What holds of an item, for a student; the last line last."""
         found: list[Ruling] = []
         for one in self.items.get(item, ()):

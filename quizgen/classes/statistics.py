@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from quizgen.maths.precision import working_precision
 
-Table = NDArray[np.float64]
+ScoreTable = NDArray[np.float64]
 """A row for each student, a column for each item; NaN where there are no points."""
 
 HALVINGS = 34
@@ -26,7 +26,7 @@ BITS = 64
 """Working precision of probabilities, which nobody asks to more than a few digits."""
 
 
-def covariance(scores: Table) -> Table:
+def covariance(scores: ScoreTable) -> ScoreTable:
     """Covariances of the columns, each over the students who have both (pairwise)."""
     known = ~np.isnan(scores)
     filled = np.where(known, scores, 0.0)
@@ -37,7 +37,7 @@ def covariance(scores: Table) -> Table:
         return np.where(both > 1, products / (both - 1), np.nan)
 
 
-def alpha(scores: Table) -> float | None:
+def cronbach_alpha(scores: ScoreTable) -> float | None:
     """Cronbach's alpha."""
     items = scores.shape[1]
     if items < 2 or scores.shape[0] < 2:
@@ -49,7 +49,7 @@ def alpha(scores: Table) -> float | None:
     return items / (items - 1) * (1 - float(np.trace(found)) / total)
 
 
-def alpha_interval(
+def feldt_interval(
     value: float, students: int, items: int, confidence: float = 0.95
 ) -> tuple[float, float]:
     """Feldt's interval of Cronbach's alpha.
@@ -69,13 +69,13 @@ def alpha_interval(
     return lower, upper
 
 
-def rest_correlation(scores: Table, column: int) -> float | None:
+def item_rest_correlation(scores: ScoreTable, column: int) -> float | None:
     """Correlation of an item with the sum of all others (corrected item-total correlation)."""
     rest = np.nansum(np.delete(scores, column, axis=1), axis=1)
-    return correlation(scores[:, column], rest)
+    return pearson(scores[:, column], rest)
 
 
-def correlation(first: Table, second: Table) -> float | None:
+def pearson(first: ScoreTable, second: ScoreTable) -> float | None:
     """Pearson's correlation over the students who have both."""
     both = ~(np.isnan(first) | np.isnan(second))
     try:
@@ -84,18 +84,18 @@ def correlation(first: Table, second: Table) -> float | None:
         return None
 
 
-def ranks(values: Table) -> Table:
+def average_ranks(values: ScoreTable) -> ScoreTable:
     """Ranks from 1; equal values share theirs."""
     _, place, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
     return (last - (counts - 1) / 2)[place]
 
 
-def kruskal(groups: Sequence[Table]) -> float | None:
+def kruskal_wallis(groups: Sequence[ScoreTable]) -> float | None:
     """Probability of so great a difference between groups by chance (Kruskal and Wallis)."""
     values = np.concatenate(groups)
     count = len(values)
-    placed = ranks(values)
+    placed = average_ranks(values)
     _, ties = np.unique(values, return_counts=True)
     unequal = 1 - float((ties.astype(float) ** 3 - ties).sum()) / (count**3 - count)
     if unequal <= 0:
@@ -106,9 +106,9 @@ def kruskal(groups: Sequence[Table]) -> float | None:
     return chi_square_tail(max(found, 0.0), len(groups) - 1)
 
 
-def spearman(first: Table, second: Table) -> tuple[float, float] | None:
+def spearman(first: ScoreTable, second: ScoreTable) -> tuple[float, float] | None:
     """Spearman's rank correlation, and the probability of one so far from 0 by chance."""
-    found = correlation(ranks(first), ranks(second))
+    found = pearson(average_ranks(first), average_ranks(second))
     free = len(first) - 2
     if found is None or free < 1:
         return None
@@ -116,7 +116,7 @@ def spearman(first: Table, second: Table) -> tuple[float, float] | None:
     return found, f_tail(found**2 * free / left, 1, free)
 
 
-def holm(chances: Sequence[float]) -> list[float]:
+def holm_correction(chances: Sequence[float]) -> list[float]:
     """Probabilities of several tests, corrected so that one in all is wrong as often as one was."""
     order = sorted(range(len(chances)), key=chances.__getitem__)
     adjusted, least = [0.0] * len(chances), 0.0

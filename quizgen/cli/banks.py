@@ -10,10 +10,10 @@ import click
 
 from quizgen.cli.options import BankOptions, bank_options, open_bank
 from quizgen.cli.terminal import print_table
-from quizgen.outside import visible
+from quizgen.core.untrusted import escape_control_characters
 
 if TYPE_CHECKING:
-    from quizgen.paper.banks import UsedBank
+    from quizgen.paper.provenance import BankRecord
 
 HEAD = ("bank", "version", "languages", "templates", "Python", "licence", "folder")
 
@@ -22,21 +22,21 @@ HEAD = ("bank", "version", "languages", "templates", "Python", "licence", "folde
 @bank_options
 def banks(**options: Unpack[BankOptions]) -> None:
     """List the banks there are: the built-in one, those of packages, and --bank."""
-    from quizgen.bank.found import described, known
-    from quizgen.bank.mixed import opened
+    from quizgen.bank.combined import open_banks
+    from quizgen.bank.discovery import available_banks, describe_bank
 
-    found = {name: opened([(str(root), False)]) for name, root in known().items()}
+    found = {name: open_banks([(str(root), False)]) for name, root in available_banks().items()}
     if options["bank"]:
-        found |= {own.name: own for own in open_bank(options).parts}
-    print_table(HEAD, [described(name, bank) for name, bank in found.items()])
+        found |= {own.name: own for own in open_bank(options).members}
+    print_table(HEAD, [describe_bank(name, bank) for name, bank in found.items()])
 
 
-def compare(used: Iterable[UsedBank], named: tuple[Path, ...]) -> None:
+def compare_banks(used: Iterable[BankRecord], named: tuple[Path, ...]) -> None:
     """Say which of the banks that are named, and of ours, are others than those of a key."""
-    from quizgen.bank.folder import Bank, builtin
-    from quizgen.bank.found import root_of
-    from quizgen.paper.banks import differing
+    from quizgen.bank.bank import Bank, builtin_bank
+    from quizgen.bank.discovery import resolve_bank
+    from quizgen.paper.provenance import describe_differences
 
-    told = differing(used, [builtin(), *(Bank(root_of(one)) for one in named)])
+    told = describe_differences(used, [builtin_bank(), *(Bank(resolve_bank(one)) for one in named)])
     if told:
-        click.echo(f"quizgen: {visible(told)}; marked by the key", err=True)
+        click.echo(f"quizgen: {escape_control_characters(told)}; marked by the key", err=True)

@@ -12,15 +12,15 @@ from quizgen.cli.options import (
     LANGUAGE_HELP,
     SEED,
     BankOptions,
-    Tongue,
+    LanguageParam,
     bank_options,
-    checked,
     jobs_option,
+    match_choice,
     open_bank,
-    paying,
-    split,
+    split_names,
+    worthwhile_processes,
 )
-from quizgen.locale import leading
+from quizgen.locale import default_language
 
 if TYPE_CHECKING:
     from quizgen.cards import Deck
@@ -31,7 +31,7 @@ A_TEMPLATE = 0.006
 """Seconds that the worked questions of a template take, about."""
 
 
-class Options(BankOptions):
+class CardsOptions(BankOptions):
     """Which cards, and where to."""
 
     lang: str | None
@@ -46,7 +46,7 @@ class Options(BankOptions):
 
 
 @click.command()
-@click.option("--lang", type=Tongue(both=True), help=LANGUAGE_HELP)
+@click.option("--lang", type=LanguageParam(both=True), help=LANGUAGE_HELP)
 @click.option("--topic", "topics", help="Only these topics, by comma.")
 @click.option("--kind", "kinds", help="Only these kinds, by comma: vocab, formula, cheat, trap, "
               "figure, truth, choice, question.")  # fmt: skip
@@ -61,55 +61,55 @@ class Options(BankOptions):
               help="Folder to write to.")  # fmt: skip
 @jobs_option
 @bank_options
-def cards(**options: Unpack[Options]) -> None:
+def cards(**options: Unpack[CardsOptions]) -> None:
     """Make flashcards for Anki and other programs."""
-    from quizgen.files import write_all
+    from quizgen.core.files import write_all
 
-    formats = [checked("--format", name, FORMATS) for name in split(options["formats"])]
-    deck = _deck(options)
+    formats = [match_choice("--format", name, FORMATS) for name in split_names(options["formats"])]
+    deck = _build_requested_deck(options)
     if not deck.notes:
         click.echo("Nothing to learn: no card fits.")
         return
     folder = options["out"]
-    made = _contents(deck, formats)
+    made = _encode_deck_files(deck, formats)
     media = deck.media if "tsv" in formats else {}
     write_all(folder, {**{f"media/{name}": data for name, data in media.items()}, **made})
-    _report(deck, [folder / name for name in made])
+    _report_deck(deck, [folder / name for name in made])
 
 
-def _deck(options: Options) -> Deck:
-    from quizgen.cards import build
+def _build_requested_deck(options: CardsOptions) -> Deck:
+    from quizgen.cards import build_deck
 
     bank = open_bank(options)
-    lang = options["lang"] or leading(bank.languages)
+    lang = options["lang"] or default_language(bank.languages)
     if options["marks"] is not None:
-        from quizgen.cards.mistakes import from_marks
+        from quizgen.cards.error_deck import deck_from_grades
 
-        return from_marks(options["marks"], lang, bank=bank, blueprint=options["blueprint"])
-    return build(
+        return deck_from_grades(options["marks"], lang, bank=bank, blueprint=options["blueprint"])
+    return build_deck(
         lang,
-        topics=split(options["topics"]),
-        kinds=split(options["kinds"]),
+        topics=split_names(options["topics"]),
+        kinds=split_names(options["kinds"]),
         seed=options["seed"],
         bank=bank,
-        jobs=paying(options["jobs"], len(bank.paths) * A_TEMPLATE),
+        jobs=worthwhile_processes(options["jobs"], len(bank.template_paths) * A_TEMPLATE),
     )
 
 
-def _contents(deck: Deck, formats: list[str]) -> Mapping[str, bytes]:
-    from quizgen.cards.apkg import package
-    from quizgen.cards.tables import as_csv, tsv
+def _encode_deck_files(deck: Deck, formats: list[str]) -> Mapping[str, bytes]:
+    from quizgen.cards.apkg import write_apkg
+    from quizgen.cards.delimited import write_csv, write_tsv
 
-    writers = {"apkg": package, "tsv": tsv, "csv": as_csv}
+    writers = {"apkg": write_apkg, "tsv": write_tsv, "csv": write_csv}
     return {f"{NAME}.{name}": writers[name](deck) for name in formats}
 
 
-def _report(deck: Deck, written: list[Path]) -> None:
+def _report_deck(deck: Deck, written: list[Path]) -> None:
     counts: dict[str, int] = {}
     for note in deck.notes:
         counts[note.kind] = counts.get(note.kind, 0) + len(note.cards())
     for path in written:
         click.echo(f"  {path}")
     total = ", ".join(f"{count} {kind}" for kind, count in counts.items())
-    click.echo(f"{deck.cards} cards ({total})")
+    click.echo(f"{deck.card_count} cards ({total})")
     click.echo("Next: in Anki choose File > Import; import again later, nothing is doubled.")

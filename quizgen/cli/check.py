@@ -10,24 +10,24 @@ from typing import TYPE_CHECKING, NamedTuple, Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, Tongue, bank_options
-from quizgen.errors import KeyFileError
-from quizgen.locale import FIRST, languages
-from quizgen.marking.echo import safe
-from quizgen.outside import visible
+from quizgen.cli.options import BankOptions, LanguageParam, bank_options
+from quizgen.core.errors import KeyFileError
+from quizgen.core.untrusted import escape_control_characters
+from quizgen.grading.echo import safe_echo
+from quizgen.locale import FIRST, list_languages
 from quizgen.responses import SUFFIX
 
 if TYPE_CHECKING:
-    from quizgen.paper.form import Answers
-    from quizgen.paper.key import Key
-    from quizgen.paper.marking import PaperResult
+    from quizgen.paper.answer_form import FilledForm
+    from quizgen.paper.answer_key import AnswerKey
+    from quizgen.paper.grading import PaperResult
 
 PAGE = "exam.html"
 HEAD = 4096
 """Bytes at the start of a page in which it says what paper it is of."""
 
 
-class Marked(NamedTuple):
+class GradedForm(NamedTuple):
     """A form that has been marked."""
 
     file: str
@@ -37,7 +37,7 @@ class Marked(NamedTuple):
     result: PaperResult
 
 
-class Options(BankOptions):
+class CheckOptions(BankOptions):
     """What is marked, and how it is told."""
 
     key: Path
@@ -53,14 +53,14 @@ class Options(BankOptions):
 @click.argument("answers", type=click.Path(path_type=Path), nargs=-1, required=True)
 @click.option(
     "--lang",
-    type=Tongue(),
+    type=LanguageParam(),
     help="Language of the remarks [the form's own].",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of a table.")
 @click.option("--csv", "as_csv", is_flag=True, help="Print CSV (the default for several forms).")
 @click.option("--no-settle", is_flag=True, help="Never start SymPy for undecided formulas.")
 @bank_options
-def check(**options: Unpack[Options]) -> None:
+def check(**options: Unpack[CheckOptions]) -> None:
     """Mark ANSWERS (answers.toml, .csv or .json, one or many) with KEY (key.json).
 
     With the keys of an export (moodle.xml.keys.jsonl) as KEY, ANSWERS are responses that a system
@@ -75,26 +75,26 @@ def check(**options: Unpack[Options]) -> None:
     the one that the paper or the export was made from.
     """
     from quizgen.cli import responses
-    from quizgen.paper.key import read_key
+    from quizgen.paper.answer_key import read_answer_key
 
     key, answers, lang = options["key"], options["answers"], options["lang"]
     if key.name.endswith(SUFFIX):
         sys.exit(responses.check(key, answers, lang, options["bank"], options))
-    paper = read_key(key)
-    _belongs(key.parent / PAGE, paper)
+    paper = read_answer_key(key)
+    _check_key_belongs(key.parent / PAGE, paper)
     if options["bank"]:
-        from quizgen.cli.banks import compare
+        from quizgen.cli.banks import compare_banks
 
-        compare(paper.banks, options["bank"])
+        compare_banks(paper.banks, options["bank"])
     marked = list(_all_marked(paper, answers, lang, settle=not options["no_settle"]))
     if marked:
-        _print(marked, paper, options, many=len(answers) > 1)
+        _print_results(marked, paper, options, many=len(answers) > 1)
     missing = len(answers) - len(marked)
     if missing:
         sys.exit(1 if marked else 2)
 
 
-def _belongs(page: Path, key: Key) -> None:
+def _check_key_belongs(page: Path, key: AnswerKey) -> None:
     """Refuse a key that lies beside the page of another paper.
 
     Raises
@@ -109,57 +109,63 @@ def _belongs(page: Path, key: Key) -> None:
         return
     found = re.search(rb'data-paper="([0-9a-f]*)"', head)
     if key.paper and found and found[1].decode() != key.paper:
-        raise KeyFileError(f"{page} is of another paper than the key beside it ({safe(key.code)})")
+        raise KeyFileError(
+            f"{page} is of another paper than the key beside it ({safe_echo(key.code)})"
+        )
 
 
 def _all_marked(
-    key: Key, answers: tuple[Path, ...], lang: str | None, *, settle: bool
-) -> Iterator[Marked]:
+    key: AnswerKey, answers: tuple[Path, ...], lang: str | None, *, settle: bool
+) -> Iterator[GradedForm]:
     """Mark each form that can be read, and say of each other why not."""
     for path in answers:
         try:
-            yield _marked(key, path, lang, settle=settle)
+            yield _grade_form(key, path, lang, settle=settle)
         except KeyFileError as error:
-            click.echo(f"quizgen: {visible(' '.join(str(error).split()))}", err=True)
+            click.echo(
+                f"quizgen: {escape_control_characters(' '.join(str(error).split()))}", err=True
+            )
 
 
-def _print(marked: list[Marked], key: Key, flags: Options, *, many: bool) -> None:
+def _print_results(
+    marked: list[GradedForm], key: AnswerKey, flags: CheckOptions, *, many: bool
+) -> None:
     if flags["as_json"]:
         _print_json(marked, key)
     elif flags["as_csv"] or many:
-        from quizgen.paper.report import class_csv
+        from quizgen.paper.grade_report import write_class_csv
 
-        click.echo(class_csv([(*one[:3], one.result) for one in marked]), nl=False)
+        click.echo(write_class_csv([(*one[:3], one.result) for one in marked]), nl=False)
     else:
         _print_table(marked[0])
 
 
-def _marked(key: Key, path: Path, lang: str | None, *, settle: bool) -> Marked:
-    from quizgen.paper.form import read_answers
-    from quizgen.paper.marking import mark_paper
+def _grade_form(key: AnswerKey, path: Path, lang: str | None, *, settle: bool) -> GradedForm:
+    from quizgen.paper.answer_form import read_filled_form
+    from quizgen.paper.grading import grade_paper
 
-    form = read_answers(path)
+    form = read_filled_form(path)
     if form.code and key.code and form.code != key.code:
         raise KeyFileError(
-            f"{path}: code {safe(form.code)} belongs to another paper; the key is for {key.code}"
+            f"{path}: code {safe_echo(form.code)} belongs to another paper; the key is for {key.code}"
         )
     if form.paper and key.paper and form.paper != key.paper:
         raise KeyFileError(
             f"{path}: is for other questions than the key, though both are called {key.code}"
         )
-    chosen = lang or _own(form, key)
+    chosen = lang or _choose_form_language(form, key)
     student = form.student
-    result = mark_paper(key, form.typed(), chosen, decimal=student.decimal, settle=settle)
-    return Marked(str(path), str(student.name), str(student.matriculation), chosen, result)
+    result = grade_paper(key, form.typed(), chosen, decimal=student.decimal, settle=settle)
+    return GradedForm(str(path), str(student.name), str(student.matriculation), chosen, result)
 
 
-def _own(form: Answers, key: Key) -> str:
+def _choose_form_language(form: FilledForm, key: AnswerKey) -> str:
     """The language that the form, else the paper, is written in."""
     wished = (form.student.lang, *key.langs[:1])
-    return next((lang for lang in wished if lang in languages()), FIRST)
+    return next((lang for lang in wished if lang in list_languages()), FIRST)
 
 
-def _print_json(marked: list[Marked], key: Key) -> None:
+def _print_json(marked: list[GradedForm], key: AnswerKey) -> None:
     import json
 
     import msgspec
@@ -173,11 +179,11 @@ def _print_json(marked: list[Marked], key: Key) -> None:
     click.echo(json.dumps(shown, ensure_ascii=False, indent=1))
 
 
-def _print_table(one: Marked) -> None:
+def _print_table(one: GradedForm) -> None:
     import shutil
 
-    from quizgen.paper.report import table_lines
+    from quizgen.paper.grade_report import format_table
 
     columns = shutil.get_terminal_size((80, 24)).columns
-    for line in table_lines(one.result, one.lang, columns, paint=sys.stdout.isatty()):
+    for line in format_table(one.result, one.lang, columns, paint=sys.stdout.isatty()):
         click.echo(line)

@@ -8,27 +8,27 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.class_marks import COMMANDS
+from quizgen.cli.class_grading import COMMANDS
 from quizgen.cli.options import (
     BankOptions,
-    Tongue,
+    LanguageParam,
     bank_options,
     jobs_option,
     open_bank,
-    paying,
-    split,
+    split_names,
+    worthwhile_processes,
 )
 from quizgen.cli.terminal import Progress, many, one_line, tell
-from quizgen.errors import ClassError
-from quizgen.locale import leading
+from quizgen.core.errors import ClassError
+from quizgen.locale import default_language
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from quizgen.bank.folder import Bank
-    from quizgen.classes.folder import ClassFolder
-    from quizgen.classes.make import Report
-    from quizgen.classes.roster import Student
+    from quizgen.bank.bank import Bank
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.generation import GenerationReport
+    from quizgen.classes.roster import RosterStudent
     from quizgen.paper.blueprint import Blueprint
 
 A_PAPER = 0.5
@@ -40,7 +40,7 @@ def class_() -> None:
     """Examine a class: one folder from the roster to the grades."""
 
 
-class Options(BankOptions):
+class ClassMakeOptions(BankOptions):
     """Which class, and where it is made."""
 
     roster: Path
@@ -59,38 +59,38 @@ class Options(BankOptions):
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder of the class.")
 @click.option("--blueprint", help="A blueprint's name or TOML file. [default: mock, else all.90]")
 @click.option("--columns", help="What columns are called: id=Matrikel,name=Name.")
-@click.option("--lang", type=Tongue(both=True),
+@click.option("--lang", type=LanguageParam(both=True),
               help="Of who has none in the roster; English if the bank has it.")  # fmt: skip
 @click.option("--vary", is_flag=True, help="Other templates of the same kind, too.")
 @click.option("--one-file", is_flag=True, help="Write print.pdf, too: all papers, for the printer.")
 @jobs_option
 @click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
 @bank_options
-def make(**options: Unpack[Options]) -> None:
+def make(**options: Unpack[ClassMakeOptions]) -> None:
     """Make a paper for each student of ROSTER, a CSV file with a column id.
 
     All papers have the same questions with other numbers. A second run makes only what is missing
     or whose row has changed.
     """
-    from quizgen.classes.folder import ClassFolder
-    from quizgen.classes.make import make as make_papers
-    from quizgen.classes.printing import print_file
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.generation import generate_papers as make_papers
+    from quizgen.classes.print_file import write_print_file
     from quizgen.classes.roster import read_roster
     from quizgen.executors import workers
 
     unread: list[str] = []
-    students = read_roster(options["roster"], _columns(options["columns"]), unread.append)
+    students = read_roster(options["roster"], _parse_columns(options["columns"]), unread.append)
     folder = ClassFolder(options["out"])
-    blueprint = _blueprint(folder, students, options)
-    count = paying(options["jobs"], len(students) * A_PAPER)
+    blueprint = _open_class_blueprint(folder, students, options)
+    count = worthwhile_processes(options["jobs"], len(students) * A_PAPER)
     with (
         Progress("paper", len(students)) as progress,
         workers(count, options["scheduler"]) as (executor, ahead),
     ):
         report = make_papers(folder, students, blueprint, executor, ahead, progress)
     if options["one_file"]:
-        print_file(folder, students)
-    _say(folder, report)
+        write_print_file(folder, students)
+    _report_papers(folder, report)
     _say_of_names(students)
     if unread:
         tell(f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)")
@@ -101,9 +101,9 @@ def make(**options: Unpack[Options]) -> None:
 @click.argument("printed")
 def code(folder: Path, printed: str) -> None:
     """Say whose paper of the class in FOLDER has the PRINTED code, and that it is unaltered."""
-    from quizgen.classes.folder import ClassFolder
+    from quizgen.classes.class_folder import ClassFolder
 
-    found = ClassFolder(folder).whose(printed)
+    found = ClassFolder(folder).find_by_code(printed)
     click.echo(f"{found.head.code}: {one_line(found.head.id)}")
 
 
@@ -117,8 +117,8 @@ def take(keys: Path, reports: tuple[Path, ...], out: Path) -> None:
     KEYS is what quizgen export left behind (.keys.jsonl), REPORTS are responses as quizgen check
     reads them. A later report adds who is new.
     """
-    from quizgen.classes.folder import ClassFolder
-    from quizgen.classes.quiz import take as take_quiz
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.quiz import import_quiz as take_quiz
 
     lost: list[str] = []
     found = take_quiz(ClassFolder(out), keys, reports, lost.append)
@@ -128,43 +128,45 @@ def take(keys: Path, reports: tuple[Path, ...], out: Path) -> None:
          f"Next: quizgen class mark {out}")  # fmt: skip
 
 
-def _columns(text: str | None) -> Mapping[str, str]:
-    pairs = [name.partition("=") for name in split(text)]
+def _parse_columns(text: str | None) -> Mapping[str, str]:
+    pairs = [name.partition("=") for name in split_names(text)]
     for ours, sign, theirs in pairs:
         if not (sign and theirs.strip()):
             raise click.BadParameter(f"{ours!r} (write id=Matrikel)", param_hint="--columns")
     return {ours.strip(): theirs.strip() for ours, _, theirs in pairs}
 
 
-def _blueprint(folder: ClassFolder, students: list[Student], options: Options) -> Blueprint:
+def _open_class_blueprint(
+    folder: ClassFolder, students: list[RosterStudent], options: ClassMakeOptions
+) -> Blueprint:
     """The blueprint of the class, which is created if there is none yet."""
-    from quizgen.classes.make import bank_of, new_settings
-    from quizgen.paper.blueprint import load_blueprint, usual
+    from quizgen.classes.generation import create_settings, open_class_bank
+    from quizgen.paper.blueprint import default_blueprint_name, load_blueprint
 
     if folder.is_new:
         bank = open_bank(options)
-        blueprint = load_blueprint(options["blueprint"] or usual(bank), bank)
+        blueprint = load_blueprint(options["blueprint"] or default_blueprint_name(bank), bank)
         name = folder.path.resolve().name
-        lang = options["lang"] or leading(bank.languages)
-        folder.create(new_settings(name, bank, blueprint, lang, vary=options["vary"]), students)
+        lang = options["lang"] or default_language(bank.languages)
+        folder.create(create_settings(name, bank, blueprint, lang, vary=options["vary"]), students)
         return blueprint
     settings = folder.settings
     if not settings.digest:
         raise ClassError(f"{folder.path}: is of a quiz that was played, and has no papers")
-    _same(folder, options)
-    return load_blueprint(options["blueprint"] or settings.blueprint, bank_of(settings))
+    _check_same_options(folder, options)
+    return load_blueprint(options["blueprint"] or settings.blueprint, open_class_bank(settings))
 
 
-def _same(folder: ClassFolder, options: Options) -> None:
+def _check_same_options(folder: ClassFolder, options: ClassMakeOptions) -> None:
     """Refuse what a class that there is was not made with."""
-    from quizgen.bank.mixed import sources
-    from quizgen.classes.make import bank_of
+    from quizgen.bank.combined import bank_sources
+    from quizgen.classes.generation import open_class_bank
 
     def place(bank: Bank) -> str:
-        return " + ".join(root or "built-in" for root, _ in sources(bank))
+        return " + ".join(root or "built-in" for root, _ in bank_sources(bank))
 
     settings = folder.settings
-    made = {"bank": place(bank_of(settings)), "lang": settings.lang}
+    made = {"bank": place(open_class_bank(settings)), "lang": settings.lang}
     wished = {
         "bank": place(open_bank(options)) if options["bank"] else None,
         "lang": options["lang"],
@@ -179,11 +181,11 @@ def _same(folder: ClassFolder, options: Options) -> None:
         raise ClassError(f"{folder.path}: was made without --vary; name a new folder (--out)")
 
 
-def _say(folder: ClassFolder, report: Report) -> None:
+def _report_papers(folder: ClassFolder, report: GenerationReport) -> None:
     """What was made, and how alike the papers are."""
     tell(f"{folder.path}: {many(len(report.made), 'paper')} made, {report.kept} kept as they were")
     if report.made:
-        tell(f"Each of them: {_comparison(report)}")
+        tell(f"Each of them: {_describe_papers(report)}")
         few = sorted({number for one in report.made for number in one.alike})
         if few:
             tell(f"Neighbours share a number in question {', '.join(map(str, few))}")
@@ -192,15 +194,15 @@ def _say(folder: ClassFolder, report: Report) -> None:
     tell("Nobody but you should read the folder: class.toml and keys.jsonl lead to every answer")
 
 
-def _say_of_names(students: list[Student]) -> None:
-    from quizgen.render.typ import printable
+def _say_of_names(students: list[RosterStudent]) -> None:
+    from quizgen.render.typst_document import replace_unprintable
 
     for one in students:
-        if printable(one.name + one.id) != one.name + one.id:
+        if replace_unprintable(one.name + one.id) != one.name + one.id:
             tell(f"{one.id}: no font here has all of {one.name}; the rest is printed as ?")
 
 
-def _comparison(report: Report) -> str:
+def _describe_papers(report: GenerationReport) -> str:
     """Questions by tier, points and minutes: one value each, or all that there are."""
     tiers = (
         ", ".join(f"{count} of tier {tier}" for tier, count in sorted(Counter(one.tiers).items()))

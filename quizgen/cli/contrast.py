@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from quizgen.errors import ChoiceError
+from quizgen.core.errors import InvalidChoiceError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -31,7 +31,7 @@ th, td { text-align: left; padding: .2em .8em .2em 0; border-bottom: 1px solid #
 """
 
 
-def check(target: Path | None) -> None:
+def check_target(target: Path | None) -> None:
     """Refuse an ending before anything is computed.
 
     Raises
@@ -43,10 +43,10 @@ def check(target: Path | None) -> None:
 
     endings = (*WRITERS, ".html")
     if target is not None and target.suffix.lower() not in endings:
-        raise ChoiceError(f"cannot write {target} (endings: {', '.join(endings)})")
+        raise InvalidChoiceError(f"cannot write {target} (endings: {', '.join(endings)})")
 
 
-def contents(
+def comparison_file(
     target: Path,
     title: str,
     photos: Mapping[str, Photo],
@@ -77,7 +77,7 @@ def contents(
     if target.suffix.lower() != ".html":
         return WRITERS[target.suffix.lower()](side_by_side(*pictures))
     names = *photos, f"difference × {scale}"
-    return _page(title, zip(names, pictures, strict=True), told, notes).encode()
+    return _render_page(title, zip(names, pictures, strict=True), told, notes).encode()
 
 
 def _write_on(codes: Codes, text: str) -> Codes:
@@ -94,27 +94,27 @@ def _write_on(codes: Codes, text: str) -> Codes:
     return np.asarray(picture)
 
 
-def _page(
+def _render_page(
     title: str,
     pictures: Iterable[tuple[str, Codes]],
     told: tuple[Sequence[str], ...],
     notes: Iterable[str],
 ) -> str:
     head, *rows = told
-    figures = "".join(_figure(name, codes) for name, codes in pictures)
-    body = "".join(_row("td", row) for row in rows)
+    figures = "".join(_render_figure(name, codes) for name, codes in pictures)
+    body = "".join(_render_table_row("td", row) for row in rows)
     below = "".join(f"<p>{escape(note)}</p>\n" for note in notes)
     return (
         f'<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         f'<meta name="viewport" content="width=device-width">\n'
         f"<title>{escape(title)}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n"
         f'<h1>{escape(title)}</h1>\n<div class="pictures">\n{figures}</div>\n'
-        f'<div class="table">\n<table>\n<thead>{_row("th", head)}</thead>\n'
+        f'<div class="table">\n<table>\n<thead>{_render_table_row("th", head)}</thead>\n'
         f"<tbody>\n{body}</tbody>\n</table>\n</div>\n{below}</body>\n</html>\n"
     )
 
 
-def _figure(name: str, codes: Codes) -> str:
+def _render_figure(name: str, codes: Codes) -> str:
     from quizgen import png
 
     data = b64encode(png.compact(codes)).decode()
@@ -123,5 +123,5 @@ def _figure(name: str, codes: Codes) -> str:
     return f'<figure><img src="{source}" alt="{label}"><figcaption>{label}</figcaption></figure>\n'
 
 
-def _row(cell: str, texts: Sequence[str]) -> str:
+def _render_table_row(cell: str, texts: Sequence[str]) -> str:
     return "<tr>" + "".join(f"<{cell}>{escape(text)}</{cell}>" for text in texts) + "</tr>\n"

@@ -10,20 +10,20 @@ from typing import TypedDict, Unpack
 import click
 
 from quizgen.cli.terminal import columns, wrapped
+from quizgen.core.files import write_all
+from quizgen.core.untrusted import escape_control_characters
 from quizgen.figures import Figure
-from quizgen.files import write_all
+from quizgen.grading.feedback import format_read_back, load_practice_words
 from quizgen.locale import FIRST
-from quizgen.marking.messages import practice_words, read_back
-from quizgen.outside import visible
-from quizgen.practice.session import Session, Turn
-from quizgen.practice.shelf import Shelf
-from quizgen.practice.task import Next, Task
-from quizgen.question.compose import Part
-from quizgen.question.sheet import cited
+from quizgen.practice.part_attempt import NextStep, PartAttempt
+from quizgen.practice.session import QuestionAttempt, Session
+from quizgen.practice.session_store import SessionStore
+from quizgen.question.compose import QuestionPart
+from quizgen.question.formula_sheet import cite_formula
 from quizgen.question.solution import PartSolution
-from quizgen.render.text import blocks, inline
-from quizgen.web.learning import Learning
-from quizgen.web.store import Which
+from quizgen.render.text import blocks_to_plain_text, inlines_to_plain_text
+from quizgen.store import QuestionRef
+from quizgen.store.learner import LearnerProgress
 
 COLOURS = {"correct": "green", "partial": "yellow", "wrong": "red"}
 
@@ -45,7 +45,7 @@ class Quit(Exception):  # noqa: N818 - a wish, not a failure
 
 def say(text: str, first: str = "", rest: str = "", **style: Unpack[Style]) -> None:
     """Print a text, broken between words at the width of the terminal."""
-    for line in wrapped(visible(text), columns(), first, rest):
+    for line in wrapped(escape_control_characters(text), columns(), first, rest):
         click.secho(line, **style)
 
 
@@ -59,7 +59,7 @@ def prose(lines: Iterable[str], first: str = "", rest: str = "") -> None:
     """Print lines of prose; program text keeps its lines, list items their indent."""
     for line in lines:
         if line.startswith(_CODE):
-            click.echo(rest + visible(line))
+            click.echo(rest + escape_control_characters(line))
         else:
             bullet = _BULLET.match(line)
             indent = bullet[0] if bullet else ""
@@ -79,9 +79,9 @@ class Conversation:
         Where every question is kept that is finished.
     """
 
-    def __init__(self, session: Session, shelf: Shelf, learning: Learning) -> None:
+    def __init__(self, session: Session, shelf: SessionStore, learning: LearnerProgress) -> None:
         self.session, self.shelf, self.learning = session, shelf, learning
-        self.words = practice_words(session.state.wish.lang)
+        self.words = load_practice_words(session.state.wish.lang)
 
     def hold(self) -> None:
         """Ask until every question is done.
@@ -92,26 +92,26 @@ class Conversation:
             If the learner stops before.
         """
         while not self.session.finished:
-            turn = self.session.turn()
+            turn = self.session.current_question()
             self._show_question(turn)
             for task in turn.tasks:
                 if task.outcome is None:
                     self._ask(task)
             self.session.finish(turn)
             self._keep()
-            which = Which(turn.question.template, turn.seed, turn.level)
-            self.learning.practised(which, turn.question.topic, turn.parts)
+            which = QuestionRef(turn.question.template, turn.seed, turn.level)
+            self.learning.save_practice(which, turn.question.topic, turn.parts)
 
     def _keep(self) -> None:
-        self.shelf.keep(self.session.state)
+        self.shelf.save(self.session.state)
 
     def _say(self, name: str, **blanks: object) -> None:
         say(self.words[name].format(**blanks))
 
-    def _show_question(self, turn: Turn) -> None:
+    def _show_question(self, turn: QuestionAttempt) -> None:
         count, title = self.session.state.wish.count, turn.question.title
         head(self.words["question"].format(number=turn.number, count=count, title=title))
-        prose(blocks(turn.question.stem))
+        prose(blocks_to_plain_text(turn.question.stem))
         self._show_figure(turn.question.figure)
         done = [f"({task.part.label})" for task in turn.tasks if task.outcome is not None]
         if done:
@@ -125,7 +125,7 @@ class Conversation:
         self._say("figure", alt=figure.alt)
         self._say("figure-file", path=path)
 
-    def _ask(self, task: Task[Part, PartSolution]) -> None:
+    def _ask(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
         """Ask a part until it is done."""
         self._show_part(task)
         while task.outcome is None:
@@ -141,7 +141,7 @@ class Conversation:
         finally:
             self._keep()
 
-    def _take(self, task: Task[Part, PartSolution], typed: str) -> None:
+    def _take(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
         if typed == "?":
             self._hint(task)
         elif typed == "!":
@@ -172,44 +172,44 @@ class Conversation:
 
     def _means(self, name: str, typed: str) -> bool:
         """Whether a word was typed that stands for something, here or in English."""
-        listed = f"{self.words[name]}, {practice_words(FIRST)[name]}"
+        listed = f"{self.words[name]}, {load_practice_words(FIRST)[name]}"
         return typed.casefold() in {word.casefold() for word in listed.split(", ")}
 
-    def _show_part(self, task: Task[Part, PartSolution]) -> None:
+    def _show_part(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
         part = task.part
         label = f"({part.label}) " if part.label else ""
         click.echo()
-        prose(blocks(part.body), label, " " * len(label))
+        prose(blocks_to_plain_text(part.body), label, " " * len(label))
         if part.field.drawing:
             say(part.field.drawing.alt, "   ", "   ")
         for mark, text in (*part.field.options, *part.field.targets):
-            say(inline(text), f"   {mark}  ", " " * (len(mark) + 5))
+            say(inlines_to_plain_text(text), f"   {mark}  ", " " * (len(mark) + 5))
         for hint in part.field.hints:
             say(f"[{hint}]", "   ", "    ")
         say(self.words["help"], "   ", "   ", dim=True)
 
-    def _answer(self, task: Task[Part, PartSolution], typed: str) -> None:
+    def _answer(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
         feedback = task.answer(typed)
         verdict = feedback.verdict
         match feedback.then:
-            case Next.ASK_BACK:
+            case NextStep.ASK_BACK:
                 say(verdict.message, fg="magenta")
                 return
-            case Next.SELF_MARK:
+            case NextStep.SELF_MARK:
                 say(verdict.message)
                 self._solution(task)
-                task.mark_yourself(right=self._judged(task))
+                task.self_mark(right=self._judged(task))
                 return
         lang = self.session.state.wish.lang
-        self._say("read", read_as=read_back(task.kind, verdict.read_as, lang))
+        self._say("read", read_as=format_read_back(task.kind, verdict.read_as, lang))
         said = f"{self.words[verdict.verdict]} {verdict.message}".strip()
         say(said, fg=COLOURS[verdict.verdict])
-        if feedback.then is Next.AGAIN:
+        if feedback.then is NextStep.AGAIN:
             self._say("again", left=feedback.left)
-        elif feedback.then is Next.OUT_OF_TRIES:
+        elif feedback.then is NextStep.OUT_OF_TRIES:
             self._solution(task)
 
-    def _judged(self, task: Task[Part, PartSolution]) -> bool:
+    def _judged(self, task: PartAttempt[QuestionPart, PartSolution]) -> bool:
         """Whether the learner finds the own answer right."""
         self._say("self-mark", points=task.solved.answer)
         while True:
@@ -219,22 +219,22 @@ class Conversation:
             if self._means("no-words", typed):
                 return False
 
-    def _hint(self, task: Task[Part, PartSolution]) -> None:
-        rung = task.hint()
+    def _hint(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+        rung = task.next_hint()
         if rung is None:
             self._say("no-more-hints")
             return
-        shown, why = inline(rung.shown), inline(rung.why)
+        shown, why = inlines_to_plain_text(rung.shown), inlines_to_plain_text(rung.why)
         self._say(f"hint-{rung.kind}", hint=f"{shown}. {why}" if why else shown)
-        sheet = cited(self.session.bank, rung.formula, self.session.state.wish.lang)
+        sheet = cite_formula(self.session.bank, rung.formula, self.session.state.wish.lang)
         if sheet:
-            self._say("hint-sheet", hint=inline(sheet))
+            self._say("hint-sheet", hint=inlines_to_plain_text(sheet))
 
-    def _solution(self, task: Task[Part, PartSolution]) -> None:
+    def _solution(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
         for line in task.solved.lines:
-            say(inline(line.maths), "   ", "      ")
-            say(inline(line.why), "      ", "      ")
+            say(inlines_to_plain_text(line.maths), "   ", "      ")
+            say(inlines_to_plain_text(line.why), "      ", "      ")
         say(self.words["answer"].format(answer=task.solved.answer), bold=True)
         solved = task.solved
         for sentence in (*solved.options, *filter(None, [solved.why])):
-            say(inline(sentence), "   ", "   ")
+            say(inlines_to_plain_text(sentence), "   ", "   ")

@@ -11,35 +11,35 @@ from typing import TYPE_CHECKING, Unpack
 import click
 
 from quizgen import render
-from quizgen.bank.clashes import BETWEEN
 from quizgen.bank.levels import CHOICES, EXAM
+from quizgen.bank.qualified_names import BETWEEN
 from quizgen.cli.command import command
 from quizgen.cli.options import (
     LANGUAGE_HELP,
     LEVEL_HELP,
     SEED,
     BankOptions,
-    Tongue,
-    Whole,
+    IntRangeParam,
+    LanguageParam,
     bank_options,
-    checked,
     jobs_option,
+    match_choice,
     open_bank,
-    paying,
-    split,
+    split_names,
+    worthwhile_processes,
 )
 from quizgen.cli.terminal import Progress, many
-from quizgen.errors import ChoiceError, CodeError, RenderError
-from quizgen.locale import leading
-from quizgen.outside import visible
+from quizgen.core.errors import InvalidChoiceError, PaperCodeError, RenderError
+from quizgen.core.untrusted import escape_control_characters
+from quizgen.locale import default_language
+from quizgen.paper.answer_form import FORMS
 from quizgen.paper.code import LARGEST_SEED
-from quizgen.paper.form import FORMS
 
 if TYPE_CHECKING:
-    from quizgen.bank.folder import Bank
-    from quizgen.paper.banks import UsedBank
+    from quizgen.bank.bank import Bank
     from quizgen.paper.blueprint import Blueprint
     from quizgen.paper.paper import Paper
+    from quizgen.paper.provenance import BankRecord
 
 KEY = "key.json"
 HOME = Path("exam")
@@ -55,7 +55,7 @@ PRETENDED = 5
 """Documents after each of many papers, so that what was typeset is soon forgotten."""
 
 
-class Options(BankOptions):
+class ExamOptions(BankOptions):
     """Which paper, and where to."""
 
     seed: int | None
@@ -78,10 +78,12 @@ class Options(BankOptions):
 @click.option("--code", help="Code of a paper: builds exactly that paper again.")
 @click.option("--blueprint", help="mock, trial or a TOML file. [default: mock, else all.90]")
 @click.option("--topic", help="Questions of one topic (or all), instead of a blueprint.")
-@click.option("--minutes", type=Whole(3, 9999), help="As many questions as this time allows.")
+@click.option(
+    "--minutes", type=IntRangeParam(3, 9999), help="As many questions as this time allows."
+)
 @click.option(
     "--lang",
-    type=Tongue(both=True),
+    type=LanguageParam(both=True),
     help=LANGUAGE_HELP,
 )
 @click.option(
@@ -95,47 +97,55 @@ class Options(BankOptions):
 )  # fmt: skip
 @click.option("--form", type=click.Choice(FORMS, case_sensitive=False), default=FORMS[0],
               show_default=True, help="Blank form: for an editor or a spreadsheet.")  # fmt: skip
-@click.option("--count", type=Whole(1, 9999), default=1, show_default=True,
+@click.option("--count", type=IntRangeParam(1, 9999), default=1, show_default=True,
               help="Papers of consecutive seeds, each in a folder named by its code.")  # fmt: skip
 @jobs_option
 @click.option("--out", type=click.Path(path_type=Path),
               help=f"Folder to write to. [default: {HOME}/CODE]")  # fmt: skip
 @click.option("--reference", is_flag=True, help="The questions with the numbers of the notes.")
 @bank_options
-def exam(**options: Unpack[Options]) -> None:
+def exam(**options: Unpack[ExamOptions]) -> None:
     """Make a mock exam with worked solutions, answer key and a blank answer form."""
-    formats = [checked("--format", name, render.RENDERERS) for name in split(options["formats"])]
+    formats = [
+        match_choice("--format", name, render.RENDERERS) for name in split_names(options["formats"])
+    ]
     if options["count"] > 1:
-        _many(options, formats)
+        _make_many_papers(options, formats)
         return
     with Progress("exam") as tell:
-        paper = _paper(options, tell)
-        form = (options["out"] or _home(paper.code)) / f"answers.{options['form']}"
+        paper = _build_requested_paper(options, tell)
+        form = (options["out"] or _get_paper_folder(paper.code)) / f"answers.{options['form']}"
         kept = _filled_in(form, paper.code)
-        contents = _contents(paper, formats, form.name, tell)
-    _write(form, contents, kept=kept)
-    _report(form, paper, contents, options, kept=kept)
+        contents = _build_paper_files(paper, formats, form.name, tell)
+    _write_paper_files(form, contents, kept=kept)
+    _report_paper(form, paper, contents, options, kept=kept)
 
 
-def _many(options: Options, formats: list[str]) -> None:
+def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
     """Make papers of consecutive seeds; each is written whole as soon as it is made."""
     from quizgen.executors import in_order, workers
 
     if options["code"] or options["reference"]:
-        raise ChoiceError("--count makes papers of many seeds; leave --code and --reference out")
+        raise InvalidChoiceError(
+            "--count makes papers of many seeds; leave --code and --reference out"
+        )
     bank, count = open_bank(options), options["count"]
     name = f"answers.{options['form']}"
-    lang = options["lang"] or leading(bank.languages)
-    make = partial(_made, bank, _levelled(options, bank), lang, formats, name)
+    lang = options["lang"] or default_language(bank.languages)
+    make = partial(
+        _make_numbered_paper, bank, _load_blueprint_at_level(options, bank), lang, formats, name
+    )
     first = _first_seed(options)
     if first + count - 1 > LARGEST_SEED:
-        raise ChoiceError(f"--count: the last of {count} seeds would be beyond {LARGEST_SEED}")
-    processes = paying(options["jobs"], count * A_PAPER)
+        raise InvalidChoiceError(
+            f"--count: the last of {count} seeds would be beyond {LARGEST_SEED}"
+        )
+    processes = worthwhile_processes(options["jobs"], count * A_PAPER)
     codes: list[str] = []
     with Progress("exam", count) as tell, workers(processes) as (executor, ahead):
         for code, contents in in_order(executor, make, range(first, first + count), ahead):
-            form = (options["out"] or HOME) / _home(code).name / name
-            _write(form, contents, kept=_filled_in(form, code))
+            form = (options["out"] or HOME) / _get_paper_folder(code).name / name
+            _write_paper_files(form, contents, kept=_filled_in(form, code))
             codes.append(code)
             tell(code)
     click.echo(f"{many(count, 'paper')} in {options['out'] or HOME}: {codes[0]} to {codes[-1]}")
@@ -143,35 +153,39 @@ def _many(options: Options, formats: list[str]) -> None:
     click.echo(f"Next: fill in {form}, then: {check}")
 
 
-def _made(
+def _make_numbered_paper(
     bank: Bank, blueprint: Blueprint, lang: str, formats: list[str], form: str, seed: int
 ) -> tuple[str, dict[str, bytes]]:
     """Code and files of one paper of many."""
-    from quizgen.paper.paper import build, silent
+    from quizgen.paper.paper import build_paper, silent
 
-    paper = build(bank, blueprint, seed, lang)
-    contents = _contents(paper, formats, form, silent)
+    paper = build_paper(bank, blueprint, seed, lang)
+    contents = _build_paper_files(paper, formats, form, silent)
     if "pdf" in formats:
-        from quizgen.render.typ import forget
+        from quizgen.render.typst_document import evict_cache
 
-        forget(PRETENDED)
+        evict_cache(PRETENDED)
     return paper.code, contents
 
 
-def _contents(
+def _build_paper_files(
     paper: Paper, formats: list[str], form: str, tell: Callable[[str], None]
 ) -> dict[str, bytes]:
     """All files of a paper, the key last."""
-    from quizgen.paper.form import form_bytes
-    from quizgen.paper.key import key_bytes
+    from quizgen.paper.answer_form import write_blank_form
+    from quizgen.paper.answer_key import write_answer_key
 
-    pages = dict(_rendered(paper, formats, tell))
-    return {**pages, form: form_bytes(paper, Path(form).suffix[1:]), KEY: key_bytes(paper)}
+    pages = dict(_iter_rendered_files(paper, formats, tell))
+    return {
+        **pages,
+        form: write_blank_form(paper, Path(form).suffix[1:]),
+        KEY: write_answer_key(paper),
+    }
 
 
-def _write(form: Path, contents: dict[str, bytes], *, kept: bool) -> None:
+def _write_paper_files(form: Path, contents: dict[str, bytes], *, kept: bool) -> None:
     """Write a paper's files; a form that has been written in stays as it is."""
-    from quizgen.files import write_all
+    from quizgen.core.files import write_all
 
     if kept:
         del contents[form.name]
@@ -187,82 +201,101 @@ def _filled_in(form: Path, paper: str) -> bool:
         If its folder has one with answers to another, or the key of another: answers to that may
         still come, from a printed page or from where a browser saved them.
     """
-    from quizgen.paper.form import code_of_answers, holds_answers
-    from quizgen.paper.key import code_of_key
+    from quizgen.paper.answer_form import has_answers, read_form_code
+    from quizgen.paper.answer_key import read_key_code
 
     for path in sorted(p for p in form.parent.glob("*") if p.suffix.lower() in SUFFIXES):
-        code = code_of_answers(path)
-        unclear = path.name in NAMES and not code and holds_answers(path)
+        code = read_form_code(path)
+        unclear = path.name in NAMES and not code and has_answers(path)
         if unclear or code not in {"", paper}:
-            what = f"holds answers to {visible(code)}" if code else "may hold answers"
+            what = (
+                f"holds answers to {escape_control_characters(code)}"
+                if code
+                else "may hold answers"
+            )
             raise RenderError(f"{path} {what}; nothing was written. Name another folder with --out")
-    code = code_of_key(form.parent / KEY)
+    code = read_key_code(form.parent / KEY)
     if code not in {"", paper}:
         raise RenderError(
-            f"{form.parent / KEY} is the key of {visible(code)}, whose answers may still come; "
+            f"{form.parent / KEY} is the key of {escape_control_characters(code)}, whose answers may still come; "
             "nothing was written. Name another folder with --out"
         )
-    return holds_answers(form)
+    return has_answers(form)
 
 
-def _paper(options: Options, tell: Progress) -> Paper:
-    from quizgen.paper.banks import compared
-    from quizgen.paper.paper import build, rebuild, reference_paper
+def _build_requested_paper(options: ExamOptions, tell: Progress) -> Paper:
+    from quizgen.paper.paper import build_paper, build_reference_paper, rebuild_paper
+    from quizgen.paper.provenance import bank_difference_context
 
     bank = open_bank(options)
     if options["code"]:
         if options["seed"] is not None or options["lang"]:
-            raise CodeError("--code already fixes seed and language; leave --seed and --lang out")
+            raise PaperCodeError(
+                "--code already fixes seed and language; leave --seed and --lang out"
+            )
         if options["level"]:
-            raise CodeError("--code already fixes the level; leave --level out")
+            raise PaperCodeError("--code already fixes the level; leave --level out")
         if options["topic"] is not None or options["minutes"] is not None:
-            raise CodeError("--code already fixes the questions; leave --topic and --minutes out")
-        given = _blueprint(options, bank) if options["blueprint"] else None
-        with compared(partial(_banks_of, options), bank):
-            return rebuild(bank, options["code"], given, progress=tell)
-    blueprint, lang = _levelled(options, bank), options["lang"] or leading(bank.languages)
+            raise PaperCodeError(
+                "--code already fixes the questions; leave --topic and --minutes out"
+            )
+        given = _load_requested_blueprint(options, bank) if options["blueprint"] else None
+        with bank_difference_context(partial(_banks_of, options), bank):
+            return rebuild_paper(bank, options["code"], given, progress=tell)
+    blueprint, lang = (
+        _load_blueprint_at_level(options, bank),
+        options["lang"] or default_language(bank.languages),
+    )
     if options["reference"]:
-        return reference_paper(bank, blueprint, lang, progress=tell)
-    return build(bank, blueprint, _first_seed(options), lang, progress=tell)
+        return build_reference_paper(bank, blueprint, lang, progress=tell)
+    return build_paper(bank, blueprint, _first_seed(options), lang, progress=tell)
 
 
-def _banks_of(options: Options) -> tuple[UsedBank, ...]:
+def _banks_of(options: ExamOptions) -> tuple[BankRecord, ...]:
     """The banks that the paper of a code was made from, if its key is still in its folder."""
-    from quizgen.paper.key import read_key
+    from quizgen.paper.answer_key import read_answer_key
 
-    key = (options["out"] or _home(str(options["code"]))) / KEY
-    return read_key(key).banks if key.exists() else ()
+    key = (options["out"] or _get_paper_folder(str(options["code"]))) / KEY
+    return read_answer_key(key).banks if key.exists() else ()
 
 
-def _home(code: str) -> Path:
+def _get_paper_folder(code: str) -> Path:
     """The folder of a paper; what parts a bank from its blueprint's name parts drives elsewhere."""
     return HOME / code.replace(BETWEEN, ".")
 
 
-def _first_seed(options: Options) -> int:
+def _first_seed(options: ExamOptions) -> int:
     return secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
 
 
-def _levelled(options: Options, bank: Bank) -> Blueprint:
+def _load_blueprint_at_level(options: ExamOptions, bank: Bank) -> Blueprint:
     import msgspec
 
-    return msgspec.structs.replace(_blueprint(options, bank), level=options["level"] or EXAM)
+    return msgspec.structs.replace(
+        _load_requested_blueprint(options, bank), level=options["level"] or EXAM
+    )
 
 
-def _blueprint(options: Options, bank: Bank) -> Blueprint:
-    from quizgen.paper.blueprint import EVERYTHING, load_blueprint, of_topic, topics, usual
+def _load_requested_blueprint(options: ExamOptions, bank: Bank) -> Blueprint:
+    from quizgen.paper.blueprint import (
+        EVERYTHING,
+        default_blueprint_name,
+        load_blueprint,
+        topic_blueprint,
+        topic_choices,
+    )
 
     topic, minutes = options["topic"], options["minutes"]
     if topic is None and minutes is None:
-        return load_blueprint(options["blueprint"] or usual(bank), bank)
+        return load_blueprint(options["blueprint"] or default_blueprint_name(bank), bank)
     if options["blueprint"]:
-        raise ChoiceError("--blueprint names the questions; leave --topic and --minutes out")
+        raise InvalidChoiceError("--blueprint names the questions; leave --topic and --minutes out")
     if topic is not None:
-        checked("--topic", topic, topics(bank))
-    return of_topic(bank, topic or EVERYTHING, minutes or 0)
+        match_choice("--topic", topic, topic_choices(bank))
+    return topic_blueprint(bank, topic or EVERYTHING, minutes or 0)
 
 
-def _rendered(
+def _iter_rendered_files(
     paper: Paper, formats: list[str], tell: Callable[[str], None]
 ) -> Iterator[tuple[str, bytes]]:
     for output in formats:
@@ -272,8 +305,8 @@ def _rendered(
             yield name, render.render_paper(paper, kind, output)
 
 
-def _report(
-    form: Path, paper: Paper, written: Collection[str], options: Options, *, kept: bool
+def _report_paper(
+    form: Path, paper: Paper, written: Collection[str], options: ExamOptions, *, kept: bool
 ) -> None:
     folder = form.parent
     for name in sorted(written):
@@ -283,8 +316,8 @@ def _report(
     click.echo(
         f"{many(len(paper.items), 'question')}, {float(paper.points):g} points, {paper.minutes} min"
     )
-    _remark(paper, options["minutes"])
-    again = command("exam", "--code", paper.code, *_again(options))
+    _report_variety(paper, options["minutes"])
+    again = command("exam", "--code", paper.code, *_list_rebuild_options(options))
     check = command("check", folder / KEY, form)
     click.echo(f"Code: {paper.code}")
     click.echo(f"The same paper again: {again}")
@@ -294,7 +327,7 @@ def _report(
         click.echo(f"  or fill in {folder / 'exam.html'}, save answers.json there, then: {page}")
 
 
-def _remark(paper: Paper, asked: int | None) -> None:
+def _report_variety(paper: Paper, asked: int | None) -> None:
     """Say how many papers there are, and whether the time that was asked for is used."""
     from quizgen.paper.blueprint import EVERYTHING
 
@@ -306,7 +339,7 @@ def _remark(paper: Paper, asked: int | None) -> None:
         click.echo(f"You asked for {asked} min: {where} has no more questions that go together")
 
 
-def _again(options: Options) -> list[str]:
+def _list_rebuild_options(options: ExamOptions) -> list[str]:
     """Options without which a code does not lead to the same paper."""
     words: list[str] = []
     if options["blueprint"] and Path(options["blueprint"]).exists():

@@ -14,27 +14,27 @@ from quizgen.cli.options import (
     LANGUAGE_HELP,
     SEED,
     BankOptions,
-    Tongue,
-    Whole,
+    IntRangeParam,
+    LanguageParam,
     bank_options,
     open_bank,
-    split,
-    topic_option,
+    resolve_topic,
+    split_names,
 )
 from quizgen.cli.terminal import Progress
-from quizgen.errors import ChoiceError
+from quizgen.core.errors import InvalidChoiceError
 from quizgen.export import FORMATS, TEX, exporter
-from quizgen.locale import leading
+from quizgen.locale import default_language
 
 if TYPE_CHECKING:
-    from quizgen.bank.folder import Bank
+    from quizgen.bank.bank import Bank
     from quizgen.export.items import Item
 
 MOST = 1000
 """Most variants of a question in one file."""
 
 
-class Options(BankOptions):
+class ExportOptions(BankOptions):
     """Which questions, and where to."""
 
     target: str
@@ -53,18 +53,18 @@ class Options(BankOptions):
 @click.option("--blueprint", help="A slot for each question of it. [default: mock, else all.90]")
 @click.option("--topic", help="A slot for each template of this topic.")
 @click.option("--template", "templates", help="A slot for each of these templates, by comma.")
-@click.option("--variants", type=Whole(1, MOST), default=10, show_default=True,
+@click.option("--variants", type=IntRangeParam(1, MOST), default=10, show_default=True,
               help="Questions in a slot, as many as there are.")  # fmt: skip
 @click.option("--seed", type=SEED, default=0, show_default=True,
               help="Number that fixes every draw.")  # fmt: skip
-@click.option("--lang", type=Tongue(both=True), help=LANGUAGE_HELP)
+@click.option("--lang", type=LanguageParam(both=True), help=LANGUAGE_HELP)
 @click.option("--maths", type=click.Choice(["mathml", "tex"], case_sensitive=False),
               default="mathml", show_default=True,
               help="How formulas are written: tex for a filter such as MathJax.")  # fmt: skip
 @click.option("--out", type=click.Path(path_type=Path),
               help="File to write. [default: in the folder export]")  # fmt: skip
 @bank_options
-def export(**options: Unpack[Options]) -> None:
+def export(**options: Unpack[ExportOptions]) -> None:
     """Write questions for a system for courses, with variants to draw from.
 
     FORMAT is moodle (Moodle XML), gift (plain text of Moodle), qti21 or qti3 (packages of QTI 2.1
@@ -72,23 +72,23 @@ def export(**options: Unpack[Options]) -> None:
     become essays; which and why is told, and stands in a file beside it. Another file beside it
     holds what quizgen check needs to mark the responses; it has all the answers.
     """
+    from quizgen.core.files import PRIVATE, write_all
     from quizgen.export.kept import kept
     from quizgen.export.wording import formulas
-    from quizgen.files import PRIVATE, write_all
-    from quizgen.paper.banks import used_banks
+    from quizgen.paper.provenance import record_banks
     from quizgen.responses import SUFFIX
     from quizgen.responses.keys import written
 
     target = options["target"]
     if options["maths"] == "tex" and target not in TEX:
-        raise ChoiceError(f"--maths tex: not for {target}, only for {', '.join(TEX)}")
+        raise InvalidChoiceError(f"--maths tex: not for {target}, only for {', '.join(TEX)}")
     path = options["out"] or Path("export") / FORMATS[target]
     made = exporter(target)
     with Progress("export") as tell, formulas(options["maths"]):
         bank = open_bank(options)
-        items = list(_items(bank, options, tell))
+        items = list(_iter_requested_items(bank, options, tell))
         data = made.write(items)
-        banks = used_banks(bank, {item.key.template for item in items})
+        banks = record_banks(bank, {item.key.template for item in items})
         keys = written((kept(item, made.kept(item)) for item in items), banks)
     lines = [
         f"{item.id}: {field} exported as essay: {why}"
@@ -97,17 +97,17 @@ def export(**options: Unpack[Options]) -> None:
     ]
     contents = {path.name + SUFFIX: keys, path.name: data}
     if lines:
-        contents = {f"{path.name}.report.txt": _text(lines), **contents}
+        contents = {f"{path.name}.report.txt": _encode_lines(lines), **contents}
     for file in write_all(path.parent, contents, PRIVATE):
         click.echo(f"  {file}")
-    _summary(items, lines)
+    _print_summary(items, lines)
 
 
-def _text(lines: list[str]) -> bytes:
+def _encode_lines(lines: list[str]) -> bytes:
     return "".join(f"{line}\n" for line in lines).encode()
 
 
-def _items(bank: Bank, options: Options, tell: Progress) -> Iterator[Item]:
+def _iter_requested_items(bank: Bank, options: ExportOptions, tell: Progress) -> Iterator[Item]:
     """The questions that are asked for.
 
     Raises
@@ -116,21 +116,23 @@ def _items(bank: Bank, options: Options, tell: Progress) -> Iterator[Item]:
         If they are named in two ways.
     """
     from quizgen.export.items import of_blueprint, of_templates
-    from quizgen.paper.blueprint import load_blueprint, usual
+    from quizgen.paper.blueprint import default_blueprint_name, load_blueprint
 
     named = [options[key] for key in ("blueprint", "topic", "templates")]
     if len(named) - named.count(None) > 1:
-        raise ChoiceError("--blueprint, --topic and --template each name the questions; give one")
-    langs = bank.chosen(options["lang"] or leading(bank.languages))
+        raise InvalidChoiceError(
+            "--blueprint, --topic and --template each name the questions; give one"
+        )
+    langs = bank.resolve_languages(options["lang"] or default_language(bank.languages))
     if options["topic"] is None and options["templates"] is None:
-        plan = load_blueprint(options["blueprint"] or usual(bank), bank)
+        plan = load_blueprint(options["blueprint"] or default_blueprint_name(bank), bank)
         made = partial(of_blueprint, bank, plan)
     else:
-        made = partial(of_templates, bank, _names(options, bank))
+        made = partial(of_templates, bank, _list_requested_templates(options, bank))
     return made(options["seed"], options["variants"], langs, tell)
 
 
-def _names(options: Options, bank: Bank) -> list[str]:
+def _list_requested_templates(options: ExportOptions, bank: Bank) -> list[str]:
     """Templates of a topic, or those that are named.
 
     Raises
@@ -139,15 +141,15 @@ def _names(options: Options, bank: Bank) -> list[str]:
         If none is.
     """
     if options["topic"] is None:
-        names = list(dict.fromkeys(split(options["templates"])))
+        names = list(dict.fromkeys(split_names(options["templates"])))
         if not names:
-            raise ChoiceError("--template names no template")
+            raise InvalidChoiceError("--template names no template")
         return names
-    topic = topic_option(bank, options["topic"])
-    return [name for name in bank.paths if bank.rules(name).topic == topic]
+    topic = resolve_topic(bank, options["topic"])
+    return [name for name in bank.template_paths if bank.rules(name).topic == topic]
 
 
-def _summary(items: list[Item], lines: list[str]) -> None:
+def _print_summary(items: list[Item], lines: list[str]) -> None:
     """How many questions there are, and what a person marks of them, most frequent reason first."""
     slots, parts = {item.category for item in items}, sum(len(item.parts) for item in items)
     click.echo(f"questions: {len(items)}, slots: {len(slots)}, parts: {parts}")

@@ -12,17 +12,24 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, Whole, bank_options, jobs_option, open_bank, paying
+from quizgen.cli.options import (
+    BankOptions,
+    IntRangeParam,
+    bank_options,
+    jobs_option,
+    open_bank,
+    worthwhile_processes,
+)
 from quizgen.cli.terminal import Progress, interrupted, print_table
-from quizgen.errors import QuizgenError
+from quizgen.core.errors import QuizgenError
+from quizgen.core.untrusted import escape_control_characters
 from quizgen.executors import in_order, workers
-from quizgen.outside import visible
 
 if TYPE_CHECKING:
-    from quizgen.audit.leaks import Heard
-    from quizgen.audit.lint import Report
-    from quizgen.audit.located import Problem
-    from quizgen.bank.folder import Bank
+    from quizgen.bank.bank import Bank
+    from quizgen.lint.leaks import QuestionContent
+    from quizgen.lint.located import Problem
+    from quizgen.lint.template_checks import TemplateReport
     from quizgen.paper.blueprint import Blueprint
 
 HEAD = ("template", "draws", "distinct", "kept", "ms/draw", "problems", "answers")
@@ -38,7 +45,7 @@ ENOUGH, ENOUGH_A_DRAW = 20.0, 0.05
 """Seconds after which a template is given up: many times what the slowest ones take."""
 
 
-class Options(BankOptions):
+class LintOptions(BankOptions):
     """What to examine."""
 
     folder: Path | None
@@ -54,7 +61,7 @@ class Options(BankOptions):
 
 @click.command()
 @click.argument("folder", type=click.Path(path_type=Path), required=False)
-@click.option("--seeds", type=Whole(1, 10**6), default=200, show_default=True,
+@click.option("--seeds", type=IntRangeParam(1, 10**6), default=200, show_default=True,
               help="How many draws of each template to examine.")  # fmt: skip
 @click.option("--only", multiple=True, help="Just this template (may be repeated).")
 @click.option(
@@ -64,12 +71,12 @@ class Options(BankOptions):
 )
 @click.option(
     "--papers",
-    type=Whole(1, 10**5),
+    type=IntRangeParam(1, 10**5),
     help="Make so many papers of each blueprint, and name questions that tell another's answer.",
 )
 @click.option(
     "--limit",
-    type=Whole(1, 10**6),
+    type=IntRangeParam(1, 10**6),
     help=f"Seconds of CPU after which a template is given up. "
     f"[default: {ENOUGH:g}, and {ENOUGH_A_DRAW:g} for each draw]",
 )
@@ -77,7 +84,7 @@ class Options(BankOptions):
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
 @jobs_option
 @bank_options
-def lint(**options: Unpack[Options]) -> None:
+def lint(**options: Unpack[LintOptions]) -> None:
     """Prove templates sound over many seeds; exit code 1 if a problem is found.
 
     FOLDER is a bank, as in --bank; several are examined one by one. A broken template does not
@@ -90,23 +97,23 @@ def lint(**options: Unpack[Options]) -> None:
         "trust_bank": options["trust_bank"],
     }
     whole = open_bank(given)
-    only = [whole.home(name) for name in options["only"]]
-    asked = {part: tuple(own for home, own in only if home is part) for part in whole.parts}
+    only = [whole.owner_of(name) for name in options["only"]]
+    asked = {part: tuple(own for home, own in only if home is part) for part in whole.members}
     found = [
-        _linted(part, names or tuple(part.paths), options)
+        _lint_bank(part, names or tuple(part.template_paths), options)
         for part, names in asked.items()
         if names or not only
     ]
     sys.exit(max(found))
 
 
-def _linted(bank: Bank, names: tuple[str, ...], options: Options) -> int:
+def _lint_bank(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
     """Examine a bank by itself, whatever others it is named with; 1 if a problem is found."""
     if options["papers"]:
-        return _told(bank, options["papers"], options["jobs"])
+        return _print_leaks(bank, options["papers"], options["jobs"])
     if options["teach"]:
-        return _taught(bank, names, options)
-    rows, broken = _proved(bank, names, options)
+        return _print_teaching_findings(bank, names, options)
+    rows, broken = _examine_templates(bank, names, options)
     broken = list({str(problem): problem for problem in broken}.values())
     if options["json"]:
         for problem in broken:
@@ -114,24 +121,24 @@ def _linted(bank: Bank, names: tuple[str, ...], options: Options) -> int:
     else:
         print_table(HEAD, rows)
         for problem in broken:
-            click.echo(visible(str(problem)), err=True)
-        _advise(bank)
+            click.echo(escape_control_characters(str(problem)), err=True)
+        _advise_on_words(bank)
     return int(bool(broken))
 
 
-def _advise(bank: Bank) -> None:
+def _advise_on_words(bank: Bank) -> None:
     """Say where to begin with words of a language; without them they are English, no problem."""
-    from quizgen.bank.folder import LOCALE
-    from quizgen.locale import unspoken
+    from quizgen.bank.bank import LOCALE
+    from quizgen.locale import untranslated_languages
 
     try:
-        langs = unspoken(bank.languages)
+        langs = untranslated_languages(bank.languages)
     except QuizgenError:  # it is told of by itself
         return
     for lang in langs:
         file = bank.folder / LOCALE / lang / "interface.toml"
         click.echo(
-            visible(
+            escape_control_characters(
                 f"advice: what quizgen says around questions in {lang!r} is English; "
                 f"begin with {file} "
                 f"(quizgen new language {lang} --bank {bank.root} --all writes it)"
@@ -140,18 +147,18 @@ def _advise(bank: Bank) -> None:
         )
 
 
-def _proved(
-    bank: Bank, names: tuple[str, ...], options: Options
+def _examine_templates(
+    bank: Bank, names: tuple[str, ...], options: LintOptions
 ) -> tuple[list[tuple[str, ...]], list[Problem]]:
     """Rows of the table of templates, and all problems."""
-    from quizgen.audit.located import told_problems
+    from quizgen.lint.located import told_problems
 
-    limit, seeds, debug = _limit(options), options["seeds"], options["debug"]
-    rows, broken, heard = [], _of_bank(bank, limit), list["Heard"]()
-    examine = partial(_examined, bank, seeds=seeds, limit=limit, debug=debug)
+    limit, seeds, debug = _compute_time_limit(options), options["seeds"], options["debug"]
+    rows, broken, heard = [], _of_bank(bank, limit), list["QuestionContent"]()
+    examine = partial(_examine_template, bank, seeds=seeds, limit=limit, debug=debug)
     with (
         Progress("lint", len(names)) as progress,
-        workers(_count(options, names)) as (executor, ahead),
+        workers(_count_processes(options, names)) as (executor, ahead),
     ):
         results = in_order(executor, examine, progress.over(names), ahead)
         for name, (row, problems, said) in zip(names, results, strict=True):
@@ -164,31 +171,33 @@ def _proved(
 
 def _of_bank(bank: Bank, limit: float) -> list[Problem]:
     """What is wrong with the files that belong to no template."""
-    from quizgen.audit.limit import TooLong, limited
-    from quizgen.audit.located import bank_problems, located
+    from quizgen.lint.cpu_limit import CpuLimitExceeded, cpu_limit
+    from quizgen.lint.located import bank_problems, located
 
     found: list[Problem] = []
     try:
-        with limited(limit):
+        with cpu_limit(limit):
             found += bank_problems(bank)
-    except TooLong as error:
-        found.append(located(bank, "", _said(bank, error)))
+    except CpuLimitExceeded as error:
+        found.append(located(bank, "", _describe_stop(bank, error)))
     return found
 
 
-def problems_of(bank: Bank, name: str) -> list[str]:
+def lint_while_writing(bank: Bank, name: str) -> list[str]:
     """What is wrong with a template, over a few draws, as an author sees it while writing."""
-    return [str(problem) for problem in _examined(bank, name, FEW, ENOUGH)[1]]
+    return [str(problem) for problem in _examine_template(bank, name, FEW, ENOUGH)[1]]
 
 
-def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
+def _print_teaching_findings(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
     """Print what stands between questions and teaching; 1 if there are errors."""
     rows: list[tuple[str, ...]] = []
     with (
         Progress("lint", len(names)) as progress,
-        workers(_count(options, names)) as (executor, ahead),
+        workers(_count_processes(options, names)) as (executor, ahead),
     ):
-        findings = partial(_findings, bank, options["seeds"], _limit(options))
+        findings = partial(
+            _build_teaching_rows, bank, options["seeds"], _compute_time_limit(options)
+        )
         for found in in_order(executor, findings, progress.over(names), ahead):
             rows += found
     if rows:
@@ -198,28 +207,28 @@ def _taught(bank: Bank, names: tuple[str, ...], options: Options) -> int:
     return int(bool(errors))
 
 
-def _findings(bank: Bank, seeds: int, limit: float, name: str) -> list[tuple[str, ...]]:
+def _build_teaching_rows(bank: Bank, seeds: int, limit: float, name: str) -> list[tuple[str, ...]]:
     """Rows of a template's table: what stands between it and teaching."""
-    from quizgen.audit.limit import TooLong, limited
-    from quizgen.audit.teach import examine
+    from quizgen.lint.cpu_limit import CpuLimitExceeded, cpu_limit
+    from quizgen.lint.item_quality import review_template
 
     try:
-        with limited(limit):
-            found = examine(bank.template(name), seeds)
-    except (QuizgenError, TooLong) as error:
-        return [(name, "", "error", _said(bank, error))]
+        with cpu_limit(limit):
+            found = review_template(bank.template(name), seeds)
+    except (QuizgenError, CpuLimitExceeded) as error:
+        return [(name, "", "error", _describe_stop(bank, error))]
     return [(one.template, one.label, one.level, one.what) for one in found]
 
 
-def _told(bank: Bank, count: int, jobs: int | None) -> int:
+def _print_leaks(bank: Bank, count: int, jobs: int | None) -> int:
     """Print which questions of a paper tell what another one asks; 1 if any does."""
     from quizgen.paper.blueprint import load_blueprint
 
     found: dict[str, list[int]] = {}
-    processes = paying(jobs, count * len(bank.blueprints) * A_PAPER)
+    processes = worthwhile_processes(jobs, count * len(bank.blueprints) * A_PAPER)
     with workers(processes) as (executor, ahead):
         for name in bank.blueprints:
-            tells = partial(_tells, bank, load_blueprint(name, bank))
+            tells = partial(_describe_leaks, bank, load_blueprint(name, bank))
             with Progress(f"lint {name}", count) as progress:
                 asked = map(int, progress.over(map(str, range(count))))
                 for seed, saying in enumerate(in_order(executor, tells, asked, ahead)):
@@ -227,75 +236,77 @@ def _told(bank: Bank, count: int, jobs: int | None) -> int:
                         found.setdefault(said, []).append(seed)
     for said, seeds in found.items():
         rate = f"({len(seeds)} of {count} papers, first seed {seeds[0]})"
-        click.echo(visible(f"{said} {rate}"), err=True)
+        click.echo(escape_control_characters(f"{said} {rate}"), err=True)
     papers = count * len(bank.blueprints)
     told = f"{len(found)} answers told" if found else "none tells an answer of its own"
     click.echo(f"{papers} papers of {', '.join(bank.blueprints) or 'no blueprint'}: {told}")
     return int(bool(found))
 
 
-def _tells(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
+def _describe_leaks(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
     """Which questions of a paper tell what another one asks."""
-    from quizgen.audit.leaks import leaks
-    from quizgen.paper.paper import build
+    from quizgen.lint.leaks import find_paper_leaks
+    from quizgen.paper.paper import build_paper
 
     return [
         f"{one.teller}: tells the answer of {' '.join(filter(None, (one.asker, one.label)))}: "
         f"{one.what}"
-        for one in leaks(build(bank, blueprint, seed, "both", figures=False))
+        for one in find_paper_leaks(build_paper(bank, blueprint, seed, "both", figures=False))
     ]
 
 
-def _count(options: Options, names: tuple[str, ...]) -> int:
+def _count_processes(options: LintOptions, names: tuple[str, ...]) -> int:
     """How many processes examine templates."""
-    return paying(options["jobs"], len(names) * (A_TEMPLATE + options["seeds"] * A_DRAW))
+    return worthwhile_processes(
+        options["jobs"], len(names) * (A_TEMPLATE + options["seeds"] * A_DRAW)
+    )
 
 
-def _limit(options: Options) -> float:
+def _compute_time_limit(options: LintOptions) -> float:
     """Seconds after which a template is given up."""
     return options["limit"] or ENOUGH + options["seeds"] * ENOUGH_A_DRAW
 
 
-def _examined(
+def _examine_template(
     bank: Bank, name: str, seeds: int, limit: float, *, debug: bool = False
-) -> tuple[tuple[str, ...], list[Problem], list[Heard]]:
+) -> tuple[tuple[str, ...], list[Problem], list[QuestionContent]]:
     """Cells of a template's row, its problems, and what it says and asks."""
-    from quizgen.audit.limit import TooLong, limited
-    from quizgen.audit.located import located
+    from quizgen.lint.cpu_limit import CpuLimitExceeded, cpu_limit
+    from quizgen.lint.located import located
 
     try:  # an author's Python may print, and not into our JSON
-        with limited(limit), redirect_stdout(sys.stderr):
-            report = _report(bank, name, seeds)
-    except (Exception, TooLong) as error:
+        with cpu_limit(limit), redirect_stdout(sys.stderr):
+            report = _build_template_report(bank, name, seeds)
+    except (Exception, CpuLimitExceeded) as error:
         if interrupted():
             raise KeyboardInterrupt from error
         if debug:
             traceback.print_exception(error)
-        return NOTHING, [located(bank, name, _said(bank, error))], []
+        return NOTHING, [located(bank, name, _describe_stop(bank, error))], []
     problems = [located(bank, name, problem) for problem in report.problems]
-    return _cells(report), problems, report.heard
+    return _format_report_cells(report), problems, report.heard
 
 
-def _report(bank: Bank, name: str, seeds: int) -> Report:
+def _build_template_report(bank: Bank, name: str, seeds: int) -> TemplateReport:
     """What was found for a template and for the formulas of its solver."""
-    from quizgen.audit.lint import lint_template
-    from quizgen.bank.formulas import missing_formulas, unnamed_formulas
+    from quizgen.bank.formulas import find_missing_formulas, find_unnamed_formulas
+    from quizgen.lint.template_checks import lint_template
 
     report = lint_template(bank.template(name), seeds, bank.languages)
     report.problems += [
         f"solver: formula {formula!r}, which templates/cards/formulas.toml lacks"
-        for formula in missing_formulas(bank, name)
+        for formula in find_missing_formulas(bank, name)
     ]
     report.problems += [
         f"solver: step {step!r} has the form of {', '.join(forms)} and names no formula"
-        for step, forms in unnamed_formulas(bank, name).items()
+        for step, forms in find_unnamed_formulas(bank, name).items()
     ]
     return report
 
 
-def _said(bank: Bank, error: BaseException) -> str:
+def _describe_stop(bank: Bank, error: BaseException) -> str:
     """What stopped the examination: the place in the bank, else in quizgen, and the last line."""
-    from quizgen.audit.limit import TooLong
+    from quizgen.lint.cpu_limit import CpuLimitExceeded
 
     if isinstance(error, QuizgenError):
         return str(error)
@@ -305,14 +316,14 @@ def _said(bank: Bank, error: BaseException) -> str:
         for frame, line in traceback.walk_tb(error.__traceback__)
     ]
     own = [(file, line) for file, line in frames if file.resolve().is_relative_to(root)]
-    if isinstance(error, TooLong):  # in whatever of quizgen it was just then
+    if isinstance(error, CpuLimitExceeded):  # in whatever of quizgen it was just then
         place = [f"{bank.root / one.resolve().relative_to(root)}:{line}: " for one, line in own]
         return f"{''.join(place[-1:])}{error}"
     file, line = (own or frames)[-1]
     return f"{type(error).__name__}: {error} (in {file}:{line}; --debug shows the way there)"
 
 
-def _cells(report: Report) -> tuple[str, ...]:
+def _format_report_cells(report: TemplateReport) -> tuple[str, ...]:
     ranges = ", ".join(f"{n} {a:.4g}..{b:.4g}" for n, (a, b) in report.ranges.items())
     per_draw = 1e3 * report.seconds / report.seeds if report.seeds else 0
     return (

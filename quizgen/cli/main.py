@@ -14,8 +14,8 @@ from typing import NoReturn
 import click
 
 from quizgen.cli.terminal import Interrupt, colour_choice, interrupted
-from quizgen.errors import QuizgenError
-from quizgen.outside import visible
+from quizgen.core.errors import QuizgenError
+from quizgen.core.untrusted import escape_control_characters
 
 WRONG = 2
 """Exit code of wrong use, and of files that cannot be read or written."""
@@ -80,7 +80,7 @@ class _Lazy(click.Group):
 @click.group(cls=_Lazy, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(package_name="quizgen")
 @click.pass_context
-def group(context: click.Context) -> None:
+def root_group(context: click.Context) -> None:
     """Mock exams from parametric templates: exact solutions, figures, typed answers checked.
 
     Exit codes: 0 all went well, 1 something was found (a problem, a form that cannot be read), 2
@@ -98,46 +98,46 @@ def main(arguments: list[str] | None = None) -> None:
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, Interrupt())
     try:
-        status = _run(arguments)
+        status = _run_command(arguments)
     except (click.exceptions.Abort, KeyboardInterrupt):
-        _stop()
+        _stop_at_once()
     except Exception:
         if not interrupted():
             raise
-        _stop()
+        _stop_at_once()
     if status:
         sys.exit(status)
 
 
-def _run(arguments: list[str] | None) -> int:
+def _run_command(arguments: list[str] | None) -> int:
     """The exit code of a command."""
     try:
-        status = group.main(arguments, prog_name="quizgen", standalone_mode=False)
+        status = root_group.main(arguments, prog_name="quizgen", standalone_mode=False)
     except click.exceptions.Abort:
         raise
     except click.ClickException as error:
         shown = io.StringIO()
         error.show(shown)
-        click.echo(visible(shown.getvalue()), nl=False, err=True)
+        click.echo(escape_control_characters(shown.getvalue()), nl=False, err=True)
     except QuizgenError as error:
-        _tell(str(error))
+        _print_message(str(error))
     except BrokenPipeError:
         sys.stderr.close()
     except OSError as error:
-        _tell(f"{error.filename or 'file'}: {error.strerror or error}")
+        _print_message(f"{error.filename or 'file'}: {error.strerror or error}")
     else:
         return status if isinstance(status, int) else 0
     return WRONG
 
 
-def _tell(message: str) -> None:
-    click.echo(f"quizgen: {visible(' '.join(message.split()))}", err=True)
+def _print_message(message: str) -> None:
+    click.echo(f"quizgen: {escape_control_characters(' '.join(message.split()))}", err=True)
 
 
-def _stop() -> NoReturn:
+def _stop_at_once() -> NoReturn:
     """Say so and end at once: finalisers of extensions have hung after an interrupt."""
     with contextlib.suppress(OSError, ValueError):
-        _tell("interrupted")
+        _print_message("interrupted")
         sys.stdout.flush()
         sys.stderr.flush()
     os._exit(INTERRUPTED)

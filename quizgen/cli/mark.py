@@ -9,12 +9,12 @@ from typing import TypedDict, Unpack
 import click
 
 from quizgen.cli.options import language_option
-from quizgen.errors import KeyFileError
+from quizgen.core.errors import KeyFileError
+from quizgen.grading.options import DECIMALS
 from quizgen.locale import FIRST
-from quizgen.marking.options import DECIMALS
 
 
-class Options(TypedDict):
+class MarkOptions(TypedDict):
     """How to read the answer."""
 
     lang: str | None
@@ -33,7 +33,9 @@ class Options(TypedDict):
 @click.option("--decimal", type=click.Choice(DECIMALS), default=DECIMALS[0], show_default=True,
               help="The decimal sign.")  # fmt: skip
 @click.option("--settle", is_flag=True, help="Allow SymPy to settle an undecided formula.")
-def mark(spec: str | None, typed: str | None, *, batch: bool, **options: Unpack[Options]) -> None:
+def mark(
+    spec: str | None, typed: str | None, *, batch: bool, **options: Unpack[MarkOptions]
+) -> None:
     """Mark TYPED against SPEC, an inline TOML table: '{kind="number", value="20/3", decimals=3}'.
 
     With --batch each line of standard input is {"spec": {...}, "typed": "...", "lang": "en",
@@ -41,22 +43,22 @@ def mark(spec: str | None, typed: str | None, *, batch: bool, **options: Unpack[
     {"verdict", "credit", "read_as", "note", "message"}.
     """
     if batch:
-        _batch()
+        _grade_batch()
         return
     if spec is None or typed is None:
         raise click.UsageError("give SPEC and TYPED, or --batch")
     import json
 
-    from quizgen.marking.mark import mark as mark_one
+    from quizgen.grading.mark import mark as mark_one
 
     verdict = mark_one(
-        _inline(spec), typed, lang=options["lang"] or FIRST, decimal=options["decimal"],
+        _parse_inline_spec(spec), typed, lang=options["lang"] or FIRST, decimal=options["decimal"],
         settle=options["settle"],
     )  # fmt: skip
     click.echo(json.dumps(verdict.as_json(), ensure_ascii=False))
 
 
-def _inline(text: str) -> Mapping[str, object]:
+def _parse_inline_spec(text: str) -> Mapping[str, object]:
     import tomllib
 
     try:
@@ -68,8 +70,8 @@ def _inline(text: str) -> Mapping[str, object]:
     return table
 
 
-def _batch() -> None:
-    from quizgen.marking.batch import marked
+def _grade_batch() -> None:
+    from quizgen.grading.batch import marked
 
     out = sys.stdout.buffer
     for line in marked(sys.stdin.buffer):

@@ -8,12 +8,19 @@ from typing import ParamSpec, TypeVar
 
 import click
 
-from quizgen.bank.scaffold import FIRST, KINDS, english_words, new_bank, new_language, new_template
+from quizgen.bank.scaffold import (
+    FIRST,
+    KINDS,
+    english_translation_files,
+    scaffold_bank,
+    scaffold_language,
+    scaffold_template,
+)
 from quizgen.cli.command import command
-from quizgen.cli.options import Tongue
-from quizgen.errors import BankError
-from quizgen.files import write_all
-from quizgen.outside import NAMES, is_name
+from quizgen.cli.options import LanguageParam
+from quizgen.core.errors import BankError
+from quizgen.core.files import write_all
+from quizgen.core.untrusted import NAMES, is_identifier
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -36,41 +43,41 @@ def new() -> None:
 
 @new.command()
 @click.argument("folder", type=click.Path(path_type=Path))
-@click.option("--lang", "langs", type=Tongue(), multiple=True, default=("en",), show_default=True,
+@click.option("--lang", "langs", type=LanguageParam(), multiple=True, default=("en",), show_default=True,
               help="A language that it is to be written in (may be repeated).")  # fmt: skip
 def bank(folder: Path, langs: tuple[str, ...]) -> None:
     """Write a bank with one question into FOLDER."""
     name = folder.resolve().name
-    if not is_name(name):
+    if not is_identifier(name):
         raise BankError(
             f"{name!r} is no name for a bank (allowed: {NAMES}); make it in a folder that has one,"
             " and call the folder as you like afterwards"
         )
-    _write(folder, new_bank(name, langs))
-    _next(folder, FIRST[1])
+    _write_new_files(folder, scaffold_bank(name, langs))
+    _print_next_steps(folder, FIRST[1])
 
 
 @new.command()
-@click.argument("lang", type=Tongue())
+@click.argument("lang", type=LanguageParam())
 @bank_to_write
 @click.option("--all", "words", is_flag=True,
               help="With everything that quizgen says, in English, to be translated.")  # fmt: skip
 def language(lang: str, root: Path, words: bool) -> None:
     """Write into a bank what quizgen does not know of the language LANG."""
-    from quizgen.bank.folder import Bank
+    from quizgen.bank.bank import Bank
     from quizgen.locale import SHIPPED
 
     Bank(root)  # or says that none is there
     if (SHIPPED / lang).is_dir():
         raise BankError(f"quizgen has words for {lang!r} itself")
-    found = new_language(lang)
+    found = scaffold_language(lang)
     if words:
         found = {name: data for name, data in found.items() if not (root / name).exists()}
-        found |= english_words(lang)
-    _write(root, found)
+        found |= english_translation_files(lang)
+    _write_new_files(root, found)
 
 
-def _kinds(function: Callable[P, T]) -> Callable[P, T]:
+def _add_kind_options(function: Callable[P, T]) -> Callable[P, T]:
     """Add a flag for each kind of question."""
     for kind, text in reversed(KINDS.items()):
         function = click.option(f"--{kind}", "kind", flag_value=kind, help=text)(function)
@@ -79,11 +86,11 @@ def _kinds(function: Callable[P, T]) -> Callable[P, T]:
 
 @new.command()
 @click.argument("place", metavar="TOPIC/NAME")
-@_kinds
+@_add_kind_options
 @bank_to_write
 def template(place: str, kind: str | None, root: Path) -> None:
     """Write a question TOPIC/NAME into a bank: rules, words and, if it computes, a solver."""
-    from quizgen.bank.folder import Bank
+    from quizgen.bank.bank import Bank
 
     topic, slash, name = place.partition("/")
     if not slash:
@@ -91,23 +98,25 @@ def template(place: str, kind: str | None, root: Path) -> None:
     _must_be_name(topic)
     _must_be_name(name)
     own = Bank(root)
-    if own.about.topics and topic not in own.topics:
+    if own.metadata.topics and topic not in own.topics:
         file, known = own.folder / "bank.toml", ", ".join(own.topics)
         raise BankError(
             f"{file}: no topic {topic!r} (there are {known}); write it under [topics] first"
         )
-    if name in own.paths:
-        raise BankError(f"{own.paths[name]}: there is a template {name!r} already")
-    _write(root, new_template(topic, name, kind or next(iter(KINDS)), own.languages or ("en",)))
-    _next(root, name)
+    if name in own.template_paths:
+        raise BankError(f"{own.template_paths[name]}: there is a template {name!r} already")
+    _write_new_files(
+        root, scaffold_template(topic, name, kind or next(iter(KINDS)), own.languages or ("en",))
+    )
+    _print_next_steps(root, name)
 
 
 def _must_be_name(name: str) -> None:
-    if not is_name(name):
+    if not is_identifier(name):
         raise BankError(f"{name!r} is no name (allowed: {NAMES})")
 
 
-def _write(root: Path, contents: Mapping[str, bytes]) -> None:
+def _write_new_files(root: Path, contents: Mapping[str, bytes]) -> None:
     """Write all files, or none if one is there already."""
     for name in contents:
         if (root / name).exists():
@@ -116,7 +125,7 @@ def _write(root: Path, contents: Mapping[str, bytes]) -> None:
         click.echo(str(path))
 
 
-def _next(root: Path, name: str) -> None:
+def _print_next_steps(root: Path, name: str) -> None:
     where = ("--bank", str(root), "--trust")
     click.echo("Next:")
     click.echo(f"  {command('preview', name, *where)}")

@@ -12,25 +12,25 @@ import click
 
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.cli.terminal import many
-from quizgen.locale import FIRST, choices, languages
-from quizgen.locale.brought import as_tag, is_tag
-from quizgen.outside import visible
+from quizgen.core.untrusted import escape_control_characters
+from quizgen.locale import FIRST, list_language_choices, list_languages
+from quizgen.locale.custom import is_language_tag, normalise_language_tag
 from quizgen.paper.code import LARGEST_SEED
 
 if TYPE_CHECKING:
-    from quizgen.bank.folder import Bank
+    from quizgen.bank.bank import Bank
 
 P = ParamSpec("P")
 T = TypeVar("T")
 
 
-class Whole(click.IntRange):
+class IntRangeParam(click.IntRange):
     """A whole number between bounds, and called so where something else is typed."""
 
     name = "whole number"
 
 
-class Tongue(click.types.StringParamType):
+class LanguageParam(click.types.StringParamType):
     """A language, or all of a bank's; which of them a bank has, it says itself."""
 
     name = "language"
@@ -40,15 +40,15 @@ class Tongue(click.types.StringParamType):
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """A language as it is written elsewhere, whatever the size of its letters."""
-        known = {one.lower(): one for one in self._known()}
+        known = {one.lower(): one for one in self._list_choices()}
         if value.lower() in known:
             return known[value.lower()]
-        if not is_tag(as_tag(value)):
+        if not is_language_tag(normalise_language_tag(value)):
             self.fail(f"{value!r} is no language (such as {', '.join(known)})", param, ctx)
-        return as_tag(value)
+        return normalise_language_tag(value)
 
-    def _known(self) -> tuple[str, ...]:
-        return choices() if self.both else languages()
+    def _list_choices(self) -> tuple[str, ...]:
+        return list_language_choices() if self.both else list_languages()
 
 
 MOST_JOBS = 256
@@ -56,10 +56,10 @@ WORTH = 2.0
 """Seconds of work that are worth another process: it takes up to one to begin."""
 LEVEL_HELP = "As in an exam, step by step, turned round, or by the seed."
 LANGUAGE_HELP = (
-    f"{', '.join(languages())}, or another that the bank has. "
+    f"{', '.join(list_languages())}, or another that the bank has. "
     f"[default: {FIRST}, or the first that the bank has]"
 )
-SEED = Whole(0, LARGEST_SEED)
+SEED = IntRangeParam(0, LARGEST_SEED)
 """Seeds of papers, decks and previews."""
 
 
@@ -91,15 +91,15 @@ def bank_options(command: Callable[P, T]) -> Callable[P, T]:
 
 def open_bank(options: BankOptions) -> Bank:
     """The bank that the options name, or several as one."""
-    from quizgen.bank.found import root_of
-    from quizgen.bank.mixed import opened
+    from quizgen.bank.combined import open_banks
+    from quizgen.bank.discovery import resolve_bank
 
-    roots = [root_of(named) for named in options["bank"]]
-    allowed = _allowed(roots, options)
-    return opened([(str(root), is_trusted(root, allowed)) for root in roots])
+    roots = [resolve_bank(named) for named in options["bank"]]
+    allowed = _find_trusted_roots(roots, options)
+    return open_banks([(str(root), is_trusted(root, allowed)) for root in roots])
 
 
-def _allowed(roots: Sequence[Path], options: BankOptions) -> set[Path]:
+def _find_trusted_roots(roots: Sequence[Path], options: BankOptions) -> set[Path]:
     """Banks whose Python may run this time, as the command line says.
 
     Raises
@@ -107,13 +107,13 @@ def _allowed(roots: Sequence[Path], options: BankOptions) -> set[Path]:
     click.BadParameter
         If ``--trust-bank`` names a bank that ``--bank`` does not.
     """
-    from quizgen.bank.found import root_of
+    from quizgen.bank.discovery import resolve_bank
 
     found = {root.resolve() for root in roots}
     if options["trust"]:
         _tell_all(roots)
         return found
-    chosen = {root_of(named).resolve(): named for named in options["trust_bank"]}
+    chosen = {resolve_bank(named).resolve(): named for named in options["trust_bank"]}
     for root, named in chosen.items():
         if root not in found:
             told = ", ".join(map(str, options["bank"])) or "none"
@@ -125,14 +125,14 @@ def _allowed(roots: Sequence[Path], options: BankOptions) -> set[Path]:
 
 def _tell_all(roots: Sequence[Path]) -> None:
     """Name the banks whose Python ``--trust`` lets run, where it is that of more than one."""
-    from quizgen.bank.folder import builtin_root
-    from quizgen.bank.found import python_of
+    from quizgen.bank.bank import builtin_root
+    from quizgen.bank.discovery import python_files
 
     ours = builtin_root().resolve()
-    bring = [str(root) for root in roots if root.resolve() != ours and python_of(root)]
+    bring = [str(root) for root in roots if root.resolve() != ours and python_files(root)]
     if len(bring) > 1:
         said = f"--trust lets the Python of {len(bring)} banks run: {', '.join(bring)}"
-        click.echo(f"quizgen: {visible(said)}", err=True)
+        click.echo(f"quizgen: {escape_control_characters(said)}", err=True)
 
 
 def is_trusted(root: Path, allowed: Collection[Path]) -> bool:
@@ -146,28 +146,30 @@ def is_trusted(root: Path, allowed: Collection[Path]) -> bool:
     allowed : collection of Path
         Folders of the banks that the command line trusts.
     """
-    from quizgen.bank.folder import builtin_root
+    from quizgen.bank.bank import builtin_root
 
     if root.resolve() in {*allowed, builtin_root().resolve()}:
         return True
-    from quizgen.bank.found import is_remembered, python_of, remember
+    from quizgen.bank.discovery import is_trust_remembered, python_files, remember_trust
 
-    files = python_of(root)
-    if not files or is_remembered(root):
+    files = python_files(root)
+    if not files or is_trust_remembered(root):
         return bool(files)
     what = f"{root} brings {many(len(files), 'file')} of Python, such as {files[0].name}"
     if not (sys.stdin.isatty() and sys.stderr.isatty()):
-        click.echo(f"quizgen: {visible(what)}; it does not run without --trust", err=True)
+        click.echo(
+            f"quizgen: {escape_control_characters(what)}; it does not run without --trust", err=True
+        )
         return False
     if not click.confirm(f"{what}. Run it, now and until it changes?", default=False, err=True):
         return False
-    remember(root)
+    remember_trust(root)
     return True
 
 
 def language_option(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--lang``, one of the languages there are."""
-    return click.option("--lang", type=Tongue(), help=LANGUAGE_HELP)(command)
+    return click.option("--lang", type=LanguageParam(), help=LANGUAGE_HELP)(command)
 
 
 def own_database() -> str:
@@ -198,11 +200,11 @@ def level_option(command: Callable[P, T]) -> Callable[P, T]:
 def jobs_option(command: Callable[P, T]) -> Callable[P, T]:
     """Add ``--jobs``."""
     return click.option(
-        "--jobs", type=Whole(1, MOST_JOBS), help="Processes. [default: as many as pay]"
+        "--jobs", type=IntRangeParam(1, MOST_JOBS), help="Processes. [default: as many as pay]"
     )(command)
 
 
-def paying(asked: int | None, seconds: float) -> int:
+def worthwhile_processes(asked: int | None, seconds: float) -> int:
     """How many processes to begin: those asked for, else no more than the work is worth.
 
     Parameters
@@ -214,7 +216,7 @@ def paying(asked: int | None, seconds: float) -> int:
     return asked or max(1, min(os.cpu_count() or 1, int(seconds / WORTH)))
 
 
-def checked(option: str, name: str, allowed: Collection[str]) -> str:
+def match_choice(option: str, name: str, allowed: Collection[str]) -> str:
     """Return the allowed name that this one is, in capitals or not.
 
     Raises
@@ -228,7 +230,7 @@ def checked(option: str, name: str, allowed: Collection[str]) -> str:
     raise click.BadParameter(f"{name!r} (allowed: {', '.join(allowed)})", param_hint=option)
 
 
-def topic_option(bank: Bank, name: str) -> str:
+def resolve_topic(bank: Bank, name: str) -> str:
     """Return the topic that ``--topic`` names: by its name or its title in any language.
 
     Raises
@@ -238,12 +240,12 @@ def topic_option(bank: Bank, name: str) -> str:
     """
     wanted = name.strip().casefold()
     for topic in bank.topics:
-        titles = (bank.topic_title(topic, lang) for lang in languages())
+        titles = (bank.topic_title(topic, lang) for lang in list_languages())
         if wanted in {title.casefold() for title in titles}:
             return topic
-    return checked("--topic", name, bank.topics)
+    return match_choice("--topic", name, bank.topics)
 
 
-def split(text: str | None) -> tuple[str, ...]:
+def split_names(text: str | None) -> tuple[str, ...]:
     """Names that stand between commas."""
     return tuple(name.strip() for name in (text or "").split(",") if name.strip())

@@ -9,32 +9,32 @@ import click
 
 from quizgen.cli.options import (
     BankOptions,
-    Whole,
+    IntRangeParam,
     bank_options,
-    checked,
     database_option,
     language_option,
     level_option,
+    match_choice,
     open_bank,
-    topic_option,
+    resolve_topic,
 )
-from quizgen.locale import leading
+from quizgen.locale import default_language
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from quizgen.bank.folder import Bank
-    from quizgen.practice.results import TopicResult
+    from quizgen.bank.bank import Bank
     from quizgen.practice.session import Session
-    from quizgen.practice.shelf import Shelf
-    from quizgen.practice.state import Wish
-    from quizgen.web.learning import Learning
+    from quizgen.practice.session_state import PracticeRequest
+    from quizgen.practice.session_store import SessionStore
+    from quizgen.practice.topic_results import TopicResult
+    from quizgen.store.learner import LearnerProgress
 
 INTERRUPTED = 130
 TIERS = tuple("ABCD")
 
 
-class Options(BankOptions):
+class PracticeOptions(BankOptions):
     """What can be asked for."""
 
     topic: str | None
@@ -52,13 +52,13 @@ class Options(BankOptions):
 @click.option("--tier", metavar="[A|B|C|D]", help="Only this tier.")
 @language_option
 @level_option
-@click.option("--count", type=Whole(1, 200), default=10, show_default=True,
+@click.option("--count", type=IntRangeParam(1, 200), default=10, show_default=True,
               help="How many questions.")  # fmt: skip
 @click.option("--seed", help="Any text: the same text gives the same questions.")
 @database_option
 @bank_options
 @click.option("--fresh", is_flag=True, help="Begin anew, not where these options were left.")
-def practice(**options: Unpack[Options]) -> None:
+def practice(**options: Unpack[PracticeOptions]) -> None:
     """Practise in the terminal: instant feedback, hints, retries, worked solutions.
 
     Type ? for a hint, ! for the solution, skip to leave a part out, quit (or Ctrl-C) to stop. The
@@ -66,23 +66,23 @@ def practice(**options: Unpack[Options]) -> None:
     are kept beside it. Without --seed it asks what is due, here or in the browser.
     """
     from quizgen.cli.conversation import Conversation, Quit, say
-    from quizgen.practice.shelf import Shelf
+    from quizgen.practice.session_store import SessionStore
 
-    shelf = Shelf(state_folder())
+    shelf = SessionStore(state_folder())
     bank = open_bank(options)
-    wish = _wish(options, bank)
-    learning = _learning(bank, options["database"])
-    session = _session(learning, wish, shelf, fresh=options["fresh"])
+    wish = _build_request(options, bank)
+    learning = _open_learning(bank, options["database"])
+    session = _open_session(learning, wish, shelf, fresh=options["fresh"])
     conversation = Conversation(session, shelf, learning)
     try:
         conversation.hold()
     except (Quit, KeyboardInterrupt) as stop:
-        shelf.keep(session.state)
+        shelf.save(session.state)
         click.echo()
         say(conversation.words["saved"])
         raise click.exceptions.Exit(0 if isinstance(stop, Quit) else INTERRUPTED) from None
-    shelf.forget(wish)
-    _summary(session, learning, conversation.words)
+    shelf.delete(wish)
+    _print_summary(session, learning, conversation.words)
 
 
 def state_folder() -> Path:
@@ -90,34 +90,36 @@ def state_folder() -> Path:
     return Path(click.get_app_dir("quizgen")) / "practice"
 
 
-def _learning(bank: Bank, database: str) -> Learning:
+def _open_learning(bank: Bank, database: str) -> LearnerProgress:
     """What has been learnt, here and in the browser."""
-    from quizgen.web.learning import Learning
-    from quizgen.web.store import Store
+    from quizgen.store import Store
+    from quizgen.store.learner import LearnerProgress
 
     store = Store(database)
-    return Learning(store, bank, store.learner())
+    return LearnerProgress(store, bank, store.learner())
 
 
-def _session(learning: Learning, wish: Wish, shelf: Shelf, *, fresh: bool) -> Session:
+def _open_session(
+    learning: LearnerProgress, wish: PracticeRequest, shelf: SessionStore, *, fresh: bool
+) -> Session:
     """The session that a wish has begun, or a new one."""
-    from quizgen.marking.messages import practice_words
+    from quizgen.grading.feedback import load_practice_words
     from quizgen.practice.session import Session
-    from quizgen.practice.state import new
+    from quizgen.practice.session_state import new_session
 
     def due(names: Sequence[str]) -> tuple[str, str]:
-        which = learning.following(names)
+        which = learning.next_question(names)
         return which.template, which.seed
 
     if fresh:
-        shelf.forget(wish)
-    state = shelf.kept(wish)
+        shelf.delete(wish)
+    state = shelf.load(wish)
     if state is not None:
-        click.echo(practice_words(wish.lang)["resumed"].format(seed=state.seed))
-    return Session(learning.bank, state or new(wish), None if wish.seed else due)
+        click.echo(load_practice_words(wish.lang)["resumed"].format(seed=state.seed))
+    return Session(learning.bank, state or new_session(wish), None if wish.seed else due)
 
 
-def _wish(options: Options, bank: Bank) -> Wish:
+def _build_request(options: PracticeOptions, bank: Bank) -> PracticeRequest:
     """What is asked for, if there is such a question.
 
     Raises
@@ -125,48 +127,57 @@ def _wish(options: Options, bank: Bank) -> Wish:
     click.BadParameter
         Naming what there is.
     """
-    from quizgen.bank.mixed import sources
-    from quizgen.practice.choosing import fitting
-    from quizgen.practice.state import Wish
+    from quizgen.bank.combined import bank_sources
+    from quizgen.practice.selection import matching_templates
+    from quizgen.practice.session_state import PracticeRequest
 
     topic, tier = options["topic"], options["tier"]
-    topic = None if topic is None else topic_option(bank, topic)
-    tier = None if tier is None else checked("--tier", tier, TIERS)
-    folder = "+".join(root for root, _ in sources(bank))
-    (lang,), seed = bank.chosen(options["lang"] or leading(bank.languages)), options["seed"] or ""
-    wish = Wish(lang, options["count"], topic, tier, folder, seed, options["level"])
-    if not fitting(bank, wish):
-        there = [one for one in TIERS if fitting(bank, Wish(lang, topic=topic, tier=one))]
+    topic = None if topic is None else resolve_topic(bank, topic)
+    tier = None if tier is None else match_choice("--tier", tier, TIERS)
+    folder = "+".join(root for root, _ in bank_sources(bank))
+    (lang,), seed = (
+        bank.resolve_languages(options["lang"] or default_language(bank.languages)),
+        options["seed"] or "",
+    )
+    wish = PracticeRequest(lang, options["count"], topic, tier, folder, seed, options["level"])
+    if not matching_templates(bank, wish):
+        there = [
+            one
+            for one in TIERS
+            if matching_templates(bank, PracticeRequest(lang, topic=topic, tier=one))
+        ]
         what = f"no question of topic {topic or 'any'}, tier {tier or 'any'}, language {lang}"
         raise click.BadParameter(f"{what} (tiers there: {', '.join(there) or 'none'})")
     return wish
 
 
-def _summary(session: Session, learning: Learning, words: dict[str, str]) -> None:
+def _print_summary(session: Session, learning: LearnerProgress, words: dict[str, str]) -> None:
     """Say how the session went, how the last ones did, and what to practise."""
     from quizgen.cli.conversation import head, say
-    from quizgen.practice.results import RECENT, by_topic, to_practise
+    from quizgen.practice.topic_results import RECENT, summarise_by_topic, weak_topics
 
     head(words["summary"])
-    _print(session, session.summary(), words)
+    _print_topic_results(session, session.summary(), words)
     there = session.bank.topics
     past = [outcome for outcome in learning.outcomes() if outcome.topic in there]
     skipped = [outcome for outcome in session.state.outcomes if outcome.skipped]  # kept nowhere
-    results = by_topic([*past, *skipped], RECENT)
+    results = summarise_by_topic([*past, *skipped], RECENT)
     if len(past) > len(session.state.outcomes):
         head(words["so-far"])
-        _print(session, results, words)
-    weak = to_practise(results)
-    named = ", ".join(f"{_title(session, topic)} (--topic {topic})" for topic in weak)
+        _print_topic_results(session, results, words)
+    weak = weak_topics(results)
+    named = ", ".join(f"{_get_topic_title(session, topic)} (--topic {topic})" for topic in weak)
     click.echo()
     say(words["next"].format(topics=named) if weak else words["all-right"])
 
 
-def _print(session: Session, results: Iterable[TopicResult], words: dict[str, str]) -> None:
+def _print_topic_results(
+    session: Session, results: Iterable[TopicResult], words: dict[str, str]
+) -> None:
     from quizgen.cli.conversation import say
 
     for row in results:
-        title = _title(session, row.topic)
+        title = _get_topic_title(session, row.topic)
         if row.count:
             counts = {"right": row.right, "count": row.count, "later": row.later}
             say(words["topic"].format(topic=title, **counts), "", "  ")
@@ -174,5 +185,5 @@ def _print(session: Session, results: Iterable[TopicResult], words: dict[str, st
             say(words["topic-skipped"].format(topic=title, skipped=row.skipped), "", "  ")
 
 
-def _title(session: Session, topic: str) -> str:
+def _get_topic_title(session: Session, topic: str) -> str:
     return session.bank.topic_title(topic, session.state.wish.lang)

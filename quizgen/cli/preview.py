@@ -15,10 +15,10 @@ from quizgen.cli.options import (
     level_option,
     open_bank,
 )
-from quizgen.locale import leading
+from quizgen.locale import default_language
 
 
-class Options(BankOptions):
+class PreviewOptions(BankOptions):
     """What to show, and where."""
 
     seed: int
@@ -38,21 +38,23 @@ class Options(BankOptions):
 @level_option
 @click.option("--html", type=click.Path(path_type=Path), help="Write a page of it instead.")
 @bank_options
-def preview(name: str, **options: Unpack[Options]) -> None:
+def preview(name: str, **options: Unpack[PreviewOptions]) -> None:
     """Show one question, with its key and worked solution unless --quiz is given."""
     from quizgen.paper.code import REFERENCE
-    from quizgen.paper.paper import single
-    from quizgen.render.text import question_text
+    from quizgen.paper.paper import single_question_paper
+    from quizgen.render.text import format_question
 
     bank = open_bank(options)
-    template, lang = bank.template(name), options["lang"] or leading(bank.languages)
+    template, lang = bank.template(name), options["lang"] or default_language(bank.languages)
     seed = REFERENCE if options["reference"] else options["seed"]
     page = options["html"]
-    paper = single(template, seed, lang, level=options["level"], figures=page is not None)
+    paper = single_question_paper(
+        template, seed, lang, level=options["level"], figures=page is not None
+    )
     if page is None:
-        click.echo(question_text(paper.items[0], solved=not options["quiz"]))
+        click.echo(format_question(paper.items[0], solved=not options["quiz"]))
         return
-    from quizgen.files import write_all
+    from quizgen.core.files import write_all
     from quizgen.render import render_paper
 
     kind = "exam" if options["quiz"] else "solutions"

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from quizgen.core.untrusted import escape_control_characters
 from quizgen.locale import FIRST
-from quizgen.outside import visible
 
 if TYPE_CHECKING:
     from quizgen.responses.marks import Marked
@@ -36,14 +36,14 @@ def check(
 
     keys = read(path)
     if banks:
-        from quizgen.cli.banks import compare
+        from quizgen.cli.banks import compare_banks
 
-        compare(keys.banks, banks)
+        compare_banks(keys.banks, banks)
     lost: list[str] = []
     given = attempts(files, keys.found, lost.append)
     found = list(marked(keys, given, lang, settle=not flags["no_settle"]))
     for line in (*lost, *_untold(found)):
-        click.echo(f"quizgen: {visible(' '.join(line.split()))}", err=True)
+        click.echo(f"quizgen: {escape_control_characters(' '.join(line.split()))}", err=True)
     there = [one for one in found if one.attempt.responses]
     if there:
         _print(there, lang or FIRST, flags)

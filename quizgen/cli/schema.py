@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import click
 
-from quizgen.bank.schemas import SCHEMAS
-from quizgen.bank.schemas import schema as schema_of
+from quizgen.bank.json_schema import SCHEMAS
+from quizgen.bank.json_schema import build_json_schema as schema_of
 
 
 @click.command()

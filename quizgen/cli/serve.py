@@ -7,17 +7,17 @@ from typing import Unpack
 
 import click
 
-from quizgen.cli.lint import problems_of
+from quizgen.cli.lint import lint_while_writing
 from quizgen.cli.options import (
     BankOptions,
-    Whole,
+    IntRangeParam,
     bank_options,
     database_option,
     open_bank,
 )
 
 
-class Options(BankOptions):
+class ServeOptions(BankOptions):
     """Where to listen, and where to keep what is done."""
 
     port: int
@@ -34,7 +34,7 @@ class Options(BankOptions):
 @click.command()
 @click.option(
     "--port",
-    type=Whole(0, 65535),
+    type=IntRangeParam(0, 65535),
     default=0,
     help="Port; if left out the one of the first time, or a free one.",
 )
@@ -69,17 +69,17 @@ class Options(BankOptions):
     help="Folder of a class: decide there what no program can.",
 )
 @bank_options
-def serve(**options: Unpack[Options]) -> None:
+def serve(**options: Unpack[ServeOptions]) -> None:
     """Practise and sit the exam in a browser: alone, or with everybody in the network."""
-    from quizgen.web.settings import Settings
+    from quizgen.web.settings import ServerSettings
 
-    settings = Settings(
+    settings = ServerSettings(
         options["database"],
         open_bank(options),
         host=options["host"],
         names=tuple(name.lower() for name in options["names"]),
         behind_proxy=options["behind_proxy"],
-        examine=problems_of if options["author"] else None,
+        examine=lint_while_writing if options["author"] else None,
         classroom=options["classroom"],
     )
     if settings.accounts and options["author"]:
@@ -88,6 +88,8 @@ def serve(**options: Unpack[Options]) -> None:
         raise click.UsageError("--class shows names and keys: on this machine alone")
     if options["invite"] and not settings.accounts:
         raise click.UsageError("--invite: nobody signs in; see --host")
-    from quizgen.web.server import run
+    from quizgen.web.server import run_server
 
-    run(settings, options["port"], show=options["show"], tell=click.echo, invite=options["invite"])
+    run_server(
+        settings, options["port"], show=options["show"], tell=click.echo, invite=options["invite"]
+    )

@@ -10,21 +10,21 @@ import click
 from quizgen.cli.options import (
     LANGUAGE_HELP,
     BankOptions,
-    Tongue,
+    LanguageParam,
     bank_options,
-    checked,
+    match_choice,
     open_bank,
-    split,
-    topic_option,
+    resolve_topic,
+    split_names,
 )
 from quizgen.cli.terminal import many
-from quizgen.locale import leading
+from quizgen.locale import default_language
 from quizgen.render import RENDERERS
 
 NAME = "formulas"
 
 
-class Options(BankOptions):
+class SheetOptions(BankOptions):
     """Which formulas, and where to."""
 
     lang: str | None
@@ -34,27 +34,29 @@ class Options(BankOptions):
 
 
 @click.command()
-@click.option("--lang", type=Tongue(both=True), help=LANGUAGE_HELP)
+@click.option("--lang", type=LanguageParam(both=True), help=LANGUAGE_HELP)
 @click.option("--topic", "topics", help="Only these topics, by comma.")
 @click.option("--format", "formats", default=",".join(RENDERERS), show_default=True,
               help="html (with all remarks), pdf (to print); by comma.")  # fmt: skip
 @click.option("--out", type=click.Path(path_type=Path), default=Path("sheet"), show_default=True,
               help="Folder to write to.")  # fmt: skip
 @bank_options
-def sheet(**options: Unpack[Options]) -> None:
+def sheet(**options: Unpack[SheetOptions]) -> None:
     """Write the formulas of the chapter, by topic, on a sheet to print and a page to read."""
-    from quizgen.files import write_all
-    from quizgen.question.sheet import sheet as formula_sheet
+    from quizgen.core.files import write_all
+    from quizgen.question.formula_sheet import compose_sheet as formula_sheet
     from quizgen.render import render_sheet
 
-    formats = [checked("--format", name, RENDERERS) for name in split(options["formats"])]
+    formats = [
+        match_choice("--format", name, RENDERERS) for name in split_names(options["formats"])
+    ]
     if not formats:
         raise click.BadParameter(
             f"no format (allowed: {', '.join(RENDERERS)})", param_hint="--format"
         )
     bank = open_bank(options)
-    topics = [topic_option(bank, name) for name in split(options["topics"])]
-    made = formula_sheet(bank, options["lang"] or leading(bank.languages), topics)
+    topics = [resolve_topic(bank, name) for name in split_names(options["topics"])]
+    made = formula_sheet(bank, options["lang"] or default_language(bank.languages), topics)
     folder = options["out"]
     for path in write_all(folder, {f"{NAME}.{f}": render_sheet(made, f) for f in formats}):
         click.echo(f"  {path}")

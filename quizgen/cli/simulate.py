@@ -15,8 +15,8 @@ import click
 
 from quizgen.cli import contrast
 from quizgen.cli.terminal import Progress, print_table, tell
-from quizgen.errors import ChoiceError
-from quizgen.files import write_all
+from quizgen.core.errors import InvalidChoiceError
+from quizgen.core.files import write_all
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,7 +36,7 @@ REALLY = (*HEAD[:3], "really", *HEAD[3:])
 SCENES = Path(__file__).parent.parent / "camera" / "scenes"
 
 
-class Options(TypedDict):
+class SimulateOptions(TypedDict):
     """What to run, and what to write."""
 
     asks: tuple[str, ...]
@@ -52,7 +52,7 @@ class Options(TypedDict):
 
 
 @dataclass
-class Shot:
+class SimulatedShot:
     """A scene photographed: the picture, what it is compared with, and where the time went."""
 
     title: str
@@ -78,16 +78,18 @@ class Shot:
         self.times[what] = self.times.get(what, 0.0) + (perf_counter() - started) * 1e3
 
 
-def _names(*flags: str, name: str, text: str) -> Callable[[Any], Any]:
+def _make_effect_option(*flags: str, name: str, text: str) -> Callable[[Any], Any]:
     return click.option(*flags, name, multiple=True, metavar="EFFECT", help=text)
 
 
 @click.command()
 @click.argument("scene", required=False)
 @click.option("--asks", multiple=True, metavar="KIND", help="Ask this instead of the scene's own.")
-@_names("--only", name="only", text="Run this effect, what it needs, and nothing else.")
-@_names("--with", name="plus", text="Run this effect besides.")
-@_names("--without", name="minus", text="Leave this effect out.")
+@_make_effect_option(
+    "--only", name="only", text="Run this effect, what it needs, and nothing else."
+)
+@_make_effect_option("--with", name="plus", text="Run this effect besides.")
+@_make_effect_option("--without", name="minus", text="Leave this effect out.")
 @click.option(
     "--budget",
     metavar="LEVELS",
@@ -116,7 +118,7 @@ def _names(*flags: str, name: str, text: str) -> Callable[[Any], Any]:
     help="Write the picture here: .png or .jpg.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the report as JSON.")
-def simulate(scene: str | None, **options: Unpack[Options]) -> None:
+def simulate(scene: str | None, **options: Unpack[SimulateOptions]) -> None:
     """Photograph SCENE (a TOML file, or the name of a shipped scene).
 
     Runs what the scene's question asks about and what its picture would be wrong without, measures
@@ -125,16 +127,16 @@ def simulate(scene: str | None, **options: Unpack[Options]) -> None:
     if scene is None:
         _list_scenes()
         return
-    contrast.check(options["compare"])
+    contrast.check_target(options["compare"])
     encode = _find_writer(options["out"])
     with Progress("simulate:") as told:
-        shot = _shoot(scene, options, told)
-        _write(shot, options, encode)
+        shot = _simulate_scene(scene, options, told)
+        _write_pictures(shot, options, encode)
     report = summarise(shot)
     if options["as_json"]:
         click.echo(json.dumps(report, ensure_ascii=False, indent=1))
     else:
-        _print(shot, report)
+        _print_report(shot, report)
     if not report.get("everything", {}).get("bound_kept", True):
         click.echo(
             f"quizgen: broken: {shot.plan.bound_dn:.3g} grey levels at most were promised, "
@@ -144,7 +146,7 @@ def simulate(scene: str | None, **options: Unpack[Options]) -> None:
         sys.exit(1)
 
 
-def _shoot(scene: str, options: Options, told: Progress) -> Shot:
+def _simulate_scene(scene: str, options: SimulateOptions, told: Progress) -> SimulatedShot:
     from quizgen.camera.compare import measure_each, time_in_turns
     from quizgen.camera.prepared import Prepared
     from quizgen.camera.reading import load
@@ -152,12 +154,12 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
 
     started = perf_counter()
     told("reading")
-    prepared = Prepared(*load(_find(scene), options["precision"]))
+    prepared = Prepared(*load(_find_scene(scene), options["precision"]))
     read = (perf_counter() - started) * 1e3
-    shot = _take(scene, prepared, options, told)
+    shot = _take_photo(scene, prepared, options, told)
     shot.times = {"read": read, "drawn": shot.photo.drawn_ms, "effects": shot.photo.measured_ms}
     if prepared.given.scene.precision == "float64":
-        single = Prepared(*load(_find(scene), "float32"), shot.plan.names)
+        single = Prepared(*load(_find_scene(scene), "float32"), shot.plan.names)
         shot.single = run(single, told=told, last=True)
     if options["everything"] or (options["compare"] is not None and shot.taken is None):
         shot.whole = run(prepared, told=told)
@@ -169,47 +171,55 @@ def _shoot(scene: str, options: Options, told: Progress) -> Shot:
     return shot
 
 
-def _take(scene: str, prepared: Prepared, options: Options, told: Progress) -> Shot:
+def _take_photo(
+    scene: str, prepared: Prepared, options: SimulateOptions, told: Progress
+) -> SimulatedShot:
     """Photograph for a question, or within a budget where nothing is asked."""
     from quizgen.camera.planning import plan_budget
     from quizgen.camera.question import photograph_question, take_photographs
     from quizgen.camera.simulate import run
 
-    seen, chosen = prepared.given.scene, _select(options)
+    seen, chosen = prepared.given.scene, _parse_selection(options)
     asks = options["asks"] or (seen.question.asks if seen.question else ())
     title = seen.title or scene
     if options["budget"] is not None and (options["asks"] or options["only"]):
-        raise ChoiceError("--budget is for pictures without a question; leave out --asks or --only")
+        raise InvalidChoiceError(
+            "--budget is for pictures without a question; leave out --asks or --only"
+        )
     if options["budget"] is None and (asks or chosen.only):
         # who chooses effects by name may look at what cannot be seen
         take = take_photographs if chosen.only or chosen.minus else photograph_question
         taken = take(seen, prepared.camera, options["asks"], chosen=chosen, told=told)
-        return Shot(title, prepared, taken.plan, taken.photo, taken)
+        return SimulatedShot(title, prepared, taken.plan, taken.photo, taken)
     plan = plan_budget(prepared, options["budget"] or "same", chosen)
     again = options["everything"] or options["compare"] is not None
-    return Shot(title, prepared, plan, run(prepared, plan.names, told, last=not again))
+    return SimulatedShot(title, prepared, plan, run(prepared, plan.names, told, last=not again))
 
 
-def _select(options: Options) -> Selection:
+def _parse_selection(options: SimulateOptions) -> Selection:
     from quizgen.camera.planning import Selection, read_effect
 
     only, plus, minus = (tuple(map(read_effect, options[way])) for way in ("only", "plus", "minus"))
     return Selection(only, plus, minus)
 
 
-def _write(shot: Shot, options: Options, encode: Callable[[NDArray[np.uint8]], bytes]) -> None:
+def _write_pictures(
+    shot: SimulatedShot, options: SimulateOptions, encode: Callable[[NDArray[np.uint8]], bytes]
+) -> None:
     out, beside = options["out"], options["compare"]
     if out is not None:
         photo = shot.whole if options["everything"] and shot.whole else shot.photo
         with shot.timed("written"):
             write_all(out.parent, {out.name: encode(photo.pixels())})
     if beside is not None:
-        told = (REALLY, *_rows(shot))
-        page = contrast.contents(beside, shot.title, _pair(shot), told, _sentences(shot))
+        told = (REALLY, *_iter_table_rows(shot))
+        page = contrast.comparison_file(
+            beside, shot.title, _choose_pictures(shot), told, _iter_plan_sentences(shot)
+        )
         write_all(beside.parent, {beside.name: page})
 
 
-def _pair(shot: Shot) -> dict[str, Photo]:
+def _choose_pictures(shot: SimulatedShot) -> dict[str, Photo]:
     """Two pictures to compare, by what they show."""
     if shot.taken is not None:
         asked = ", ".join(shot.plan.asked)
@@ -217,14 +227,16 @@ def _pair(shot: Shot) -> dict[str, Photo]:
     return {"what is run": shot.photo, "everything": shot.whole or shot.photo}
 
 
-def _find(scene: str) -> Path:
+def _find_scene(scene: str) -> Path:
     path, shipped = Path(scene), SCENES / f"{scene}.toml"
     plain = path.name == scene
     if path.exists() or not plain or path.suffix:
         return path
     if not shipped.exists():
         names = ", ".join(sorted(known.stem for known in SCENES.glob("*.toml")))
-        raise ChoiceError(f"no scene {scene!r} (there are {names}; or the path of a TOML file)")
+        raise InvalidChoiceError(
+            f"no scene {scene!r} (there are {names}; or the path of a TOML file)"
+        )
     return shipped
 
 
@@ -241,11 +253,11 @@ def _find_writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
 
     ending = ".png" if target is None else target.suffix.lower()
     if ending not in WRITERS:
-        raise ChoiceError(f"cannot write {target} (endings: {', '.join(WRITERS)})")
+        raise InvalidChoiceError(f"cannot write {target} (endings: {', '.join(WRITERS)})")
     return WRITERS[ending]
 
 
-def summarise(shot: Shot) -> dict[str, Any]:
+def summarise(shot: SimulatedShot) -> dict[str, Any]:
     """The report as plain data; what everything gives only where it was run for comparison."""
     from quizgen.camera import effects
     from quizgen.camera.simulate import measure_difference
@@ -253,8 +265,8 @@ def summarise(shot: Shot) -> dict[str, Any]:
     plan, seen = shot.plan, shot.prepared.given.scene
     report: dict[str, Any] = {
         "ran": list(plan.names),
-        "steps": [_tell(step, shot) for step in plan.steps],
-        "left_out": [_tell(item, shot) for item in plan.left_out],
+        "steps": [_format_choice_json(step, shot) for step in plan.steps],
+        "left_out": [_format_choice_json(item, shot) for item in plan.left_out],
         "absent": list(plan.absent),
         "asked": list(plan.asked),
         "idle": effects.idle(shot.prepared.given),
@@ -277,7 +289,7 @@ def summarise(shot: Shot) -> dict[str, Any]:
     return report
 
 
-def _tell(choice: Choice, shot: Shot) -> dict[str, Any]:
+def _format_choice_json(choice: Choice, shot: SimulatedShot) -> dict[str, Any]:
     told: dict[str, Any] = {
         "effect": choice.effect,
         "why": choice.why,
@@ -303,7 +315,7 @@ def _tell_seen(seen: Visibility) -> dict[str, Any]:
     }
 
 
-def _tell_everything(shot: Shot, race: Race, whole: Photo) -> dict[str, Any]:
+def _tell_everything(shot: SimulatedShot, race: Race, whole: Photo) -> dict[str, Any]:
     from quizgen.camera.simulate import is_within, measure_difference
 
     return {
@@ -315,15 +327,15 @@ def _tell_everything(shot: Shot, race: Race, whole: Photo) -> dict[str, Any]:
     }
 
 
-def _print(shot: Shot, report: dict[str, Any]) -> None:
+def _print_report(shot: SimulatedShot, report: dict[str, Any]) -> None:
     click.echo(shot.title)
-    if rows := list(_rows(shot)):
+    if rows := list(_iter_table_rows(shot)):
         print_table(REALLY if shot.really else HEAD, rows)
-    for line in (*_sentences(shot), *_totals(shot, report)):
+    for line in (*_iter_plan_sentences(shot), *_iter_total_lines(shot, report)):
         tell(line)
 
 
-def _rows(shot: Shot) -> Iterator[tuple[str, ...]]:
+def _iter_table_rows(shot: SimulatedShot) -> Iterator[tuple[str, ...]]:
     """Rows of the table."""
     plan = shot.plan
     for state, choice in [*(("ran", x) for x in plan.steps), *(("", x) for x in plan.left_out)]:
@@ -334,7 +346,7 @@ def _rows(shot: Shot) -> Iterator[tuple[str, ...]]:
         yield choice.effect, state, bound, *(really if shot.really else ()), took, why
 
 
-def _sentences(shot: Shot) -> Iterator[str]:
+def _iter_plan_sentences(shot: SimulatedShot) -> Iterator[str]:
     """What was left out and why, and what is seen."""
     plan = shot.plan
     for item in plan.left_out:
@@ -349,7 +361,7 @@ def _sentences(shot: Shot) -> Iterator[str]:
         yield f"{name} is read as {value:.4g}"
 
 
-def _totals(shot: Shot, report: dict[str, Any]) -> Iterator[str]:
+def _iter_total_lines(shot: SimulatedShot, report: dict[str, Any]) -> Iterator[str]:
     plan = shot.plan
     if plan.budget is not None:
         yield (

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, bank_options, checked, open_bank, topic_option
+from quizgen.cli.options import BankOptions, bank_options, match_choice, open_bank, resolve_topic
 from quizgen.cli.terminal import on_terminal, one_line, print_table
 
 if TYPE_CHECKING:
-    from quizgen.bank.folder import Bank
+    from quizgen.bank.bank import Bank
 
 HEAD = ("id", "tier", "topic", "pool", "languages", "title")
 
 
-class Filters(TypedDict):
+class TemplateFilters(TypedDict):
     """Which templates to list; all conditions hold together."""
 
     topic: str | None
@@ -25,7 +25,7 @@ class Filters(TypedDict):
     covers: str | None
 
 
-class Options(BankOptions, Filters):
+class TemplatesOptions(BankOptions, TemplateFilters):
     """What to list, and of which bank."""
 
     coverage: bool
@@ -38,7 +38,7 @@ class Options(BankOptions, Filters):
 @click.option("--covers", metavar="ITEM", help="Only those that cover this item, such as Q4a.")
 @click.option("--coverage", is_flag=True, help="What of the curriculum is covered, with holes.")
 @bank_options
-def templates(**options: Unpack[Options]) -> None:
+def templates(**options: Unpack[TemplatesOptions]) -> None:
     """List the templates of the bank: id, tier, topic, pool size, languages, title.
 
     Piped, each template is one line, its cells parted by tabs.
@@ -47,15 +47,15 @@ def templates(**options: Unpack[Options]) -> None:
     if options["coverage"]:
         _print_coverage(bank)
         return
-    names = list(_fitting(bank, options))
-    _print(HEAD, [_row(bank, name) for name in names])
+    names = list(_iter_matching_templates(bank, options))
+    _print_templates(HEAD, [_build_template_row(bank, name) for name in names])
     if not names and options["covers"] is not None:
         click.echo(f"no template covers {options['covers']!r}", err=True)
     elif on_terminal() or not names:
         click.echo(f"{len(names)} templates", err=True)
 
 
-def _fitting(bank: Bank, filters: Filters) -> Iterator[str]:
+def _iter_matching_templates(bank: Bank, filters: TemplateFilters) -> Iterator[str]:
     """Names of the templates that meet every condition.
 
     Raises
@@ -63,60 +63,65 @@ def _fitting(bank: Bank, filters: Filters) -> Iterator[str]:
     click.BadParameter
         If there is no such topic or kind; it names all.
     """
-    from quizgen.audit.coverage import covering
+    from quizgen.lint.coverage import templates_covering
     from quizgen.question.kinds import KINDS
 
     topic, kind, search, covers = (filters[key] for key in ("topic", "kind", "search", "covers"))
-    topic = None if topic is None else topic_option(bank, topic)
-    kind = None if kind is None else checked("--kind", kind, sorted(KINDS))
-    covered = {(part, own) for part in bank.parts if covers for own in covering(part, covers)}
-    for name in bank.paths:
+    topic = None if topic is None else resolve_topic(bank, topic)
+    kind = None if kind is None else match_choice("--kind", kind, sorted(KINDS))
+    covered = {
+        (part, own) for part in bank.members if covers for own in templates_covering(part, covers)
+    }
+    for name in bank.template_paths:
         rules = bank.rules(name)
         if (
             topic in {None, rules.topic}
             and (kind is None or kind in {part.answer["kind"] for part in rules.part})
-            and (covers is None or bank.home(name) in covered)
-            and (search is None or _mentions(bank, name, search))
+            and (covers is None or bank.owner_of(name) in covered)
+            and (search is None or _is_mentioned(bank, name, search))
         ):
             yield name
 
 
-def _mentions(bank: Bank, name: str, search: str) -> bool:
-    texts = [name, *(_title(bank, name, lang) for lang in bank.written_in(name))]
+def _is_mentioned(bank: Bank, name: str, search: str) -> bool:
+    texts = [
+        name,
+        *(_read_template_title(bank, name, lang) for lang in bank.template_languages(name)),
+    ]
     return any(search.casefold() in text.casefold() for text in texts)
 
 
-def _row(bank: Bank, name: str) -> tuple[str, ...]:
+def _build_template_row(bank: Bank, name: str) -> tuple[str, ...]:
     """Cells of a template; its solver is not run for them."""
-    rules, langs = bank.rules(name), _languages(bank, name)
-    title = _title(bank, name, langs[0]) if langs else ""
+    rules, langs = bank.rules(name), _list_languages(bank, name)
+    title = _read_template_title(bank, name, langs[0]) if langs else ""
     return (name, rules.tier, rules.topic, str(rules.pool or "-"), ",".join(langs), title)
 
 
-def _languages(bank: Bank, name: str) -> list[str]:
+def _list_languages(bank: Bank, name: str) -> list[str]:
     """Languages of a template, those of the bank first and in their order."""
-    written = bank.written_in(name)
+    written = bank.template_languages(name)
     return sorted(written, key=[*bank.languages, *written].index)
 
 
-def _title(bank: Bank, name: str, lang: str) -> str:
-    from quizgen.bank.pages import read_text
+def _read_template_title(bank: Bank, name: str, lang: str) -> str:
+    from quizgen.bank.language_file import read_language_file
 
-    return read_text(bank.paths[name] / f"{lang}.md").title
+    return read_language_file(bank.template_paths[name] / f"{lang}.md").title
 
 
 def _print_coverage(bank: Bank) -> None:
-    from quizgen.audit.coverage import coverage
+    from quizgen.lint.coverage import curriculum_coverage
 
     rows = [
         (row.group, str(len(row.covered)), str(row.total), " ".join(row.holes))
-        for part in bank.parts
-        for row in coverage(part)
+        for part in bank.members
+        for row in curriculum_coverage(part)
     ]
-    _print(("group", "covered", "of", "holes"), rows)
+    _print_templates(("group", "covered", "of", "holes"), rows)
 
 
-def _print(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+def _print_templates(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print a table where people read it, else a line of cells and tabs for each row."""
     if on_terminal():
         print_table(head, rows)

@@ -15,7 +15,7 @@ from typing import Self
 import click
 
 from quizgen.columns import is_wide, width
-from quizgen.outside import visible
+from quizgen.core.untrusted import escape_control_characters
 
 NARROWEST = 20
 """Columns that text is laid out for at least."""
@@ -112,7 +112,7 @@ def _unbreakable(word: str) -> Iterator[str]:
 
 def one_line(text: str) -> str:
     """A text without line breaks and other control characters, as a cell of a table."""
-    return visible(" ".join(text.split()))
+    return escape_control_characters(" ".join(text.split()))
 
 
 def print_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
@@ -143,7 +143,9 @@ def many(count: int, word: str) -> str:
 
 def tell(text: str) -> None:
     """Print a sentence; on a terminal it is broken between words."""
-    for line in wrapped(visible(text), columns() if on_terminal() else sys.maxsize):
+    for line in wrapped(
+        escape_control_characters(text), columns() if on_terminal() else sys.maxsize
+    ):
         click.echo(line)
 
 
@@ -174,7 +176,7 @@ class Progress:
         if self.clock() - self._start < PATIENCE or not sys.stderr.isatty():
             return
         count = f"{self.done}/{self.total}" if self.total else f"{self.done}"
-        self._overwrite(visible(f"{self.what} {count} {name}")[: columns() - 1])
+        self._overwrite(escape_control_characters(f"{self.what} {count} {name}")[: columns() - 1])
 
     def _overwrite(self, line: str) -> None:
         click.echo(f"\r{line.ljust(self._shown)}\r{line}", nl=False, err=True)

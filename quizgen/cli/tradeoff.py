@@ -11,10 +11,10 @@ import click
 @click.option("--out", default="tradeoff", metavar="DIR", help="Folder to write to.")
 def tradeoff(out: str) -> None:
     """Show what accuracy costs: an HTML page, its plot as SVG, and all numbers as JSON."""
-    from quizgen.bank.folder import builtin
-    from quizgen.tradeoff.page import write
-    from quizgen.tradeoff.report import measure
+    from quizgen.bank.bank import builtin_bank
+    from quizgen.tradeoff.page import write_page
+    from quizgen.tradeoff.report import measure_tradeoff
 
-    report = measure(builtin())
-    write(report, Path(out), "quizgen tradeoff")
+    report = measure_tradeoff(builtin_bank())
+    write_page(report, Path(out), "quizgen tradeoff")
     click.echo(f"{Path(out) / 'tradeoff.html'}: {report.seconds:.1f} s")

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
-from quizgen.errors import one_of
+from quizgen.core.errors import require_one_of
 
 if TYPE_CHECKING:
     from quizgen.export.items import Item
@@ -49,7 +49,7 @@ def exporter(name: str) -> Exporter:
     ChoiceError
         Naming the formats there are.
     """
-    chosen = one_of("format", name, FORMATS)
+    chosen = require_one_of("format", name, FORMATS)
     from quizgen.export.items import by_hand
 
     match chosen:

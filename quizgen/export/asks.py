@@ -10,18 +10,18 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import singledispatch
 
-from quizgen.bank.prose import Inline, Words
+from quizgen.bank.markdown import Inline, PlainText
 from quizgen.export.ranges import Near, Range, ranges
-from quizgen.locale import word
-from quizgen.marking.kinds import angle, choice, code, gap, match, number, order, point, table
-from quizgen.marking.kinds import quantity as quantities
-from quizgen.marking.specs import AnySpec, Measured, OneNumber
-from quizgen.marking.specs import Numbers as SeveralNumbers
-from quizgen.maths.constants import exact_value
-from quizgen.maths.notation import people
-from quizgen.maths.numbers import places
+from quizgen.grading.kinds import angle, choice, code, gap, match, number, order, point, table
+from quizgen.grading.kinds import quantity as quantities
+from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec
+from quizgen.grading.spec import VectorSpec as SeveralNumbers
+from quizgen.locale import translate
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.notation import pretty
+from quizgen.maths.numbers import count_decimals
 from quizgen.maths.values import Value
-from quizgen.question.compose import Part
+from quizgen.question.compose import QuestionPart
 from quizgen.question.hints import rounding
 from quizgen.question.solution import PartSolution
 from quizgen.question.specs import Numbers
@@ -141,9 +141,9 @@ def as_pairs(ask: Pairs | Order, lang: str) -> Pairs:
         return ask
     places = {mark: str(place) for place, mark in enumerate(ask.right, 1)}
     right = {mark: places.get(mark, NOWHERE) for mark, _ in ask.steps}
-    targets = [(place, (Words(place),)) for place in places.values()]
+    targets = [(place, (PlainText(place),)) for place in places.values()]
     if NOWHERE in right.values():
-        targets.append((NOWHERE, (Words(word(lang, "export.no_step")),)))
+        targets.append((NOWHERE, (PlainText(translate(lang, "export.no_step")),)))
     return Pairs(ask.steps, tuple(targets), right, {})
 
 
@@ -151,7 +151,7 @@ def as_pairs(ask: Pairs | Order, lang: str) -> Pairs:
 class Asked:
     """A part with its solution, as far as its asks need them."""
 
-    part: Part
+    part: QuestionPart
     solved: PartSolution
     lang: str
 
@@ -174,11 +174,11 @@ class Asked:
 
 def _sentences(options: tuple[Said, ...]) -> Iterator[Inline]:
     for place, option in enumerate(options):
-        yield from ((Words(" "),) if place else ())
+        yield from ((PlainText(" "),) if place else ())
         yield from option
 
 
-def asks(part: Part, spec: AnySpec, solved: PartSolution, lang: str) -> tuple[Ask, ...]:
+def asks(part: QuestionPart, spec: AnySpec, solved: PartSolution, lang: str) -> tuple[Ask, ...]:
     """What a part asks, one for each field.
 
     Parameters
@@ -218,13 +218,13 @@ def _quantity(spec: quantities.Spec, asked: Asked) -> tuple[Ask, ...]:
 
 @_asks.register
 def _angle(spec: angle.Spec, asked: Asked) -> tuple[Ask, ...]:
-    return _measured(spec, asked, "°", period=exact_value(spec.period))
+    return _measured(spec, asked, "°", period=parse_exact(spec.period))
 
 
 def _measured(
-    spec: OneNumber, asked: Asked, unit: str, scale: int = 1, period: Value | None = None
+    spec: ScalarSpec, asked: Asked, unit: str, scale: int = 1, period: Value | None = None
 ) -> tuple[Ask, ...]:
-    key = exact_value(spec.value) * scale
+    key = parse_exact(spec.value) * scale
     if spec.exact and not _finite(key):
         return (asked.written("fraction"),)
     said = asked.mistakes
@@ -233,13 +233,13 @@ def _measured(
     return (Numeric("", unit, ranges(spec, key, wrong, period), told),)
 
 
-def _precision(spec: Measured, key: Numbers, lang: str) -> str:
+def _precision(spec: NumericSpec, key: Numbers, lang: str) -> str:
     """How exactly a number is meant that can only be typed as a decimal."""
     rule, number = spec.stated or ("", "")
     if rule == "exact":
-        return word(lang, "export.exact")
+        return translate(lang, "export.exact")
     if rule == "abs":
-        return word(lang, "export.abs", abs=people.number(str(number)))
+        return translate(lang, "export.abs", abs=pretty.format_number(str(number)))
     return rounding(spec, key, lang)
 
 
@@ -247,7 +247,7 @@ def _finite(key: Value) -> bool:
     """Whether a key can be typed as a decimal."""
     from flint import fmpq
 
-    return isinstance(key, fmpq) and places(key) is not None
+    return isinstance(key, fmpq) and count_decimals(key) is not None
 
 
 @_asks.register
@@ -264,7 +264,7 @@ def _several(spec: SeveralNumbers, asked: Asked, names: list[str]) -> tuple[Ask,
         if spec.exact and not _finite(key):
             return (asked.written("fraction"),)
         wrong = [
-            Near(exact_value(values[place]), said.get(name, ()))
+            Near(parse_exact(values[place]), said.get(name, ()))
             for name, values in spec.traps.items()
         ]
         name = names[place] if place < len(names) else ""

@@ -19,6 +19,7 @@ import jinja2
 from markupsafe import Markup
 
 from quizgen.bank.pictures import PictureFile
+from quizgen.core.files import build_zip
 from quizgen.export import pictures
 from quizgen.export.answers import answers
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
@@ -35,11 +36,10 @@ from quizgen.export.wording import (
     targets,
 )
 from quizgen.figures import Figure
-from quizgen.files import zipped
-from quizgen.locale import word
-from quizgen.question.compose import Part
-from quizgen.question.shown import named
-from quizgen.render.layouts import environment
+from quizgen.locale import translate
+from quizgen.question.compose import QuestionPart
+from quizgen.question.inlines import name_inline
+from quizgen.render.layouts import jinja_environment
 from quizgen.responses import keys
 
 
@@ -51,7 +51,7 @@ class Query:
     """
 
     item: Item
-    part: Part
+    part: QuestionPart
     asks: tuple[Ask, ...]
     points: Fraction
     suffix: str
@@ -101,7 +101,7 @@ class Query:
         if count == 1:
             return Markup("")
         if isinstance(self.ask, Numeric) and self.ask.name:
-            name = inline((named(self.ask.name),), self.item.lang)
+            name = inline((name_inline(self.ask.name),), self.item.lang)
             return Markup("<p><strong>{} = ?</strong></p>").format(name)
         row = ("?" if one == place else "…" for one in range(1, count + 1))
         return Markup("<p><strong>({})</strong></p>").format("; ".join(row))
@@ -141,7 +141,7 @@ def kept(item: Item) -> Iterator[keys.Entry]:
 
 def write(items: Iterable[Item]) -> bytes:
     """The questions as a package: the same bytes for the same questions."""
-    return zipped(contents(items))
+    return build_zip(contents(items))
 
 
 def contents(items: Iterable[Item]) -> dict[str, bytes]:
@@ -173,7 +173,7 @@ def _group(query: Query) -> str:
 
 @cache
 def _layouts() -> jinja2.Environment:
-    layouts = environment("quizgen.export")
+    layouts = jinja_environment("quizgen.export")
     layouts.globals.update(
         answers=answers,
         as_text=str.__str__,
@@ -181,7 +181,7 @@ def _layouts() -> jinja2.Environment:
         marked=marked,
         solution=_solution,
         targets=targets,
-        word=word,
+        word=translate,
     )
     return layouts
 

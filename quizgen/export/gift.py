@@ -21,7 +21,7 @@ from quizgen.export.items import Item, by_slot, suffix
 from quizgen.export.kept import asked
 from quizgen.export.wording import body, inline, marked, signed, solution, stem, targets
 from quizgen.figures import Figure
-from quizgen.question.compose import Part
+from quizgen.question.compose import QuestionPart
 from quizgen.responses import keys
 
 _SIGNS = {ord(sign): f"\\{sign}" for sign in "\\~=#{}:"} | {ord("\n"): "\\n", ord("\r"): ""}
@@ -70,7 +70,7 @@ def _only(found: tuple[Ask, ...]) -> Ask:
     return found[0] if len(found) == 1 else Write("several", ())
 
 
-def _question(item: Item, part: Part, ask: Ask) -> str:
+def _question(item: Item, part: QuestionPart, ask: Ask) -> str:
     behind = suffix(part)
     text = stem(item, _source) + body(part, (ask,), item.lang, _source)
     text += signed(item, behind)

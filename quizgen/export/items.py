@@ -8,14 +8,13 @@ from functools import cached_property
 
 import msgspec
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 from quizgen.export.asks import Ask, Write, asks
 from quizgen.figures import Figure
+from quizgen.paper.answer_key import KeyQuestion, make_key_question
 from quizgen.paper.blueprint import Blueprint
-from quizgen.paper.key import KeyQuestion, key_question
-from quizgen.paper.paper import Item as PaperItem
-from quizgen.paper.paper import Progress, build, silent
-from quizgen.question.compose import Key, Part, Question, compose
+from quizgen.paper.paper import PaperItem, ProgressCallback, build_paper, silent
+from quizgen.question.compose import Question, QuestionKey, QuestionPart, compose_question
 from quizgen.responses.keys import mark
 
 
@@ -36,7 +35,7 @@ class Item:
     id: str
     slot: str
     question: Question
-    key: Key
+    key: QuestionKey
 
     @property
     def lang(self) -> str:
@@ -70,7 +69,7 @@ class Item:
         return None if alike else solved
 
     @cached_property
-    def parts(self) -> tuple[tuple[Part, tuple[Ask, ...]], ...]:
+    def parts(self) -> tuple[tuple[QuestionPart, tuple[Ask, ...]], ...]:
         """Each part with what it asks."""
         rows = zip(self.question.parts, self.key.specs, self.key.solution.parts, strict=True)
         return tuple((part, asks(part, spec, solved, self.lang)) for part, spec, solved in rows)
@@ -78,7 +77,7 @@ class Item:
     @cached_property
     def key_question(self) -> KeyQuestion:
         """What marks it, as it is written to a file."""
-        return key_question(self.paper_item)
+        return make_key_question(self.paper_item)
 
     def mark(self, suffix: str = "") -> str:
         """What stands in its text, so that a response to it is known."""
@@ -92,7 +91,7 @@ class Item:
         return (self.question.topic, f"tier {self.question.tier}", *cited)
 
 
-def suffix(part: Part) -> str:
+def suffix(part: QuestionPart) -> str:
     """What tells the question that a part becomes from others of its item."""
     return f".{part.label}" if part.label else ""
 
@@ -114,7 +113,7 @@ def of_templates(
     seed: int,
     variants: int,
     langs: Sequence[str],
-    progress: Progress = silent,
+    progress: ProgressCallback = silent,
 ) -> Iterator[Item]:
     """Variants of templates, no two of them the same: fewer than asked for if there are no more.
 
@@ -139,7 +138,7 @@ def of_templates(
         for name in names:
             template, seen = bank.template(name), set[str]()
             for place in range(seed, seed + variants):
-                question, key = compose(template, place, lang)
+                question, key = compose_question(template, place, lang)
                 if key.identity not in seen:
                     seen.add(key.identity)
                     yield Item(f"{name}.{place}.{lang}", name, question, key)
@@ -152,7 +151,7 @@ def of_blueprint(
     seed: int,
     variants: int,
     langs: Sequence[str],
-    progress: Progress = silent,
+    progress: ProgressCallback = silent,
 ) -> Iterator[Item]:
     """The questions of papers of consecutive seeds; those of one number share a slot.
 
@@ -166,7 +165,7 @@ def of_blueprint(
     for lang in langs:
         seen = set[tuple[str, str]]()
         for place in range(seed, seed + variants):
-            for item in build(bank, blueprint, place, lang, progress=progress).items:
+            for item in build_paper(bank, blueprint, place, lang, progress=progress).items:
                 slot, key = f"{blueprint.name}/{int(item.number):02}", item.keys[0]
                 if (slot, key.identity) not in seen:
                     seen.add((slot, key.identity))

@@ -12,8 +12,8 @@ import msgspec
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Said, Truth, as_pairs
 from quizgen.export.items import Item
 from quizgen.export.wording import inline, targets
-from quizgen.question.compose import Part
-from quizgen.render.text import inline as in_text
+from quizgen.question.compose import QuestionPart
+from quizgen.render.text import inlines_to_plain_text as in_text
 from quizgen.responses.keys import Asked, Entry, Kept, Shape
 
 _TAG = re.compile(r"<[^>]*>")
@@ -26,12 +26,12 @@ def kept(item: Item, entries: Iterable[Entry]) -> Kept:
     return Kept(item.id, item.slot, item.lang, question, shapes, list(entries))
 
 
-def _shape(part: Part) -> Shape:
+def _shape(part: QuestionPart) -> Shape:
     control = part.field.control
     return Shape(control.form, [box.name for box in control.boxes], control.named)
 
 
-def asked(ask: Ask, part: Part, lang: str, name: str = "") -> Asked:
+def asked(ask: Ask, part: QuestionPart, lang: str, name: str = "") -> Asked:
     """A field of a part, and what the system calls it."""
     return msgspec.structs.replace(_asked(ask, part.field.id, lang), name=name)
 

@@ -20,7 +20,7 @@ from math import lcm
 import jinja2
 from markupsafe import Markup
 
-from quizgen.bank.prose import Words
+from quizgen.bank.markdown import PlainText
 from quizgen.export import pictures
 from quizgen.export.answers import answers, lettered
 from quizgen.export.asks import (
@@ -50,15 +50,15 @@ from quizgen.export.wording import (
     targets,
 )
 from quizgen.figures import Figure
-from quizgen.locale import word
-from quizgen.question.compose import Part
-from quizgen.render.layouts import environment
+from quizgen.locale import translate
+from quizgen.question.compose import QuestionPart
+from quizgen.render.layouts import jinja_environment
 from quizgen.responses import keys
 
 _HERE = Markup("\N{OBJECT REPLACEMENT CHARACTER}")
 """Where a field will stand."""
 
-Asking = tuple[Part, tuple[Ask, ...]]
+Asking = tuple[QuestionPart, tuple[Ask, ...]]
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,7 @@ def _category(entry: Entry) -> str:
 
 @cache
 def _layouts() -> jinja2.Environment:
-    layouts = environment("quizgen.export")
+    layouts = jinja_environment("quizgen.export")
     layouts.globals.update(
         answers=answers,
         asked=lambda entry: pictures.asked(entry.item, entry.labels),
@@ -257,7 +257,7 @@ def _embedded_options(ask: Choose, weight: int, lang: str) -> Markup:
 def _embedded_truth(ask: Truth, weight: int, lang: str) -> Markup:
     said = inline(ask.said, lang)
     rows = [
-        (_cloze_text(word(lang, f"ask.{name}")), 100 * right, Markup("") if right else said)
+        (_cloze_text(translate(lang, f"ask.{name}")), 100 * right, Markup("") if right else said)
         for name, right in (("true", ask.true), ("false", not ask.true))
     ]
     return Markup("<div>{}</div>").format(_field(weight, "MULTICHOICE_H", rows))
@@ -271,7 +271,7 @@ def _embedded_pairs(ask: Pairs | Order, weight: int, lang: str) -> Markup:
     listed = [
         _no_field(marked(mark, words, lang))
         for mark, words in pairs.targets
-        if words != (Words(mark),)
+        if words != (PlainText(mark),)
     ]
     rows = [
         _no_field(marked(mark, words, lang)) + " " + _drop_down(pairs, mark, weight, lang)

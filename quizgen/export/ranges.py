@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from itertools import chain
 from math import inf, isfinite
 
-from quizgen.bank.prose import Inline
-from quizgen.marking.diagnosis.slips import CLOSE
-from quizgen.marking.specs import WIDEST
-from quizgen.maths.constants import exact_value
+from quizgen.bank.markdown import Inline
+from quizgen.grading.diagnosis.numeric_slips import CLOSE
+from quizgen.grading.spec import WIDEST
+from quizgen.maths.constants import parse_exact
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.values import Value
@@ -85,7 +85,7 @@ def _right(rule: Tolerance, key: Value, period: Value | None) -> Iterator[Range]
     for shift in (0, -turn, turn) if turn else (0,):
         yield Range(value + shift, _off_edge(value + shift, width, WIDER), right=True)
     if rule.accept is not None:
-        low, high = (to_float(exact_value(bound)) for bound in rule.accept)
+        low, high = (to_float(parse_exact(bound)) for bound in rule.accept)
         for start, end in ((low, min(value - width, high)), (max(value + width, low), high)):
             if start < end:
                 yield Range((start + end) / 2, (end - start) / 2 * BEYOND, right=True)

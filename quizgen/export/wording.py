@@ -17,24 +17,24 @@ from markupsafe import Markup
 from msgspec.structs import replace
 
 from quizgen import typeset
+from quizgen.bank.markdown import Block, Inline, PlainText
 from quizgen.bank.pictures import PictureFile
-from quizgen.bank.prose import Block, Inline, Words
-from quizgen.errors import one_of
+from quizgen.core.errors import require_one_of
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Said, by_person
 from quizgen.export.items import Item
 from quizgen.export.pictures import Source, image
-from quizgen.locale import word
-from quizgen.maths.units import shown as shown_unit
-from quizgen.paper.paper import Item as PaperItem
-from quizgen.question import markup
-from quizgen.question.compose import Part
+from quizgen.locale import translate
+from quizgen.maths.units import format_unit as shown_unit
+from quizgen.paper.paper import PaperItem
+from quizgen.question import html
+from quizgen.question.compose import QuestionPart
 from quizgen.question.hints import given
 from quizgen.question.hints import unit as in_unit
-from quizgen.question.markup import Manner, mathml_line
-from quizgen.question.shown import named
+from quizgen.question.html import HtmlDialect, display_mathml
+from quizgen.question.inlines import name_inline
 from quizgen.question.solution import PartSolution, Solution
-from quizgen.render.html import fragment
-from quizgen.render.text import inline as in_text
+from quizgen.render.html import render_html_fragment
+from quizgen.render.text import inlines_to_plain_text as in_text
 
 TRIES = 3
 """How often somebody is given a hint."""
@@ -44,12 +44,12 @@ _STYLED = re.compile(r' (?:class|lang)="[^"]*"')
 
 
 def _tex(node: typeset.Node, lang: str, marks: str = "()") -> str:
-    return rf"\{marks[0]}{escape(typeset.latex(node, lang), quote=False)}\{marks[1]}"
+    return rf"\{marks[0]}{escape(typeset.to_latex(node, lang), quote=False)}\{marks[1]}"
 
 
 FORMULAS = {
-    "mathml": Manner(typeset.mathml, mathml_line, ours=False),
-    "tex": Manner(_tex, partial(_tex, marks="[]"), ours=False),
+    "mathml": HtmlDialect(typeset.to_mathml, display_mathml, ours=False),
+    "tex": HtmlDialect(_tex, partial(_tex, marks="[]"), ours=False),
 }
 """How formulas are written: as MathML, or for a filter like MathJax."""
 _way = ContextVar("way", default=FORMULAS["mathml"])
@@ -74,7 +74,7 @@ def formulas(name: str) -> Iterator[None]:
     ChoiceError
         Naming the ways there are.
     """
-    before = _way.set(FORMULAS[one_of("way of formulas", name, FORMULAS)])
+    before = _way.set(FORMULAS[require_one_of("way of formulas", name, FORMULAS)])
     try:
         yield
     finally:
@@ -83,11 +83,11 @@ def formulas(name: str) -> Iterator[None]:
 
 def inline(words: Inline | Said, lang: str) -> Markup:
     """A sentence, or pieces of one."""
-    return markup.inline(words, lang, _way.get())
+    return html.inlines_to_html(words, lang, _way.get())
 
 
 def _blocks(parts: Sequence[Block], lang: str) -> Markup:
-    return markup.blocks(parts, lang, _way.get())
+    return html.blocks_to_html(parts, lang, _way.get())
 
 
 def spoken(page: Markup, lang: str) -> Markup:
@@ -100,7 +100,7 @@ def stem(item: Item, source: Source) -> Markup:
     return _blocks(item.question.stem, item.lang) + image(item.question.figure, source)
 
 
-def body(part: Part, found: Sequence[Ask], lang: str, source: Source) -> Markup:
+def body(part: QuestionPart, found: Sequence[Ask], lang: str, source: Source) -> Markup:
     """A part, with what it lists if a person marks it, and how its answer is to be typed."""
     label = Markup("<p><strong>({})</strong></p>").format(part.label) if part.label else Markup("")
     listed = _listed(part, lang) if by_person(found) else Markup("")
@@ -111,7 +111,7 @@ def body(part: Part, found: Sequence[Ask], lang: str, source: Source) -> Markup:
     return label + _blocks(part.body, lang) + field + listed + hint
 
 
-def _listed(part: Part, lang: str) -> Markup:
+def _listed(part: QuestionPart, lang: str) -> Markup:
     rows = [marked(mark, words, lang) for mark, words in (*part.field.options, *part.field.targets)]
     items = Markup("").join(Markup("<li>{}</li>").format(row) for row in rows)
     return Markup("<ul>{}</ul>").format(items) if rows else Markup("")
@@ -124,7 +124,7 @@ def marked(mark: str, words: Said, lang: str) -> Markup:
 
 def beside(ask: Numeric, field: Markup, lang: str, number: str = "") -> Markup:
     """A field between the name of its number, else which one it is, and its unit."""
-    name = inline((named(ask.name),), lang) + " = " if ask.name else number
+    name = inline((name_inline(ask.name),), lang) + " = " if ask.name else number
     unit = "" if ask.unit in {"", "1"} else f" {shown_unit(ask.unit)}"
     return Markup("<p>{}{}{}</p>").format(name, field, unit)
 
@@ -132,7 +132,7 @@ def beside(ask: Numeric, field: Markup, lang: str, number: str = "") -> Markup:
 def targets(pairs: Pairs) -> dict[str, str]:
     """The targets of a matching as text, which is all that a drop-down can show."""
     return {
-        mark: mark if words == (Words(mark),) else f"{mark}. {in_text(words)}"
+        mark: mark if words == (PlainText(mark),) else f"{mark}. {in_text(words)}"
         for mark, words in pairs.targets
     }
 
@@ -142,7 +142,7 @@ def signed(item: Item, suffix: str) -> Markup:
     return Markup("<p><small>[{}]</small></p>").format(item.mark(suffix))
 
 
-def _told(part: Part, found: Sequence[Ask], lang: str) -> Iterable[Markup]:
+def _told(part: QuestionPart, found: Sequence[Ask], lang: str) -> Iterable[Markup]:
     """Sentences that say what to type, each once."""
     if by_person(found):
         return [inline(part.field.hint, lang)]
@@ -155,7 +155,7 @@ def _told(part: Part, found: Sequence[Ask], lang: str) -> Iterable[Markup]:
 def _unit(unit: str, lang: str) -> str:
     names = {"%": "ask.percent", "°": "ask.degrees"}
     if unit in names:
-        return word(lang, names[unit])
+        return translate(lang, names[unit])
     return in_unit(unit, lang) if unit != "1" else ""
 
 
@@ -166,7 +166,7 @@ def _typed(_ask: Ask, _lang: str) -> Iterator[str]:
 
 @_typed.register
 def _number(ask: Numeric, lang: str) -> Iterator[str]:
-    yield word(lang, "export.number")
+    yield translate(lang, "export.number")
     if ask.precision:
         yield ask.precision
 
@@ -174,18 +174,18 @@ def _number(ask: Numeric, lang: str) -> Iterator[str]:
 @_typed.register
 def _many(ask: Choose, lang: str) -> Iterator[str]:
     if ask.many:
-        yield word(lang, "ask.multi")
+        yield translate(lang, "ask.multi")
 
 
 @_typed.register
 def _printed(ask: Fill, lang: str) -> Iterator[str]:
     if ask.printed:
-        yield word(lang, "ask.code")
+        yield translate(lang, "ask.code")
 
 
 @_typed.register
 def _places(_ask: Order, lang: str) -> Iterator[str]:
-    yield word(lang, "export.places")
+    yield translate(lang, "export.places")
 
 
 def solution(
@@ -213,7 +213,7 @@ def solution(
     chosen = replace(whole, parts=tuple(solved for _, solved in kept))
     question, key = replace(item.question, parts=parts), replace(item.key, solution=chosen)
     made = PaperItem(question.number, (question,), (key,))
-    page = fragment("worked.html.j2", _way.get(), item=made, figure=item.solved_figure,
+    page = render_html_fragment("worked.html.j2", _way.get(), item=made, figure=item.solved_figure,
                     draw=lambda figure: image(figure, source))  # fmt: skip
     return Markup(_STYLED.sub("", page))  # noqa: S704 - a page without some attributes
 

@@ -14,7 +14,7 @@ from functools import lru_cache
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
 from quizgen.figures.alt_text import clear_alt_words
 from quizgen.figures.contract import (
     Figure,
@@ -26,8 +26,8 @@ from quizgen.figures.contract import (
 from quizgen.figures.drawing_field import DrawingField, FieldPicture, Line
 from quizgen.figures.loading import load_engine
 from quizgen.figures.parameters import Parameter, fill_defaults
-from quizgen.locale import language, languages, numbers_in
-from quizgen.maths.notation import people
+from quizgen.locale import get_language, list_languages, localise_numbers
+from quizgen.maths.notation import pretty
 
 if TYPE_CHECKING:
     from quizgen.figures.engine import Items
@@ -76,21 +76,21 @@ def draw_figure(
         If the module is no figure, a parameter or the language is unknown, or a value cannot be
         drawn.
     """
-    if lang not in languages():
-        known = ", ".join(languages())
+    if lang not in list_languages():
+        known = ", ".join(list_languages())
         name = figure_name(figure)
         raise BankError(f"figure {name!r}: no alt text in {lang!r}, only in {known}")
     module = check_figure_module(figure)
     if marks and not hasattr(module, "mark"):
         raise BankError(f"figure {figure_name(figure)!r} has no mark(): it shows no other values")
     items = tuple(complete_parameters(figure, values).items())
-    return _draw(module, items, quiz, lang, tuple((marks or {}).items()))
+    return _draw_items(module, items, quiz, lang, tuple((marks or {}).items()))
 
 
 def describe_figure(figure: ModuleType, values: Mapping[str, Any], *, quiz: bool, lang: str) -> str:
     """What a figure shows, in words, not drawn; arguments and errors as ``draw_figure``."""
     values = complete_parameters(figure, values)
-    return _describe(check_figure_module(figure), values, lang, quiz=quiz)
+    return _describe_values(check_figure_module(figure), values, lang, quiz=quiz)
 
 
 def complete_parameters(figure: ModuleType, values: Mapping[str, Any]) -> dict[str, Any]:
@@ -119,26 +119,28 @@ def plot_figure(
     from quizgen.figures.engine import draw_sheet
     from quizgen.figures.kit import COLUMN
 
-    drawing = draw_sheet(draw, size or COLUMN, language(lang).decimal, axes=True)
-    return _finish(drawing, alt, lang)
+    drawing = draw_sheet(draw, size or COLUMN, get_language(lang).decimal, axes=True)
+    return _finish_figure(drawing, alt, lang)
 
 
-def _describe(module: FigureModule, values: Mapping[str, Any], lang: str, *, quiz: bool) -> str:
-    return numbers_in(lang, people.names_in(module.alt(values, lang, quiz=quiz)))
+def _describe_values(
+    module: FigureModule, values: Mapping[str, Any], lang: str, *, quiz: bool
+) -> str:
+    return localise_numbers(lang, pretty.format_names_in(module.alt(values, lang, quiz=quiz)))
 
 
 @lru_cache(maxsize=256)
-def _draw(module: FigureModule, items: Items, quiz: bool, lang: str, marks: Items) -> Figure:
+def _draw_items(module: FigureModule, items: Items, quiz: bool, lang: str, marks: Items) -> Figure:
     load_engine()
     from quizgen.figures.engine import draw_module
 
-    decimal, values = language(lang).decimal, dict(items)
+    decimal, values = get_language(lang).decimal, dict(items)
     drawing = draw_module(module, items, quiz=quiz, lang=lang, decimal=decimal, marks=marks)
-    alt = _describe(module, values, lang, quiz=quiz)
-    return _finish(drawing, alt, lang, colour=needs_colour(module, values))
+    alt = _describe_values(module, values, lang, quiz=quiz)
+    return _finish_figure(drawing, alt, lang, colour=needs_colour(module, values))
 
 
-def _finish(drawing: Drawing, alt: str, lang: str, *, colour: bool = False) -> Figure:
+def _finish_figure(drawing: Drawing, alt: str, lang: str, *, colour: bool = False) -> Figure:
     from quizgen.figures.svg import write_svg
 
     return Figure(

@@ -9,9 +9,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
+from quizgen.core.untrusted import error_context, read_bytes
 from quizgen.locale import FIRST
-from quizgen.outside import located, read_bytes
 
 _GIVEN = Context(prec=12, rounding=ROUND_HALF_UP)  # hides the noise of floats, nothing else
 _DERIVED = Context(prec=4, rounding=ROUND_HALF_UP)
@@ -29,17 +29,17 @@ def format_given(value: float) -> str:
 
 def format_derived(value: float) -> str:
     """Print a computed number: whole or rounded half away from zero to 4 significant digits."""
-    return _format_plain(_shorten(value))
+    return _format_plain(_to_short_decimal(value))
 
 
-def _shorten(value: float) -> Decimal:
+def _to_short_decimal(value: float) -> Decimal:
     value = float(value)
     return Decimal(value) if value.is_integer() else _DERIVED.create_decimal(repr(value))
 
 
 def relation_sign(value: float) -> str:
     """``=`` if the printed number is the value, else ``≈``."""
-    shown = float(_shorten(value))
+    shown = float(_to_short_decimal(value))
     return "=" if abs(shown - value) <= 1e-12 * abs(value) else "≈"
 
 
@@ -106,5 +106,5 @@ def clear_alt_words() -> None:
 
 @cache
 def _load_table(file: Path) -> dict[str, Any]:
-    with located(file, BankError):
+    with error_context(file, BankError):
         return tomllib.loads(read_bytes(file, BankError).decode())

@@ -109,7 +109,7 @@ class _LeanAxis:
         renderer.close_group("axis")
         here.stale = False
 
-    def _locate(self, kind: str) -> Any:
+    def _locate_ticks(self, kind: str) -> Any:
         """Places of ticks inside the view, in data units."""
         here: Any = self
         ticks = getattr(here, kind)
@@ -123,7 +123,7 @@ class _LeanAxis:
     def _draw_ticks(self, renderer: Any, gc: Any, kind: str, spine: Any) -> float:
         """Draw the ticks of a kind; how far their labels reach from the axes, in points."""
         here: Any = self
-        places = self._locate(kind)
+        places = self._locate_ticks(kind)
         if not len(places):
             return 0.0
         across, name, box = here.axis_name == "x", here.axis_name, here.axes.bbox

@@ -10,7 +10,7 @@ from inspect import signature
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
 
 if TYPE_CHECKING:
     from quizgen.figures.parameters import Parameter, Values

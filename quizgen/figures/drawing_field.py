@@ -12,8 +12,8 @@ import msgspec
 from quizgen.figures.alt_text import format_given, strip_mathtext
 from quizgen.figures.contract import Figure
 from quizgen.figures.loading import load_engine
-from quizgen.locale import language, numbers_in, table
-from quizgen.maths.notation.people import name
+from quizgen.locale import get_language, load_words, localise_numbers
+from quizgen.maths.notation.pretty import format_name
 
 if TYPE_CHECKING:
     from quizgen.figures.sketch import Sketch
@@ -68,27 +68,27 @@ class DrawingField(msgspec.Struct, frozen=True):
     def picture_size(self) -> Point:
         """Width and height of the picture in points: the field and the room around it."""
         wide, tall = self.size
-        return LEFT + wide + RIGHT, self._top + tall + self._foot
+        return LEFT + wide + RIGHT, self._top_margin + tall + self._bottom_margin
 
     @property
-    def _top(self) -> float:
+    def _top_margin(self) -> float:
         return TOP + (NAME if self.axes[1] else 0)
 
     @property
-    def _foot(self) -> float:
+    def _bottom_margin(self) -> float:
         return FOOT + (NAME if self.axes[0] else 0)
 
     @property
     def frame(self) -> tuple[float, float, float, float]:
         """Where the field lies in the picture, in points from the upper left: x, y, size."""
-        return (LEFT, self._top, *self.size)
+        return (LEFT, self._top_margin, *self.size)
 
     def to_picture(self, point: Point) -> Point:
         """A point in the picture, from the lower left."""
         left, right, low, high = self.view
         wide, tall = self.size
         x, y = point
-        return LEFT + (x - left) / (right - left) * wide, self._foot + (y - low) / (
+        return LEFT + (x - left) / (right - left) * wide, self._bottom_margin + (y - low) / (
             high - low
         ) * tall
 
@@ -108,7 +108,7 @@ class FieldPicture(msgspec.Struct, frozen=True):
     @property
     def alt(self) -> str:
         """The picture in words, without drawing it."""
-        words, field = table(self.lang, "figures")["field"], self.field
+        words, field = load_words(self.lang, "figures")["field"], self.field
         text = words["solved" if self.lines else "empty"]
         text += words["ranges"].format(
             *map(format_given, field.view), *map(format_given, field.grid)
@@ -116,12 +116,14 @@ class FieldPicture(msgspec.Struct, frozen=True):
         for key, axis in zip(("across", "upright"), field.axes, strict=True):
             text += words[key].format(strip_mathtext(axis)) if axis else ""
         if field.given:
-            text += words["given"].format(_lines(field.given))
+            text += words["given"].format(_format_lines(field.given))
         if field.marks:
-            marks = "; ".join(f"{name(label)} {_point(point)}" for label, point in field.marks)
+            marks = "; ".join(
+                f"{format_name(label)} {_format_point(point)}" for label, point in field.marks
+            )
             text += words["marks"].format(marks)
-        text += words["wanted"].format(_lines(self.lines)) if self.lines else ""
-        return numbers_in(self.lang, text)
+        text += words["wanted"].format(_format_lines(self.lines)) if self.lines else ""
+        return localise_numbers(self.lang, text)
 
 
 @lru_cache(maxsize=256)
@@ -130,7 +132,7 @@ def _draw_field(picture: FieldPicture) -> Figure:
     from quizgen.figures.engine import draw_sheet
     from quizgen.figures.svg import write_svg
 
-    field, decimal = picture.field, language(picture.lang).decimal
+    field, decimal = picture.field, get_language(picture.lang).decimal
 
     def draw(sheet: Any) -> None:
         sketch = sheet.sketch()
@@ -159,11 +161,11 @@ def _draw_field(picture: FieldPicture) -> Figure:
 def _draw_axes(sketch: Sketch, field: DrawingField) -> None:
     left, right, low, high = field.view
     size = 8.0
-    for x in _ticks(left, right, field.grid[0]):
+    for x in _iter_ticks(left, right, field.grid[0]):
         foot, top = field.to_picture((x, low)), field.to_picture((x, high))
         sketch.line([foot, top], "rule" if x else "grey", 0.4 if x else 0.7, part="grid")
         sketch.label((foot[0], foot[1] - 8), format_given(x), "c", size)
-    for y in _ticks(low, high, field.grid[1]):
+    for y in _iter_ticks(low, high, field.grid[1]):
         start, end = field.to_picture((left, y)), field.to_picture((right, y))
         sketch.line([start, end], "rule" if y else "grey", 0.4 if y else 0.7, part="grid")
         sketch.label((start[0] - 4, start[1]), format_given(y), "r", size)
@@ -179,15 +181,15 @@ def _draw_axes(sketch: Sketch, field: DrawingField) -> None:
         sketch.label((x - LEFT + 2, y + NAME / 2 + 3), upright, "l", 9.5, part="names")
 
 
-def _ticks(first: float, last: float, step: float) -> Iterator[float]:
+def _iter_ticks(first: float, last: float, step: float) -> Iterator[float]:
     slack = 1e-9 * (last - first)
     for count in range(ceil((first - slack) / step), floor((last + slack) / step) + 1):
         yield round(count * step, 9) + 0.0
 
 
-def _lines(lines: tuple[Line, ...]) -> str:
-    return "; ".join(", ".join(map(_point, line)) for line in lines)
+def _format_lines(lines: tuple[Line, ...]) -> str:
+    return "; ".join(", ".join(map(_format_point, line)) for line in lines)
 
 
-def _point(point: Point) -> str:
+def _format_point(point: Point) -> str:
     return "({}; {})".format(*(format_given(round(value, 3)) for value in point))

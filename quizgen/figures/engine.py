@@ -18,13 +18,13 @@ import matplotlib as mpl
 import msgspec
 import numpy as np
 
-from quizgen import kept
+from quizgen.core import cache as cache_module
+from quizgen.core.decoding import prepare_type
 from quizgen.figures.axes import Sheet
 from quizgen.figures.contract import FigureModule, first_parameter, parameters_of
 from quizgen.figures.kit import COLUMN
 from quizgen.figures.style import HouseStyle
 from quizgen.figures.svg import Drawing, SvgRenderer
-from quizgen.shapes import describe
 
 _LOCK = RLock()
 if hasattr(os, "register_at_fork"):
@@ -86,9 +86,9 @@ def draw_module(
     wants_lang = "lang" in parameters_of(module.draw)
     told = msgspec.json.encode((items, quiz, lang if wants_lang else "", decimal, marks))
     name = str(module.__file__)  # type: ignore[attr-defined]
-    key = kept.digest_of(_digest_engine(), _digest_folder(module), name.encode(), told)
-    if (found := kept.find(_KIND, key)) is not None:
-        return _decoder().decode(found)
+    key = cache_module.compute_digest(_digest_engine(), _digest_folder(module), name.encode(), told)
+    if (found := cache_module.read_cached(_KIND, key)) is not None:
+        return _make_drawing_decoder().decode(found)
     extra = {"lang": lang} if wants_lang else {}
 
     def draw(place: Any) -> None:
@@ -99,13 +99,13 @@ def draw_module(
 
     size = getattr(module, "SIZE", COLUMN)
     drawing = draw_sheet(draw, size, decimal, axes=first_parameter(module.draw) == "ax")
-    kept.keep(_KIND, key, msgspec.msgpack.encode(drawing))
+    cache_module.write_cached(_KIND, key, msgspec.msgpack.encode(drawing))
     return drawing
 
 
 @cache
-def _decoder() -> msgspec.msgpack.Decoder[Drawing]:
-    describe(Drawing)
+def _make_drawing_decoder() -> msgspec.msgpack.Decoder[Drawing]:
+    prepare_type(Drawing)
     return msgspec.msgpack.Decoder(Drawing)
 
 
@@ -114,14 +114,16 @@ def _digest_engine() -> bytes:
     """Digest of quizgen's code that draws, and of the libraries it draws with."""
     files = [file for name in _CODE for file in _python_files(_PACKAGE / name)]
     versions = f"{mpl.__version__} {np.__version__}".encode()
-    return kept.digest_of(versions, *(file.read_bytes() for file in files)).encode()
+    return cache_module.compute_digest(versions, *(file.read_bytes() for file in files)).encode()
 
 
 @lru_cache(256)
 def _digest_folder(module: FigureModule) -> bytes:
     """Digest of a figure's code and of what it may import from beside it."""
     folder = Path(str(module.__file__)).parent  # type: ignore[attr-defined]
-    return kept.digest_of(*(file.read_bytes() for file in sorted(folder.glob("*.py")))).encode()
+    return cache_module.compute_digest(
+        *(file.read_bytes() for file in sorted(folder.glob("*.py")))
+    ).encode()
 
 
 def _python_files(place: Path) -> list[Path]:

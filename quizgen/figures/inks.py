@@ -24,11 +24,11 @@ white is 8.6, 5.8, 4.4 and 3.3, with the dark page at least 8.7.
 """
 
 
-def _paint(name: str, light: str) -> str:
+def _format_css_paint(name: str, light: str) -> str:
     return "currentColor" if name == "ink" else f"var(--fig-{name},{light})"
 
 
-PAINTS = {light: _paint(name, light) for name, (light, _) in INKS.items()}
+PAINTS = {light: _format_css_paint(name, light) for name, (light, _) in INKS.items()}
 """Hex colour to what an SVG inside a page is painted with."""
 
 

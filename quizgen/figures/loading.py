@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from quizgen.imports import LOCK
+from quizgen.core.imports import LOCK
 
 
 @cache

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import msgspec
 
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
 
 Values = Mapping[str, Any]
 """Parameter name to a number, a list or table of numbers, or a text."""

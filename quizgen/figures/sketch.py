@@ -17,7 +17,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.path import Path
 from matplotlib.transforms import IdentityTransform
 
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
 from quizgen.figures.svg import house_font, shape_label
 
 _IN_POINTS = IdentityTransform()
@@ -77,10 +77,10 @@ class Sketch(Artist):
     def to_points(self, points: Any) -> Any:
         """Coordinates in points of the figure, shape (n, 2)."""
         if self._probes is None:
-            self._probes = self._probe()
+            self._probes = self._probe_transform()
         return self.places.transform(np.asarray(points, float).reshape(-1, 2))
 
-    def _probe(self) -> Any:
+    def _probe_transform(self) -> Any:
         """Where two points lie: they move when the limits of the axes change."""
         return self.places.transform(np.array([(1.0, 1.0), (2.0, 3.0)]))
 
@@ -90,7 +90,7 @@ class Sketch(Artist):
         other._acts = self._acts
         return other
 
-    def _stroke(
+    def _add_stroke(
         self, part: str, path: Path, fill: str | None, stroke: str | None, width: float = 1.0,
         dashes: Dashes = None, cap: str = "butt",
     ) -> None:  # fmt: skip
@@ -101,7 +101,7 @@ class Sketch(Artist):
         part: str = "", cap: str = "butt",
     ) -> None:  # fmt: skip
         """Draw a line through points."""
-        self._stroke(part, Path(self.to_points(points)), None, stroke, width, dashes, cap)
+        self._add_stroke(part, Path(self.to_points(points)), None, stroke, width, dashes, cap)
 
     def area(
         self, points: Iterable[Any], fill: str | None = "shade", stroke: str | None = None,
@@ -110,14 +110,14 @@ class Sketch(Artist):
         """Fill a polygon, outline it, or both."""
         corners = list(points)
         path = Path(self.to_points([*corners, corners[0]]), closed=True)
-        self._stroke(part, path, fill, stroke, width, dashes)
+        self._add_stroke(part, path, fill, stroke, width, dashes)
 
     def shape(
         self, path: Path, fill: str | None = "shade", stroke: str | None = None,
         width: float = 0.7, *, part: str = "",
     ) -> None:  # fmt: skip
         """Draw a path of matplotlib, such as one with curves."""
-        self._stroke(part, self.places.transform_path(path), fill, stroke, width)
+        self._add_stroke(part, self.places.transform_path(path), fill, stroke, width)
 
     def dot(
         self, at: Point, radius: float = 2.0, fill: str = "ink", stroke: str | None = None,
@@ -126,7 +126,7 @@ class Sketch(Artist):
         """Draw a disc; the radius is in points."""
         place = self.to_points(at)[0]
         path = Path(_CORNERS * radius + place, _CIRCLE.codes)
-        self._stroke(part, path, fill, stroke, width)
+        self._add_stroke(part, path, fill, stroke, width)
 
     def cross(
         self, at: Point, size: float = 4.5, stroke: str = "red", width: float = 1.6, *,
@@ -137,15 +137,15 @@ class Sketch(Artist):
         ends = [(x - size, y - size), (x + size, y + size), (x - size, y + size),
                 (x + size, y - size)]  # fmt: skip
         codes = [Path.MOVETO, Path.LINETO] * 2
-        self._stroke(part, Path(ends, codes), None, stroke, width)
+        self._add_stroke(part, Path(ends, codes), None, stroke, width)
 
     def head(
         self, tip: Any, direction: Any, fill: str = "ink", size: float = 6.5, *, part: str = ""
     ) -> None:
         """Draw a slender arrow head; ``direction`` is in points."""
-        self._head(self.to_points(tip)[0], direction, fill, size, part)
+        self._add_arrow_head(self.to_points(tip)[0], direction, fill, size, part)
 
-    def _head(self, tip: Any, direction: Any, fill: str, size: float, part: str) -> None:
+    def _add_arrow_head(self, tip: Any, direction: Any, fill: str, size: float, part: str) -> None:
         (x, y), length = tip, hypot(*direction)
         if not length:
             return
@@ -153,7 +153,7 @@ class Sketch(Artist):
         side = (_SLENDER * v, _SLENDER * u)
         points = [(x, y), (x - u - side[0], y - v + side[1]), (x - 0.76 * u, y - 0.76 * v),
                   (x - u + side[0], y - v - side[1]), (x, y)]  # fmt: skip
-        self._stroke(part, Path(points, closed=True), fill, None)
+        self._add_stroke(part, Path(points, closed=True), fill, None)
 
     def arrow(
         self, start: Any, tip: Any, stroke: str = "ink", width: float = 1.0, *, size: float = 6.5,
@@ -161,19 +161,19 @@ class Sketch(Artist):
     ) -> None:  # fmt: skip
         """Draw a straight arrow; the shaft ends inside the head."""
         a, b = self.to_points([start, tip])
-        self._arrow(a, b, stroke, width, size=size, both=both, dashes=dashes, part=part)
+        self._add_arrow(a, b, stroke, width, size=size, both=both, dashes=dashes, part=part)
 
-    def _arrow(
+    def _add_arrow(
         self, a: Any, b: Any, stroke: str, width: float, *, size: float, both: bool = False,
         dashes: Dashes = None, part: str,
     ) -> None:  # fmt: skip
         way = b - a
         cut = min(0.7 * size / max(hypot(*way), 1e-9), 1.0)
         ends = [a + cut * way if both else a, b - cut * way]
-        self._stroke(part, Path(ends), None, stroke, width, dashes)
-        self._head(b, way, stroke, size, part)
+        self._add_stroke(part, Path(ends), None, stroke, width, dashes)
+        self._add_arrow_head(b, way, stroke, size, part)
         if both:
-            self._head(a, -way, stroke, size, part)
+            self._add_arrow_head(a, -way, stroke, size, part)
 
     def ray(
         self, points: Any, stroke: str = "red", width: float = 1.1, *,
@@ -182,12 +182,14 @@ class Sketch(Artist):
     ) -> None:  # fmt: skip
         """Draw light along a line; ``heads`` are (piece of the line, share of its length)."""
         places = self.to_points(points)
-        self._stroke(part, Path(places), None, stroke, width, dashes)
+        self._add_stroke(part, Path(places), None, stroke, width, dashes)
         for piece, share in heads:
             a, b = places[piece], places[piece + 1]
             way = b - a
             length = max(hypot(*way), 1e-9)
-            self._head(a + share * way + way / length * size * 0.4, way, stroke, size, part)
+            self._add_arrow_head(
+                a + share * way + way / length * size * 0.4, way, stroke, size, part
+            )
 
     def label(
         self, at: Any, text: str, align: str = "c", size: float = 10.0, fill: str = "ink", *,
@@ -241,16 +243,16 @@ class Sketch(Artist):
         middle, unit = (a + b) / 2, (b - a) / max(length, 1e-9)
         draw: dict[str, Any] = {"stroke": stroke, "width": 0.6, "size": 5.5, "part": part}
         if length > need + 18:
-            self._arrow(middle - unit * need / 2, a, **draw)
-            self._arrow(middle + unit * need / 2, b, **draw)
+            self._add_arrow(middle - unit * need / 2, a, **draw)
+            self._add_arrow(middle + unit * need / 2, b, **draw)
             self.in_points().label(middle, text, "c", size, part=part)
             return
         out = 0 if length > 13 else 13
         if out:  # no room for two heads: they come from outside
-            self._arrow(a - unit * out, a, **draw)
-            self._arrow(b + unit * out, b, **draw)
+            self._add_arrow(a - unit * out, a, **draw)
+            self._add_arrow(b + unit * out, b, **draw)
         else:
-            self._arrow(a, b, both=True, **draw)
+            self._add_arrow(a, b, both=True, **draw)
         right, left = sorted((a, b), key=lambda place: -place[0])
         spots = {
             "t": (middle, "cb", (0, 4)),
@@ -269,7 +271,7 @@ class Sketch(Artist):
         x, y = self.to_points(centre)[0]
         turns = np.radians(np.linspace(start, stop, 24))
         points = np.column_stack([x + radius * np.cos(turns), y + radius * np.sin(turns)])
-        self._stroke(part, Path(points), None, stroke, width)
+        self._add_stroke(part, Path(points), None, stroke, width)
 
     def axis_break(self, at: Point, *, part: str = "break") -> None:
         """Draw two slanted strokes on an axis: distances along it are not to scale."""
@@ -284,13 +286,13 @@ class Sketch(Artist):
         """Hand everything to a renderer of matplotlib."""
         if not self.get_visible():
             return
-        if self._probes is not None and not np.allclose(self._probes, self._probe()):
+        if self._probes is not None and not np.allclose(self._probes, self._probe_transform()):
             raise BankError("the axes' limits changed after something was sketched: set them first")
         gc = renderer.new_gc()
         for act in self._acts:
             renderer.open_group("sketch", act.part or None)
             if isinstance(act, _Text):
-                _write(renderer, gc, act)
+                _write_label(renderer, gc, act)
             else:
                 gc.set_linewidth(act.width if act.stroke else 0)
                 gc.set_foreground(act.stroke or "none")
@@ -308,7 +310,7 @@ def measure_label(text: str, size: float = 10.0) -> Point:
     return shape.width, shape.height
 
 
-def _write(renderer: Any, gc: Any, act: _Text) -> None:
+def _write_label(renderer: Any, gc: Any, act: _Text) -> None:
     font, maths = house_font(act.size), "$" in act.text
     wide, high, deep = renderer.get_text_width_height_descent(act.text, font, maths)
     dx, dy = wide * _ALONG[act.align[0]], (high - deep) * _UP[act.align[1:] or "m"]

@@ -38,7 +38,7 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D, Bbox
 
 from quizgen import png
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
 from quizgen.figures.inks import PAINTS
 
 FINE = 50
@@ -112,12 +112,12 @@ def house_font(size: float, family: str = "STIXGeneral") -> FontProperties:
     return FontProperties(family=family, size=size)
 
 
-def _step(dx: int, dy: int) -> str:
+def _format_step(dx: int, dy: int) -> str:
     return f"{dx}{dy}" if dy < 0 else f"{dx} {dy}"
 
 
 @lru_cache(16384)
-def _outline(file: str, index: int, size: float) -> tuple[int, int, str] | None:
+def _load_glyph_outline(file: str, index: int, size: float) -> tuple[int, int, str] | None:
     """Where the outline of a glyph starts, and the way from there, in steps."""
     font = _open_font(file)
     font.set_size(_EM, 72)
@@ -136,7 +136,7 @@ def _outline(file: str, index: int, size: float) -> tuple[int, int, str] | None:
             at, place = start, place + 1
             continue
         count = {Path.MOVETO: 1, Path.LINETO: 1, Path.CURVE3: 2, Path.CURVE4: 3}[code]
-        steps = [_step(x - at[0], y - at[1]) for x, y in points[place : place + count]]
+        steps = [_format_step(x - at[0], y - at[1]) for x, y in points[place : place + count]]
         spaced = [s if s[0] == "-" or not i else f" {s}" for i, s in enumerate(steps)]
         commands.append(" mlqc"[code] + "".join(spaced))
         at, place = points[place + count - 1], place + count
@@ -174,7 +174,7 @@ def _lay_out_formula(text: str, font: FontProperties) -> _Run:
 
 
 @lru_cache(2048)
-def _letter(file: str, character: str) -> tuple[int, float]:
+def _load_glyph_metrics(file: str, character: str) -> tuple[int, float]:
     """Index and advance width of a letter."""
     font = _open_font(file)
     font.set_size(_EM, 72)
@@ -183,7 +183,7 @@ def _letter(file: str, character: str) -> tuple[int, float]:
 
 
 @lru_cache(8192)
-def _kerning(file: str, left: int, right: int) -> float:
+def _load_kerning(file: str, left: int, right: int) -> float:
     font = _open_font(file)
     font.set_size(_EM, 72)
     return font.get_kerning(left, right, Kerning.UNFITTED) / 64
@@ -203,8 +203,8 @@ def _lay_out_words(text: str, font: FontProperties) -> _Run:
         return _shape_words(text, str(file))
     x, before, glyphs = 0.0, 0, list[_Glyph]()
     for character in text:
-        index, width = _letter(file, character)
-        x += _kerning(file, before, index) if before else 0.0
+        index, width = _load_glyph_metrics(file, character)
+        x += _load_kerning(file, before, index) if before else 0.0
         glyphs.append((file, index, 1.0, x, 0.0))
         before, x = index, x + width
     return _Run(x, _HEIGHT, 0.0, glyphs, [])
@@ -253,13 +253,13 @@ class LabelShape:
                 run = _lay_out_words(part.replace(r"\$", "$"), font)
             for file, index, share, dx, dy in run.glyphs:
                 least = min(least, share) if is_formula else least
-                if found := _outline(file, index, share * size):
+                if found := _load_glyph_outline(file, index, share * size):
                     left = round((x + dx) * scale * FINE) + found[0]
                     top = round(-dy * scale * FINE) + found[1]
-                    outlines.append(f"M{_step(left, top)}{found[2]}")
+                    outlines.append(f"M{_format_step(left, top)}{found[2]}")
             for dx, dy, wide, high in run.bars:
                 box = [round(v * scale * FINE) for v in (x + dx, -dy - high, wide, high)]
-                outlines.append(f"M{_step(*box[:2])}h{box[2]}v{max(box[3], 1)}h{-box[2]}z")
+                outlines.append(f"M{_format_step(*box[:2])}h{box[2]}v{max(box[3], 1)}h{-box[2]}z")
             x += run.width
             if is_formula and run.depth > 30:
                 height, depth = max(height, run.height), max(depth, run.depth)
@@ -333,7 +333,7 @@ class SvgRenderer(RendererBase):
         self._parts.pop()
 
     def get_text_width_height_descent(self, s: str, prop: Any, ismath: Any) -> Any:
-        shape = self._shape(s, prop)
+        shape = self._shape_text(s, prop)
         return shape.width, shape.height + shape.depth, shape.depth
 
     # Paths
@@ -358,10 +358,10 @@ class SvgRenderer(RendererBase):
             low, high = np.maximum(low, sides[0]), np.minimum(high, sides[1])
             if (low > high).any():
                 return
-            path, transform = _cut(path, transform, Bbox(sides), filled=filled)
+            path, transform = _clip_path_to_box(path, transform, Bbox(sides), filled=filled)
             clip = None if filled else tuple(sides.ravel())
         half = width / 2 if stroked else 0
-        self._extend(*(low - half).tolist(), *(high + half).tolist())
+        self._extend_bounds(*(low - half).tolist(), *(high + half).tolist())
         simple = clip is not None or (path.should_simplify and not filled)
         data = _path.convert_to_string(path, transform, clip, simple, None, 2, _COMMANDS, False)
         data = data.decode("ascii")
@@ -369,9 +369,11 @@ class SvgRenderer(RendererBase):
             data = data.replace("\nL", "")  # after a move SVG takes more points as lines
         data = data.replace(" \n", "").replace("\n", "")
         paint = write_paint(_with_alpha(gc, rgbFace), "fill") if filled else ""
-        self._add(gc, data, paint + self._write_stroke(gc, width, stroked=stroked), join=not filled)
+        self._add_path_data(
+            gc, data, paint + self._write_stroke(gc, width, stroked=stroked), join=not filled
+        )
         if gc.get_hatch():
-            self._hatch(gc, data)
+            self._fill_with_hatch(gc, data)
 
     def draw_path_collection(
         self, gc: Any, master_transform: Any, paths: Any, all_transforms: Any, offsets: Any,
@@ -455,7 +457,7 @@ class SvgRenderer(RendererBase):
             text += f' stroke-linecap="{"square" if cap == "projecting" else cap}"'
         return text + ("" if join == "round" else f' stroke-linejoin="{join}"')
 
-    def _hatch(self, gc: Any, data: str) -> None:
+    def _fill_with_hatch(self, gc: Any, data: str) -> None:
         """Fill a shape with a pattern, whose name is a digest of it: twice on a page is no harm."""
         from matplotlib.hatch import get_path
 
@@ -466,23 +468,23 @@ class SvgRenderer(RendererBase):
         ink = write_paint(tuple(gc.get_hatch_color()), "stroke")
         ink += f' stroke-width="{gc.get_hatch_linewidth():g}"'
         shape = f'width="{size}" height="{size}" patternUnits="userSpaceOnUse"'
-        name = self._define("pattern", f'<path d="{stroke}"{ink}/>', shape)
-        self._add(gc, data, f' fill="url(#{name})"', join=False)
+        name = self._define_element("pattern", f'<path d="{stroke}"{ink}/>', shape)
+        self._add_path_data(gc, data, f' fill="url(#{name})"', join=False)
 
-    def _define(self, tag: str, inside: str, attributes: str = "") -> str:
+    def _define_element(self, tag: str, inside: str, attributes: str = "") -> str:
         """Put down an element once, and return its id."""
         name = tag[0] + sha256(inside.encode()).hexdigest()[:8]
         if name not in self._defined:
             self._defined.add(name)
-            self._flush()
+            self._flush_path()
             start = f'{tag} id="{name}" {attributes}'.strip()
             self._elements.append(f"<{start}>{inside}</{tag}>")
         return name
 
-    def _add(self, gc: Any, data: str, style: str, *, join: bool) -> None:
+    def _add_path_data(self, gc: Any, data: str, style: str, *, join: bool) -> None:
         key = (self._parts[-1] if self._parts else "", style + self._write_clip(gc))
         if key != self._style or not join:
-            self._flush()
+            self._flush_path()
             self._style = key
         self._run.append(data)
 
@@ -494,27 +496,27 @@ class SvgRenderer(RendererBase):
         whole = transform + self.flip
         found = _path.convert_to_string(shape, whole, None, False, None, 2, _COMMANDS, False)
         outline = found.decode("ascii").replace("\n", "")
-        name = self._define("clipPath", f'<path d="{outline}"/>')
+        name = self._define_element("clipPath", f'<path d="{outline}"/>')
         return f' clip-path="url(#{name})"'
 
-    def _flush(self) -> None:
+    def _flush_path(self) -> None:
         """End the path that grows."""
         if self._run and self._style:
             name = f' data-part="{self._style[0]}"' if self._style[0] else ""
             self._elements.append(f'<path{name} d="{"".join(self._run)}"{self._style[1]}/>')
         self._run, self._style = [], None
 
-    def _extend(self, left: float, top: float, right: float, foot: float) -> None:
+    def _extend_bounds(self, left: float, top: float, right: float, foot: float) -> None:
         """Let the picture reach as far; plain numbers, as this runs for all that is drawn."""
         self._left, self._top = min(self._left, left), min(self._top, top)
         self._right, self._foot = max(self._right, right), max(self._foot, foot)
 
     # Labels and pictures
 
-    def _shape(self, text: str, font: Any) -> LabelShape:
-        return shape_label(self._localise(text), font, font.get_size_in_points())
+    def _shape_text(self, text: str, font: Any) -> LabelShape:
+        return shape_label(self._localise_label(text), font, font.get_size_in_points())
 
-    def _localise(self, text: str) -> str:
+    def _localise_label(self, text: str) -> str:
         """A label with the decimal sign of the language; a bare comma in a formula adds space."""
         if self.decimal == ".":
             return text
@@ -526,14 +528,14 @@ class SvgRenderer(RendererBase):
         self, gc: Any, x: float, y: float, s: str, prop: Any, angle: float, ismath: Any = False,
         mtext: Any = None,
     ) -> None:  # fmt: skip
-        shape = self._shape(s, prop)
+        shape = self._shape_text(s, prop)
         if not shape.data:
             return
         left, top, right, foot = _turn_box(shape, float(x), float(y), float(angle))
-        self._extend(left, top, right, foot + 0.2 * shape.height)  # room for g and y
-        text = self._localise(s)
+        self._extend_bounds(left, top, right, foot + 0.2 * shape.height)  # room for g and y
+        text = self._localise_label(s)
         self.labels.append(Label(text, shape.least, left, top, right, foot, float(angle)))
-        self._flush()
+        self._flush_path()
         name = self._parts[-1] if self._parts and self._parts[-1] else "labels"
         turn = f"rotate({round(-angle, 2):g})" if angle else ""
         self._elements.append(
@@ -549,7 +551,7 @@ class SvgRenderer(RendererBase):
         if im.size == 0:
             return
         high, wide = im.shape[:2]
-        self._flush()
+        self._flush_path()
         placed = Affine2D().scale(1 / wide, 1 / high) + (transform or Affine2D().scale(wide, high))
         placed += Affine2D().translate(x, y) + self.flip
         corners = placed.transform([(0, 0), (wide, 0), (0, high), (wide, high)])
@@ -582,11 +584,13 @@ class SvgRenderer(RendererBase):
         """An attribute for a picture that reaches out of its axes; the rest grows the view."""
         sides = self._clip_sides(gc)
         if sides is not None and ((low < sides[0] - 0.05).any() or (top > sides[1] + 0.05).any()):
-            self._extend(*np.maximum(low, sides[0]).tolist(), *np.minimum(top, sides[1]).tolist())
+            self._extend_bounds(
+                *np.maximum(low, sides[0]).tolist(), *np.minimum(top, sides[1]).tolist()
+            )
             (x, y), (w, h) = sides[0], sides[1] - sides[0]
             box = f'<rect x="{x:.2f}" y="{y:.2f}" width="{w:.2f}" height="{h:.2f}"/>'
-            return f' clip-path="url(#{self._define("clipPath", box)})"'
-        self._extend(*low.tolist(), *top.tolist())
+            return f' clip-path="url(#{self._define_element("clipPath", box)})"'
+        self._extend_bounds(*low.tolist(), *top.tolist())
         return ""
 
     def write(self, size: tuple[float, float] | None = None) -> Drawing:
@@ -597,7 +601,7 @@ class SvgRenderer(RendererBase):
         BankError
             If nothing is drawn, or something far outside.
         """
-        self._flush()
+        self._flush_path()
         if size is None and self._left > self._right:
             raise BankError("the figure is empty: draw() draws nothing")
         pad = 2.0
@@ -628,7 +632,7 @@ def _turn_box(
     return min(across), min(down), max(across), max(down)
 
 
-def _cut(path: Path, transform: Any, box: Bbox, *, filled: bool) -> tuple[Path, Any]:
+def _clip_path_to_box(path: Path, transform: Any, box: Bbox, *, filled: bool) -> tuple[Path, Any]:
     """A path that leaves a box: areas are cut, curves become lines that are cut when written."""
     if filled:
         return transform.transform_path(path).clip_to_bbox(box), Affine2D()

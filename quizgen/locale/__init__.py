@@ -36,9 +36,9 @@ from typing import Any
 
 import msgspec
 
-from quizgen.errors import QuizgenError, one_of
-from quizgen.locale import brought
-from quizgen.shapes import converted
+from quizgen.core.decoding import convert
+from quizgen.core.errors import QuizgenError, require_one_of
+from quizgen.locale import custom
 
 FIRST = "en"
 """The language that every other one falls back to, and the first in every list."""
@@ -81,12 +81,12 @@ class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     decimal: str = "."
 
 
-def languages() -> tuple[str, ...]:
+def list_languages() -> tuple[str, ...]:
     """Every language there is, English first, then by ``order``."""
-    return _found(tuple(PLACES), tuple(_HEARD))
+    return _find_languages(tuple(PLACES), tuple(_HEARD))
 
 
-def take_up(langs: Iterable[str] = (), place: Path | None = None) -> None:
+def register_languages(langs: Iterable[str] = (), place: Path | None = None) -> None:
     """Make languages known that something is written in, or a folder of their words.
 
     Parameters
@@ -96,20 +96,20 @@ def take_up(langs: Iterable[str] = (), place: Path | None = None) -> None:
     place : pathlib.Path, optional
         Holds a folder for each of its languages.
     """
-    new = [lang for lang in langs if lang not in languages() and brought.is_tag(lang)]
+    new = [lang for lang in langs if lang not in list_languages() and custom.is_language_tag(lang)]
     _HEARD.extend(dict.fromkeys(new))
     if place and place not in PLACES and place.is_dir():
         PLACES.append(place)
-        table.cache_clear()
-        language.cache_clear()
+        load_words.cache_clear()
+        get_language.cache_clear()
 
 
-def choices() -> tuple[str, ...]:
+def list_language_choices() -> tuple[str, ...]:
     """What can be chosen as the language of a paper: one, or all that the bank has."""
-    return (*languages(), BOTH)
+    return (*list_languages(), BOTH)
 
 
-def chosen(choice: str, held: tuple[str, ...]) -> tuple[str, ...]:
+def resolve_language_choice(choice: str, held: tuple[str, ...]) -> tuple[str, ...]:
     """Languages of a choice, the leading one first.
 
     Parameters
@@ -124,26 +124,26 @@ def chosen(choice: str, held: tuple[str, ...]) -> tuple[str, ...]:
     ChoiceError
         If there is no such language; names those of the bank.
     """
-    if choice not in choices():
-        one_of("language", choice, (*held, BOTH))
+    if choice not in list_language_choices():
+        require_one_of("language", choice, (*held, BOTH))
     return held if choice == BOTH else (choice,)
 
 
-def leading(held: tuple[str, ...]) -> str:
+def default_language(held: tuple[str, ...]) -> str:
     """The language that is meant where none is chosen: English if a bank has it, else its first."""
     return FIRST if FIRST in held or not held else held[0]
 
 
 @cache
-def _found(places: tuple[Path, ...], heard: tuple[str, ...]) -> tuple[str, ...]:
+def _find_languages(places: tuple[Path, ...], heard: tuple[str, ...]) -> tuple[str, ...]:
     found = {entry.name for place in places for entry in place.iterdir()
-             if (entry / "language.toml").is_file() and brought.is_tag(entry.name)}  # fmt: skip
+             if (entry / "language.toml").is_file() and custom.is_language_tag(entry.name)}  # fmt: skip
     found.update(heard)
-    return tuple(sorted(found, key=lambda lang: (lang != FIRST, language(lang).order, lang)))
+    return tuple(sorted(found, key=lambda lang: (lang != FIRST, get_language(lang).order, lang)))
 
 
 @cache
-def language(lang: str) -> Language:
+def get_language(lang: str) -> Language:
     """Name, order and script of a language; one that nothing says more of is called as it is named.
 
     Raises
@@ -151,18 +151,18 @@ def language(lang: str) -> Language:
     QuizgenError
         If there is no such language, or its file says something else.
     """
-    file = _file(lang, "language")
+    file = _find_words_file(lang, "language")
     if file is None and lang not in _HEARD:
-        raise QuizgenError(f"no language {lang!r} (there are {', '.join(languages())})")
+        raise QuizgenError(f"no language {lang!r} (there are {', '.join(list_languages())})")
     try:
-        usual = {"name": lang, "english": lang, "script": brought.script_of(lang)}
-        return converted(usual | _read(file), Language)
+        usual = {"name": lang, "english": lang, "script": custom.script_of(lang)}
+        return convert(usual | _read_words(file), Language)
     except msgspec.ValidationError as error:
         what, _, key = str(error).partition(" - at `$.")
         raise QuizgenError(f"{file}: {key.rstrip('`')}{': ' if key else ''}{what}") from error
 
 
-def numbers_in(lang: str, text: str) -> str:
+def localise_numbers(lang: str, text: str) -> str:
     """A text for people with the decimal sign of a language in its numbers.
 
     Examples
@@ -172,21 +172,21 @@ def numbers_in(lang: str, text: str) -> str:
     >>> numbers_in("de", "am 12.5.2024 für 1.000,50 Euro")
     'am 12.5.2024 für 1.000,50 Euro'
     """
-    sign = language(lang).decimal
+    sign = get_language(lang).decimal
     return text if sign == "." else _POINT.sub(rf"\g<whole>{sign}\g<rest>", text)
 
 
-def from_right(lang: str) -> bool:
+def is_right_to_left(lang: str) -> bool:
     """Whether a language is written from right to left."""
-    return language(lang).script in brought.RIGHT_TO_LEFT
+    return get_language(lang).script in custom.RIGHT_TO_LEFT
 
 
-def in_script(script: str) -> tuple[str, ...]:
+def languages_in_script(script: str) -> tuple[str, ...]:
     """Languages that are written in a script, such as ``Beng``: those that need its fonts."""
-    return tuple(lang for lang in languages() if language(lang).script == script)
+    return tuple(lang for lang in list_languages() if get_language(lang).script == script)
 
 
-def styles(rule: str, within: str = "") -> str:
+def language_css(rule: str, within: str = "") -> str:
     """The style of languages that need one: for the height of lines, and for their direction.
 
     Parameters
@@ -196,12 +196,14 @@ def styles(rule: str, within: str = "") -> str:
     within : str
         A selector of what alone is styled.
     """
-    return _line_heights(rule) + _directions(within)
+    return _line_heights(rule) + _build_direction_selectors(within)
 
 
-def _directions(within: str) -> str:
+def _build_direction_selectors(within: str) -> str:
     """Languages from right to left, and what is none in them; nothing if there are no such."""
-    found = [f'{within} [lang="{lang}"]'.strip() for lang in languages() if from_right(lang)]
+    found = [
+        f'{within} [lang="{lang}"]'.strip() for lang in list_languages() if is_right_to_left(lang)
+    ]
     if not found:
         return ""
     return (
@@ -215,7 +217,7 @@ def _directions(within: str) -> str:
 
 
 def _line_heights(rule: str) -> str:
-    heights = {lang: language(lang).line_height for lang in languages()}
+    heights = {lang: get_language(lang).line_height for lang in list_languages()}
     return "".join(
         f"{rule.format(lang)} {{ line-height: {height:g}; }}\n"
         for lang, height in heights.items()
@@ -223,7 +225,7 @@ def _line_heights(rule: str) -> str:
     )
 
 
-def in_letters_of(lang: str, text: str) -> bool:
+def is_written_in(lang: str, text: str) -> bool:
     """Whether a text is written in a language's letters: those of its own name.
 
     Latin words, digits and symbols stand in texts of every script; a text that holds nothing else
@@ -231,27 +233,27 @@ def in_letters_of(lang: str, text: str) -> bool:
     """
     own = _letters_of(lang)
     if own:
-        return bool(own & _letters(text))
-    return not any(_letters_of(other) & _letters(text) for other in languages())
+        return bool(own & _find_scripts(text))
+    return not any(_letters_of(other) & _find_scripts(text) for other in list_languages())
 
 
 @cache
 def _letters_of(lang: str) -> frozenset[str]:
-    return _letters(language(lang).name) - {"LATIN"}
+    return _find_scripts(get_language(lang).name) - {"LATIN"}
 
 
-def _letters(text: str) -> frozenset[str]:
+def _find_scripts(text: str) -> frozenset[str]:
     """Scripts of a text's letters, as Unicode calls them: ``LATIN``, ``BENGALI``."""
     return frozenset(unicodedata.name(c, "").partition(" ")[0] for c in text if c.isalpha())
 
 
-def known(lang: str) -> str:
+def fallback_language(lang: str) -> str:
     """The language itself if there is one of this name, else English."""
-    return lang if lang in languages() else FIRST
+    return lang if lang in list_languages() else FIRST
 
 
 @cache
-def table(lang: str, name: str = "interface") -> dict[str, Any]:
+def load_words(lang: str, name: str = "interface") -> dict[str, Any]:
     """All words of one file of a language.
 
     Parameters
@@ -266,22 +268,22 @@ def table(lang: str, name: str = "interface") -> dict[str, Any]:
     QuizgenError
         If there is no such language or file, or it cannot be read.
     """
-    file, english = _file(lang, name), SHIPPED / FIRST / f"{name}.toml"
-    if lang not in languages() or not english.is_file():
+    file, english = _find_words_file(lang, name), SHIPPED / FIRST / f"{name}.toml"
+    if lang not in list_languages() or not english.is_file():
         raise QuizgenError(
-            f"no {name} words for language {lang!r} (there are {', '.join(languages())})"
+            f"no {name} words for language {lang!r} (there are {', '.join(list_languages())})"
         )
     if file and file.is_relative_to(SHIPPED):
-        return _read(file)
-    return brought.over(table(FIRST, name), _read(file))
+        return _read_words(file)
+    return custom.merge_translation(load_words(FIRST, name), _read_words(file))
 
 
-def unspoken(langs: Iterable[str]) -> list[str]:
+def untranslated_languages(langs: Iterable[str]) -> list[str]:
     """Languages in which neither quizgen nor a bank says anything around a question."""
-    return [lang for lang in langs if _file(lang, "interface") is None]
+    return [lang for lang in langs if _find_words_file(lang, "interface") is None]
 
 
-def sentences() -> list[Path]:
+def translatable_files() -> list[Path]:
     """The files that a language may have besides ``language.toml``, in English."""
     return sorted(path for path in (SHIPPED / FIRST).glob("*.toml") if path.stem != "language")
 
@@ -290,7 +292,7 @@ OPEN = frozenset({"letters", "greek", "names"})
 """Tables of ``speech`` that say only what is not called as it is written."""
 
 
-def amiss(place: Path) -> Iterator[str]:
+def check_translations(place: Path) -> Iterator[str]:
     """What is wrong with the words that a bank brings: file, key and what is the matter.
 
     Parameters
@@ -298,17 +300,19 @@ def amiss(place: Path) -> Iterator[str]:
     place : pathlib.Path
         Its folder of languages; it may be missing.
     """
-    known = {path.name: path for path in sentences()}
+    known = {path.name: path for path in translatable_files()}
     for file in sorted(place.glob("*/*")):
         lang = file.parent.name
         try:
-            if not brought.is_tag(lang):
+            if not custom.is_language_tag(lang):
                 yield f"{file}: {lang!r} is no language (call the folder fr, or pt-BR)"
             elif file.name == "language.toml":
-                language(lang)
+                get_language(lang)
             elif file.name in known:
-                english = _read(known[file.name])
-                for key, what in brought.unsound(english, brought.read(file), OPEN):
+                english = _read_words(known[file.name])
+                for key, what in custom.check_translation(
+                    english, custom.read_translation(file), OPEN
+                ):
                     yield f"{file}: {key}: {what}"
             else:
                 yield f"{file}: is none of language.toml, {', '.join(known)}"
@@ -316,33 +320,33 @@ def amiss(place: Path) -> Iterator[str]:
             yield str(error)
 
 
-def _file(lang: str, name: str) -> Path | None:
+def _find_words_file(lang: str, name: str) -> Path | None:
     """Where a language has its words of a kind: the first folder that has some."""
     files = (place / lang / f"{name}.toml" for place in PLACES)
     return next(filter(Path.is_file, files), None)
 
 
-def _read(file: Path | None) -> dict[str, Any]:
+def _read_words(file: Path | None) -> dict[str, Any]:
     """What a file of words says; our own ones need no checks."""
     if file is None:
         return {}
     if file.is_relative_to(SHIPPED):
         return tomllib.loads(file.read_text(encoding="utf-8"))
-    return brought.read(file)
+    return custom.read_translation(file)
 
 
-def word(lang: str, key: str, **values: object) -> str:
+def translate(lang: str, key: str, **values: object) -> str:
     """One word or sentence of the interface, ``section.name``, with its blanks filled in."""
     section, _, name = key.partition(".")
-    text: str = table(lang)[section][name]
+    text: str = load_words(lang)[section][name]
     return text.format(**values) if values else text
 
 
-def amount(value: Fraction | float, lang: str) -> str:
+def format_amount(value: Fraction | float, lang: str) -> str:
     """Marks as a number, with the decimal sign of a language: ``2.5``."""
-    return numbers_in(lang, f"{float(value):g}")
+    return localise_numbers(lang, f"{float(value):g}")
 
 
-def marks(points: Fraction, lang: str) -> str:
+def format_marks(points: Fraction, lang: str) -> str:
     """Marks with their word: ``1 point``, ``2.5 points``."""
-    return f"{amount(points, lang)} {word(lang, 'paper.point' if points == 1 else 'paper.points')}"
+    return f"{format_amount(points, lang)} {translate(lang, 'paper.point' if points == 1 else 'paper.points')}"

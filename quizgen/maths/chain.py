@@ -13,13 +13,13 @@ from typing import TypeAlias
 
 import msgspec
 
-from quizgen.errors import MathError
+from quizgen.core.errors import MathError
+from quizgen.maths.number_systems import CompiledFormula, NumberSystem, compile_nested, exact_system
 from quizgen.maths.precision import PRECISION, working_precision
-from quizgen.maths.systems import Compiled, NumberSystem, compile_inner, exact
-from quizgen.maths.tree import Expr, names
+from quizgen.maths.tree import Expr, names_in
 from quizgen.maths.values import Value, Values
 
-Plan: TypeAlias = tuple[tuple[str, Compiled], ...]
+CompiledSteps: TypeAlias = tuple[tuple[str, CompiledFormula], ...]
 """Quantities to compute, in order, each from the ones given and before it."""
 
 
@@ -57,35 +57,38 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         return {step.name: step for step in self.steps}
 
     @cached_property
-    def uses(self) -> dict[str, frozenset[str]]:
+    def operands(self) -> dict[str, frozenset[str]]:
         """Step name to the quantities in its formula."""
-        return {step.name: names(step.expr) for step in self.steps}
+        return {step.name: names_in(step.expr) for step in self.steps}
 
     @cached_property
-    def _compiled(self) -> dict[str, dict[str, Compiled]]:
+    def _compiled_by_system(self) -> dict[str, dict[str, CompiledFormula]]:
         """Number system to step name to the right formula, filled on demand."""
         return {}
 
     @cached_property
-    def _trap_plans(self) -> dict[str, Plan]:
-        return {name: self.plan(wrong, exact()) for name, wrong in self.traps.items()}
+    def _trap_plans(self) -> dict[str, CompiledSteps]:
+        return {
+            name: self.compile_affected_steps(wrong, exact_system())
+            for name, wrong in self.traps.items()
+        }
 
-    def compiled(self, system: NumberSystem) -> dict[str, Compiled]:
+    def compile_steps(self, system: NumberSystem) -> dict[str, CompiledFormula]:
         """Step name to its formula in a number system, compiled once, in order."""
-        found = self._compiled.get(system.name)
+        found = self._compiled_by_system.get(system.name)
         if found is None:
-            found = {step.name: compile_inner(step.expr, system) for step in self.steps}
-            self._compiled[system.name] = found
+            found = {step.name: compile_nested(step.expr, system) for step in self.steps}
+            self._compiled_by_system[system.name] = found
         return found
 
-    def plan(
+    def compile_affected_steps(
         self,
         wrong: Iterable[ChainStep],
         system: NumberSystem,
         *,
         changed: Iterable[str] = (),
         within: Container[str] | None = None,
-    ) -> Plan:
+    ) -> CompiledSteps:
         """Only the steps that a change touches, compiled, in order.
 
         Parameters
@@ -100,16 +103,16 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
             Leave out steps of other names.
         """
         swapped = {step.name: step.expr for step in wrong}
-        right = self.compiled(system)
+        right = self.compile_steps(system)
         touched = set(changed)
         plan = []
         for step in self.steps:
             if within is not None and step.name not in within:
                 continue
             if step.name in swapped:
-                plan.append((step.name, compile_inner(swapped[step.name], system)))
+                plan.append((step.name, compile_nested(swapped[step.name], system)))
                 touched.add(step.name)
-            elif touched & self.uses[step.name]:
+            elif touched & self.operands[step.name]:
                 plan.append((step.name, right[step.name]))
                 touched.add(step.name)
         return tuple(plan)
@@ -129,9 +132,11 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         MathError
             If a step has no finite real value.
         """
-        return _run(self.compiled(exact()).items(), dict(given), precision)
+        return _run_steps(self.compile_steps(exact_system()).items(), dict(given), precision)
 
-    def trapped(self, trap: str, solved: Values, precision: int = PRECISION) -> dict[str, Value]:
+    def solve_with_misconception(
+        self, trap: str, solved: Values, precision: int = PRECISION
+    ) -> dict[str, Value]:
         """The quantities as a student in this trap would get them.
 
         Raises
@@ -139,13 +144,15 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         MathError
             If the wrong way has no finite real value for these numbers.
         """
-        return _run(self._trap_plans[trap], dict(solved), precision)
+        return _run_steps(self._trap_plans[trap], dict(solved), precision)
 
-    def with_steps(self, wrong: Iterable[ChainStep], solved: Values) -> dict[str, Value]:
+    def solve_with_steps(self, wrong: Iterable[ChainStep], solved: Values) -> dict[str, Value]:
         """Recompute with some steps replaced (mutations, a student's own earlier answer)."""
-        return _run(self.plan(wrong, exact()), dict(solved), PRECISION)
+        return _run_steps(
+            self.compile_affected_steps(wrong, exact_system()), dict(solved), PRECISION
+        )
 
-    def needs(self, name: str, known: Iterable[str] = ()) -> frozenset[str]:
+    def required_steps(self, name: str, known: Iterable[str] = ()) -> frozenset[str]:
         """Step names that ``name`` rests on, not looking through quantities already known."""
         stop, seen, todo = set(known), set[str](), [name]
         while todo:
@@ -153,12 +160,12 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
             if current in seen or current not in self.by_name:
                 continue
             seen.add(current)
-            todo += [n for n in self.uses[current] if n not in stop]
+            todo += [n for n in self.operands[current] if n not in stop]
         return frozenset(seen)
 
 
-def _run(
-    plan: Iterable[tuple[str, Compiled]], env: dict[str, Value], precision: int
+def _run_steps(
+    plan: Iterable[tuple[str, CompiledFormula]], env: dict[str, Value], precision: int
 ) -> dict[str, Value]:
     with working_precision(precision):
         for name, compiled in plan:

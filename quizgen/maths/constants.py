@@ -9,10 +9,10 @@ from typing import Any
 from flint import fmpq
 from msgspec.structs import replace
 
-from quizgen.errors import MathError
-from quizgen.maths.notation import ReadError, parse
+from quizgen.core.errors import MathError
+from quizgen.maths.notation import FormulaReadError, parse_formula
+from quizgen.maths.number_systems import NumberSystem, compile_expr, exact_system
 from quizgen.maths.precision import PRECISION, working_precision
-from quizgen.maths.systems import NumberSystem, compile_expr, exact
 from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value
 
@@ -23,7 +23,7 @@ LARGEST_BITS = 4000
 """Largest size of an intermediate value."""
 
 
-def _bits(value: Value) -> float:
+def _count_size_bits(value: Value) -> float:
     """Return about how many binary digits a number's size takes, both ways from one."""
     if isinstance(value, fmpq):
         return float(value.height_bits())
@@ -38,25 +38,29 @@ class TooLargeError(MathError):
 
 def _guarded_power(a: Value, b: Value) -> Value:
     size = abs(b) if isinstance(b, fmpq) else abs(b).mid().fmpq()
-    if size > LARGEST_BITS or _bits(a) * float(size) > LARGEST_BITS:
+    if size > LARGEST_BITS or _count_size_bits(a) * float(size) > LARGEST_BITS:
         raise TooLargeError("too large")
-    return exact().ops["pow"](a, b)
+    return exact_system().ops["pow"](a, b)
 
 
 def _guarded_exp(a: Value) -> Value:
     if abs(a) > LARGEST_BITS:
         raise TooLargeError("too large")
-    return exact().ops["exp"](a)
+    return exact_system().ops["exp"](a)
 
 
 @cache
-def bounded() -> NumberSystem:
+def bounded_exact_system() -> NumberSystem:
     """The exact field with bounds on size, for mathematics typed by learners."""
-    ops: dict[str, Callable[..., Any]] = {**exact().ops, "pow": _guarded_power, "exp": _guarded_exp}
-    return replace(exact(), name="bounded", ops=ops)
+    ops: dict[str, Callable[..., Any]] = {
+        **exact_system().ops,
+        "pow": _guarded_power,
+        "exp": _guarded_exp,
+    }
+    return replace(exact_system(), name="bounded", ops=ops)
 
 
-def constant(tree: Expr) -> Value:
+def evaluate_constant(tree: Expr) -> Value:
     """Evaluate a tree without names, exactly or as a certified ball, in bounded time.
 
     Raises
@@ -66,26 +70,26 @@ def constant(tree: Expr) -> Value:
     """
     try:
         with working_precision():
-            value = compile_expr(tree, bounded())({})
+            value = compile_expr(tree, bounded_exact_system())({})
     except TooLargeError:
-        raise ReadError("too-large", 1) from None
+        raise FormulaReadError("too-large", 1) from None
     except (MathError, ZeroDivisionError, OverflowError, ValueError) as error:
-        raise ReadError("no-value", 1, str(error)) from None
+        raise FormulaReadError("no-value", 1, str(error)) from None
     except (KeyError, TypeError, AttributeError):
-        raise ReadError("not-a-number", 1) from None
+        raise FormulaReadError("not-a-number", 1) from None
     if isinstance(value, int):  # a truth, or what is made of truths
-        raise ReadError("not-a-number", 1)
-    if not isinstance(value, fmpq) and not _sharp(value):
-        raise ReadError("no-value", 1, "not determined")
+        raise FormulaReadError("not-a-number", 1)
+    if not isinstance(value, fmpq) and not _is_accurate(value):
+        raise FormulaReadError("no-value", 1, "not determined")
     return value
 
 
-def _sharp(ball: Value) -> bool:
+def _is_accurate(ball: Value) -> bool:
     return bool(ball.rel_accuracy_bits() >= 40 or ball.rad() < fmpq(1, 10**30))
 
 
 @lru_cache(maxsize=8192)
-def _exactly(text: str) -> Value:
+def _evaluate_author_constant(text: str) -> Value:
     """Return the value of an author's constant: ``20/3``, ``6.67``, ``-1e-3``, ``sqrt(2)/2``.
 
     Raises
@@ -97,10 +101,10 @@ def _exactly(text: str) -> Value:
         whole, slash, below = text.partition("/")
         return fmpq(int(whole), int(below) if slash else 1)
     except (ValueError, ZeroDivisionError):
-        return constant(parse(text, symbols=()))
+        return evaluate_constant(parse_formula(text, symbols=()))
 
 
-def exact_value(value: str | float) -> Value:
+def parse_exact(value: str | float) -> Value:
     """Return the exact value of a spec's entry; a float counts as the decimal it prints as.
 
     Raises
@@ -108,4 +112,4 @@ def exact_value(value: str | float) -> Value:
     FormulaError
         If it cannot be read or has no value.
     """
-    return _exactly(value if isinstance(value, str) else repr(value))
+    return _evaluate_author_constant(value if isinstance(value, str) else repr(value))

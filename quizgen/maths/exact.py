@@ -11,18 +11,18 @@ from types import SimpleNamespace
 
 from flint import arb, fmpq, fmpz
 
-from quizgen.errors import MathError, Undecided
+from quizgen.core.errors import MathError, UndecidedError
 from quizgen.maths.values import Value
 
 LARGEST_POWER = 4096
 """Largest integer exponent raised exactly: bounds the size of the result."""
 
 
-def _ball(x: Value) -> arb:
+def _to_ball(x: Value) -> arb:
     return x if isinstance(x, arb) else arb(x)
 
 
-def _finite(x: arb) -> arb:
+def _require_finite(x: arb) -> arb:
     if not x.is_finite():
         raise MathError("no finite real value")
     return x
@@ -34,7 +34,7 @@ def divide(a: Value, b: Value) -> Value:
         raise MathError("division by zero")
     if isinstance(a, fmpq) and isinstance(b, fmpq):
         return a / b
-    return _finite(_ball(a) / _ball(b))
+    return _require_finite(_to_ball(a) / _to_ball(b))
 
 
 def power(a: Value, b: Value) -> Value:
@@ -45,13 +45,13 @@ def power(a: Value, b: Value) -> Value:
         return a ** int(b.p)
     if isinstance(b, fmpq) and b == fmpq(1, 2):
         return square_root(a)
-    if a == 0 and _sign(b) > 0:
+    if a == 0 and _certify_sign(b) > 0:
         return fmpq(0)
     if isinstance(b, fmpq) and b.q == 1:
-        return _finite(_ball(a) ** _ball(b))
-    if _sign(a) < 0:
+        return _require_finite(_to_ball(a) ** _to_ball(b))
+    if _certify_sign(a) < 0:
         raise MathError("power of a negative number")
-    return _finite(_ball(a) ** _ball(b))
+    return _require_finite(_to_ball(a) ** _to_ball(b))
 
 
 def square_root(a: Value) -> Value:
@@ -62,7 +62,7 @@ def square_root(a: Value) -> Value:
         root = _rational_root(a)
         if root is not None:
             return root
-    return _finite(_ball(a).sqrt())
+    return _require_finite(_to_ball(a).sqrt())
 
 
 def _rational_root(a: fmpq) -> fmpq | None:
@@ -70,25 +70,27 @@ def _rational_root(a: fmpq) -> fmpq | None:
     return fmpq(p, q) if p * p == a.p and q * q == a.q else None
 
 
-def _sign(a: Value) -> int:
+def _certify_sign(a: Value) -> int:
     if a > 0:
         return 1
     if a < 0:
         return -1
     if isinstance(a, fmpq) or a.is_zero():
         return 0
-    raise Undecided("sign cannot be certified")
+    raise UndecidedError("sign cannot be certified")
 
 
 def sign(a: Value) -> fmpq:
     """-1, 0 or 1."""
-    return fmpq(_sign(a))
+    return fmpq(_certify_sign(a))
 
 
-Comparison = Callable[[Value, Value], bool]
+ComparisonOperator = Callable[[Value, Value], bool]
 
 
-def _comparison(test: Comparison, opposite: Comparison) -> Comparison:
+def _make_certified_comparison(
+    test: ComparisonOperator, opposite: ComparisonOperator
+) -> ComparisonOperator:
     """A relation that is false only if its opposite is certain."""
 
     def decide(a: Value, b: Value) -> bool:
@@ -96,24 +98,24 @@ def _comparison(test: Comparison, opposite: Comparison) -> Comparison:
             return True
         if (isinstance(a, fmpq) and isinstance(b, fmpq)) or opposite(a, b):
             return False
-        raise Undecided("comparison cannot be certified")
+        raise UndecidedError("comparison cannot be certified")
 
     return decide
 
 
-less = _comparison(operator.lt, operator.ge)
-at_most = _comparison(operator.le, operator.gt)
-more = _comparison(operator.gt, operator.le)
-at_least = _comparison(operator.ge, operator.lt)
+is_less = _make_certified_comparison(operator.lt, operator.ge)
+is_at_most = _make_certified_comparison(operator.le, operator.gt)
+is_more = _make_certified_comparison(operator.gt, operator.le)
+is_at_least = _make_certified_comparison(operator.ge, operator.lt)
 
 
 def equal(a: Value, b: Value) -> bool:
     """Equality of rationals; balls can only be certainly different."""
     if isinstance(a, fmpq) and isinstance(b, fmpq):
         return bool(a == b)
-    if not _ball(a).overlaps(_ball(b)):
+    if not _to_ball(a).overlaps(_to_ball(b)):
         return False
-    raise Undecided("equality cannot be certified")
+    raise UndecidedError("equality cannot be certified")
 
 
 def unequal(a: Value, b: Value) -> bool:
@@ -127,7 +129,7 @@ def floor(a: Value) -> fmpq:
         return fmpq(a.floor())
     integer = a.floor().unique_fmpz()
     if integer is None:
-        raise Undecided("rounding cannot be certified")
+        raise UndecidedError("rounding cannot be certified")
     return fmpq(integer)
 
 
@@ -136,9 +138,9 @@ def ceil(a: Value) -> fmpq:
     return -floor(-a)
 
 
-def rounded(a: Value) -> fmpq:
+def round_half_away(a: Value) -> fmpq:
     """Round half away from zero, as the stems promise."""
-    return floor(abs(a) + fmpq(1, 2)) * _sign(a)
+    return floor(abs(a) + fmpq(1, 2)) * _certify_sign(a)
 
 
 def remainder(a: Value, b: Value) -> Value:
@@ -146,34 +148,34 @@ def remainder(a: Value, b: Value) -> Value:
     return a - b * floor(divide(a, b))
 
 
-def least(a: Value, b: Value) -> Value:
+def minimum(a: Value, b: Value) -> Value:
     """Smaller of two."""
-    return a if less(a, b) else b
+    return a if is_less(a, b) else b
 
 
-def greatest(a: Value, b: Value) -> Value:
+def maximum(a: Value, b: Value) -> Value:
     """Larger of two."""
-    return b if less(a, b) else a
+    return b if is_less(a, b) else a
 
 
 def natural_log(a: Value) -> Value:
     """Logarithm to base e."""
-    if _sign(a) <= 0:
+    if _certify_sign(a) <= 0:
         raise MathError("logarithm of a number that is not positive")
-    return _ball(a).log()
+    return _to_ball(a).log()
 
 
 def binary_log(a: Value) -> Value:
     """Logarithm to base 2, rational for its powers."""
-    return _log(a, 2)
+    return _take_logarithm(a, 2)
 
 
 def decimal_log(a: Value) -> Value:
     """Logarithm to base 10, rational for its powers."""
-    return _log(a, 10)
+    return _take_logarithm(a, 10)
 
 
-def _log(a: Value, base: int) -> Value:
+def _take_logarithm(a: Value, base: int) -> Value:
     power = _integer_log(a, base) if isinstance(a, fmpq) and a > 0 else None
     return natural_log(a) / arb(base).log() if power is None else fmpq(power)
 
@@ -190,22 +192,22 @@ def _integer_log(a: fmpq, base: int) -> int | None:
 
 def exponential(a: Value) -> Value:
     """Power of e; 1 for 0."""
-    return fmpq(1) if isinstance(a, fmpq) and a == 0 else _finite(_ball(a).exp())
+    return fmpq(1) if isinstance(a, fmpq) and a == 0 else _require_finite(_to_ball(a).exp())
 
 
 def error_function(a: Value) -> Value:
     """Error function; 0 for 0."""
-    return fmpq(0) if isinstance(a, fmpq) and a == 0 else _ball(a).erf()
+    return fmpq(0) if isinstance(a, fmpq) and a == 0 else _to_ball(a).erf()
 
 
 def complementary_error_function(a: Value) -> Value:
     """1 minus the error function, also where that is tiny; 1 for 0."""
-    return fmpq(1) if isinstance(a, fmpq) and a == 0 else _ball(a).erfc()
+    return fmpq(1) if isinstance(a, fmpq) and a == 0 else _to_ball(a).erfc()
 
 
 def atan2(y: Value, x: Value) -> arb:
     """Angle of the point (x, y)."""
-    return arb.atan2(_ball(y), _ball(x))
+    return arb.atan2(_to_ball(y), _to_ball(x))
 
 
 def pi() -> arb:
@@ -213,14 +215,14 @@ def pi() -> arb:
     return arb.pi()
 
 
-def _method(name: str) -> Callable[[Value], arb]:
+def _wrap_ball_method(name: str) -> Callable[[Value], arb]:
     method = getattr(arb, name)
 
     def apply(a: Value) -> arb:
-        return _finite(method(_ball(a)))
+        return _require_finite(method(_to_ball(a)))
 
     return apply
 
 
-BALLS = SimpleNamespace(**{name: _method(name) for name in dir(arb) if name[0] != "_"})
+BALLS = SimpleNamespace(**{name: _wrap_ball_method(name) for name in dir(arb) if name[0] != "_"})
 """A ball's own methods as functions that must have a finite value."""

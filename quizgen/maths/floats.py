@@ -21,7 +21,7 @@ def ceil(a: float) -> float:
     return float(math.ceil(a))
 
 
-def rounded(a: float) -> float:
+def round_float_half_away(a: float) -> float:
     """Round half away from zero, as the stems promise."""
     return math.copysign(math.floor(abs(a) + 0.5), a)
 
@@ -31,6 +31,6 @@ def pi() -> float:
     return math.pi
 
 
-def single(x: float) -> float:
+def round_to_float32(x: float) -> float:
     """Round to float32."""
     return float(unpack("f", pack("f", x))[0])

@@ -15,7 +15,7 @@ import sympy
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import BooleanFalse, BooleanTrue
 
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
 from quizgen.maths.operators import OPERATORS
 from quizgen.maths.tree import Call, Expr, Num, Sym
 
@@ -23,7 +23,7 @@ _DOUBLE = 53
 _ONE = Num(Fraction(1))
 
 
-def _classes() -> Iterator[tuple[type, str]]:
+def _iter_sympy_classes() -> Iterator[tuple[type, str]]:
     """SymPy's classes that are operators of ours, by the name that the table gives."""
     for row in OPERATORS.values():
         kind = getattr(sympy, row.function_in("sympy"), None)
@@ -31,7 +31,7 @@ def _classes() -> Iterator[tuple[type, str]]:
             yield kind, row.name
 
 
-def convert(expression: sympy.Basic) -> Expr:
+def from_sympy(expression: sympy.Basic) -> Expr:
     """Convert a SymPy expression.
 
     Parameters
@@ -60,19 +60,19 @@ def convert(expression: sympy.Basic) -> Expr:
     raise BankError(f"no formula for SymPy's {type(expression).__name__}: {expression}")
 
 
-def _converted(expression: sympy.Basic) -> tuple[Expr, ...]:
-    return tuple(convert(arg) for arg in expression.args)
+def _convert_arguments(expression: sympy.Basic) -> tuple[Expr, ...]:
+    return tuple(from_sympy(arg) for arg in expression.args)
 
 
-def _symbol(expression: sympy.Basic) -> Expr:
+def _convert_symbol(expression: sympy.Basic) -> Expr:
     return Sym(expression.name)
 
 
-def _rational(expression: sympy.Basic) -> Expr:
+def _convert_rational(expression: sympy.Basic) -> Expr:
     return Num(Fraction(int(expression.p), int(expression.q)))
 
 
-def _float(expression: sympy.Basic) -> Expr:
+def _convert_float(expression: sympy.Basic) -> Expr:
     """Take the decimal that was typed: 2.2 is 11/5, not the nearest binary number."""
     if not expression.is_finite:
         raise BankError(f"no formula for the number {expression}")
@@ -81,19 +81,19 @@ def _float(expression: sympy.Basic) -> Expr:
     return Num(Fraction(typed), decimal=True)
 
 
-def _pi(_expression: sympy.Basic) -> Expr:
+def _convert_pi(_expression: sympy.Basic) -> Expr:
     return Call("pi", ())
 
 
-def _e(_expression: sympy.Basic) -> Expr:
+def _convert_euler_number(_expression: sympy.Basic) -> Expr:
     return Call("exp", (_ONE,))
 
 
-def _add(expression: sympy.Basic) -> Expr:
+def _convert_sum(expression: sympy.Basic) -> Expr:
     first, *rest = expression.args
-    total = [convert(first)]
+    total = [from_sympy(first)]
     for term in rest:
-        minus, value = _signed(term)
+        minus, value = _split_sign(term)
         if minus and len(total) == 1:
             total = [Call("sub", (total[0], value))]
         else:
@@ -101,9 +101,9 @@ def _add(expression: sympy.Basic) -> Expr:
     return total[0] if len(total) == 1 else Call("add", tuple(total))
 
 
-def _signed(term: sympy.Basic) -> tuple[bool, Expr]:
+def _split_sign(term: sympy.Basic) -> tuple[bool, Expr]:
     """Split the sign off a later term of a sum."""
-    value = convert(term)
+    value = from_sympy(term)
     if isinstance(value, Num) and value.value < 0:
         return True, Num(-value.value, value.decimal)
     if isinstance(value, Call) and value.op == "neg":
@@ -111,39 +111,39 @@ def _signed(term: sympy.Basic) -> tuple[bool, Expr]:
     return False, value
 
 
-def _mul(expression: sympy.Basic) -> Expr:
+def _convert_product(expression: sympy.Basic) -> Expr:
     result: Expr | None = None
     minus = False
     for factor in expression.args:
-        value, below = _factor(factor)
+        value, below = _convert_factor(factor)
         if result is None and not below and isinstance(value, Num) and value.value < 0:
             minus, value = not minus, Num(-value.value, value.decimal)
             if value == _ONE:
                 continue
-        result = _over(result or _ONE, value) if below else _times(result, value)
+        result = _divide_trees(result or _ONE, value) if below else _multiply_trees(result, value)
         if isinstance(result, Call) and result.op == "neg":
             minus, result = not minus, result.args[0]
     product = result if result is not None else _ONE
     return Call("neg", (product,)) if minus else product
 
 
-def _factor(factor: sympy.Basic) -> tuple[Expr, bool]:
+def _convert_factor(factor: sympy.Basic) -> tuple[Expr, bool]:
     """Convert a factor; a factor with a negative power goes below the bar."""
-    below = _reciprocal(factor)
-    return (convert(factor), False) if below is None else (below, True)
+    below = _find_denominator(factor)
+    return (from_sympy(factor), False) if below is None else (below, True)
 
 
-def _reciprocal(expression: sympy.Basic) -> Expr | None:
+def _find_denominator(expression: sympy.Basic) -> Expr | None:
     """Find what stands below the bar of ``1/something``."""
     if not isinstance(expression, sympy.Pow) or expression.base is sympy.S.Exp1:
         return None
     exponent = expression.exp
     if not (isinstance(exponent, sympy.Rational | sympy.Float) and exponent.is_negative):
         return None
-    return _power(convert(expression.base), convert(-exponent))
+    return _build_power(from_sympy(expression.base), from_sympy(-exponent))
 
 
-def _times(result: Expr | None, value: Expr) -> Expr:
+def _multiply_trees(result: Expr | None, value: Expr) -> Expr:
     if result is None:
         return value
     if isinstance(result, Call) and result.op == "mul":
@@ -151,23 +151,23 @@ def _times(result: Expr | None, value: Expr) -> Expr:
     return Call("mul", (result, value))
 
 
-def _over(top: Expr, bottom: Expr) -> Expr:
+def _divide_trees(top: Expr, bottom: Expr) -> Expr:
     """Divide; ``a/b/c`` becomes one fraction."""
     if isinstance(top, Call) and top.op == "div" and top.args[0] != _ONE:
-        return Call("div", (top.args[0], _times(top.args[1], bottom)))
+        return Call("div", (top.args[0], _multiply_trees(top.args[1], bottom)))
     return Call("div", (top, bottom))
 
 
-def _pow(expression: sympy.Basic) -> Expr:
+def _convert_power(expression: sympy.Basic) -> Expr:
     if expression.base is sympy.S.Exp1:
-        return Call("exp", (convert(expression.exp),))
-    below = _reciprocal(expression)
+        return Call("exp", (from_sympy(expression.exp),))
+    below = _find_denominator(expression)
     if below is not None:
         return Call("div", (_ONE, below))
-    return _power(convert(expression.base), convert(expression.exp))
+    return _build_power(from_sympy(expression.base), from_sympy(expression.exp))
 
 
-def _power(base: Expr, exponent: Expr) -> Expr:
+def _build_power(base: Expr, exponent: Expr) -> Expr:
     if exponent == _ONE:
         return base
     if exponent == Num(Fraction(1, 2)):
@@ -175,8 +175,8 @@ def _power(base: Expr, exponent: Expr) -> Expr:
     return Call("pow", (base, exponent))
 
 
-def _log(expression: sympy.Basic) -> Expr:
-    value, *base = _converted(expression)
+def _convert_logarithm(expression: sympy.Basic) -> Expr:
+    value, *base = _convert_arguments(expression)
     if not base:
         return Call("ln", (value,))
     if isinstance(base[0], Num) and base[0].value in {2, 10}:
@@ -184,11 +184,11 @@ def _log(expression: sympy.Basic) -> Expr:
     return Call("div", (Call("ln", (value,)), Call("ln", (base[0],))))
 
 
-def _ordered(op: str) -> Callable[[sympy.Basic], Expr]:
+def _make_extremum_converter(op: str) -> Callable[[sympy.Basic], Expr]:
     """Max and Min come sorted; colour channels go back to R, G, B."""
 
     def rule(expression: sympy.Basic) -> Expr:
-        args = _converted(expression)
+        args = _convert_arguments(expression)
         if {getattr(arg, "name", "") for arg in args} == set("RGB"):
             args = tuple(Sym(channel) for channel in "RGB")
         return args[0] if len(args) == 1 else Call(op, args)
@@ -196,39 +196,39 @@ def _ordered(op: str) -> Callable[[sympy.Basic], Expr]:
     return rule
 
 
-def _piecewise(expression: sympy.Basic) -> Expr:
+def _convert_piecewise(expression: sympy.Basic) -> Expr:
     args: list[Expr] = []
     for value, condition in expression.args:
-        args.append(convert(value))
+        args.append(from_sympy(value))
         if isinstance(condition, BooleanTrue):
             return Call("piecewise", tuple(args)) if len(args) > 1 else args[0]
-        args.append(convert(condition))
+        args.append(from_sympy(condition))
     raise BankError(f"the last branch of {expression} must hold otherwise: end with (..., True)")
 
 
-def _named(op: str) -> Callable[[sympy.Basic], Expr]:
-    return lambda expression: Call(op, _converted(expression))
+def _make_function_converter(op: str) -> Callable[[sympy.Basic], Expr]:
+    return lambda expression: Call(op, _convert_arguments(expression))
 
 
-def _unknown(expression: sympy.Basic) -> Expr:
+def _reject_expression(expression: sympy.Basic) -> Expr:
     raise BankError(f"no formula for {expression}")
 
 
 _RULES: dict[type, Callable[[sympy.Basic], Expr]] = {
-    **{kind: _named(op) for kind, op in _classes()},
-    sympy.Symbol: _symbol,
-    sympy.Rational: _rational,
-    sympy.Float: _float,
-    type(sympy.pi): _pi,
-    type(sympy.E): _e,
-    sympy.Add: _add,
-    sympy.Mul: _mul,
-    sympy.Pow: _pow,
-    sympy.log: _log,
-    sympy.Max: _ordered("max"),
-    sympy.Min: _ordered("min"),
-    sympy.Piecewise: _piecewise,
-    BooleanTrue: _unknown,
-    BooleanFalse: _unknown,
-    AppliedUndef: _unknown,
+    **{kind: _make_function_converter(op) for kind, op in _iter_sympy_classes()},
+    sympy.Symbol: _convert_symbol,
+    sympy.Rational: _convert_rational,
+    sympy.Float: _convert_float,
+    type(sympy.pi): _convert_pi,
+    type(sympy.E): _convert_euler_number,
+    sympy.Add: _convert_sum,
+    sympy.Mul: _convert_product,
+    sympy.Pow: _convert_power,
+    sympy.log: _convert_logarithm,
+    sympy.Max: _make_extremum_converter("max"),
+    sympy.Min: _make_extremum_converter("min"),
+    sympy.Piecewise: _convert_piecewise,
+    BooleanTrue: _reject_expression,
+    BooleanFalse: _reject_expression,
+    AppliedUndef: _reject_expression,
 }

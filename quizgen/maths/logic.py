@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 
-def both(a: object, b: object) -> bool:
+def logical_and(a: object, b: object) -> bool:
     """Whether both conditions hold."""
     return bool(a and b)
 
 
-def either(a: object, b: object) -> bool:
+def logical_or(a: object, b: object) -> bool:
     """Whether one of the conditions holds."""
     return bool(a or b)

@@ -19,9 +19,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
-from quizgen.maths.tree import names
+from quizgen.maths.tree import names_in
 
 if TYPE_CHECKING:
     import sympy
@@ -77,9 +77,9 @@ class Model:
             given for what is no step.
         """
         given = {symbol.name: unit for symbol, unit in self.given.items()}
-        steps = tuple(_convert(step) for step in self.steps)
+        steps = tuple(_convert_step(step) for step in self.steps)
         traps = {
-            name: tuple(_convert(s) for s in (wrong if isinstance(wrong, tuple) else (wrong,)))
+            name: tuple(_convert_step(s) for s in (wrong if isinstance(wrong, tuple) else (wrong,)))
             for name, wrong in self.traps.items()
         }
         _check_order(given, steps, traps)
@@ -89,11 +89,11 @@ class Model:
         return Chain(given, steps, traps, self.formulas)
 
 
-def _convert(step: Step) -> ChainStep:
-    from quizgen.maths.from_sympy import convert
+def _convert_step(step: Step) -> ChainStep:
+    from quizgen.maths.from_sympy import from_sympy
 
     try:
-        return ChainStep(step.symbol.name, convert(step.expr), step.unit)
+        return ChainStep(step.symbol.name, from_sympy(step.expr), step.unit)
     except BankError as error:
         raise BankError(f"step {step.symbol.name!r}: {error}") from error
 
@@ -106,7 +106,7 @@ def _check_order(
     known = set(given)
     before: dict[str, set[str]] = {}
     for step in steps:
-        missing = names(step.expr) - known
+        missing = names_in(step.expr) - known
         if missing:
             raise BankError(f"step {step.name!r} uses {sorted(missing)}, not defined before it")
         before[step.name] = set(known)
@@ -115,6 +115,6 @@ def _check_order(
         for step in wrong:
             if step.name not in before:
                 raise BankError(f"trap {trap!r} replaces {step.name!r}, which is not a step")
-            missing = names(step.expr) - before[step.name]
+            missing = names_in(step.expr) - before[step.name]
             if missing:
                 raise BankError(f"trap {trap!r} uses {sorted(missing)}, not defined before it")

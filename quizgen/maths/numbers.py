@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from flint import arb, fmpq, fmpz
 
-from quizgen.errors import FormulaError, MathError, Undecided
+from quizgen.core.errors import FormulaError, MathError, UndecidedError
 from quizgen.maths.precision import WIDE, working_precision
 from quizgen.maths.values import Value
 
@@ -37,7 +37,7 @@ SMALLEST_MAGNITUDE = -6
 """Power of ten below which a value is written with one."""
 
 
-def written(value: float | str | Fraction) -> Fraction:
+def parse_written_number(value: float | str | Fraction) -> Fraction:
     """An integer, ``"1/500"`` or a decimal text as it is meant; a float as what it prints as.
 
     Raises
@@ -57,7 +57,7 @@ def written(value: float | str | Fraction) -> Fraction:
         raise FormulaError(f"{text[:40]!r} divides by zero") from None
 
 
-def rational(value: int | str | Fraction) -> fmpq:
+def to_rational(value: int | str | Fraction) -> fmpq:
     """Make an exact rational from an integer, ``"1/500"`` or a decimal text.
 
     Raises
@@ -65,11 +65,11 @@ def rational(value: int | str | Fraction) -> fmpq:
     FormulaError
         If it is no number.
     """
-    fraction = written(value)
+    fraction = parse_written_number(value)
     return fmpq(fraction.numerator, fraction.denominator)
 
 
-def fraction(value: fmpq) -> Fraction:
+def to_fraction(value: fmpq) -> Fraction:
     """A rational in Python's own type, as formula trees hold it."""
     return Fraction(int(value.p), int(value.q))
 
@@ -106,11 +106,11 @@ def round_to(value: Value, decimals: int) -> fmpq:
 def _nearest_to_ball(value: arb, scale: fmpq) -> fmpz:
     whole = (abs(value) * scale + fmpq(1, 2)).floor().unique_fmpz()
     if whole is None:
-        raise Undecided("the last digit cannot be certified")
+        raise UndecidedError("the last digit cannot be certified")
     return whole
 
 
-def magnitude(value: Value) -> int:
+def decimal_exponent(value: Value) -> int:
     """Power of ten of the leading digit: 0 for 6.7, -4 for 0.00050505."""
     number = abs(to_float(value))
     if number == 0:
@@ -124,12 +124,12 @@ def magnitude(value: Value) -> int:
         return guess - 1 if abs(value) < fmpq(10) ** guess else guess
 
 
-def decimals_for(value: Value, figures: int) -> int:
+def decimals_for_figures(value: Value, figures: int) -> int:
     """How many decimal places show ``figures`` significant figures of a value."""
-    return max(figures - 1 - magnitude(value), 0)
+    return max(figures - 1 - decimal_exponent(value), 0)
 
 
-def places(value: fmpq | Fraction) -> int | None:
+def count_decimals(value: fmpq | Fraction) -> int | None:
     """Decimal places of a terminating decimal, or None if it does not terminate."""
     rest, fives = int(value.denominator), 0
     twos = (rest & -rest).bit_length() - 1
@@ -139,9 +139,9 @@ def places(value: fmpq | Fraction) -> int | None:
     return max(twos, fives) if rest == 1 else None
 
 
-def decimal_text(value: fmpq, decimals: int | None = None, *, minus: str = MINUS) -> str:
+def format_decimal(value: fmpq, decimals: int | None = None, *, minus: str = MINUS) -> str:
     """Write a terminating decimal, with exactly ``decimals`` places if given."""
-    count = places(value) if decimals is None else decimals
+    count = count_decimals(value) if decimals is None else decimals
     if count is None:
         raise ValueError("this rational has no finite decimal form")
     top, bottom = int(value.p), int(value.q)
@@ -151,26 +151,26 @@ def decimal_text(value: fmpq, decimals: int | None = None, *, minus: str = MINUS
     return f"{sign}{whole}.{part}" if part else f"{sign}{whole}"
 
 
-def fraction_text(value: fmpq, *, minus: str = MINUS) -> str:
+def format_fraction(value: fmpq, *, minus: str = MINUS) -> str:
     """Write a rational as ``p/q``."""
     top = int(value.p)
     sign = minus if top < 0 else ""
     return f"{sign}{abs(top)}/{int(value.q)}"
 
 
-def short_decimal(value: Value) -> bool:
+def is_short_decimal(value: Value) -> bool:
     """Whether a value is a terminating decimal that is short, or small and of few digits."""
     if not is_exact(value):
         return False
-    count = places(value)
+    count = count_decimals(value)
     if count is None or count > LONGEST_SMALL:
         return False
     return count <= LONGEST_DECIMAL or bool(abs(value) * fmpq(10) ** count < 10**SMALL_DIGITS)
 
 
-def at_a_glance(value: Value) -> bool:
+def is_readable_exactly(value: Value) -> bool:
     """Whether the exact value says something: a short decimal, 2/3, 16/9, 1/125 but not 70/11."""
-    if short_decimal(value):
+    if is_short_decimal(value):
         return True
     if not is_exact(value):
         return False
@@ -178,35 +178,35 @@ def at_a_glance(value: Value) -> bool:
     return max(top, bottom) < EASY or (top == 1 and bottom < LARGEST_UNIT_FRACTION)
 
 
-def exact_text(value: Value, *, minus: str = MINUS) -> str | None:
+def format_exact(value: Value, *, minus: str = MINUS) -> str | None:
     """The exact value as text: a short decimal, else a readable fraction, else None."""
-    if short_decimal(value):
-        return decimal_text(value, minus=minus)
+    if is_short_decimal(value):
+        return format_decimal(value, minus=minus)
     if is_exact(value) and max(abs(int(value.p)), int(value.q)) <= LARGEST_IN_FRACTION:
-        return fraction_text(value, minus=minus)
+        return format_fraction(value, minus=minus)
     return None
 
 
-def rounded_text(
+def format_rounded(
     value: Value, *, decimals: int | None = None, figures: int = 4, minus: str = MINUS
 ) -> str:
     """Round for showing: to ``decimals`` places, or to ``figures`` significant figures.
 
     A tiny value without a number of places is written as ``1.478e-11``.
     """
-    if decimals is None and value != 0 and magnitude(value) < SMALLEST_MAGNITUDE:
-        power = magnitude(value)
+    if decimals is None and value != 0 and decimal_exponent(value) < SMALLEST_MAGNITUDE:
+        power = decimal_exponent(value)
         with working_precision(WIDE):
             scaled = value * fmpq(10) ** -power
-        return f"{rounded_text(scaled, figures=figures, minus=minus)}e{power}"
-    count = decimals_for(value, figures) if decimals is None else decimals
-    return decimal_text(round_to(value, count), count, minus=minus)
+        return f"{format_rounded(scaled, figures=figures, minus=minus)}e{power}"
+    count = decimals_for_figures(value, figures) if decimals is None else decimals
+    return format_decimal(round_to(value, count), count, minus=minus)
 
 
-def key_text(value: Value) -> str:
+def format_for_key(value: Value) -> str:
     """The value as stored in a key: an exact rational, or 40 certified digits."""
     if is_exact(value):
         whole = int(value.q) == 1
-        return str(int(value.p)) if whole else fraction_text(value, minus="-")
+        return str(int(value.p)) if whole else format_fraction(value, minus="-")
     with working_precision(WIDE):
         return str(value.str(40, radius=False, condense=0))

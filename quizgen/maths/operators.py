@@ -21,7 +21,7 @@ SYSTEMS = ("exact", "floats", "arrays", "sympy")
 """Rationals and balls, Python floats, NumPy arrays, and SymPy."""
 
 
-class Typed(Enum):
+class OperatorSyntax(Enum):
     """How an operator is typed."""
 
     FUNCTION = "name(a, b)"
@@ -58,7 +58,7 @@ class Operator(msgspec.Struct, frozen=True):
     name: str
     least: int
     most: int
-    typed: Typed = Typed.FUNCTION
+    typed: OperatorSyntax = OperatorSyntax.FUNCTION
     signs: tuple[str, ...] = ()
     token: str = ""
     folds: bool = False
@@ -70,22 +70,22 @@ class Operator(msgspec.Struct, frozen=True):
         return self.called.get(system, self.name)
 
 
-def _function(
+def _make_function_operator(
     name: str, library: str = "", least: int = 1, most: int = 1, **other: str
 ) -> Operator:
     libraries = dict.fromkeys(("floats", "arrays", "sympy"), library or name)
     return Operator(name, least, most, folds=most == MANY, called=libraries | other)
 
 
-def _relation(name: str, *signs: str, exact: str, sympy: str) -> Operator:
+def _make_relation_operator(name: str, *signs: str, exact: str, sympy: str) -> Operator:
     called = {"exact": exact, "sympy": sympy}
-    return Operator(name, 2, 2, Typed.RELATION, signs, "RELATION", called=called)
+    return Operator(name, 2, 2, OperatorSyntax.RELATION, signs, "RELATION", called=called)
 
 
-def _word(name: str, most: int, python: str, arrays: str, sympy: str) -> Operator:
+def _make_word_operator(name: str, most: int, python: str, arrays: str, sympy: str) -> Operator:
     called = dict.fromkeys(SYSTEMS, python) | {"arrays": arrays, "sympy": sympy}
     return Operator(
-        name, min(2, most), most, Typed.WORD, (name,), name.upper(),
+        name, min(2, most), most, OperatorSyntax.WORD, (name,), name.upper(),
         folds=most == MANY, called=called,
     )  # fmt: skip
 
@@ -93,54 +93,56 @@ def _word(name: str, most: int, python: str, arrays: str, sympy: str) -> Operato
 _DIVIDED = dict.fromkeys(SYSTEMS, "truediv") | {"exact": "divide"}
 
 _ROWS = (
-    Operator("add", 2, MANY, Typed.SIGN, ("+",), "PLUS", folds=True),
-    Operator("sub", 2, 2, Typed.SIGN, ("-", "−"), "MINUS"),
-    Operator("mul", 2, MANY, Typed.SIGN, ("*", "·", "×"), "TIMES", folds=True),
-    Operator("div", 2, 2, Typed.SIGN, ("/",), "SLASH", called=_DIVIDED),
-    Operator("neg", 1, 1, Typed.PREFIX, ("-", "−"), "MINUS"),
-    Operator("pow", 2, 2, Typed.SIGN, ("^", "**"), "POWER", called={"exact": "power"}),
+    Operator("add", 2, MANY, OperatorSyntax.SIGN, ("+",), "PLUS", folds=True),
+    Operator("sub", 2, 2, OperatorSyntax.SIGN, ("-", "−"), "MINUS"),
+    Operator("mul", 2, MANY, OperatorSyntax.SIGN, ("*", "·", "×"), "TIMES", folds=True),
+    Operator("div", 2, 2, OperatorSyntax.SIGN, ("/",), "SLASH", called=_DIVIDED),
+    Operator("neg", 1, 1, OperatorSyntax.PREFIX, ("-", "−"), "MINUS"),
+    Operator("pow", 2, 2, OperatorSyntax.SIGN, ("^", "**"), "POWER", called={"exact": "power"}),
     Operator("abs", 1, 1, called={"sympy": "Abs"}),
-    _function("sqrt", exact="square_root"),
-    _function("exp", exact="exponential"),
-    _function("ln", "log", exact="natural_log"),
-    _function("log2", exact="binary_log"),
-    _function("log10", exact="decimal_log"),
-    *map(_function, ("sin", "cos", "tan")),
-    _function("asin", arrays="arcsin"),
-    _function("acos", arrays="arccos"),
-    _function("atan", arrays="arctan"),
-    _function("atan2", least=2, most=2, arrays="arctan2"),
-    _function("erf", exact="error_function"),
-    _function("erfc", exact="complementary_error_function"),
-    _function("sign"),
-    _function("floor"),
-    _function("ceil", sympy="ceiling"),
-    _function("round", "rounded", exact="rounded"),
-    _function("mod", least=2, most=2, exact="remainder", sympy="Mod"),
-    _function("min", most=MANY, exact="least", arrays="minimum", sympy="Min"),
-    _function("max", most=MANY, exact="greatest", arrays="maximum", sympy="Max"),
-    Operator("pi", 0, 0, Typed.CONSTANT, ("pi", "π"), "CONSTANT"),
+    _make_function_operator("sqrt", exact="square_root"),
+    _make_function_operator("exp", exact="exponential"),
+    _make_function_operator("ln", "log", exact="natural_log"),
+    _make_function_operator("log2", exact="binary_log"),
+    _make_function_operator("log10", exact="decimal_log"),
+    *map(_make_function_operator, ("sin", "cos", "tan")),
+    _make_function_operator("asin", arrays="arcsin"),
+    _make_function_operator("acos", arrays="arccos"),
+    _make_function_operator("atan", arrays="arctan"),
+    _make_function_operator("atan2", least=2, most=2, arrays="arctan2"),
+    _make_function_operator("erf", exact="error_function"),
+    _make_function_operator("erfc", exact="complementary_error_function"),
+    _make_function_operator("sign"),
+    _make_function_operator("floor"),
+    _make_function_operator("ceil", sympy="ceiling"),
+    _make_function_operator("round", "rounded", exact="rounded"),
+    _make_function_operator("mod", least=2, most=2, exact="remainder", sympy="Mod"),
+    _make_function_operator("min", most=MANY, exact="least", arrays="minimum", sympy="Min"),
+    _make_function_operator("max", most=MANY, exact="greatest", arrays="maximum", sympy="Max"),
+    Operator("pi", 0, 0, OperatorSyntax.CONSTANT, ("pi", "π"), "CONSTANT"),
     Operator("piecewise", 3, MANY - 1, absent=frozenset(SYSTEMS) - {"arrays"}),
-    _relation("eq", "=", "==", exact="equal", sympy="Eq"),
-    _relation("ne", "!=", "≠", exact="unequal", sympy="Ne"),
-    _relation("lt", "<", exact="less", sympy="Lt"),
-    _relation("le", "<=", "≤", exact="at_most", sympy="Le"),
-    _relation("gt", ">", exact="more", sympy="Gt"),
-    _relation("ge", ">=", "≥", exact="at_least", sympy="Ge"),
-    _word("and", MANY, "both", arrays="logical_and", sympy="And"),
-    _word("or", MANY, "either", arrays="logical_or", sympy="Or"),
-    _word("not", 1, "not_", arrays="logical_not", sympy="Not"),
+    _make_relation_operator("eq", "=", "==", exact="equal", sympy="Eq"),
+    _make_relation_operator("ne", "!=", "≠", exact="unequal", sympy="Ne"),
+    _make_relation_operator("lt", "<", exact="less", sympy="Lt"),
+    _make_relation_operator("le", "<=", "≤", exact="at_most", sympy="Le"),
+    _make_relation_operator("gt", ">", exact="more", sympy="Gt"),
+    _make_relation_operator("ge", ">=", "≥", exact="at_least", sympy="Ge"),
+    _make_word_operator("and", MANY, "both", arrays="logical_and", sympy="And"),
+    _make_word_operator("or", MANY, "either", arrays="logical_or", sympy="Or"),
+    _make_word_operator("not", 1, "not_", arrays="logical_not", sympy="Not"),
 )
 
 OPERATORS = {row.name: row for row in _ROWS}
 """Every operator by name. ``piecewise`` picks its branch while a formula runs, except on arrays."""
 
 CONDITIONS = frozenset(
-    row.name for row in OPERATORS.values() if row.typed in {Typed.RELATION, Typed.WORD}
+    row.name
+    for row in OPERATORS.values()
+    if row.typed in {OperatorSyntax.RELATION, OperatorSyntax.WORD}
 )
 """Operators that give true or false."""
 
 
-def typed_as(way: Typed) -> tuple[Operator, ...]:
+def operators_with_syntax(way: OperatorSyntax) -> tuple[Operator, ...]:
     """The operators that are typed in one way."""
     return tuple(row for row in OPERATORS.values() if row.typed is way)

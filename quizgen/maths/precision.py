@@ -82,7 +82,7 @@ class working_precision:  # noqa: N801 - reads as a statement
         _LOCK.release()
 
 
-def with_precision(function: Callable[[Argument], Result]) -> Callable[[Argument], Result]:
+def at_working_precision(function: Callable[[Argument], Result]) -> Callable[[Argument], Result]:
     """Let a function keep the precision stated around its call, else state ``PRECISION``."""
     usual = working_precision()
 

@@ -11,7 +11,7 @@ _SAME = frozenset({"neg", "abs"})
 _ALIKE = frozenset({"add", "sub", "min", "max"})
 
 
-def power_of(target: str, quantity: str, steps: Mapping[str, Expr]) -> Fraction | None:
+def scaling_exponent(target: str, quantity: str, steps: Mapping[str, Expr]) -> Fraction | None:
     """The power of a quantity to which a result is proportional, whatever the positive factor.
 
     Parameters
@@ -46,12 +46,12 @@ def power_of(target: str, quantity: str, steps: Mapping[str, Expr]) -> Fraction 
             exponent = expr.args[1]
             if isinstance(exponent, Num):
                 return found[0] * exponent.value
-        return _combined(expr.op, found)
+        return _combine_exponents(expr.op, found)
 
     return of(Sym(target))
 
 
-def _combined(op: str, powers: list[Fraction]) -> Fraction | None:
+def _combine_exponents(op: str, powers: list[Fraction]) -> Fraction | None:
     """The power of a whole from those of its arguments."""
     if op == "mul":
         return sum(powers, Fraction(0))

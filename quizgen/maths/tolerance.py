@@ -9,10 +9,10 @@ from typing import ClassVar
 import msgspec
 from flint import fmpq
 
-from quizgen.maths.constants import Scalar, exact_value
-from quizgen.maths.numbers import magnitude, to_float
+from quizgen.core.decoding import convert
+from quizgen.maths.constants import Scalar, parse_exact
+from quizgen.maths.numbers import decimal_exponent, to_float
 from quizgen.maths.values import Value
-from quizgen.shapes import converted
 
 MOST_DIGITS = 40
 """Most decimals or significant figures that can be asked."""
@@ -58,7 +58,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
         ValueError
             If two rules are given, or one is out of range.
         """
-        if self.numbers().count(None) < len(RULES) - 1:
+        if self.stated_values().count(None) < len(RULES) - 1:
             raise ValueError("only one of decimals, sigfigs, rel, abs, exact can be given")
         if self.accept is not None and len(self.accept) != 2:
             raise ValueError("accept needs two bounds")
@@ -67,19 +67,19 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
         if self.sigfigs is not None and not 1 <= self.sigfigs <= MOST_DIGITS:
             raise ValueError(f"sigfigs must be 1 to {MOST_DIGITS}")
         for bound in self.accept or ():
-            exact_value(bound)
+            parse_exact(bound)
         for name, width in (("rel", self.rel), ("abs", self.abs), ("within", self.within)):
-            if width is not None and exact_value(width) < 0:
+            if width is not None and parse_exact(width) < 0:
                 raise ValueError(f"{name} must not be negative")
 
-    def numbers(self) -> tuple[Scalar | None, ...]:
+    def stated_values(self) -> tuple[Scalar | None, ...]:
         """What was given for each rule, in the order of ``RULES``."""
         return (self.decimals, self.sigfigs, self.rel, self.abs, self.exact or None)
 
     @property
     def stated(self) -> tuple[str, Scalar] | None:
         """The rule that was given, as its name and its number; None if none was."""
-        for name, number in zip(RULES, self.numbers(), strict=True):
+        for name, number in zip(RULES, self.stated_values(), strict=True):
             if number is not None:
                 return name, number
         return None
@@ -87,17 +87,19 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
     def half_width(self, key: Value) -> Value:
         """Return the largest accepted distance from a key, exactly."""
         if self.decimals is not None:
-            return exact_value(self.within) * _place(self.decimals)
+            return parse_exact(self.within) * _compute_place_value(self.decimals)
         if self.sigfigs is not None:
-            return exact_value(self.within) * _place(self.sigfigs - 1 - magnitude(key))
+            return parse_exact(self.within) * _compute_place_value(
+                self.sigfigs - 1 - decimal_exponent(key)
+            )
         if self.exact:
             return fmpq(0)
         if self.rel is not None:
-            return exact_value(self.rel) * abs(key)
+            return parse_exact(self.rel) * abs(key)
         if self.abs is not None:
-            return exact_value(self.abs)
+            return parse_exact(self.abs)
         name, number = self.unstated
-        return exact_value(number) * abs(key) if name == "rel" else exact_value(number)
+        return parse_exact(number) * abs(key) if name == "rel" else parse_exact(number)
 
     def outer_width(self, key: float) -> float:
         """Return the half-width around an approximate key, never too small.
@@ -108,11 +110,11 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
             return min(ROUNDED, ROUNDED_REL * abs(key))
         name, number = self.stated or self.unstated
         if name == "rel":
-            return to_float(exact_value(number)) * abs(key) * MARGIN
+            return to_float(parse_exact(number)) * abs(key) * MARGIN
         beyond = fmpq(*(abs(key) * MARGIN).as_integer_ratio())
         return to_float(self.half_width(beyond)) * MARGIN
 
-    def near(self, value: Value, key: Value) -> bool:
+    def is_within(self, value: Value, key: Value) -> bool:
         """Whether a value lies within the tolerance of a key (closed, decided exactly).
 
         A ball that cannot be told from the bound counts as on it.
@@ -124,14 +126,14 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
 
     def accepts(self, value: Value, key: Value) -> bool:
         """Whether a value is near the key, or in the interval accepted besides."""
-        if self.accept is None or self.near(value, key):
-            return self.near(value, key)
-        low, high = map(exact_value, self.accept)
+        if self.accept is None or self.is_within(value, key):
+            return self.is_within(value, key)
+        low, high = map(parse_exact, self.accept)
         return bool(low <= value <= high)
 
 
 @lru_cache(maxsize=1024)
-def _place(decimals: int) -> fmpq:
+def _compute_place_value(decimals: int) -> fmpq:
     """What a one is worth in a decimal place."""
     return fmpq(10) ** -decimals
 
@@ -142,7 +144,7 @@ class AngleTolerance(Tolerance, kw_only=True, frozen=True):
     unstated: ClassVar[tuple[str, Scalar]] = ("abs", "0.5")
 
 
-def tolerance_of(answer: Mapping[str, object]) -> Tolerance:
+def parse_tolerance(answer: Mapping[str, object]) -> Tolerance:
     """Return the tolerance that an authored answer states.
 
     Parameters
@@ -158,6 +160,6 @@ def tolerance_of(answer: Mapping[str, object]) -> Tolerance:
     """
     shape = AngleTolerance if answer.get("kind") == "angle" else Tolerance
     names = {*shape.__struct_fields__} - {"accept"}
-    found = converted({n: answer[n] for n in names & answer.keys()}, shape)
+    found = convert({n: answer[n] for n in names & answer.keys()}, shape)
     found.validate()
     return found

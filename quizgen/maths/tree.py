@@ -41,13 +41,13 @@ Expr: TypeAlias = Num | Sym | Call
 """A formula."""
 
 
-def number(value: int | str | Fraction) -> Num:
+def make_number(value: int | str | Fraction) -> Num:
     """Make a constant node from an integer, a fraction or a decimal text."""
     decimal = isinstance(value, str) and "." in value
     return Num(Fraction(value), decimal)
 
 
-def walk(expr: Expr) -> Iterator[Expr]:
+def walk_tree(expr: Expr) -> Iterator[Expr]:
     """Yield every node of a tree, parents first."""
     todo = [expr]
     while todo:
@@ -57,7 +57,7 @@ def walk(expr: Expr) -> Iterator[Expr]:
             todo += node.args[::-1]
 
 
-def names(expr: Expr) -> frozenset[str]:
+def names_in(expr: Expr) -> frozenset[str]:
     """Names of the quantities that occur in a tree."""
     found, todo = set[str](), [expr]
     while todo:
@@ -69,7 +69,7 @@ def names(expr: Expr) -> frozenset[str]:
     return frozenset(found)
 
 
-def operators(expr: Expr) -> frozenset[str]:
+def operators_in(expr: Expr) -> frozenset[str]:
     """Names of the operators that occur in a tree."""
     found, todo = set[str](), [expr]
     while todo:
@@ -89,4 +89,14 @@ def substitute(expr: Expr, values: Mapping[str, Expr]) -> Expr:
     return expr
 
 
-__all__ = ["Call", "Expr", "Num", "Sym", "names", "number", "operators", "substitute", "walk"]
+__all__ = [
+    "Call",
+    "Expr",
+    "Num",
+    "Sym",
+    "names_in",
+    "make_number",
+    "operators_in",
+    "substitute",
+    "walk_tree",
+]

@@ -10,7 +10,7 @@ import re
 from fractions import Fraction
 from typing import NamedTuple
 
-from quizgen.errors import FormulaError
+from quizgen.core.errors import FormulaError
 
 SYNTAX = "expected 'name = [kind] = symbol' or 'name = 1000 * kg * m / s**2 = symbol'"
 
@@ -22,7 +22,7 @@ _FACTOR = re.compile(r"([*/]?)\s*([^\s*/^]+)\s*(?:(?:\*\*|\^)\s*(-?\d))?\s*")
 _FEWEST = 2
 
 
-class Definition(NamedTuple):
+class UnitDefinition(NamedTuple):
     """A unit as it was defined: ``size`` times ``made_of``, which is None for a new kind."""
 
     text: str
@@ -32,7 +32,7 @@ class Definition(NamedTuple):
     made_of: str | None
 
 
-def read(text: str) -> Definition:
+def parse_unit_definition(text: str) -> UnitDefinition:
     """Read a definition.
 
     Raises
@@ -47,20 +47,20 @@ def read(text: str) -> Definition:
     symbol = further[0] if further and further[0] != "_" else name
     words = tuple(word.replace("_", " ") for word in (name, f"{name}s", *further[1:]))
     for word in (name, *further[1:]):
-        _check(_NAME, word, text, "name")
-    _check(_SYMBOL, symbol, text, "symbol")
+        _check_unit_word(_NAME, word, text, "name")
+    _check_unit_word(_SYMBOL, symbol, text, "symbol")
     spelt = tuple(word for word in dict.fromkeys(words) if word != symbol)
     if _KIND.fullmatch(made_of):
-        return Definition(text, symbol, spelt, Fraction(1), None)
-    return Definition(text, symbol, spelt, *_product(made_of, text))
+        return UnitDefinition(text, symbol, spelt, Fraction(1), None)
+    return UnitDefinition(text, symbol, spelt, *_parse_unit_product(made_of, text))
 
 
-def _check(pattern: re.Pattern[str], word: str, text: str, what: str) -> None:
+def _check_unit_word(pattern: re.Pattern[str], word: str, text: str, what: str) -> None:
     if not pattern.fullmatch(word):
         raise FormulaError(f"unit {text!r}: {word!r} is no {what} (letters alone)")
 
 
-def _product(made_of: str, text: str) -> tuple[Fraction, str]:
+def _parse_unit_product(made_of: str, text: str) -> tuple[Fraction, str]:
     """A product's number, and its units as they are written elsewhere."""
     size, units, position = Fraction(1), "", 0
     while position < len(made_of):
@@ -69,14 +69,16 @@ def _product(made_of: str, text: str) -> tuple[Fraction, str]:
             raise FormulaError(f"unit {text!r}: {made_of!r} is no product; {SYNTAX}")
         sign, name, power = match.groups()
         if _NUMBER.fullmatch(name):
-            size *= _power(Fraction(name), int(power or 1) * (-1 if sign == "/" else 1), text)
+            size *= _raise_unit_number(
+                Fraction(name), int(power or 1) * (-1 if sign == "/" else 1), text
+            )
         else:
             units += f"{sign or '*'}{name}" + (f"^{power}" if power else "")
         position = match.end()
     return size, units.removeprefix("*")
 
 
-def _power(number: Fraction, power: int, text: str) -> Fraction:
+def _raise_unit_number(number: Fraction, power: int, text: str) -> Fraction:
     if not number:
         raise FormulaError(f"unit {text!r}: 0 is no size")
     return number**power

@@ -21,9 +21,9 @@ from functools import lru_cache
 import msgspec
 from flint import fmpq
 
-from quizgen.errors import FormulaError
-from quizgen.maths.numbers import rational
-from quizgen.maths.unit_definitions import Definition, read
+from quizgen.core.errors import FormulaError
+from quizgen.maths.numbers import to_rational
+from quizgen.maths.unit_definitions import UnitDefinition, parse_unit_definition
 
 Dimension = tuple[tuple[str, int], ...]
 
@@ -102,7 +102,7 @@ SIMPLE = _simple_units()
 _PART = re.compile(r"(?P<op>[*/·]?)(?P<name>e-|[^*/·^]+)(?:\^(?P<power>-?\d))?")
 
 
-class System:
+class UnitRegistry:
     """The listed units and those that one bank defines.
 
     Parameters
@@ -124,9 +124,9 @@ class System:
         self._known: dict[str, Unit] = {}
         self._factors: dict[str, fmpq] = {}
         for line in definitions:
-            self._define(read(line))
+            self._define_unit(parse_unit_definition(line))
 
-    def _define(self, new: Definition) -> None:
+    def _define_unit(self, new: UnitDefinition) -> None:
         spelt = {word for words in self.words.values() for word in words}
         taken = {new.symbol, *new.words} & {*self.simple, *spelt}
         if taken:
@@ -182,11 +182,11 @@ class System:
             If a name is not known.
         """
         if text not in self._factors:
-            self._factors[text] = rational(self.unit(text).factor)
+            self._factors[text] = to_rational(self.unit(text).factor)
         return self._factors[text]
 
     @contextmanager
-    def in_use(self) -> Iterator[None]:
+    def activate(self) -> Iterator[None]:
         """Look units up here until the end of the block."""
         before = _IN_USE.set(self)
         try:
@@ -195,24 +195,24 @@ class System:
             _IN_USE.reset(before)
 
 
-LISTED = System()
+LISTED = UnitRegistry()
 
 
 @lru_cache(maxsize=256)
-def system(definitions: tuple[str, ...] = ()) -> System:
+def build_unit_registry(definitions: tuple[str, ...] = ()) -> UnitRegistry:
     """The units of a bank, by its definitions."""
-    return System(definitions) if definitions else LISTED
+    return UnitRegistry(definitions) if definitions else LISTED
 
 
-_IN_USE: ContextVar[System] = ContextVar("units", default=LISTED)
+_IN_USE: ContextVar[UnitRegistry] = ContextVar("units", default=LISTED)
 
 
-def units_in_use() -> System:
+def active_units() -> UnitRegistry:
     """The units of the question at hand."""
     return _IN_USE.get()
 
 
-def unit(text: str) -> Unit:
+def get_unit(text: str) -> Unit:
     """Look a unit up among those in use.
 
     Raises
@@ -220,10 +220,10 @@ def unit(text: str) -> Unit:
     FormulaError
         If a name is not known.
     """
-    return units_in_use().unit(text)
+    return active_units().unit(text)
 
 
-def factor(text: str) -> fmpq:
+def unit_factor(text: str) -> fmpq:
     """Exact factor from a unit in use to base units: 1/1000 for ``mm``.
 
     Raises
@@ -231,14 +231,14 @@ def factor(text: str) -> fmpq:
     FormulaError
         If a name is not known.
     """
-    return units_in_use().factor(text)
+    return active_units().factor(text)
 
 
 SHOWN = {"um": "µm", "deg": "°", "us": "µs", "uW": "µW", "e-": "e⁻"}
 
 
 @lru_cache(maxsize=1024)
-def shown(text: str) -> str:
+def format_unit(text: str) -> str:
     """How a unit is printed: ``um/px`` becomes ``µm/px``, ``1/mm`` becomes ``mm⁻¹``.
 
     The unit of a pure number prints as nothing.
@@ -246,5 +246,5 @@ def shown(text: str) -> str:
     if text == "1":
         return ""
     if text.startswith("1/") and text.count("/") == 1:
-        return f"{shown(text[2:])}⁻¹"
+        return f"{format_unit(text[2:])}⁻¹"
     return "/".join(SHOWN.get(part, part) for part in text.split("/"))

@@ -29,14 +29,14 @@ from pathlib import Path
 
 import msgspec
 
-from quizgen.bank.clashes import BETWEEN
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.bank.most import MOST_MINUTES, MOST_POINTS
-from quizgen.errors import BlueprintError
-from quizgen.locale import languages, word
-from quizgen.outside import NAMES, is_name, parse_toml, read_text
-from quizgen.shapes import converted
+from quizgen.bank.qualified_names import BETWEEN
+from quizgen.core.decoding import convert
+from quizgen.core.errors import BlueprintError
+from quizgen.core.untrusted import NAMES, is_identifier, parse_toml, read_text
+from quizgen.locale import list_languages, translate
 
 MOST_QUESTIONS = 200
 """Questions of a paper."""
@@ -56,7 +56,7 @@ class SlotRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     level: str | None = None
 
 
-class Authored(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+class BlueprintFile(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """What a blueprint's file says."""
 
     title: dict[str, str]
@@ -72,13 +72,13 @@ class Authored(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     colour: bool = True
 
     @property
-    def demanding(self) -> bool:
+    def has_constraints(self) -> bool:
         """Whether it asks for something of the paper as a whole."""
         at_least = self.figures or self.figure_kinds or self.photographs
         return bool(self.total or at_least or isinstance(self.minutes, tuple))
 
 
-class Blueprint(Authored, frozen=True):
+class Blueprint(BlueprintFile, frozen=True):
     """What a paper consists of: of slots, or of a topic within a time.
 
     ``level`` is that of the questions whose slot names none.
@@ -96,25 +96,25 @@ EVERYTHING = "all"
 MOCK = "mock"
 
 
-def usual(bank: Bank) -> str:
+def default_blueprint_name(bank: Bank) -> str:
     """The blueprint of who asks for none: the bank's mock exam; without one, all that there is."""
-    alone = len(bank.parts) == 1 and MOCK in bank.blueprints
+    alone = len(bank.members) == 1 and MOCK in bank.blueprints
     return MOCK if alone else f"{EVERYTHING}.90"
 
 
-def of_topic(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:
+def topic_blueprint(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:
     """Blueprint without a file: a topic (or ``all``), within a time (0: no limit)."""
     name = f"{topic}.{minutes}" if minutes else topic
-    title = {lang: f"{word(lang, 'paper.exam')}: {_subject(bank, topic, lang)}"
-             for lang in languages()}  # fmt: skip
+    title = {lang: f"{translate(lang, 'paper.exam')}: {_find_topic_title(bank, topic, lang)}"
+             for lang in list_languages()}  # fmt: skip
     return Blueprint(title, (), name=name, source=name, topic=topic, budget=minutes)
 
 
-def _subject(bank: Bank, topic: str, lang: str) -> str:
+def _find_topic_title(bank: Bank, topic: str, lang: str) -> str:
     return bank.title(lang) if topic == EVERYTHING else bank.topic_title(topic, lang)
 
 
-def topics(bank: Bank) -> list[str]:
+def topic_choices(bank: Bank) -> list[str]:
     """Topic names of a bank, ``all`` last."""
     return [*bank.topics, EVERYTHING]
 
@@ -134,8 +134,8 @@ def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
     BlueprintError
         Naming file, key and what is allowed.
     """
-    bank = builtin() if bank is None else bank
-    found = named_blueprint(name_or_file, bank)
+    bank = builtin_bank() if bank is None else bank
+    found = find_blueprint(name_or_file, bank)
     if found is not None:
         return found
     path = Path(name_or_file)
@@ -145,7 +145,7 @@ def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
             f"no blueprint {name_or_file!r} (the bank has: {names}; or the path of a TOML file;"
             " --topic needs none)"
         )
-    return _read(path)
+    return _read_blueprint(path)
 
 
 def _is_there(path: Path) -> bool:
@@ -155,22 +155,22 @@ def _is_there(path: Path) -> bool:
         return False
 
 
-def named_blueprint(name: str, bank: Bank) -> Blueprint | None:
+def find_blueprint(name: str, bank: Bank) -> Blueprint | None:
     """A bank's blueprint by its name, or a topic of the bank; None if it has neither.
 
     Never a file by its path: names also come from papers' codes, which anyone may have written.
     """
     topic = re.fullmatch(r"(.+?)(?:\.(\d{1,4}))?", name, re.ASCII)
     if name in bank.blueprints:
-        return _among(_read(bank.blueprints[name]), name, bank)
-    if topic and topic[1] in topics(bank):
-        return of_topic(bank, topic[1], int(topic[2] or 0))
+        return _qualify_blueprint(_read_blueprint(bank.blueprints[name]), name, bank)
+    if topic and topic[1] in topic_choices(bank):
+        return topic_blueprint(bank, topic[1], int(topic[2] or 0))
     return None
 
 
-def _among(plan: Blueprint, name: str, bank: Bank) -> Blueprint:
+def _qualify_blueprint(plan: Blueprint, name: str, bank: Bank) -> Blueprint:
     """A bank's own blueprint: mixed with other banks it goes on asking the questions of its own."""
-    names = bank.asks(name)
+    names = bank.template_names_for(name)
     if not names:
         return plan
     every = tuple(here for here in names.values() if not bank.rules(here).beyond)
@@ -184,39 +184,39 @@ def _among(plan: Blueprint, name: str, bank: Bank) -> Blueprint:
     return msgspec.structs.replace(plan, name=name, slot=slots, reference=reference)
 
 
-def _read(path: Path) -> Blueprint:
+def _read_blueprint(path: Path) -> Blueprint:
     """Read a blueprint's file; its name becomes part of every code."""
     if not _CODE_NAME.fullmatch(path.stem):
         raise BlueprintError(
             f"{path}: {path.stem!r} cannot stand in a code (allowed: letters, digits, blanks, '_', "
             "'.' and '-', at most 80)"
         )
-    return _convert(read_text(path, BlueprintError), path.stem, path)
+    return _parse_blueprint(read_text(path, BlueprintError), path.stem, path)
 
 
-def _convert(source: str, name: str, where: Path) -> Blueprint:
+def _parse_blueprint(source: str, name: str, where: Path) -> Blueprint:
     try:
-        found = converted(parse_toml(source, where, BlueprintError), Authored)
+        found = convert(parse_toml(source, where, BlueprintError), BlueprintFile)
     except msgspec.ValidationError as error:
-        raise BlueprintError(f"{where}: {error}{_allowed(str(error))}") from error
-    _check(found, where)
+        raise BlueprintError(f"{where}: {error}{_list_allowed_fields(str(error))}") from error
+    _check_blueprint(found, where)
     given = msgspec.structs.asdict(found)
     return Blueprint(**given, name=name, source=source, file=where)
 
 
-def _allowed(message: str) -> str:
+def _list_allowed_fields(message: str) -> str:
     if "unknown field" not in message:
         return ""
-    kind = SlotRule if "$.slot" in message else Authored
+    kind = SlotRule if "$.slot" in message else BlueprintFile
     names = sorted(field.encode_name for field in msgspec.structs.fields(kind))
     return f" (allowed: {', '.join(names)})"
 
 
-def _check(blueprint: Authored, where: Path) -> None:
+def _check_blueprint(blueprint: BlueprintFile, where: Path) -> None:
     if not blueprint.slot:
         raise BlueprintError(f"{where}: at least one [[slot]] is needed")
     for index, slot in enumerate(blueprint.slot, 1):
-        for problem in _problems(slot):
+        for problem in _check_slot(slot):
             raise BlueprintError(f"{where}: slot {index}: {problem}")
     for name in blueprint.reference:
         if not _is_asked(name):
@@ -224,11 +224,11 @@ def _check(blueprint: Authored, where: Path) -> None:
     total = max(sum(slot.count for slot in blueprint.slot), len(blueprint.reference))
     if total > MOST_QUESTIONS:
         raise BlueprintError(f"{where}: {total} questions (at most {MOST_QUESTIONS})")
-    for problem in _whole(blueprint):
+    for problem in _check_paper_constraints(blueprint):
         raise BlueprintError(f"{where}: {problem}")
 
 
-def _whole(blueprint: Authored) -> Iterator[str]:
+def _check_paper_constraints(blueprint: BlueprintFile) -> Iterator[str]:
     """What is wrong in the demands on the paper as a whole."""
     span = blueprint.minutes or 1
     first, last = span if isinstance(span, tuple) else (span, span)
@@ -243,7 +243,7 @@ def _whole(blueprint: Authored) -> Iterator[str]:
         yield "title: is empty (write it in the language of the bank, such as title.en)"
 
 
-def _problems(slot: SlotRule) -> Iterator[str]:
+def _check_slot(slot: SlotRule) -> Iterator[str]:
     if slot.tier is not None and slot.tier not in tuple("ABCD"):
         yield f"tier {slot.tier!r} (allowed: A, B, C, D)"
     if slot.points is not None and not 0 < slot.points <= MOST_POINTS:
@@ -259,4 +259,4 @@ def _problems(slot: SlotRule) -> Iterator[str]:
 def _is_asked(name: str) -> bool:
     """Whether a text can name a template, with or without its bank before it."""
     bank, _, own = name.rpartition(BETWEEN)
-    return is_name(own) and (not bank or is_name(bank))
+    return is_identifier(own) and (not bank or is_identifier(bank))

@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, TypeAlias
 import msgspec
 
 from quizgen.bank.levels import CHOICES, EXAM
-from quizgen.errors import ChoiceError, CodeError
+from quizgen.core.errors import InvalidChoiceError, PaperCodeError
 from quizgen.locale import BOTH
-from quizgen.locale.brought import TAG
+from quizgen.locale.custom import TAG
 
 if TYPE_CHECKING:
     from quizgen.bank.template import Template
 
-Asked: TypeAlias = tuple[str, str, str, list[tuple[str, str]]]
+DigestedQuestion: TypeAlias = tuple[str, str, str, list[tuple[str, str]]]
 """Number, template and variant of a question; its parts with their points."""
 
 ENGINE = "1"
@@ -41,7 +41,7 @@ _CODE = re.compile(
 )
 
 
-class Code(msgspec.Struct, frozen=True):
+class PaperCode(msgspec.Struct, frozen=True):
     """A code taken apart; its text is what is printed.
 
     Parameters
@@ -74,12 +74,12 @@ class Code(msgspec.Struct, frozen=True):
         return self.seed == REFERENCE
 
 
-def is_graded(text: str) -> bool:
+def is_class_code(text: str) -> bool:
     """Whether a code is one of a class: it leads to a student, and to no questions."""
     return _GRADED.fullmatch(text.strip()) is not None
 
 
-def parse_code(text: str) -> Code:
+def parse_code(text: str) -> PaperCode:
     """Take a paper's code apart.
 
     Raises
@@ -87,19 +87,19 @@ def parse_code(text: str) -> Code:
     CodeError
         If it is not a code, or that of a graded paper.
     """
-    if is_graded(text):
-        raise CodeError(
+    if is_class_code(text):
+        raise PaperCodeError(
             f"{text!r} is the code of a graded paper: it says whose paper it is and leads to no "
             "questions; those follow from the secret in the class's folder (quizgen class code)"
         )
     match = _CODE.fullmatch(text.strip())
     if match is None:
-        raise CodeError(f"{text!r} is not a paper's code (like mock-1234-en-0a1b2c)")
+        raise PaperCodeError(f"{text!r} is not a paper's code (like mock-1234-en-0a1b2c)")
     blueprint, seed, choice, level, digest = match.groups()
-    return Code(blueprint, seed, choice, digest, level or EXAM)
+    return PaperCode(blueprint, seed, choice, digest, level or EXAM)
 
 
-def checked_seed(seed: int) -> int:
+def check_seed(seed: int) -> int:
     """Return a seed that a code can hold.
 
     Raises
@@ -109,10 +109,10 @@ def checked_seed(seed: int) -> int:
     """
     if isinstance(seed, int) and not isinstance(seed, bool) and 0 <= seed <= LARGEST_SEED:
         return seed
-    raise ChoiceError(f"seed: {seed!r} (allowed: whole numbers from 0 to {LARGEST_SEED})")
+    raise InvalidChoiceError(f"seed: {seed!r} (allowed: whole numbers from 0 to {LARGEST_SEED})")
 
 
-def digest_of_parts(code: str, questions: Iterable[Asked]) -> str:
+def content_digest(code: str, questions: Iterable[DigestedQuestion]) -> str:
     """Digest of what a paper asks and marks."""
     lines = [
         f"{number}|{template}|{identity}|" + ",".join(f"{part}={worth}" for part, worth in parts)
@@ -121,7 +121,7 @@ def digest_of_parts(code: str, questions: Iterable[Asked]) -> str:
     return hashlib.sha256("\n".join([code, *lines]).encode()).hexdigest()[:16]
 
 
-def digest_of(source: str, templates: Iterable[Template], levels: Iterable[str]) -> str:
+def source_digest(source: str, templates: Iterable[Template], levels: Iterable[str]) -> str:
     """Digest of the engine, a blueprint's text and the files of the templates in a paper.
 
     Parameters

@@ -11,34 +11,34 @@ from typing import NamedTuple
 import msgspec
 from msgspec.structs import replace
 
-from quizgen.bank.about import in_language
-from quizgen.bank.draw import Draw
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 from quizgen.bank.levels import EXAM
-from quizgen.bank.prose import Block, CodeBlock, Paragraph
+from quizgen.bank.markdown import Block, CodeBlock, Paragraph
+from quizgen.bank.metadata import pick_language
 from quizgen.bank.template import Template
-from quizgen.errors import BlueprintError, CodeError
-from quizgen.locale import numbers_in, word
-from quizgen.maths.notation import people
-from quizgen.outside import located
-from quizgen.paper.banks import UsedBank, used_banks
-from quizgen.paper.blueprint import Blueprint, SlotRule, named_blueprint
-from quizgen.paper.choose import choose, levels, variety, weights
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import BlueprintError, PaperCodeError
+from quizgen.core.untrusted import error_context
+from quizgen.locale import localise_numbers, translate
+from quizgen.maths.notation import pretty
+from quizgen.paper.blueprint import Blueprint, SlotRule, find_blueprint
 from quizgen.paper.code import (
     REFERENCE,
-    Code,
-    checked_seed,
-    digest_of,
-    digest_of_parts,
+    PaperCode,
+    check_seed,
+    content_digest,
     parse_code,
+    source_digest,
 )
-from quizgen.paper.draws import aware, draws
-from quizgen.paper.whole import working_time
-from quizgen.question.compose import Key, Question, instance, put_into_words
-from quizgen.question.levels import level_of
-from quizgen.question.shown import PlacedPicture
+from quizgen.paper.constraints import paper_minutes
+from quizgen.paper.provenance import BankRecord, record_banks
+from quizgen.paper.selection import count_papers, select_templates, slot_levels, slot_points
+from quizgen.paper.variants import draw_variants, with_siblings
+from quizgen.question.compose import Question, QuestionKey, compose_variant, draw_instance
+from quizgen.question.inlines import PlacedPicture
+from quizgen.question.levels import effective_level
 
-Progress = Callable[[str], None]
+ProgressCallback = Callable[[str], None]
 """Told the template of each question as it is done."""
 
 
@@ -46,12 +46,12 @@ def silent(_name: str) -> None:
     """Progress that nobody watches."""
 
 
-class Item(msgspec.Struct, frozen=True):
+class PaperItem(msgspec.Struct, frozen=True):
     """One question of a paper in every language of the paper."""
 
     number: str
     questions: tuple[Question, ...]
-    keys: tuple[Key, ...]
+    keys: tuple[QuestionKey, ...]
 
     @property
     def points(self) -> Fraction:
@@ -59,7 +59,7 @@ class Item(msgspec.Struct, frozen=True):
         return self.questions[0].points
 
 
-class Holder(msgspec.Struct, frozen=True):
+class PaperHolder(msgspec.Struct, frozen=True):
     """Whose paper it is; stands on every page.
 
     Parameters
@@ -80,14 +80,14 @@ class Paper(msgspec.Struct, frozen=True):
     code: str
     blueprint: Blueprint
     langs: tuple[str, ...]
-    items: tuple[Item, ...]
+    items: tuple[PaperItem, ...]
     variety: int = 0
     """How many different papers the blueprint can make; 0 if not counted."""
     seal: str = ""
     """What a graded paper bears for a digest: one without a secret would confirm guesses."""
-    holder: Holder | None = None
+    holder: PaperHolder | None = None
     """Whose paper it is, if it is one person's."""
-    banks: tuple[UsedBank, ...] = ()
+    banks: tuple[BankRecord, ...] = ()
     """What it was made from."""
 
     def __repr__(self) -> str:
@@ -99,13 +99,13 @@ class Paper(msgspec.Struct, frozen=True):
         return sum((item.points for item in self.items), Fraction(0))
 
     @property
-    def cited(self) -> str:
+    def cited_formula(self) -> str:
         """A formula's number that stands beside a step of the solutions; empty if none does."""
         solved = (part for item in self.items for part in item.keys[0].solution.parts)
         return next((line.formula for part in solved for line in part.lines if line.formula), "")
 
     @property
-    def drawn(self) -> bool:
+    def has_drawing(self) -> bool:
         """Whether an answer is drawn."""
         return any(one.field.drawing for item in self.items for one in item.questions[0].parts)
 
@@ -124,14 +124,14 @@ class Paper(msgspec.Struct, frozen=True):
             )
             for item in self.items
         ]
-        return self.seal or digest_of_parts(self.code, asked)
+        return self.seal or content_digest(self.code, asked)
 
     @property
     def variety_text(self) -> str:
         """The number of possible papers, short: 40, or 3.1·10²⁷."""
         if self.variety < 10**6:
-            return people.number(str(self.variety))
-        return numbers_in(self.langs[0], people.number(f"{Decimal(self.variety):.1e}"))
+            return pretty.format_number(str(self.variety))
+        return localise_numbers(self.langs[0], pretty.format_number(f"{Decimal(self.variety):.1e}"))
 
     @property
     def minutes(self) -> int:
@@ -139,12 +139,12 @@ class Paper(msgspec.Struct, frozen=True):
         said = self.blueprint.minutes
         if isinstance(said, int):
             return said
-        return working_time(sum((i.questions[0].minutes for i in self.items), Fraction(0)))
+        return paper_minutes(sum((i.questions[0].minutes for i in self.items), Fraction(0)))
 
     def aids(self, lang: str) -> str:
         """What may be used: what the blueprint says, else the usual."""
         said = self.blueprint.aids
-        return said.get(lang) or said.get("en") or word(lang, "paper.aids_allowed")
+        return said.get(lang) or said.get("en") or translate(lang, "paper.aids_allowed")
 
     def printing(self, lang: str) -> str:
         """Which questions have to be printed in colour; empty if none has."""
@@ -155,21 +155,21 @@ class Paper(msgspec.Struct, frozen=True):
         if not numbers:
             return ""
         key = "paper.in_colour" if len(numbers) == 1 else "paper.several_in_colour"
-        return word(lang, key, numbers=", ".join(numbers))
+        return translate(lang, key, numbers=", ".join(numbers))
 
     def title(self, lang: str) -> str:
         """Title in a language, else in English, else in another one."""
-        return in_language(self.blueprint.title, lang, self.blueprint.name)
+        return pick_language(self.blueprint.title, lang, self.blueprint.name)
 
 
-def build(
+def build_paper(
     bank: Bank,
     blueprint: Blueprint,
     seed: int,
     choice: str = "en",
     *,
     figures: bool = True,
-    progress: Progress = silent,
+    progress: ProgressCallback = silent,
 ) -> Paper:
     """Build a paper.
 
@@ -193,57 +193,57 @@ def build(
     ChoiceError
         If there is no such language, or the seed is out of range.
     """
-    names = choose(bank, blueprint, seed)
-    drawn = draws(bank, names, str(checked_seed(seed)), colour=blueprint.colour)
-    named = Code(blueprint.name, str(seed), choice, level=blueprint.level)
-    ready = composed(bank, blueprint, drawn, named, figures=figures, progress=progress)
-    return replace(ready, variety=variety(bank, blueprint))
+    names = select_templates(bank, blueprint, seed)
+    drawn = draw_variants(bank, names, str(check_seed(seed)), colour=blueprint.colour)
+    named = PaperCode(blueprint.name, str(seed), choice, level=blueprint.level)
+    ready = compose_paper(bank, blueprint, drawn, named, figures=figures, progress=progress)
+    return replace(ready, variety=count_papers(bank, blueprint))
 
 
-def composed(
+def compose_paper(
     bank: Bank,
     blueprint: Blueprint,
-    drawn: Iterable[Draw],
-    named: Code,
+    drawn: Iterable[Variant],
+    named: PaperCode,
     *,
     figures: bool = True,
-    progress: Progress = silent,
+    progress: ProgressCallback = silent,
 ) -> Paper:
     """The paper of a blueprint's questions once they are drawn; its code gets their digest."""
-    langs = bank.chosen(named.choice)
-    asked = [*_levels(drawn, levels(blueprint))]
+    langs = bank.resolve_languages(named.choice)
+    asked = [*_iter_question_levels(drawn, slot_levels(blueprint))]
     items = []
-    for number, (one, points) in enumerate(zip(asked, weights(blueprint), strict=False), 1):
-        items.append(_item(one, langs, str(number), points, figures=figures))
+    for number, (one, points) in enumerate(zip(asked, slot_points(blueprint), strict=False), 1):
+        items.append(_build_paper_item(one, langs, str(number), points, figures=figures))
         progress(one.drawn.template.id)
-    code = str(_digested(named, blueprint, asked))
-    banks = used_banks(bank, [one.drawn.template.id for one in asked])
+    code = str(_add_digest(named, blueprint, asked))
+    banks = record_banks(bank, [one.drawn.template.id for one in asked])
     return Paper(code, blueprint, langs, tuple(items), banks=banks)
 
 
 class _Wanted(NamedTuple):
     """A draw and the level that it is asked at."""
 
-    drawn: Draw
+    drawn: Variant
     level: str
 
 
-def _levels(drawn: Iterable[Draw], wanted: Iterable[str]) -> Iterator[_Wanted]:
+def _iter_question_levels(drawn: Iterable[Variant], wanted: Iterable[str]) -> Iterator[_Wanted]:
     """The level of each question, as far as it has such a form that tells nothing of another."""
     pairs = [*zip(drawn, wanted, strict=False)]
     ones = [one for one, _ in pairs]
     made = any(level != EXAM for _, level in pairs)
-    for one, (_, level) in zip(aware(ones) if made else ones, pairs, strict=True):
-        yield _Wanted(one, level_of(one, level))
+    for one, (_, level) in zip(with_siblings(ones) if made else ones, pairs, strict=True):
+        yield _Wanted(one, effective_level(one, level))
 
 
-def rebuild(
+def rebuild_paper(
     bank: Bank,
     code: str,
     blueprint: Blueprint | None = None,
     *,
     figures: bool = True,
-    progress: Progress = silent,
+    progress: ProgressCallback = silent,
 ) -> Paper:
     """Build the paper of a code again.
 
@@ -262,39 +262,41 @@ def rebuild(
         If it is not a code, or the templates behind it have changed since.
     """
     wanted = parse_code(code)
-    plan = msgspec.structs.replace(blueprint or _plan(wanted, bank), level=wanted.level)
+    plan = msgspec.structs.replace(
+        blueprint or _find_code_blueprint(wanted, bank), level=wanted.level
+    )
     if wanted.is_reference:
-        paper = reference_paper(bank, plan, wanted.choice, figures=figures, progress=progress)
+        paper = build_reference_paper(bank, plan, wanted.choice, figures=figures, progress=progress)
     else:
-        paper = build(
+        paper = build_paper(
             bank, plan, int(wanted.seed), wanted.choice, figures=figures, progress=progress
         )
     if paper.code != str(wanted):
-        raise CodeError(
+        raise PaperCodeError(
             f"{code} was made with other templates or another version: "
             f"this installation would make {paper.code}"
         )
     return paper
 
 
-def _plan(code: Code, bank: Bank) -> Blueprint:
+def _find_code_blueprint(code: PaperCode, bank: Bank) -> Blueprint:
     """The blueprint that a code names: one of the bank's own, never a file."""
-    plan = named_blueprint(code.blueprint, bank)
+    plan = find_blueprint(code.blueprint, bank)
     if plan is None:
-        raise CodeError(
+        raise PaperCodeError(
             f"{code}: this bank has no blueprint {code.blueprint!r}; "
             "give the file that the paper was made with (--blueprint FILE)"
         )
     return plan
 
 
-def reference_paper(
+def build_reference_paper(
     bank: Bank,
     blueprint: Blueprint,
     choice: str = "en",
     *,
     figures: bool = True,
-    progress: Progress = silent,
+    progress: ProgressCallback = silent,
 ) -> Paper:
     """The paper with the numbers printed in the notes.
 
@@ -307,68 +309,70 @@ def reference_paper(
     """
     if not blueprint.reference:
         raise BlueprintError(f"blueprint {blueprint.name!r} lists no reference questions")
-    with located(blueprint.file):
+    with error_context(blueprint.file):
         for name in blueprint.reference:
             bank.folder_of(name)
     templates = [bank.template(name) for name in blueprint.reference]
-    drawn = [instance(t, REFERENCE if t.rules.reference is not None else 0) for t in templates]
-    named = Code(blueprint.name, REFERENCE, choice, level=blueprint.level)
+    drawn = [draw_instance(t, REFERENCE if t.rules.reference is not None else 0) for t in templates]
+    named = PaperCode(blueprint.name, REFERENCE, choice, level=blueprint.level)
     slotless = msgspec.structs.replace(blueprint, slot=())  # its slots are for other questions
-    ready = composed(bank, slotless, drawn, named, figures=figures, progress=progress)
+    ready = compose_paper(bank, slotless, drawn, named, figures=figures, progress=progress)
     return replace(ready, blueprint=blueprint)
 
 
-def single(
+def single_question_paper(
     template: Template, seed: str | int, lang: str, *, level: str = EXAM, figures: bool = True
 ) -> Paper:
     """A paper of one question, for looking at a template."""
-    drawn = instance(template, seed)
-    wanted = _Wanted(drawn, level_of(drawn, level))
-    item = _item(wanted, (lang,), "1", figures=figures)
+    drawn = draw_instance(template, seed)
+    wanted = _Wanted(drawn, effective_level(drawn, level))
+    item = _build_paper_item(wanted, (lang,), "1", figures=figures)
     title, slot = {"en": template.id}, SlotRule(templates=(template.id,))
     minutes = math.ceil(item.questions[0].minutes)
     blueprint = Blueprint(title, (slot,), name=template.id, minutes=minutes)
     return Paper(f"{template.id}-{seed}", blueprint, (lang,), (item,))
 
 
-def _digested(code: Code, blueprint: Blueprint, asked: list[_Wanted]) -> Code:
+def _add_digest(code: PaperCode, blueprint: Blueprint, asked: list[_Wanted]) -> PaperCode:
     templates = [one.drawn.template for one in asked]
-    digest = digest_of(blueprint.source, templates, [one.level for one in asked])
+    digest = source_digest(blueprint.source, templates, [one.level for one in asked])
     return replace(code, digest=digest)
 
 
-def _item(
+def _build_paper_item(
     one: _Wanted,
     langs: tuple[str, ...],
     number: str,
     points: float | None = None,
     *,
     figures: bool = True,
-) -> Item:
+) -> PaperItem:
     pairs = [
-        put_into_words(one.drawn, lang, number=number, level=one.level, figures=figures)
+        compose_variant(one.drawn, lang, number=number, level=one.level, figures=figures)
         for lang in langs
     ]
     first = pairs[0][0]
-    questions = tuple(_worth(_once(question, first), points) for question, _ in pairs)
-    return Item(number, questions, tuple(key for _, key in pairs))
+    questions = tuple(
+        _distribute_points(_drop_repeated_blocks(question, first), points) for question, _ in pairs
+    )
+    return PaperItem(number, questions, tuple(key for _, key in pairs))
 
 
-def _once(question: Question, first: Question) -> Question:
+def _drop_repeated_blocks(question: Question, first: Question) -> Question:
     """Leave programs and pictures out of the second language where the first shows the same."""
     if question is first:
         return question
     bodies = (first.stem, *(part.body for part in first.parts))
-    shown = {alike for body in bodies for alike in map(_alike, body) if alike}
+    shown = {alike for body in bodies for alike in map(_strip_language, body) if alike}
 
     def left(body: tuple[Block, ...]) -> tuple[Block, ...]:
-        return tuple(block for block in body if _alike(block) not in shown)
+        return tuple(block for block in body if _strip_language(block) not in shown)
 
     parts = tuple(replace(part, body=left(part.body)) for part in question.parts)
     return replace(question, stem=left(question.stem), parts=parts)
 
 
-def _alike(block: Block) -> object:
+def _strip_language(block: Block) -> object:
     """What of a block looks the same in every language: a program, or pictures alone."""
     if isinstance(block, CodeBlock):
         return block
@@ -377,7 +381,7 @@ def _alike(block: Block) -> object:
     return pictures if len(pictures) == len(pieces) else None
 
 
-def _worth(question: Question, points: float | None) -> Question:
+def _distribute_points(question: Question, points: float | None) -> Question:
     """Share the marks of a slot out over the parts, as their own marks stand to each other.
 
     The time goes with the marks.

@@ -9,16 +9,16 @@ from datetime import date
 
 import msgspec
 
-from quizgen.bank.folder import Bank
-from quizgen.practice.results import RECENT, by_topic, to_practise
-from quizgen.practice.schedule import LEARNING, Card, Name, day_of, days_left, due
-from quizgen.practice.state import Outcome
+from quizgen.bank.bank import Bank
+from quizgen.practice.scheduler import LEARNING, Name, ReviewCard, days_left, due_time, local_date
+from quizgen.practice.session_state import PartOutcome
+from quizgen.practice.topic_results import RECENT, summarise_by_topic, weak_topics
 
 FRESH = 5
 """New templates of a day, where no exam says how many."""
 
 
-class Standing(msgspec.Struct, frozen=True):
+class Mastery(msgspec.Struct, frozen=True):
     """How far something with several templates is known: a topic, a formula.
 
     Parameters
@@ -53,27 +53,27 @@ class Agenda:
     """
 
     def __init__(
-        self, bank: Bank, cards: Mapping[Name, Card], now: float, exam: date | None = None
+        self, bank: Bank, cards: Mapping[Name, ReviewCard], now: float, exam: date | None = None
     ) -> None:
         self.bank, self.cards, self.now = bank, cards, now
-        self.left = days_left(exam, day_of(now))
-        self.names = {bank.origin(name): name for name in bank.paths}
+        self.left = days_left(exam, local_date(now))
+        self.names = {bank.origin(name): name for name in bank.template_paths}
 
-    def due(self, card: Card) -> float:
+    def due(self, card: ReviewCard) -> float:
         """When a card is to be asked again."""
-        return due(card, self.now, self.left)
+        return due_time(card, self.now, self.left)
 
-    def card(self, name: str) -> Card | None:
+    def card(self, name: str) -> ReviewCard | None:
         """The card of a template."""
         return self.cards.get(("template", self.bank.origin(name)))
 
     @property
-    def mistakes(self) -> list[Card]:
+    def mistakes(self) -> list[ReviewCard]:
         """Cards of mistakes in templates of this bank, those that are due first before others."""
         found = [c for c in self.cards.values() if c.kind == "mistake" and c.template in self.names]
         return sorted(found, key=lambda card: (self.due(card), card.name))
 
-    def ready(self, names: Iterable[str]) -> list[str]:
+    def due_templates(self, names: Iterable[str]) -> list[str]:
         """Templates that are due, or have a mistake that is; the longest due first."""
         wanted = set(names)
         since: dict[str, float] = {}
@@ -87,21 +87,21 @@ class Agenda:
         """Templates that were never finished."""
         return [name for name in names if self.card(name) is None]
 
-    def fresh(self, names: Sequence[str]) -> int:
+    def new_per_day(self, names: Sequence[str]) -> int:
         """How many new templates today asks for, so that all come up before the exam."""
-        today = day_of(self.now)
+        today = local_date(self.now)
         begun = sum(
-            card.kind == "template" and card.state == LEARNING and day_of(card.last) == today
+            card.kind == "template" and card.state == LEARNING and local_date(card.last) == today
             for card in self.cards.values()
         )
         count = len(self.unseen(names))
         whole = FRESH if self.left is None else math.ceil((count + begun) / self.left)
         return max(0, min(count, whole - begun))
 
-    def standing(self, names: Sequence[str]) -> Standing:
+    def mastery_of(self, names: Sequence[str]) -> Mastery:
         """How far templates are known together."""
         cards = [card for name in names if (card := self.card(name)) is not None]
-        return Standing(
+        return Mastery(
             len(names),
             len(cards),
             max((card.last for card in cards), default=None),
@@ -109,8 +109,8 @@ class Agenda:
             min((self.due(card) for card in cards), default=None),
         )
 
-    def next(
-        self, names: Sequence[str], outcomes: Sequence[Outcome], times: Mapping[str, int],
+    def choose_next(
+        self, names: Sequence[str], outcomes: Sequence[PartOutcome], times: Mapping[str, int],
         latest: str = "", seed: str = "",
     ) -> str:  # fmt: skip
         """Which template to ask now.
@@ -129,24 +129,24 @@ class Agenda:
             Decides between equals.
         """
         others = [name for name in names if name != latest] or list(names)
-        ready = self.ready(others)
+        ready = self.due_templates(others)
         if ready:
             return ready[0]
         unseen = self.unseen(others)
-        for topic in to_practise(by_topic(outcomes, RECENT)):
+        for topic in weak_topics(summarise_by_topic(outcomes, RECENT)):
             weak = [name for name in unseen if self.bank.rules(name).topic == topic]
             if weak:
-                return _least(weak, times, seed)
+                return _choose_least_attempted(weak, times, seed)
         if unseen:
-            return _least(unseen, times, seed)
-        return min(others, key=lambda name: (self._due(name), name))
+            return _choose_least_attempted(unseen, times, seed)
+        return min(others, key=lambda name: (self._find_due_time(name), name))
 
-    def _due(self, name: str) -> float:
+    def _find_due_time(self, name: str) -> float:
         card = self.card(name)
         return self.due(card) if card else self.now
 
 
-def _least(names: Sequence[str], times: Mapping[str, int], seed: str) -> str:
+def _choose_least_attempted(names: Sequence[str], times: Mapping[str, int], seed: str) -> str:
     """One of those that were begun the fewest times."""
 
     def rank(name: str) -> tuple[int, bytes]:

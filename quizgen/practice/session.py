@@ -7,34 +7,40 @@ from typing import TypeAlias
 
 import msgspec
 
-from quizgen.bank.folder import Bank
-from quizgen.errors import one_of
-from quizgen.locale import languages
-from quizgen.marking.options import Options
-from quizgen.paper.key import key_question
-from quizgen.paper.marking import Marker
-from quizgen.paper.paper import Item
-from quizgen.practice.choosing import fitting, nth, seed_of
-from quizgen.practice.results import TopicResult, by_topic
-from quizgen.practice.state import Outcome, PartState, State
-from quizgen.practice.task import Task
-from quizgen.question.compose import Key, Part, Question, instance, put_into_words
+from quizgen.bank.bank import Bank
+from quizgen.core.errors import require_one_of
+from quizgen.grading.options import GradingOptions
+from quizgen.locale import list_languages
+from quizgen.paper.answer_key import make_key_question
+from quizgen.paper.grading import QuestionGrader
+from quizgen.paper.paper import PaperItem
+from quizgen.practice.part_attempt import PartAttempt
+from quizgen.practice.selection import matching_templates, question_seed, template_at
+from quizgen.practice.session_state import PartOutcome, PartState, SessionState
+from quizgen.practice.topic_results import TopicResult, summarise_by_topic
+from quizgen.question.compose import (
+    Question,
+    QuestionKey,
+    QuestionPart,
+    compose_variant,
+    draw_instance,
+)
 from quizgen.question.solution import PartSolution
 
-Choose: TypeAlias = Callable[[Sequence[str]], tuple[str, str]]
+QuestionChooser: TypeAlias = Callable[[Sequence[str]], tuple[str, str]]
 
 
-class Turn(msgspec.Struct, frozen=True):
+class QuestionAttempt(msgspec.Struct, frozen=True):
     """One question of a session and its tasks, in order."""
 
     number: int
     seed: str
     level: str
     question: Question
-    tasks: tuple[Task[Part, PartSolution], ...]
+    tasks: tuple[PartAttempt[QuestionPart, PartSolution], ...]
 
     @property
-    def outcomes(self) -> tuple[Outcome, ...]:
+    def outcomes(self) -> tuple[PartOutcome, ...]:
         """Outcomes of the tasks that are done."""
         return tuple(task.outcome for task in self.tasks if task.outcome is not None)
 
@@ -66,10 +72,12 @@ class Session:
         If there is no such language.
     """
 
-    def __init__(self, bank: Bank, state: State, choose: Choose | None = None) -> None:
-        one_of("language", state.wish.lang, languages())
+    def __init__(
+        self, bank: Bank, state: SessionState, choose: QuestionChooser | None = None
+    ) -> None:
+        require_one_of("language", state.wish.lang, list_languages())
         self.bank, self.state, self._choose = bank, state, choose or self._by_seed
-        self.templates = fitting(bank, state.wish)
+        self.templates = matching_templates(bank, state.wish)
         """Names of the templates that fit the wish; without any the session is finished."""
 
     @property
@@ -77,7 +85,7 @@ class Session:
         """Whether there is nothing more to ask."""
         return not self.templates or self.state.done >= self.state.wish.count
 
-    def turn(self) -> Turn:
+    def current_question(self) -> QuestionAttempt:
         """The question that is due, as far as it has got; the same until it is finished.
 
         Raises
@@ -89,21 +97,27 @@ class Session:
         if self.state.due is None or self.state.due[0] not in self.templates:
             self.state.due = self._choose(self.templates)
         name, seed = self.state.due
-        drawn = instance(self.bank.template(name), seed)
+        drawn = draw_instance(self.bank.template(name), seed)
         wish = self.state.wish
-        question, key = put_into_words(drawn, wish.lang, number=str(number), level=wish.level)
-        keyed = key_question(Item(str(number), (question,), (key,)))
-        marker = Marker(keyed, Options(wish.lang))
-        parts = zip(question.parts, key.solution.parts, keyed.parts, self._parts(key), strict=True)
-        tasks = (Task(question.topic, *one, marker=marker) for one in parts)
-        return Turn(number, seed, key.level, question, tuple(tasks))
+        question, key = compose_variant(drawn, wish.lang, number=str(number), level=wish.level)
+        keyed = make_key_question(PaperItem(str(number), (question,), (key,)))
+        marker = QuestionGrader(keyed, GradingOptions(wish.lang))
+        parts = zip(
+            question.parts,
+            key.solution.parts,
+            keyed.parts,
+            self._restore_part_states(key),
+            strict=True,
+        )
+        tasks = (PartAttempt(question.topic, *one, marker=marker) for one in parts)
+        return QuestionAttempt(number, seed, key.level, question, tuple(tasks))
 
     def _by_seed(self, names: Sequence[str]) -> tuple[str, str]:
         """Every template once, in an order of the session's seed, before one returns."""
         seed, number = self.state.seed, self.state.done + 1
-        return nth(self.bank, names, seed, number), seed_of(seed, number)
+        return template_at(self.bank, names, seed, number), question_seed(seed, number)
 
-    def _parts(self, key: Key) -> list[PartState]:
+    def _restore_part_states(self, key: QuestionKey) -> list[PartState]:
         """How far the parts have got; nowhere, if they are not those that were kept."""
         kept = self.state.question, len(self.state.parts)
         if kept != (key.identity, len(key.specs)):
@@ -111,7 +125,7 @@ class Session:
             self.state.parts = [PartState() for _ in key.specs]
         return self.state.parts
 
-    def finish(self, turn: Turn) -> None:
+    def finish(self, turn: QuestionAttempt) -> None:
         """Write down how a question went, and go on to the next."""
         self.state.outcomes = [*self.state.outcomes, *turn.outcomes]
         self.state.done = turn.number
@@ -119,4 +133,4 @@ class Session:
 
     def summary(self) -> tuple[TopicResult, ...]:
         """Results by topic, in alphabetical order."""
-        return by_topic(self.state.outcomes)
+        return summarise_by_topic(self.state.outcomes)

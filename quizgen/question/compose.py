@@ -13,31 +13,31 @@ from typing import Any
 import msgspec
 from markupsafe import Markup
 
-from quizgen.bank.draw import Draw, draw, reference
 from quizgen.bank.levels import EXAM
-from quizgen.bank.pools import named
-from quizgen.bank.prose import Block, Inline
+from quizgen.bank.markdown import Block, Inline
+from quizgen.bank.pools import pool_identity
 from quizgen.bank.template import Template
-from quizgen.errors import BankError
+from quizgen.bank.variant import Variant, draw_variant, reference_variant
+from quizgen.core.errors import BankError
+from quizgen.core.untrusted import error_context
 from quizgen.figures import FieldPicture, Figure
-from quizgen.marking.specs import AnySpec
-from quizgen.maths.notation import to_text
-from quizgen.maths.numbers import key_text
-from quizgen.outside import located
+from quizgen.grading.spec import AnySpec
+from quizgen.maths.notation import format_tree
+from quizgen.maths.numbers import format_for_key
 from quizgen.question.contract import Control
-from quizgen.question.filling import plain
+from quizgen.question.figure import draw_question_figure
+from quizgen.question.html import blocks_to_html, inlines_to_html
+from quizgen.question.inlines import join_inlines, to_inlines
+from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.kinds import KINDS
-from quizgen.question.levels import level as at_level
-from quizgen.question.levels import level_of
-from quizgen.question.levels.asking import Asked, Choice
-from quizgen.question.markup import blocks, inline
-from quizgen.question.notation import in_notation
-from quizgen.question.picture import pictured
-from quizgen.question.shown import listed, pieces
+from quizgen.question.levels import effective_level
+from quizgen.question.levels import load_level as at_level
+from quizgen.question.levels.contract import Choice, LevelPart
+from quizgen.question.localise import localise
 from quizgen.question.solution import Solution
 
 
-class Field(msgspec.Struct, frozen=True):
+class AnswerField(msgspec.Struct, frozen=True):
     """One answer field.
 
     Parameters
@@ -66,37 +66,37 @@ class Field(msgspec.Struct, frozen=True):
     @property
     def hints(self) -> tuple[str, ...]:
         """What to type, as text."""
-        return tuple(map(plain, self.asks))
+        return tuple(map(inlines_to_text, self.asks))
 
     @property
     def hint(self) -> tuple[Inline, ...]:
         """What to type, as one run of sentences."""
-        return listed(self.asks, " ")
+        return join_inlines(self.asks, " ")
 
     @property
     def hint_in_fields(self) -> tuple[Inline, ...]:
         """What to type where every value has a field of its own."""
-        return listed(self.asks[1:] if self.control.several else self.asks, " ")
+        return join_inlines(self.asks[1:] if self.control.several else self.asks, " ")
 
 
-class Part(msgspec.Struct, frozen=True):
+class QuestionPart(msgspec.Struct, frozen=True):
     """One sub-question as the learner sees it."""
 
     label: str
     points: Fraction
     body: tuple[Block, ...]
-    field: Field
+    field: AnswerField
 
-    def html(self, lang: str) -> Markup:
+    def to_html(self, lang: str) -> Markup:
         """The part with its options and hints."""
         label = Markup("<h4>({})</h4>").format(self.label) if self.label else Markup("")
         choices = Markup("").join(
-            Markup("<li>{} {}</li>").format(mark, inline(text, lang))
+            Markup("<li>{} {}</li>").format(mark, inlines_to_html(text, lang))
             for mark, text in (*self.field.options, *self.field.targets)
         )
         listed = Markup("<ul>{}</ul>").format(choices) if choices else Markup("")
-        hints = Markup("<p><small>{}</small></p>").format(inline(self.field.hint, lang))
-        return Markup("").join((label, blocks(self.body, lang), listed, hints))
+        hints = Markup("<p><small>{}</small></p>").format(inlines_to_html(self.field.hint, lang))
+        return Markup("").join((label, blocks_to_html(self.body, lang), listed, hints))
 
 
 class Question(msgspec.Struct, frozen=True):
@@ -110,7 +110,7 @@ class Question(msgspec.Struct, frozen=True):
     title: str
     minutes: Fraction
     stem: tuple[Block, ...]
-    parts: tuple[Part, ...]
+    parts: tuple[QuestionPart, ...]
     figure: Figure | None = None
 
     @property
@@ -125,11 +125,11 @@ class Question(msgspec.Struct, frozen=True):
         """The question as a notebook shows it."""
         head = Markup("<h3>{}. {}</h3>").format(self.number, self.title)
         picture = Markup(self.figure.inline_svg.decode()) if self.figure else Markup("")  # noqa: S704
-        parts = (part.html(self.lang) for part in self.parts)
-        return str(Markup("").join((head, blocks(self.stem, self.lang), picture, *parts)))
+        parts = (part.to_html(self.lang) for part in self.parts)
+        return str(Markup("").join((head, blocks_to_html(self.stem, self.lang), picture, *parts)))
 
 
-class Key(msgspec.Struct, frozen=True):
+class QuestionKey(msgspec.Struct, frozen=True):
     """Answers, worked solution and everything needed to mark one question."""
 
     template: str
@@ -138,7 +138,7 @@ class Key(msgspec.Struct, frozen=True):
     specs: tuple[AnySpec, ...]
     solution: Solution
     chain: dict[str, Any] | None
-    draw: Draw
+    draw: Variant
     figure: Figure | None = None
     level: str = EXAM
 
@@ -146,12 +146,14 @@ class Key(msgspec.Struct, frozen=True):
         return f"<Key {self.number} of {self.identity}>"
 
 
-def instance(template: Template, seed: str | int, slot: str | int = "0") -> Draw:
+def draw_instance(template: Template, seed: str | int, slot: str | int = "0") -> Variant:
     """Draw a template, or take its reference instance for ``seed="reference"``."""
-    return reference(template) if seed == "reference" else draw(template, seed, slot)
+    return (
+        reference_variant(template) if seed == "reference" else draw_variant(template, seed, slot)
+    )
 
 
-def compose(
+def compose_question(
     template: Template,
     seed: str | int = 0,
     lang: str = "en",
@@ -159,7 +161,7 @@ def compose(
     slot: str | int = "0",
     level: str = EXAM,
     figures: bool = True,
-) -> tuple[Question, Key]:
+) -> tuple[Question, QuestionKey]:
     """Draw a template and put it into words.
 
     Parameters
@@ -187,13 +189,13 @@ def compose(
     DrawError
         If no admissible numbers exist.
     """
-    drawn = instance(template, seed, slot)
-    return put_into_words(drawn, lang, level=level, figures=figures)
+    drawn = draw_instance(template, seed, slot)
+    return compose_variant(drawn, lang, level=level, figures=figures)
 
 
-def put_into_words(
-    drawn: Draw, lang: str, *, number: str = "1", level: str = EXAM, figures: bool = True
-) -> tuple[Question, Key]:
+def compose_variant(
+    drawn: Variant, lang: str, *, number: str = "1", level: str = EXAM, figures: bool = True
+) -> tuple[Question, QuestionKey]:
     """Compose an instance that has already been drawn.
 
     Raises
@@ -207,15 +209,17 @@ def put_into_words(
     if lang not in template.languages:
         known = ", ".join(template.languages)
         raise BankError(f"template {template.id!r} is not written in {lang!r} (only in {known})")
-    with located(template.file):
-        return _worded(drawn, lang, number, level_of(drawn, level), figures=figures)
+    with error_context(template.file):
+        return _build_question_and_key(
+            drawn, lang, number, effective_level(drawn, level), figures=figures
+        )
 
 
-def _worded(
-    drawn: Draw, lang: str, number: str, level: str, *, figures: bool
-) -> tuple[Question, Key]:
+def _build_question_and_key(
+    drawn: Variant, lang: str, number: str, level: str, *, figures: bool
+) -> tuple[Question, QuestionKey]:
     template = drawn.template
-    asking = at_level(level).asking(drawn, lang)
+    asking = at_level(level).ask(drawn, lang)
     question = Question(
         template=template.id,
         number=number,
@@ -224,46 +228,46 @@ def _worded(
         topic=template.rules.topic,
         title=template.texts[lang].title,
         minutes=Fraction(template.minutes),
-        stem=in_notation(lang, asking.stem),
-        parts=in_notation(lang, tuple(_part(part, lang, number) for part in asking.parts)),
-        figure=pictured(drawn, lang, quiz=True) if figures else None,
+        stem=localise(lang, asking.stem),
+        parts=localise(lang, tuple(_build_part(part, lang, number) for part in asking.parts)),
+        figure=draw_question_figure(drawn, lang, quiz=True) if figures else None,
     )
-    key = Key(
+    key = QuestionKey(
         template=template.id,
         number=number,
-        identity=identity(drawn, level),
+        identity=variant_identity(drawn, level),
         specs=tuple(part.spec for part in asking.parts),
-        solution=in_notation(lang, asking.solution),
-        chain=chain_table(drawn),
+        solution=localise(lang, asking.solution),
+        chain=chain_as_json(drawn),
         draw=drawn,
-        figure=pictured(drawn, lang, quiz=False) if figures else None,
+        figure=draw_question_figure(drawn, lang, quiz=False) if figures else None,
         level=level,
     )
     return question, key
 
 
 @lru_cache(maxsize=512)
-def identity(drawn: Draw, level: str = EXAM) -> str:
+def variant_identity(drawn: Variant, level: str = EXAM) -> str:
     """Name of the variant: two questions are the same if and only if this is the same."""
-    numbers = [f"{name}={key_text(value)}" for name, value in sorted(drawn.shown.items())]
+    numbers = [f"{name}={format_for_key(value)}" for name, value in sorted(drawn.shown.items())]
     words = [f"{name}={value}" for name, value in sorted(drawn.words.items())]
-    whole = f"{drawn.template.id}({', '.join(numbers + words + named(drawn))})"
+    whole = f"{drawn.template.id}({', '.join(numbers + words + pool_identity(drawn))})"
     return whole if level == EXAM else f"{whole}/{level}"
 
 
-def _part(asked: Asked, lang: str, number: str) -> Part:
-    field = Field(
+def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
+    field = AnswerField(
         id=f"{number}{asked.label}",
         control=asked.control,
-        asks=tuple(map(pieces, KINDS[asked.spec.kind].hints(asked.spec, lang))),
+        asks=tuple(map(to_inlines, KINDS[asked.spec.kind].hints(asked.spec, lang))),
         options=asked.options,
         targets=asked.targets,
         drawing=FieldPicture(asked.control.board, lang) if asked.control.board else None,
     )
-    return Part(asked.label, asked.points, asked.body, field)
+    return QuestionPart(asked.label, asked.points, asked.body, field)
 
 
-def chain_table(drawn: Draw) -> dict[str, Any] | None:
+def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     """The chain with its numbers as plain JSON, for marking without SymPy."""
     chain = drawn.template.chain
     if not chain.steps:
@@ -272,10 +276,12 @@ def chain_table(drawn: Draw) -> dict[str, Any] | None:
     return {
         "given": {
             name: {
-                "value": key_text(drawn.shown[name] * drawn.template.factor(units.get(name, ""))),
+                "value": format_for_key(
+                    drawn.shown[name] * drawn.template.unit_factor(units.get(name, ""))
+                ),
                 "unit": units.get(name, ""),
             }
             for name in chain.given
         },
-        "steps": [[step.name, to_text(step.expr), step.unit] for step in chain.steps],
+        "steps": [[step.name, format_tree(step.expr), step.unit] for step in chain.steps],
     }

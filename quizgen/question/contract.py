@@ -1,6 +1,6 @@
 """What an answer kind does on the asking side: its contract, and the values it hands over.
 
-A kind is two modules of one name. ``quizgen/marking/kinds`` has its ``Spec`` and marks what is
+A kind is two modules of one name. ``quizgen/grading/kinds`` has its ``Spec`` and marks what is
 typed; ``quizgen/question/kinds`` makes that ``Spec`` from a draw and says how a learner answers.
 """
 
@@ -11,10 +11,10 @@ from typing import Generic, Literal, NamedTuple, Protocol, TypeVar
 
 import msgspec
 
-from quizgen.bank.draw import Draw
+from quizgen.bank.variant import Variant
 from quizgen.figures import DrawingField, Line
-from quizgen.marking.specs import AnySpec
-from quizgen.question.shown import Shown
+from quizgen.grading.spec import AnySpec
+from quizgen.question.inlines import TextOrInlines
 
 S = TypeVar("S", bound=AnySpec)
 
@@ -117,7 +117,7 @@ class Built(msgspec.Struct, Generic[S], frozen=True):
 class QuestionKind(Protocol[S]):
     """The asking side of an answer kind; usually a module of ``quizgen/question/kinds``."""
 
-    def build(self, drawn: Draw, index: int) -> Built[S]:
+    def build(self, drawn: Variant, index: int) -> Built[S]:
         """Make the spec of a part, and what stands beside its field.
 
         Raises
@@ -126,12 +126,12 @@ class QuestionKind(Protocol[S]):
             If the authored answer is not complete.
         """
 
-    def hints(self, spec: S, lang: str) -> tuple[Shown, ...]:
+    def hints(self, spec: S, lang: str) -> tuple[TextOrInlines, ...]:
         """Sentences that tell the learner how to type the answer, from how it is marked.
 
         Where the answer has several values, the first says how they are typed in one line; a page
         with a field for each leaves it out.
         """
 
-    def printed(self, spec: S, lang: str) -> Shown:
+    def printed(self, spec: S, lang: str) -> TextOrInlines:
         """The key as the solution states it; empty where sentences tell it."""

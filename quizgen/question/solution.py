@@ -11,27 +11,33 @@ from typing import Any
 
 import msgspec
 
-from quizgen.bank.draw import Draw
-from quizgen.bank.prose import Block, Inline, Words
+from quizgen.bank.markdown import Block, Inline, PlainText
+from quizgen.bank.variant import Variant
 from quizgen.figures import FieldPicture
-from quizgen.marking.mark import show
-from quizgen.marking.specs import AnySpec, Numbers, OneNumber
+from quizgen.grading.mark import show_key
+from quizgen.grading.spec import AnySpec, ScalarSpec, VectorSpec
 from quizgen.maths.chain import ChainStep
 from quizgen.question.contract import Built
-from quizgen.question.filling import NBSP, Filler, plain
+from quizgen.question.inlines import TextOrInlines, TypesetMaths, to_inlines
+from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text
 from quizgen.question.kinds import KINDS
-from quizgen.question.precision import precision_table
-from quizgen.question.shown import Maths, Shown, pieces
+from quizgen.question.precision_table import precision_table
 from quizgen.question.specs import written_down
-from quizgen.question.worked import FORMULA, Side, in_line, sides_of, thing
+from quizgen.question.worked_steps import (
+    FORMULA,
+    WorkedSide,
+    join_sides,
+    quantity_inlines,
+    step_sides,
+)
 
 
-def as_text(shown: tuple[Inline, ...]) -> str:
+def inlines_to_plain(shown: tuple[Inline, ...]) -> str:
     """Pieces as text with ordinary blanks before units."""
-    return plain(shown).replace(NBSP, " ")
+    return inlines_to_text(shown).replace(NBSP, " ")
 
 
-class Rung(msgspec.Struct, frozen=True):
+class SolutionHint(msgspec.Struct, frozen=True):
     """A hint: what it is, and what it shows.
 
     ``kind`` is ``quantity`` (which one is needed, and why), ``formula`` (with its number on the
@@ -44,33 +50,35 @@ class Rung(msgspec.Struct, frozen=True):
     formula: str = ""
 
 
-class Line(msgspec.Struct, frozen=True):
+class SolutionStep(msgspec.Struct, frozen=True):
     """One step: the worked formula, why it is taken, and its number on the formula sheet.
 
     ``name``, ``thing`` and ``sides`` are its quantity, in words, and what it is equal to.
     """
 
-    maths: Maths
+    maths: TypesetMaths
     why: tuple[Inline, ...]
     formula: str = ""
     name: str = ""
     thing: tuple[Inline, ...] = ()
-    sides: tuple[Side, ...] = ()
+    sides: tuple[WorkedSide, ...] = ()
 
     @property
-    def rungs(self) -> tuple[Rung, ...]:
+    def hints(self) -> tuple[SolutionHint, ...]:
         """What a learner may be told of it, little by little."""
         if not self.sides:
-            return (Rung("why", self.why),)
-        found = [Rung("quantity", self.thing, self.why)]
+            return (SolutionHint("why", self.why),)
+        found = [SolutionHint("quantity", self.thing, self.why)]
         for role, sides in groupby(self.sides, key=lambda side: side.role):
             formula = self.formula if role == FORMULA else ""
-            shown = msgspec.structs.replace(in_line(self.name, tuple(sides)), lang=self.maths.lang)
-            found.append(Rung(role, (shown,), formula=formula))
+            shown = msgspec.structs.replace(
+                join_sides(self.name, tuple(sides)), lang=self.maths.lang
+            )
+            found.append(SolutionHint(role, (shown,), formula=formula))
         return tuple(found)
 
 
-class Mistake(msgspec.Struct, frozen=True):
+class SolvedMisconception(msgspec.Struct, frozen=True):
     """A known mistake: its name, what went wrong, and the answer it would give.
 
     Of one that is drawn no answer is shown: its points would tell nobody what it looks like.
@@ -83,7 +91,7 @@ class Mistake(msgspec.Struct, frozen=True):
     @property
     def value(self) -> str:
         """The answer that it gives, as text."""
-        return as_text(self.shown)
+        return inlines_to_plain(self.shown)
 
 
 class PartSolution(msgspec.Struct, frozen=True):
@@ -94,18 +102,18 @@ class PartSolution(msgspec.Struct, frozen=True):
     """
 
     label: str
-    lines: tuple[Line, ...]
+    lines: tuple[SolutionStep, ...]
     shown: tuple[Inline, ...]
-    mistakes: tuple[Mistake, ...]
+    mistakes: tuple[SolvedMisconception, ...]
     options: tuple[tuple[Inline, ...], ...] = ()
-    reasons: tuple[Mistake, ...] = ()
+    reasons: tuple[SolvedMisconception, ...] = ()
     why: tuple[Inline, ...] = ()
     drawing: FieldPicture | None = None
 
     @property
     def answer(self) -> str:
         """The key as text, as it can be typed back; empty where sentences tell it."""
-        return as_text(self.shown)
+        return inlines_to_plain(self.shown)
 
 
 class Solution(msgspec.Struct, frozen=True):
@@ -120,9 +128,9 @@ class Solution(msgspec.Struct, frozen=True):
     precision: tuple[Block, ...] = ()
 
 
-def solve(drawn: Draw, lang: str, parts: tuple[PartSolution, ...]) -> Solution:
+def build_solution(drawn: Variant, lang: str, parts: tuple[PartSolution, ...]) -> Solution:
     """The solved parts of an instance with the remarks on the whole, in one language."""
-    filler = Filler(drawn, lang)
+    filler = Interpolator(drawn, lang)
     return Solution(
         lang=lang,
         title=filler.text.title,
@@ -134,7 +142,7 @@ def solve(drawn: Draw, lang: str, parts: tuple[PartSolution, ...]) -> Solution:
     )
 
 
-def solved_part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
+def solve_part(filler: Interpolator, index: int, built: Built[Any]) -> PartSolution:
     """Work one authored part out.
 
     Parameters
@@ -149,68 +157,69 @@ def solved_part(filler: Filler, index: int, built: Built[Any]) -> PartSolution:
     explained = filler.text.sentence("why", label or "a") is not None
     return PartSolution(
         label=label,
-        lines=tuple(line_of(filler, step) for step in drawn.steps(index)),
-        shown=pieces(KINDS[spec.kind].printed(spec, filler.lang)),
-        mistakes=tuple(mistakes_of(filler, built)),
+        lines=tuple(solution_step(filler, step) for step in drawn.steps_of_part(index)),
+        shown=to_inlines(KINDS[spec.kind].printed(spec, filler.lang)),
+        mistakes=tuple(solved_misconceptions(filler, built)),
         options=tuple(
-            (*_right(filler, section, name), *_cited(built.source)) for section, name in built.right
+            (*_build_right_option(filler, section, name), *_format_citation(built.source))
+            for section, name in built.right
         ),
-        reasons=tuple(_reasons(filler, built)),
+        reasons=tuple(_iter_wrong_options(filler, built)),
         why=filler.sentence("why", label or "a") if explained else (),
         drawing=FieldPicture(board, filler.lang, built.drawn) if board else None,
     )
 
 
-def line_of(filler: Filler, step: ChainStep) -> Line:
+def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
     """A step of the chain as the solution shows it."""
     formula = filler.drawn.template.chain.formulas.get(step.name, "")
-    sides = sides_of(filler.drawn, step)
-    return Line(
-        in_line(step.name, sides),
+    sides = step_sides(filler.drawn, step)
+    return SolutionStep(
+        join_sides(step.name, sides),
         filler.sentence("steps", step.name),
         formula,
         step.name,
-        thing(filler.drawn, step.name, filler.lang),
+        quantity_inlines(filler.drawn, step.name, filler.lang),
         sides,
     )
 
 
-def mistakes_of(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
+def solved_misconceptions(filler: Interpolator, built: Built[Any]) -> Iterator[SolvedMisconception]:
     """The known mistakes of a part with the answers that they give."""
     for trap, wrong in built.mistakes.items():
         spec = written_down(wrong, built.spec.traps[trap])
-        shown = () if built.drawn else pieces(_rounded(spec, filler.lang))
-        yield Mistake(trap, filler.sentence("traps", trap), shown)
+        shown = () if built.drawn else to_inlines(_show_wrong_answer(spec, filler.lang))
+        yield SolvedMisconception(trap, filler.sentence("traps", trap), shown)
 
 
-def _rounded(wrong: AnySpec, lang: str) -> Shown:
+def _show_wrong_answer(wrong: AnySpec, lang: str) -> TextOrInlines:
     """A wrong answer; of numbers nobody wants to see the exact value."""
-    if isinstance(wrong, OneNumber | Numbers):
-        return show(wrong, lang)
+    if isinstance(wrong, ScalarSpec | VectorSpec):
+        return show_key(wrong, lang)
     return KINDS[wrong.kind].printed(wrong, lang)
 
 
-def _reasons(filler: Filler, built: Built[Any]) -> Iterator[Mistake]:
+def _iter_wrong_options(filler: Interpolator, built: Built[Any]) -> Iterator[SolvedMisconception]:
     """Wrong options, pairs and steps with the reason."""
     right = {name for _, name in built.right}
     for mark, name in built.reasons:
         if name not in right:
-            yield Mistake(name, filler.sentence("reasons", name), (Words(mark),))
+            yield SolvedMisconception(name, filler.sentence("reasons", name), (PlainText(mark),))
 
 
-def _cited(source: str) -> tuple[Inline, ...]:
-    return (Words(f" [{source}]"),) if source else ()
+def _format_citation(source: str) -> tuple[Inline, ...]:
+    return (PlainText(f" [{source}]"),) if source else ()
 
 
-def _right(filler: Filler, section: str, name: str) -> tuple[Inline, ...]:
+def _build_right_option(filler: Interpolator, section: str, name: str) -> tuple[Inline, ...]:
     """A right option, and why it is right if that is written."""
     told = filler.sentence(section, name)
     if section == "options" and filler.text.sentence("reasons", name) is not None:
-        return (*_unstopped(told), Words(": "), *filler.sentence("reasons", name))
+        return (*_drop_full_stop(told), PlainText(": "), *filler.sentence("reasons", name))
     return told
 
 
-def _unstopped(told: tuple[Inline, ...]) -> tuple[Inline, ...]:
+def _drop_full_stop(told: tuple[Inline, ...]) -> tuple[Inline, ...]:
     """A sentence that goes on after a colon has no full stop before it."""
     *most, last = told
-    return (*most, Words(last.text.rstrip(".।"))) if isinstance(last, Words) else told
+    return (*most, PlainText(last.text.rstrip(".।"))) if isinstance(last, PlainText) else told

@@ -8,20 +8,20 @@ from typing import Any, TypeAlias, TypeVar
 
 import msgspec
 
-from quizgen.bank.complaints import in_words
-from quizgen.bank.draw import Draw
-from quizgen.bank.plan import shuffled
-from quizgen.bank.traps import answer_names
-from quizgen.errors import BankError, FormulaError
-from quizgen.locale import numbers_in
-from quizgen.marking.mark import show
-from quizgen.marking.specs import AnySpec, Measured
+from quizgen.bank.complaints import explain_validation_error
+from quizgen.bank.misconceptions import answer_names
+from quizgen.bank.sampler import shuffle
+from quizgen.bank.variant import Variant
+from quizgen.core.decoding import convert
+from quizgen.core.errors import BankError, FormulaError
+from quizgen.grading.mark import show_key
+from quizgen.grading.spec import AnySpec, NumericSpec
+from quizgen.locale import localise_numbers
 from quizgen.maths.constants import Scalar
-from quizgen.maths.numbers import key_text, rational, short_decimal
+from quizgen.maths.numbers import format_for_key, is_short_decimal, to_rational
 from quizgen.maths.values import Value
 from quizgen.question.contract import Built, Named, S
-from quizgen.question.filling import Filler, as_typed, plain
-from quizgen.shapes import converted
+from quizgen.question.interpolation import Interpolator, inlines_as_typed, inlines_to_text
 
 LETTERS = "ABCDEFGHIJKL"
 ROUNDED_MISTAKE = 4
@@ -29,20 +29,20 @@ ROUNDED_MISTAKE = 4
 
 Numbers: TypeAlias = Scalar | list[Scalar] | dict[str, Scalar]
 """The numbers of a key or of a mistake: one, several in order, or several by name."""
-T = TypeVar("T", bound=Measured)
+T = TypeVar("T", bound=NumericSpec)
 
 
-def answer_of(drawn: Draw, index: int) -> Mapping[str, Any]:
+def authored_answer(drawn: Variant, index: int) -> Mapping[str, Any]:
     """The ``answer`` table of a part as authored."""
     return drawn.template.rules.part[index].answer
 
 
-def complaint(drawn: Draw, index: int, what: str) -> BankError:
+def part_error(drawn: Variant, index: int, what: str) -> BankError:
     """An error that names the template and the part."""
     return BankError(f"{drawn.template.file}: part {index + 1}: {what}")
 
 
-def specification(shape: type[S], drawn: Draw, index: int, **given: object) -> S:
+def specification(shape: type[S], drawn: Variant, index: int, **given: object) -> S:
     """The spec of a part: the authored keys handed on, and what the draw gives.
 
     Raises
@@ -50,23 +50,23 @@ def specification(shape: type[S], drawn: Draw, index: int, **given: object) -> S
     BankError
         If the answer has a key that the kind does not know, or one of the wrong type.
     """
-    answer = answer_of(drawn, index)
+    answer = authored_answer(drawn, index)
     fields = {field.encode_name for field in msgspec.structs.fields(shape)} - {"of"}
     table = {name: value for name, value in answer.items() if name in fields}
     if "accept" in answer:
-        table["accept"] = [key_text(drawn.computed(str(bound))) for bound in answer["accept"]]
+        table["accept"] = [format_for_key(drawn.evaluate(str(bound))) for bound in answer["accept"]]
     try:
-        spec = converted({**table, **given}, shape)
-        with spec.known_units().in_use():
+        spec = convert({**table, **given}, shape)
+        with spec.known_units().activate():
             spec.validate()
     except (msgspec.ValidationError, FormulaError, ValueError) as error:
-        raise complaint(drawn, index, in_words(error, shape)) from error
+        raise part_error(drawn, index, explain_validation_error(error, shape)) from error
     return spec
 
 
 def numeric(
     shape: type[S],
-    drawn: Draw,
+    drawn: Variant,
     index: int,
     key: str,
     write: Callable[[tuple[Value, ...]], Numbers],
@@ -87,48 +87,58 @@ def numeric(
     **given
         Further fields of the spec.
     """
-    wrong = {trap: write(values) for trap, values in drawn.mistaken(index).items()}
-    found = {"of": list(answer_names(answer_of(drawn, index))), key: write(drawn.answer(index))}
+    wrong = {trap: write(values) for trap, values in drawn.misconception_answers(index).items()}
+    found = {
+        "of": list(answer_names(authored_answer(drawn, index))),
+        key: write(drawn.answer_of_part(index)),
+    }
     defined = drawn.template.about.units
     found |= {"define": list(defined)} if defined else {}
-    found |= counts(drawn, index) if "counts" in shape.__struct_fields__ else {}
-    traps = {"traps": wrong, "notes": notes(drawn, wrong)} if wrong else {}
+    found |= count_nouns(drawn, index) if "counts" in shape.__struct_fields__ else {}
+    traps = {"traps": wrong, "notes": misconception_notes(drawn, wrong)} if wrong else {}
     spec = specification(shape, drawn, index, **{**found, **traps, **given})
     return Built(spec, mistakes=mistaken(spec, key))
 
 
-def counts(drawn: Draw, index: int) -> dict[str, Any]:
+def count_nouns(drawn: Variant, index: int) -> dict[str, Any]:
     """The words for what a part counts: those it names, else the unit that its values have."""
-    answer = answer_of(drawn, index)
+    answer = authored_answer(drawn, index)
     stated = answer.get("counts")
     if isinstance(stated, Mapping):
-        return {"counts": {name: _words(drawn, index, things) for name, things in stated.items()}}
+        return {
+            "counts": {
+                name: _list_count_nouns(drawn, index, things) for name, things in stated.items()
+            }
+        }
     units = {drawn.template.units.get(name, "") for name in answer_names(answer)} - {"", "1"}
     if stated is None and (answer["kind"] == "table" or "unit" in answer or len(units) != 1):
         return {}
-    return {"counts": _words(drawn, index, stated or [*units])}
+    return {"counts": _list_count_nouns(drawn, index, stated or [*units])}
 
 
-def _words(drawn: Draw, index: int, things: str | list[str]) -> list[str]:
+def _list_count_nouns(drawn: Variant, index: int, things: str | list[str]) -> list[str]:
     """Listed units as they are, and the bank's words for whatever else is counted."""
     about, found = drawn.template.about, list[str]()
     for thing in [things] if isinstance(things, str) else things:
         if thing not in about.system.simple and thing not in about.counted:
-            raise complaint(drawn, index, f"counts: {thing!r} is neither a unit nor in bank.toml")
+            raise part_error(drawn, index, f"counts: {thing!r} is neither a unit nor in bank.toml")
         found += about.counted.get(thing, (thing,))
     return found
 
 
-def notes(drawn: Draw, traps: Iterable[str]) -> dict[str, dict[str, str]]:
+def misconception_notes(drawn: Variant, traps: Iterable[str]) -> dict[str, dict[str, str]]:
     """What to tell whoever fell into a trap, as plain text in every language."""
-    fillers = {lang: Filler(drawn, lang) for lang in drawn.template.texts}
+    fillers = {lang: Interpolator(drawn, lang) for lang in drawn.template.texts}
     return {
-        lang: {trap: numbers_in(lang, plain(filler.sentence("traps", trap))) for trap in traps}
+        lang: {
+            trap: localise_numbers(lang, inlines_to_text(filler.sentence("traps", trap)))
+            for trap in traps
+        }
         for lang, filler in fillers.items()
     }
 
 
-def reasoned(drawn: Draw, names: Iterable[Named]) -> tuple[Named, ...]:
+def with_reason(drawn: Variant, names: Iterable[Named]) -> tuple[Named, ...]:
     """Those of the marks and names for which a reason is written."""
     texts = drawn.template.texts.values()
     return tuple(
@@ -138,7 +148,7 @@ def reasoned(drawn: Draw, names: Iterable[Named]) -> tuple[Named, ...]:
     )
 
 
-def why(drawn: Draw, names: Iterable[Named]) -> dict[str, dict[str, str]]:
+def reasons(drawn: Variant, names: Iterable[Named]) -> dict[str, dict[str, str]]:
     """The reasons as plain text in every language, by mark.
 
     Raises
@@ -146,11 +156,12 @@ def why(drawn: Draw, names: Iterable[Named]) -> dict[str, dict[str, str]]:
     BankError
         If a reason is written in one language only.
     """
-    found = reasoned(drawn, names)
-    fillers = {lang: Filler(drawn, lang) for lang in drawn.template.texts} if found else {}
+    found = with_reason(drawn, names)
+    fillers = {lang: Interpolator(drawn, lang) for lang in drawn.template.texts} if found else {}
     return {
         lang: {
-            mark: numbers_in(lang, plain(filler.sentence("reasons", name))) for mark, name in found
+            mark: localise_numbers(lang, inlines_to_text(filler.sentence("reasons", name)))
+            for mark, name in found
         }
         for lang, filler in fillers.items()
     }
@@ -173,17 +184,17 @@ def mistaken(spec: S, key: str) -> dict[str, S]:
     }
 
 
-def order_key(drawn: Draw, index: int) -> str:
+def order_seed(drawn: Variant, index: int) -> str:
     """What the order of a part's options is drawn from."""
     template = drawn.template
     return f"{template.origin}/{template.rules.version}/{drawn.seed}/{drawn.slot}/order/{index}"
 
 
-def mixed(drawn: Draw, index: int, names: Iterable[str], side: str = "") -> list[str]:
+def shuffle_names(drawn: Variant, index: int, names: Iterable[str], side: str = "") -> list[str]:
     """Names in the order in which they are shown: a drawn one, unless the listed one is asked."""
-    if answer_of(drawn, index).get("in_order"):
+    if authored_answer(drawn, index).get("in_order"):
         return list(names)
-    return shuffled(order_key(drawn, index) + side, list(names))
+    return shuffle(order_seed(drawn, index) + side, list(names))
 
 
 def lettered(names: Iterable[str]) -> tuple[Named, ...]:
@@ -191,7 +202,7 @@ def lettered(names: Iterable[str]) -> tuple[Named, ...]:
     return tuple(zip(LETTERS, names, strict=False))
 
 
-def synonyms(drawn: Draw, name: str) -> list[str]:
+def accepted_words(drawn: Variant, name: str) -> list[str]:
     """Words of a gap or of a key point, from all languages.
 
     Raises
@@ -201,17 +212,17 @@ def synonyms(drawn: Draw, name: str) -> list[str]:
     """
     found: list[str] = []
     for lang in drawn.template.texts:
-        words = as_typed(Filler(drawn, lang).unfilled("gaps", name))
+        words = inlines_as_typed(Interpolator(drawn, lang).raw_sentence("gaps", name))
         found += [word.strip() for word in words.split("|")]
     return list(dict.fromkeys(found))
 
 
 def exact_first(spec: T, key: Numbers, lang: str) -> str:
     """The key with its exact value before the rounded one, where that says more."""
-    rounded = show(spec, lang)
+    rounded = show_key(spec, lang)
     if spec.decimals is not None or not readable_fractions(key):
         return rounded
-    exactly = show(
+    exactly = show_key(
         msgspec.structs.replace(
             spec, exact=True, abs=None, rel=None, sigfigs=None, within=1, accept=None
         ),
@@ -238,12 +249,12 @@ def written_down(wrong: AnySpec, answer: Numbers) -> AnySpec:
     answer : number, list or mapping
         The wrong answer.
     """
-    if not isinstance(wrong, Measured):
+    if not isinstance(wrong, NumericSpec):
         return wrong
     freed: dict[str, object] = {"accept": None}
     if "form" in wrong.__struct_fields__:
         freed["form"] = ""
-    if wrong.exact and not all(short_decimal(rational(text)) for text in texts_of(answer)):
+    if wrong.exact and not all(is_short_decimal(to_rational(text)) for text in texts_of(answer)):
         freed |= {"exact": False, "sigfigs": ROUNDED_MISTAKE}
     return msgspec.structs.replace(wrong, **freed)
 

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from quizgen.errors import one_of
+from quizgen.core.errors import require_one_of
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Paper
-    from quizgen.question.sheet import Sheet
+    from quizgen.question.formula_sheet import FormulaSheet
 
 KINDS = ("exam", "solutions")
 """What a file shows: the questions alone, or with worked solutions."""
@@ -31,7 +31,7 @@ class Renderer(Protocol):
         ...
 
 
-def renderer(output: str) -> Renderer:
+def load_renderer(output: str) -> Renderer:
     """The function that renders a paper in one format, loaded when it is asked for.
 
     Raises
@@ -39,15 +39,15 @@ def renderer(output: str) -> Renderer:
     ChoiceError
         Naming the formats there are.
     """
-    match one_of("format", output, RENDERERS):
+    match require_one_of("format", output, RENDERERS):
         case "pdf":
             from quizgen.render import pdf
 
-            return pdf.render
+            return pdf.render_paper_pdf
         case _:
             from quizgen.render import html
 
-            return html.render
+            return html.render_paper_html
 
 
 def render_paper(paper: Paper, kind: str, output: str) -> bytes:
@@ -68,10 +68,10 @@ def render_paper(paper: Paper, kind: str, output: str) -> bytes:
     RenderError
         If the output cannot be made.
     """
-    return renderer(output)(paper, one_of("kind", kind, KINDS))
+    return load_renderer(output)(paper, require_one_of("kind", kind, KINDS))
 
 
-def render_sheet(sheet: Sheet, output: str) -> bytes:
+def render_sheet(sheet: FormulaSheet, output: str) -> bytes:
     """Render a formula sheet in one of ``RENDERERS``.
 
     Raises
@@ -81,12 +81,12 @@ def render_sheet(sheet: Sheet, output: str) -> bytes:
     RenderError
         If the output cannot be made.
     """
-    match one_of("format", output, RENDERERS):
+    match require_one_of("format", output, RENDERERS):
         case "pdf":
             from quizgen.render import sheet_pdf
 
-            return sheet_pdf.render(sheet)
+            return sheet_pdf.render_sheet_pdf(sheet)
         case _:
             from quizgen.render import sheet_html
 
-            return sheet_html.render(sheet)
+            return sheet_html.render_sheet_html(sheet)

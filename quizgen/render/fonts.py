@@ -12,9 +12,9 @@ from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
-from quizgen.errors import RenderError
-from quizgen.locale import in_script
-from quizgen.outside import read_bytes
+from quizgen.core.errors import RenderError
+from quizgen.core.untrusted import read_bytes
+from quizgen.locale import languages_in_script
 
 WEB = Path(__file__).parent / "webfonts"
 MATHS = "stix-two-math"
@@ -22,7 +22,7 @@ BANGLA = {"Regular": "hind-siliguri-400", "Bold": "hind-siliguri-700"}
 """Weight to the name of the packed font."""
 
 
-def folder(package: str) -> Path:
+def package_folder(package: str) -> Path:
     """Folder of an installed package, without importing it.
 
     Raises
@@ -39,13 +39,13 @@ def folder(package: str) -> Path:
 @cache
 def bangla_folder() -> Path:
     """Folder with the Hind Siliguri fonts."""
-    return next(folder("fontpkg_hind_siliguri").rglob("*Regular*.ttf")).parent
+    return next(package_folder("fontpkg_hind_siliguri").rglob("*Regular*.ttf")).parent
 
 
 @cache
 def maths_file() -> Path:
     """STIX Two Math."""
-    return next(folder("ziamath").rglob("STIXTwoMath-Regular.ttf"))
+    return next(package_folder("ziamath").rglob("STIXTwoMath-Regular.ttf"))
 
 
 def bangla_file(weight: str = "Regular") -> Path:
@@ -56,12 +56,12 @@ def bangla_file(weight: str = "Regular") -> Path:
 @cache
 def bangla_uri(weight: str = "Regular") -> str:
     """Bangla font for a page, as a data address."""
-    return _uri(BANGLA[weight])
+    return _build_font_uri(BANGLA[weight])
 
 
 def bangla_faces(langs: Iterable[str], text: str = "") -> dict[int, str]:
     """Bangla fonts that a page needs, by weight: for its languages, or for what stands on it."""
-    if not (set(langs) & set(in_script("Beng")) or any(map(_is_bangla, text))):
+    if not (set(langs) & set(languages_in_script("Beng")) or any(map(_is_bangla, text))):
         return {}
     return {400: bangla_uri(), 700: bangla_uri("Bold")}
 
@@ -69,19 +69,19 @@ def bangla_faces(langs: Iterable[str], text: str = "") -> dict[int, str]:
 @cache
 def maths_uri() -> str:
     """Maths font for a page, as a data address."""
-    return _uri(MATHS)
+    return _build_font_uri(MATHS)
 
 
-def _uri(name: str) -> str:
-    return f"data:font/woff2;base64,{base64.b64encode(web_font(name)).decode()}"
+def _build_font_uri(name: str) -> str:
+    return f"data:font/woff2;base64,{base64.b64encode(read_web_font(name)).decode()}"
 
 
-def packed(name: str) -> Path:
+def packed_font_path(name: str) -> Path:
     """File of a packed font."""
     return WEB / f"{name}.woff2"
 
 
-def web_font(name: str) -> bytes:
+def read_web_font(name: str) -> bytes:
     """A packed font.
 
     Raises
@@ -89,9 +89,9 @@ def web_font(name: str) -> bytes:
     RenderError
         If it is missing, or not whole: a page would show other letters without a word.
     """
-    data = read_bytes(packed(name), RenderError)
+    data = read_bytes(packed_font_path(name), RenderError)
     if not data.startswith(b"wOF2") or int.from_bytes(data[8:12], "big") != len(data):
-        raise RenderError(f"{packed(name)}: damaged font; reinstall quizgen")
+        raise RenderError(f"{packed_font_path(name)}: damaged font; reinstall quizgen")
     return data
 
 

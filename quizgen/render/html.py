@@ -9,46 +9,54 @@ import jinja2
 from markupsafe import Markup
 
 from quizgen.figures.inks import write_theme_css
-from quizgen.locale import amount, language, marks, styles, word
+from quizgen.locale import format_amount, format_marks, get_language, language_css, translate
 from quizgen.paper.paper import Paper
-from quizgen.question.markup import OURS, Manner, blocks, display, inline
+from quizgen.question.html import (
+    OURS,
+    HtmlDialect,
+    blocks_to_html,
+    display_to_html,
+    inlines_to_html,
+)
 from quizgen.render import fonts
-from quizgen.render.layouts import environment
-from quizgen.render.room import squares
+from quizgen.render.layouts import jinja_environment
+from quizgen.render.room import answer_rows
 
 _HERE = Path(__file__).parent
 
 
 @cache
-def _layouts(way: Manner = OURS) -> jinja2.Environment:
-    layouts = environment("quizgen.render")
+def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
+    layouts = jinja_environment("quizgen.render")
     layouts.globals.update(
-        inline=partial(inline, way=way),
-        blocks=partial(blocks, way=way),
-        display=partial(display, way=way),
-        word=word,
-        marks=marks,
-        amount=amount,
-        decimal=lambda lang: language(lang).decimal,
-        squares=squares,
-        drawing=_board,
+        inline=partial(inlines_to_html, way=way),
+        blocks=partial(blocks_to_html, way=way),
+        display=partial(display_to_html, way=way),
+        word=translate,
+        marks=format_marks,
+        amount=format_amount,
+        decimal=lambda lang: get_language(lang).decimal,
+        squares=answer_rows,
+        drawing=_read_board_file,
         svg=lambda figure: Markup(figure.inline_svg.decode()),
     )
     return layouts
 
 
 @cache
-def _style() -> str:
+def _build_paper_css() -> str:
     page = (_HERE / "pages" / "paper.css").read_text(encoding="utf-8")
-    return styles(":lang({})") + write_theme_css() + page
+    return language_css(":lang({})") + write_theme_css() + page
 
 
-def _board(name: str) -> Markup:
+def _read_board_file(name: str) -> Markup:
     """A file that a page needs to be drawn in."""
     return Markup((_HERE / "board" / name).read_text(encoding="utf-8"))
 
 
-def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object) -> bytes:
+def render_html_page(
+    layout: str, langs: tuple[str, ...], style: str = "", **content: object
+) -> bytes:
     """A whole page with its fonts.
 
     Parameters
@@ -63,11 +71,11 @@ def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object
         What stands on it.
     """
     made = (
-        _layouts()
+        _build_environment()
         .get_template(layout)
         .render(
             main=langs[0],
-            style=Markup(_style() + style),
+            style=Markup(_build_paper_css() + style),
             maths_font=fonts.maths_uri(),
             bangla_fonts=fonts.bangla_faces(langs),
             **content,
@@ -76,12 +84,12 @@ def page(layout: str, langs: tuple[str, ...], style: str = "", **content: object
     return made.encode()
 
 
-def fragment(layout: str, way: Manner, **content: object) -> Markup:
+def render_html_fragment(layout: str, way: HtmlDialect, **content: object) -> Markup:
     """A piece of a page, without its head, in the manner of the page."""
-    return Markup(_layouts(way).get_template(layout).render(**content))
+    return Markup(_build_environment(way).get_template(layout).render(**content))
 
 
-def render(paper: Paper, kind: str) -> bytes:
+def render_paper_html(paper: Paper, kind: str) -> bytes:
     """Render a paper as an HTML page.
 
     Parameters
@@ -90,4 +98,4 @@ def render(paper: Paper, kind: str) -> bytes:
     kind : str
         ``exam`` or ``solutions``.
     """
-    return page("paper.html.j2", paper.langs, paper=paper, kind=kind)
+    return render_html_page("paper.html.j2", paper.langs, paper=paper, kind=kind)

@@ -17,7 +17,7 @@ from types import CodeType
 import jinja2
 from jinja2.bccache import Bucket, BytecodeCache
 
-from quizgen import kept
+from quizgen.core import cache as cache_module
 
 _KIND = "layouts"
 
@@ -41,7 +41,9 @@ class _Kept(BytecodeCache):
     ) -> Bucket:
         """What is kept of a layout, or room for it."""
         del filename
-        key = kept.digest_of(_maker(), name.encode(), source.encode())
+        key = cache_module.compute_digest(
+            _compute_compiler_digest(), name.encode(), source.encode()
+        )
         bucket = Bucket(environment, key, "")
         self.load_bytecode(bucket)
         return bucket
@@ -49,22 +51,22 @@ class _Kept(BytecodeCache):
     def load_bytecode(self, bucket: Bucket) -> None:
         """Find it."""
         with suppress(EOFError, ValueError, TypeError):
-            found = marshal.loads(kept.find(_KIND, bucket.key) or b"")  # noqa: S302 (as Python's own)
+            found = marshal.loads(cache_module.read_cached(_KIND, bucket.key) or b"")  # noqa: S302 (as Python's own)
             bucket.code = found if isinstance(found, CodeType) else None
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         """Keep it."""
-        kept.keep(_KIND, bucket.key, marshal.dumps(bucket.code))
+        cache_module.write_cached(_KIND, bucket.key, marshal.dumps(bucket.code))
 
 
 @cache
-def _maker() -> bytes:
+def _compute_compiler_digest() -> bytes:
     """Digest of what makes bytecode of a layout."""
     own = Path(__file__).read_bytes()
-    return kept.digest_of(own, jinja2.__version__.encode(), MAGIC_NUMBER).encode()
+    return cache_module.compute_digest(own, jinja2.__version__.encode(), MAGIC_NUMBER).encode()
 
 
-def environment(*packages: str) -> jinja2.Environment:
+def jinja_environment(*packages: str) -> jinja2.Environment:
     """The layouts in the folders ``pages`` of packages: texts are escaped, unknown names fail."""
     return jinja2.Environment(
         loader=jinja2.ChoiceLoader([_Loader(name, "pages") for name in packages]),
@@ -76,8 +78,8 @@ def environment(*packages: str) -> jinja2.Environment:
     )
 
 
-def compiled(package: str) -> None:
+def precompile_layouts(package: str) -> None:
     """Have all layouts of a package compiled and kept."""
-    layouts = environment(package)
+    layouts = jinja_environment(package)
     for name in layouts.list_templates(extensions=("j2",)):
         layouts.get_template(name)

@@ -4,25 +4,25 @@ from __future__ import annotations
 
 from typing import Any
 
-from quizgen.locale import amount, marks, word
-from quizgen.paper.paper import Item, Paper
-from quizgen.question.compose import Field, Part, Question
-from quizgen.question.solution import Line, Mistake, PartSolution, Solution
-from quizgen.render.room import squares
-from quizgen.render.typ import (
-    blocks,
-    compiled,
-    document,
-    each,
-    equation,
-    inline,
-    joined,
-    passage,
-    printable,
-    say,
-    string,
-    within,
-    words,
+from quizgen.locale import format_amount, format_marks, translate
+from quizgen.paper.paper import Paper, PaperItem
+from quizgen.question.compose import AnswerField, Question, QuestionPart
+from quizgen.question.solution import PartSolution, Solution, SolutionStep, SolvedMisconception
+from quizgen.render.room import answer_rows
+from quizgen.render.typst_document import (
+    blocks_to_typst,
+    compile_pdf,
+    document_files,
+    in_language,
+    inlines_to_typst,
+    join_languages,
+    replace_unprintable,
+    say_in_language,
+    stack_languages,
+    translate_all,
+    typst_equation,
+    typst_literal,
+    typst_passage,
 )
 
 SCALE = {"exam": 1.0, "solutions": 0.8}
@@ -42,286 +42,344 @@ class _Sheet:
 
     def source(self) -> str:
         """The whole document."""
-        cover = self._cover()
-        body = "\n\n".join(self._item(item) for item in self.paper.items)
+        cover = self._typeset_cover()
+        body = "\n\n".join(self._typeset_question(item) for item in self.paper.items)
         if self.kind == "exam":
             body += "\n#v(1fr)"
-        return f"{self._opening()}\n{cover}\n{body}\n"
+        return f"{self._typeset_opening()}\n{cover}\n{body}\n"
 
-    def _opening(self) -> str:
-        of = word(self.main, "paper.page", page="{page}", pages="{pages}")
-        title = self._title(self.main)
+    def _typeset_opening(self) -> str:
+        of = translate(self.main, "paper.page", page="{page}", pages="{pages}")
+        title = self._build_title(self.main)
         return (
-            f"#about(title: {string(title)}, code: {string(self.paper.code)}, "
-            f"holder: {string(_named(self.paper))})\n"
-            f"#show: paper.with(lang: {string(self.main)}, of: {string(of)})"
+            f"#about(title: {typst_literal(title)}, code: {typst_literal(self.paper.code)}, "
+            f"holder: {typst_literal(_format_holder(self.paper))})\n"
+            f"#show: paper.with(lang: {typst_literal(self.main)}, of: {typst_literal(of)})"
         )
 
-    def _title(self, lang: str) -> str:
+    def _build_title(self, lang: str) -> str:
         title = self.paper.title(lang)
         if self.kind == "solutions":
-            return f"{title} - {word(lang, 'paper.solutions')}"
+            return f"{title} - {translate(lang, 'paper.solutions')}"
         return title
 
-    def _cover(self) -> str:
+    def _typeset_cover(self) -> str:
         main = self.main
-        head = f"#heading(level: 1)[{say(main, f'#{string(self._title(main))};')}]"
+        head = f"#heading(level: 1)[{say_in_language(main, f'#{typst_literal(self._build_title(main))};')}]"
         others = [
-            within(lang, f"#text(14pt, {string(self._title(lang))});") for lang in self.langs[1:]
+            in_language(lang, f"#text(14pt, {typst_literal(self._build_title(lang))});")
+            for lang in self.langs[1:]
         ]
-        facts = self._facts()
+        facts = self._typeset_facts()
         if self.kind == "solutions":
-            return "\n".join([head, *others, "#v(0.6em)", facts, *self._cited(), "#v(0.6em)"])
+            return "\n".join(
+                [head, *others, "#v(0.6em)", facts, *self._typeset_citation_note(), "#v(0.6em)"]
+            )
         unknown = () if self.paper.holder else ("name", "matriculation")
-        lines = [f"#write-line([{words(self.langs, f'paper.{name}')}])" for name in unknown]
-        rules = each(self.langs, [self._said("on_paper", lang) for lang in self.langs])
+        lines = [f"#write-line([{translate_all(self.langs, f'paper.{name}')}])" for name in unknown]
+        rules = stack_languages(
+            self.langs, [self._typeset_paper_word("on_paper", lang) for lang in self.langs]
+        )
         gap = "#v(1.1em)"
         return "\n".join(
-            [head, *others, gap, facts, *self._printing(), gap,
+            [head, *others, gap, facts, *self._typeset_printing_note(), gap,
              *(f"{line}\n#v(0.5em)" for line in lines), gap, f"#notice[{rules}]", "#v(0.8em)",
-             self._overview(), "#pagebreak(weak: true)"]
+             self._typeset_mark_table(), "#pagebreak(weak: true)"]
         )  # fmt: skip
 
-    def _printing(self) -> list[str]:
+    def _typeset_printing_note(self) -> list[str]:
         """Which questions have to be printed in colour."""
         if not self.paper.printing(self.main):
             return []
-        said = [f"#hint[#{string(self.paper.printing(lang))};]" for lang in self.langs]
-        return ["#v(0.6em)", each(self.langs, said)]
+        said = [f"#hint[#{typst_literal(self.paper.printing(lang))};]" for lang in self.langs]
+        return ["#v(0.6em)", stack_languages(self.langs, said)]
 
-    def _said(self, name: str, lang: str) -> str:
-        return f"#{string(word(lang, f'paper.{name}'))};"
+    def _typeset_paper_word(self, name: str, lang: str) -> str:
+        return f"#{typst_literal(translate(lang, f'paper.{name}'))};"
 
-    def _facts(self) -> str:
+    def _typeset_facts(self) -> str:
         """Code, points and minutes; before an exam also what may lie on the desk."""
         paper, main = self.paper, self.main
-        minutes = word(main, "paper.minutes")
+        minutes = translate(main, "paper.minutes")
         more = f" + {paper.holder.extra} {minutes}" if paper.holder and paper.holder.extra else ""
         count = "question" if len(paper.items) == 1 else "contents"
         total = (
-            f"{marks(paper.points, main)}, {paper.minutes} {minutes}{more}, "
-            f"{len(paper.items)} {word(main, f'paper.{count}')}"
+            f"{format_marks(paper.points, main)}, {paper.minutes} {minutes}{more}, "
+            f"{len(paper.items)} {translate(main, f'paper.{count}')}"
         )
-        rows = [("code", f"raw({string(paper.code)})"), ("total", string(total))]
+        rows = [("code", f"raw({typst_literal(paper.code)})"), ("total", typst_literal(total))]
         if paper.holder:
             known = (("name", paper.holder.name), ("matriculation", paper.holder.id))
-            rows = [*((name, string(printable(value))) for name, value in known if value), *rows]
+            rows = [
+                *(
+                    (name, typst_literal(replace_unprintable(value)))
+                    for name, value in known
+                    if value
+                ),
+                *rows,
+            ]
         if self.kind == "exam":
-            aids = joined(self.langs, [f"#{string(paper.aids(lang))};" for lang in self.langs])
+            aids = join_languages(
+                self.langs, [f"#{typst_literal(paper.aids(lang))};" for lang in self.langs]
+            )
             rows.append(("aids", f"[{aids}]"))
-        named = [f"([{words(self.langs, f'paper.{name}')}], {value})" for name, value in rows]
+        named = [
+            f"([{translate_all(self.langs, f'paper.{name}')}], {value})" for name, value in rows
+        ]
         return f"#facts({', '.join(named)})"
 
-    def _cited(self) -> list[str]:
+    def _typeset_citation_note(self) -> list[str]:
         """What the numbers beside steps are."""
-        if not self.paper.cited:
+        if not self.paper.cited_formula:
             return []
-        said = {lang: word(lang, "solution.cited", formula=self.paper.cited) for lang in self.langs}
-        return [each(self.langs, [f"#hint[#{string(said[lang])};]" for lang in self.langs])]
+        said = {
+            lang: translate(lang, "solution.cited", formula=self.paper.cited_formula)
+            for lang in self.langs
+        }
+        return [
+            stack_languages(
+                self.langs, [f"#hint[#{typst_literal(said[lang])};]" for lang in self.langs]
+            )
+        ]
 
-    def _overview(self) -> str:
+    def _typeset_mark_table(self) -> str:
         """Table of questions and marks, with room for the marks given."""
         rows = [
-            f"([{item.number}], [{self._titles(item)}], [{amount(item.points, self.main)}])"
+            f"([{item.number}], [{self._join_question_titles(item)}], [{format_amount(item.points, self.main)}])"
             for item in self.paper.items
         ]
         main, many = self.langs[:1], self.langs
         heads = [
-            words(langs, f"paper.{name}")
+            translate_all(langs, f"paper.{name}")
             for name, langs in (("question", many), ("page_of", main), ("points_of", main),
                                 ("reached", main))
         ]  # fmt: skip
-        total = f"[{amount(self.paper.points, self.main)}]"
+        total = f"[{format_amount(self.paper.points, self.main)}]"
         return (
             f"#overview({', '.join(f'[{head}]' for head in heads)}, "
-            f"[{words(many, 'paper.sum')}], {total}, ({', '.join(rows)},))"
+            f"[{translate_all(many, 'paper.sum')}], {total}, ({', '.join(rows)},))"
         )
 
-    def _titles(self, item: Item) -> str:
-        return joined(self.langs, [f"#{string(q.title)};" for q in item.questions])
+    def _join_question_titles(self, item: PaperItem) -> str:
+        return join_languages(self.langs, [f"#{typst_literal(q.title)};" for q in item.questions])
 
-    def _item(self, item: Item) -> str:
-        stem = each(self.langs, [blocks(q.stem, q.lang) for q in item.questions])
+    def _typeset_question(self, item: PaperItem) -> str:
+        stem = stack_languages(
+            self.langs, [blocks_to_typst(q.stem, q.lang) for q in item.questions]
+        )
         if self.kind == "exam":
-            picture = self._picture(item.number, [q.figure for q in item.questions])
+            picture = self._typeset_picture(item.number, [q.figure for q in item.questions])
         else:
-            picture = self._picture(item.number, [k.figure for k in item.keys])
+            picture = self._typeset_picture(item.number, [k.figure for k in item.keys])
         parts = item.questions[0].parts
         shown = [f"#whole[{stem}\n{picture}]"]
         if picture and self.kind == "solutions":
             shown = [f"#below[{stem}]", picture]
-        body = [*shown, *(self._part(item, index) for index in range(len(parts)))]
+        body = [*shown, *(self._typeset_part(item, index) for index in range(len(parts)))]
         if self.kind == "solutions":
-            body.append(self._remarks(item))
+            body.append(self._typeset_remarks(item))
         text = "\n".join(body)
-        worth = marks(item.points, self.main)
-        return f"#question({string(item.number)}, [{self._titles(item)}], {string(worth)})[{text}]"
+        worth = format_marks(item.points, self.main)
+        return f"#question({typst_literal(item.number)}, [{self._join_question_titles(item)}], {typst_literal(worth)})[{text}]"
 
-    def _board(self, name: str, drawn: list[Field] | list[PartSolution]) -> str:
+    def _typeset_drawing_field(
+        self, name: str, drawn: list[AnswerField] | list[PartSolution]
+    ) -> str:
         """The field of a drawing, empty or solved."""
         figures = [one.drawing.figure for one in drawn if one.drawing]
-        return self._picture(name, figures)
+        return self._typeset_picture(name, figures)
 
-    def _picture(self, name: str, figures: list[Any]) -> str:
+    def _typeset_picture(self, name: str, figures: list[Any]) -> str:
         if not figures or figures[0] is None:
             return ""
         name = f"figure-{name}.svg"
         self.pictures[name] = figures[0].standalone_svg
-        alt = string(" / ".join(figure.alt for figure in figures))
+        alt = typst_literal(" / ".join(figure.alt for figure in figures))
         width = f"{figures[0].width_pt * SCALE[self.kind]:.2f}pt"
-        return f"#v(0.4em)\n#image({string(name)}, width: {width}, alt: {alt})\n"
+        return f"#v(0.4em)\n#image({typst_literal(name)}, width: {width}, alt: {alt})\n"
 
-    def _part(self, item: Item, index: int) -> str:
+    def _typeset_part(self, item: PaperItem, index: int) -> str:
         questions = item.questions
         first = questions[0].parts[index]
         label = f"({first.label}) " if first.label else ""
-        worth = f"#worth({string(label + marks(first.points, self.main))})" if label else ""
-        texts = [blocks(q.parts[index].body, q.lang) for q in questions]
-        body = f"{worth}\n{each(self.langs, texts)}"
-        rows = self._options(questions, index)
+        worth = (
+            f"#worth({typst_literal(label + format_marks(first.points, self.main))})"
+            if label
+            else ""
+        )
+        texts = [blocks_to_typst(q.parts[index].body, q.lang) for q in questions]
+        body = f"{worth}\n{stack_languages(self.langs, texts)}"
+        rows = self._typeset_options(questions, index)
         if self.kind == "solutions":
-            return f"#whole[{body}]\n{rows}\n{self._solution(item, index)}"
-        field = self._field(questions, index)
+            return f"#whole[{body}]\n{rows}\n{self._typeset_part_solution(item, index)}"
+        field = self._typeset_answer_space(questions, index)
         return f"#part[{body}\n{rows}\n{field}]\n{_left_over(first)}"
 
-    def _field(self, questions: tuple[Question, ...], index: int) -> str:
+    def _typeset_answer_space(self, questions: tuple[Question, ...], index: int) -> str:
         """What stands below a part and its options: hints, room to work in, lines to write on."""
         part = questions[0].parts[index]
         control = part.field.control
         fields = [q.parts[index].field for q in questions]
-        hints = [inline(f.hint, lang) for f, lang in zip(fields, self.langs, strict=True)]
+        hints = [inlines_to_typst(f.hint, lang) for f, lang in zip(fields, self.langs, strict=True)]
         if control.form == "truth":
-            ways = [f"[{words(self.langs, f'ask.{way}')}]" for way in ("true", "false")]
+            ways = [f"[{translate_all(self.langs, f'ask.{way}')}]" for way in ("true", "false")]
             return f"#truth({', '.join(ways)})"
-        shown = [f"#hint[{each(self.langs, hints)}]"] if any(hints) else []
+        shown = [f"#hint[{stack_languages(self.langs, hints)}]"] if any(hints) else []
         if control.form == "pairs":
             return "\n".join(shown)
         if control.board:
-            shown.append(self._board(fields[0].id, fields))
+            shown.append(self._typeset_drawing_field(fields[0].id, fields))
         elif control.reckoned:
-            shown.append(f"#answer-line([{words(self.langs, 'paper.answer_here')}])")
-            shown.append(f"#room({squares(part.points)})")
+            shown.append(f"#answer-line([{translate_all(self.langs, 'paper.answer_here')}])")
+            shown.append(f"#room({answer_rows(part.points)})")
         else:
             shown.append(f"#space({control.lines})")
         return "\n".join(shown)
 
-    def _options(self, questions: tuple[Question, ...], index: int) -> str:
+    def _typeset_options(self, questions: tuple[Question, ...], index: int) -> str:
         """Lettered options and right sides; the first and the last row stand by what is around."""
         fields = [q.parts[index].field for q in questions]
-        rows = [*self._rows(fields, "options"), *self._rows(fields, "targets")]
+        rows = [
+            *self._typeset_option_rows(fields, "options"),
+            *self._typeset_option_rows(fields, "targets"),
+        ]
         ends = {0, len(rows) - 1}
         return "\n".join(
             f"#{row}, hold: {str(place in ends).lower()})" for place, row in enumerate(rows)
         )
 
-    def _rows(self, fields: list[Field], side: str) -> list[str]:
+    def _typeset_option_rows(self, fields: list[AnswerField], side: str) -> list[str]:
         rows = []
         for place, (mark, _) in enumerate(getattr(fields[0], side)):
             texts = [
-                inline(getattr(f, side)[place][1], lang)
+                inlines_to_typst(getattr(f, side)[place][1], lang)
                 for f, lang in zip(fields, self.langs, strict=True)
             ]
-            name = self._row(fields[0], side)
-            rows.append(f"{name}({string(mark)}, [{joined(self.langs, texts)}]")
+            name = self._choose_option_style(fields[0], side)
+            rows.append(f"{name}({typst_literal(mark)}, [{join_languages(self.langs, texts)}]")
         return rows
 
-    def _row(self, field: Field, side: str) -> str:
+    def _choose_option_style(self, field: AnswerField, side: str) -> str:
         """How a row of options looks: with a box to tick, with one for a number, or plain."""
         if self.kind == "exam" and field.control.ticked:
             return "tick"
         paired = field.control.form == "pairs" and side == "options"
         return "pair" if self.kind == "exam" and paired else "option"
 
-    def _solution(self, item: Item, index: int) -> str:
+    def _typeset_part_solution(self, item: PaperItem, index: int) -> str:
         parts = [key.solution.parts[index] for key in item.keys]
-        steps = [self._step([p.lines[i] for p in parts]) for i in range(len(parts[0].lines))]
-        answer = joined(self.langs, [self._answer(p, lang) for p, lang in self._with_lang(parts)])
-        reasons = [_reasons(part, lang) for part, lang in self._with_lang(parts)]
-        drawn = filter(None, [self._board(item.number + parts[0].label, parts)])
-        return "\n".join([*steps, *drawn, f"#result[{answer}]", each(self.langs, reasons)])
+        steps = [
+            self._typeset_step([p.lines[i] for p in parts]) for i in range(len(parts[0].lines))
+        ]
+        answer = join_languages(
+            self.langs, [self._typeset_answer(p, lang) for p, lang in self._with_lang(parts)]
+        )
+        reasons = [_typeset_reasons(part, lang) for part, lang in self._with_lang(parts)]
+        drawn = filter(None, [self._typeset_drawing_field(item.number + parts[0].label, parts)])
+        return "\n".join(
+            [*steps, *drawn, f"#result[{answer}]", stack_languages(self.langs, reasons)]
+        )
 
     def _with_lang(self, parts: list[PartSolution]) -> list[tuple[PartSolution, str]]:
         return list(zip(parts, self.langs, strict=True))
 
-    def _step(self, lines: list[Line]) -> str:
-        why = each(
+    def _typeset_step(self, lines: list[SolutionStep]) -> str:
+        why = stack_languages(
             self.langs,
-            [passage(inline(line.why, lang)) for line, lang in zip(lines, self.langs, strict=True)],
+            [
+                typst_passage(inlines_to_typst(line.why, lang))
+                for line, lang in zip(lines, self.langs, strict=True)
+            ],
         )
-        maths, cite = equation(lines[0].maths, self.main, block=True), string(lines[0].formula)
+        maths, cite = (
+            typst_equation(lines[0].maths, self.main, block=True),
+            typst_literal(lines[0].formula),
+        )
         shown = f"#fitted[{maths}]" if len(lines[0].maths.typed) > SURE_TO_FIT else maths
         return f"#step([{shown}], [{why}], {cite})"
 
-    def _answer(self, part: PartSolution, lang: str) -> str:
-        name = word(lang, "solution.answer")
-        said = f"#strong({string(name + ':')}); {inline(part.shown, lang)}"
-        options = [inline(option, lang) for option in part.options]
+    def _typeset_answer(self, part: PartSolution, lang: str) -> str:
+        name = translate(lang, "solution.answer")
+        said = f"#strong({typst_literal(name + ':')}); {inlines_to_typst(part.shown, lang)}"
+        options = [inlines_to_typst(option, lang) for option in part.options]
         if len(options) == 1:
             between = '#" - ";' if part.shown else ""
             return f"{said}{between}{options[0]}"
         return f"{said}#list({', '.join(f'[{o}]' for o in options)});" if options else said
 
-    def _remarks(self, item: Item) -> str:
+    def _typeset_remarks(self, item: PaperItem) -> str:
         """What follows the parts: explanation, sanity check, common mistakes, remark."""
         solutions = [key.solution for key in item.keys]
         texts = [
-            self._mistakes(s) if section == "mistakes" else self._remark(s, section)
+            self._typeset_mistakes(s) if section == "mistakes" else self._typeset_remark(s, section)
             for section in ("why", "check", "precision", "mistakes", "note")
             for s in solutions
         ]
         return "\n" + "\n".join(filter(None, texts))
 
-    def _remark(self, solution: Solution, section: str) -> str:
+    def _typeset_remark(self, solution: Solution, section: str) -> str:
         body, lang = getattr(solution, section), solution.lang
-        return within(lang, f"{_heading(section, lang)}\n{blocks(body, lang)}") if body else ""
+        return (
+            in_language(lang, f"{_typeset_heading(section, lang)}\n{blocks_to_typst(body, lang)}")
+            if body
+            else ""
+        )
 
-    def _mistakes(self, solution: Solution) -> str:
+    def _typeset_mistakes(self, solution: Solution) -> str:
         rows = [
-            _mistake(part.label, mistake, solution.lang)
+            _typeset_mistake(part.label, mistake, solution.lang)
             for part in solution.parts
             for mistake in part.mistakes
         ]
         if not rows:
             return ""
-        return within(solution.lang, "\n".join([_heading("mistakes", solution.lang), *rows]))
+        return in_language(
+            solution.lang, "\n".join([_typeset_heading("mistakes", solution.lang), *rows])
+        )
 
 
-def _named(paper: Paper) -> str:
+def _format_holder(paper: Paper) -> str:
     """Whose paper it is, at the foot of every page."""
     known = (paper.holder.name, paper.holder.id) if paper.holder else ()
-    return " · ".join(map(printable, filter(None, known)))
+    return " · ".join(map(replace_unprintable, filter(None, known)))
 
 
-def _left_over(part: Part) -> str:
+def _left_over(part: QuestionPart) -> str:
     """What of the page is left goes to calculations, by points; without any it is for notes."""
     return f"#more-room({float(part.points):g})" if part.field.control.reckoned else "#rest"
 
 
-def _reasons(part: PartSolution, lang: str) -> str:
+def _typeset_reasons(part: PartSolution, lang: str) -> str:
     """Why the answer of a part is right, and why each other choice is wrong."""
-    why = [f"#block(inset: (left: 0.7em))[{passage(inline(part.why, lang))}]"] if part.why else []
-    wrong = [_mistake("", reason, lang) for reason in part.reasons]
+    why = (
+        [f"#block(inset: (left: 0.7em))[{typst_passage(inlines_to_typst(part.why, lang))}]"]
+        if part.why
+        else []
+    )
+    wrong = [_typeset_mistake("", reason, lang) for reason in part.reasons]
     return "\n".join([*why, *wrong])
 
 
-def _mistake(label: str, mistake: Mistake, lang: str) -> str:
-    name = string(f"({label}) " if label else "")
-    shown, sentence = (passage(inline(one, lang)) for one in (mistake.shown, mistake.sentence))
+def _typeset_mistake(label: str, mistake: SolvedMisconception, lang: str) -> str:
+    name = typst_literal(f"({label}) " if label else "")
+    shown, sentence = (
+        typst_passage(inlines_to_typst(one, lang)) for one in (mistake.shown, mistake.sentence)
+    )
     return f"#mistake({name}, [{shown}], [{sentence}])"
 
 
-def _heading(section: str, lang: str) -> str:
+def _typeset_heading(section: str, lang: str) -> str:
     key = "precision.title" if section == "precision" else f"solution.{section}"
-    return f"#heading(level: 3)[#{string(word(lang, key))};]"
+    return f"#heading(level: 3)[#{typst_literal(translate(lang, key))};]"
 
 
-def source(paper: Paper, kind: str) -> dict[str, bytes]:
+def typst_sources(paper: Paper, kind: str) -> dict[str, bytes]:
     """Typst files of a sheet, and its pictures."""
     sheet = _Sheet(paper, kind)
-    return {**document("paper.typ", sheet.source()), **sheet.pictures}
+    return {**document_files("paper.typ", sheet.source()), **sheet.pictures}
 
 
-def render(paper: Paper, kind: str) -> bytes:
+def render_paper_pdf(paper: Paper, kind: str) -> bytes:
     """Render a paper as a PDF file.
 
     Raises
@@ -329,4 +387,4 @@ def render(paper: Paper, kind: str) -> bytes:
     RenderError
         If Typst refuses the document or a font is missing.
     """
-    return compiled(source(paper, kind))
+    return compile_pdf(typst_sources(paper, kind))

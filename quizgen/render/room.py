@@ -9,6 +9,6 @@ FIRST, EACH, MOST = 2, 2, 14
 """Rows of squares for any calculation, for each point of it, and at most."""
 
 
-def squares(points: Fraction) -> int:
+def answer_rows(points: Fraction) -> int:
     """Rows of squares to work in: few for half a point, and no whole page for many."""
     return min(MOST, math.ceil(FIRST + EACH * points))

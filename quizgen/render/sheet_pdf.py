@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from quizgen.bank.prose import Block, Paragraph
-from quizgen.locale import word
-from quizgen.question.sheet import Group, Line, Said, Sheet
-from quizgen.render.typ import (
-    blocks,
-    compiled,
-    document,
-    equation,
-    inline,
-    joined,
-    say,
-    string,
-    within,
-    words,
+from quizgen.bank.markdown import Block, Paragraph
+from quizgen.locale import translate
+from quizgen.question.formula_sheet import FormulaSheet, FormulaText, SheetFormula, SheetTopic
+from quizgen.render.typst_document import (
+    blocks_to_typst,
+    compile_pdf,
+    document_files,
+    in_language,
+    inlines_to_typst,
+    join_languages,
+    say_in_language,
+    translate_all,
+    typst_equation,
+    typst_literal,
 )
 
 SCALE = 0.7
@@ -24,7 +24,7 @@ PRINTED = ("holds", "limits")
 """The notes that are printed after what the letters mean; the page has the rest."""
 
 
-def render(sheet: Sheet) -> bytes:
+def render_sheet_pdf(sheet: FormulaSheet) -> bytes:
     """Render a formula sheet as a PDF file.
 
     Raises
@@ -33,66 +33,68 @@ def render(sheet: Sheet) -> bytes:
         If Typst refuses the document or a font is missing.
     """
     pictures = {
-        _file(line): line.figures[0].standalone_svg
+        _name_sketch_file(line): line.figures[0].standalone_svg
         for group in sheet.groups
         for line in group.lines
         if line.figures
     }
-    return compiled({**document("sheet.typ", _source(sheet)), **pictures})
+    return compile_pdf({**document_files("sheet.typ", _build_typst_source(sheet)), **pictures})
 
 
-def _file(line: Line) -> str:
+def _name_sketch_file(line: SheetFormula) -> str:
     """Name of the file that a formula's sketch is in."""
     return f"sketch-{line.id}.svg"
 
 
-def _source(sheet: Sheet) -> str:
+def _build_typst_source(sheet: FormulaSheet) -> str:
     langs, main = sheet.langs, sheet.langs[0]
-    titles = {lang: f"{sheet.titles[lang]} - {word(lang, 'sheet.title')}" for lang in langs}
-    head = joined(langs, [f"#{string(titles[lang])};" for lang in langs])
-    opening = (
-        f"#show: sheet.with(title: {string(titles[main])}, lang: {string(main)}, head: [{head}])"
+    titles = {lang: f"{sheet.titles[lang]} - {translate(lang, 'sheet.title')}" for lang in langs}
+    head = join_languages(langs, [f"#{typst_literal(titles[lang])};" for lang in langs])
+    opening = f"#show: sheet.with(title: {typst_literal(titles[main])}, lang: {typst_literal(main)}, head: [{head}])"
+    return "\n".join([opening, *(_typeset_group(group, langs) for group in sheet.groups)])
+
+
+def _typeset_group(group: SheetTopic, langs: tuple[str, ...]) -> str:
+    titles = join_languages(langs, [f"#{typst_literal(group.titles[lang])};" for lang in langs])
+    return f"#topic[{titles}]\n" + "\n".join(
+        _typeset_sheet_line(line, langs) for line in group.lines
     )
-    return "\n".join([opening, *(_group(group, langs) for group in sheet.groups)])
 
 
-def _group(group: Group, langs: tuple[str, ...]) -> str:
-    titles = joined(langs, [f"#{string(group.titles[lang])};" for lang in langs])
-    return f"#topic[{titles}]\n" + "\n".join(_line(line, langs) for line in group.lines)
-
-
-def _line(line: Line, langs: tuple[str, ...]) -> str:
-    title = joined(langs, [inline(said.title, said.lang) for said in line.said])
+def _typeset_sheet_line(line: SheetFormula, langs: tuple[str, ...]) -> str:
+    title = join_languages(langs, [inlines_to_typst(said.title, said.lang) for said in line.said])
     section = f"§ {line.section}" if line.section else ""
-    lines = "".join(f"[{equation(maths, langs[0], block=True)}], " for maths in line.lines)
-    units = f"#label[{words(langs, 'sheet.units')}:] {inline(line.units, langs[0])}"
-    notes = "\n".join(within(said.lang, _notes(said)) for said in line.said)
+    lines = "".join(f"[{typst_equation(maths, langs[0], block=True)}], " for maths in line.lines)
+    units = (
+        f"#label[{translate_all(langs, 'sheet.units')}:] {inlines_to_typst(line.units, langs[0])}"
+    )
+    notes = "\n".join(in_language(said.lang, _typeset_notes(said)) for said in line.said)
     return (
-        f"#formula({string(line.id)}, [{title}], {string(section)}, ({lines}), {_sketch(line)})"
+        f"#formula({typst_literal(line.id)}, [{title}], {typst_literal(section)}, ({lines}), {_typeset_sketch(line)})"
         f"[{notes}\n\n{units if line.units else ''}]"
     )
 
 
-def _sketch(line: Line) -> str:
+def _typeset_sketch(line: SheetFormula) -> str:
     if not line.figures:
         return "none"
-    alt = string(" / ".join(figure.alt for figure in line.figures))
+    alt = typst_literal(" / ".join(figure.alt for figure in line.figures))
     width = f"{line.figures[0].width_pt * SCALE:.2f}pt"
-    return f"image({string(_file(line))}, width: {width}, alt: {alt})"
+    return f"image({typst_literal(_name_sketch_file(line))}, width: {width}, alt: {alt})"
 
 
-def _notes(said: Said) -> str:
+def _typeset_notes(said: FormulaText) -> str:
     """What the letters mean, where the formula holds and where it ends, in one paragraph."""
     rest = [
-        f"#label({string(word(said.lang, f'sheet.{name}') + ':')}); {_run(body, said.lang)}"
+        f"#label({typst_literal(translate(said.lang, f'sheet.{name}') + ':')}); {_typeset_inline_passage(body, said.lang)}"
         for name, body in said.notes.items()
         if name in PRINTED
     ]
-    return " ".join([_run(said.notes["about"], said.lang), *rest])
+    return " ".join([_typeset_inline_passage(said.notes["about"], said.lang), *rest])
 
 
-def _run(parts: tuple[Block, ...], lang: str) -> str:
+def _typeset_inline_passage(parts: tuple[Block, ...], lang: str) -> str:
     """A passage of one paragraph within a line."""
     if len(parts) == 1 and isinstance(parts[0], Paragraph):
-        return say(lang, inline(parts[0].children, lang))
-    return blocks(parts, lang)
+        return say_in_language(lang, inlines_to_typst(parts[0].children, lang))
+    return blocks_to_typst(parts, lang)

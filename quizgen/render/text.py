@@ -6,108 +6,108 @@ from collections.abc import Iterable, Iterator
 from functools import singledispatch
 from itertools import chain
 
-from quizgen.bank import prose
-from quizgen.locale import word
-from quizgen.paper.paper import Item
-from quizgen.question.compose import Key
-from quizgen.question.picture import described
-from quizgen.question.shown import Maths, PlacedPicture
+from quizgen.bank import markdown
+from quizgen.locale import translate
+from quizgen.paper.paper import PaperItem
+from quizgen.question.compose import QuestionKey
+from quizgen.question.figure import describe_question_figure
+from quizgen.question.inlines import PlacedPicture, TypesetMaths
 from quizgen.question.solution import PartSolution
 
 
 @singledispatch
-def inline(part: prose.Inline | tuple[prose.Inline, ...]) -> str:
+def inlines_to_plain_text(part: markdown.Inline | tuple[markdown.Inline, ...]) -> str:
     """Inlines as text; formulas as Unicode can write them."""
     raise TypeError(type(part).__name__)
 
 
-@inline.register(tuple)
-def _inlines(parts: tuple[prose.Inline, ...]) -> str:
-    return "".join(map(inline, parts))
+@inlines_to_plain_text.register(tuple)
+def _join_inlines(parts: tuple[markdown.Inline, ...]) -> str:
+    return "".join(map(inlines_to_plain_text, parts))
 
 
-@inline.register
-def _plain(part: prose.Words | prose.Code) -> str:
+@inlines_to_plain_text.register
+def _get_part_text(part: markdown.PlainText | markdown.InlineCode) -> str:
     return part.text
 
 
-@inline.register
-def _styled(part: prose.Styled) -> str:
-    return inline(part.children)
+@inlines_to_plain_text.register
+def _format_styled(part: markdown.Emphasis) -> str:
+    return inlines_to_plain_text(part.children)
 
 
-@inline.register
-def _printed(part: Maths | PlacedPicture) -> str:
+@inlines_to_plain_text.register
+def _get_printed_text(part: TypesetMaths | PlacedPicture) -> str:
     return part.text
 
 
-def blocks(parts: Iterable[prose.Block]) -> Iterator[str]:
+def blocks_to_plain_text(parts: Iterable[markdown.Block]) -> Iterator[str]:
     """Blocks as lines."""
-    return chain.from_iterable(map(_lines, parts))
+    return chain.from_iterable(map(_reject_block, parts))
 
 
 @singledispatch
-def _lines(part: prose.Block) -> Iterable[str]:
+def _reject_block(part: markdown.Block) -> Iterable[str]:
     raise TypeError(type(part).__name__)
 
 
-@_lines.register
-def _paragraph(part: prose.Paragraph) -> Iterable[str]:
-    return [inline(part.children)]
+@_reject_block.register
+def _format_paragraph(part: markdown.Paragraph) -> Iterable[str]:
+    return [inlines_to_plain_text(part.children)]
 
 
-@_lines.register
-def _code_block(part: prose.CodeBlock) -> Iterable[str]:
+@_reject_block.register
+def _code_block(part: markdown.CodeBlock) -> Iterable[str]:
     return [f"    {line}" for line in part.text.splitlines()]
 
 
-@_lines.register
-def _items(part: prose.Items) -> Iterable[str]:
-    return [f"  - {line}" for item in part.items for line in blocks(item)]
+@_reject_block.register
+def _format_list(part: markdown.ListBlock) -> Iterable[str]:
+    return [f"  - {line}" for item in part.items for line in blocks_to_plain_text(item)]
 
 
-@_lines.register
-def _table(part: prose.Table) -> Iterable[str]:
-    return [" | ".join(map(inline, row)) for row in (part.head, *part.rows)]
+@_reject_block.register
+def _format_table(part: markdown.TableBlock) -> Iterable[str]:
+    return [" | ".join(map(inlines_to_plain_text, row)) for row in (part.head, *part.rows)]
 
 
-def question_text(item: Item, *, solved: bool = True) -> str:
+def format_question(item: PaperItem, *, solved: bool = True) -> str:
     """Question and, unless it is to be seen as by a learner, key and solution."""
     question, key = item.questions[0], item.keys[0]
     head = f"{question.template}: {question.title}  [{key.identity}]" if solved else question.title
-    lines = [head, *blocks(question.stem)]
-    told = described(key.draw, question.lang, quiz=True)
+    lines = [head, *blocks_to_plain_text(question.stem)]
+    told = describe_question_figure(key.draw, question.lang, quiz=True)
     lines += [f"   [{told}]"] if told else []
     for part, worked in zip(question.parts, key.solution.parts, strict=True):
-        lines += ["", f"({part.label})" if part.label else "", *blocks(part.body)]
+        lines += ["", f"({part.label})" if part.label else "", *blocks_to_plain_text(part.body)]
         if part.field.drawing:
             lines.append(f"   {part.field.drawing.alt}")
         for mark, text in (*part.field.options, *part.field.targets):
-            lines.append(f"   {mark}  {inline(text)}")
+            lines.append(f"   {mark}  {inlines_to_plain_text(text)}")
         lines += [f"   [{hint}]" for hint in part.field.hints]
-        lines += _solution(worked, question.lang) if solved else ()
-    return "\n".join([*lines, *(_remarks(key, question.lang) if solved else ())])
+        lines += _iter_solution_lines(worked, question.lang) if solved else ()
+    return "\n".join([*lines, *(_iter_remark_lines(key, question.lang) if solved else ())])
 
 
-def _remarks(key: Key, lang: str) -> Iterator[str]:
+def _iter_remark_lines(key: QuestionKey, lang: str) -> Iterator[str]:
     """What stands behind all parts of a solution."""
     titles = {"why": "solution.why", "check": "solution.check", "precision": "precision.title",
               "note": "solution.note"}  # fmt: skip
     for name, title in titles.items():
-        found = list(blocks(getattr(key.solution, name)))
-        yield from ("", f"{word(lang, title)}:", *found) if found else ()
+        found = list(blocks_to_plain_text(getattr(key.solution, name)))
+        yield from ("", f"{translate(lang, title)}:", *found) if found else ()
 
 
-def _solution(part: PartSolution, lang: str) -> Iterator[str]:
-    yield f"{word(lang, 'solution.steps')}:"
+def _iter_solution_lines(part: PartSolution, lang: str) -> Iterator[str]:
+    yield f"{translate(lang, 'solution.steps')}:"
     for line in part.lines:
         cite = f"  [{line.formula}]" if line.formula else ""
-        yield f"   {inline(line.maths)}{cite}"
-        yield f"      {inline(line.why)}"
-    yield f"{word(lang, 'solution.answer')}: {part.answer}".rstrip()
-    yield from (f"   - {inline(option)}" for option in part.options)
+        yield f"   {inlines_to_plain_text(line.maths)}{cite}"
+        yield f"      {inlines_to_plain_text(line.why)}"
+    yield f"{translate(lang, 'solution.answer')}: {part.answer}".rstrip()
+    yield from (f"   - {inlines_to_plain_text(option)}" for option in part.options)
     if part.why:
-        yield f"   {inline(part.why)}"
+        yield f"   {inlines_to_plain_text(part.why)}"
     for mistake in (*part.reasons, *part.mistakes):
         value = f"{mistake.value}  " if mistake.shown else ""
-        yield f"   ! {value}{mistake.name}: {inline(mistake.sentence)}"
+        yield f"   ! {value}{mistake.name}: {inlines_to_plain_text(mistake.sentence)}"

@@ -9,8 +9,8 @@ from collections.abc import Callable, Collection, Iterable, Iterator
 from io import BytesIO
 from pathlib import Path
 
-from quizgen.errors import KeyFileError
-from quizgen.outside import decoded, read_bytes
+from quizgen.core.errors import KeyFileError
+from quizgen.core.untrusted import decode_text, read_bytes
 from quizgen.responses.attempts import Attempt, Lost
 from quizgen.responses.qti import from_xml
 from quizgen.responses.tables import from_csv, from_json
@@ -57,7 +57,7 @@ def _files(path: Path) -> Iterator[tuple[Path, bytes]]:
 
 def _read(path: Path, data: bytes, known: Collection[str], lost: Lost) -> Iterator[Attempt]:
     try:
-        yield from _reader(path)(decoded(data, path, KeyFileError), path, known, lost)
+        yield from _reader(path)(decode_text(data, path, KeyFileError), path, known, lost)
     except KeyFileError as error:
         lost(str(error))
 

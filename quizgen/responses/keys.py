@@ -13,13 +13,13 @@ from typing import Literal, TypeVar
 
 import msgspec
 
-from quizgen.errors import KeyFileError
-from quizgen.outside import read_text
-from quizgen.paper.banks import UsedBank
-from quizgen.paper.key import FORMAT as KEY_FORMAT
-from quizgen.paper.key import KeyQuestion, load_key
+from quizgen.core.decoding import json_decoder
+from quizgen.core.errors import KeyFileError
+from quizgen.core.untrusted import read_text
+from quizgen.paper.answer_key import FORMAT as KEY_FORMAT
+from quizgen.paper.answer_key import KeyQuestion, parse_answer_key
+from quizgen.paper.provenance import BankRecord
 from quizgen.question.contract import Form
-from quizgen.shapes import decoder
 
 Line = TypeVar("Line")
 FORMAT = "quizgen-responses/1"
@@ -99,7 +99,7 @@ class Kept(msgspec.Struct, dict=True):
             Naming the question.
         """
         table = {"format": KEY_FORMAT, "questions": [msgspec.json.decode(self.question)]}
-        (found,) = load_key(table, f"question {self.id!r}").questions
+        (found,) = parse_answer_key(table, f"question {self.id!r}").questions
         return found
 
 
@@ -107,7 +107,7 @@ class Head(msgspec.Struct, frozen=True):
     """The first line: what the file is, and the banks that its questions stand in."""
 
     format: str
-    banks: tuple[UsedBank, ...] = ()
+    banks: tuple[BankRecord, ...] = ()
 
 
 def mark(text: str) -> str:
@@ -120,7 +120,7 @@ def mark(text: str) -> str:
     return f"{''.join(letters[:4])}-{''.join(letters[4:])}"
 
 
-def written(kept: Iterable[Kept], banks: tuple[UsedBank, ...] = ()) -> bytes:
+def written(kept: Iterable[Kept], banks: tuple[BankRecord, ...] = ()) -> bytes:
     """The file of keys."""
     return msgspec.json.Encoder().encode_lines([Head(FORMAT, banks), *kept])
 
@@ -133,7 +133,7 @@ def keys_of(text: str) -> bool:
 class Keys:
     """The questions of an export, by mark and by id, and the banks that they stand in."""
 
-    def __init__(self, kept: Iterable[Kept], banks: tuple[UsedBank, ...] = ()) -> None:
+    def __init__(self, kept: Iterable[Kept], banks: tuple[BankRecord, ...] = ()) -> None:
         self.banks = banks
         self.found: dict[str, tuple[Kept, Entry]] = {}
         for one in kept:
@@ -157,7 +157,7 @@ def read(path: Path) -> Keys:
 
 
 def _lines(path: Path, shape: type[Line], lines: list[str], first: int = 1) -> Iterator[Line]:
-    read = decoder(shape).decode
+    read = json_decoder(shape).decode
     for number, line in enumerate(lines, first):
         try:
             yield read(line)

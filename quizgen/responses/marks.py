@@ -8,17 +8,17 @@ from dataclasses import dataclass, replace
 
 from msgspec import structs
 
-from quizgen.marking.options import Options
-from quizgen.maths.notation import ReadError
-from quizgen.paper.marking import Marker, PaperResult, PartResult
-from quizgen.practice.boxes import joined
+from quizgen.grading.options import GradingOptions
+from quizgen.maths.notation import FormulaReadError
+from quizgen.paper.grading import PaperResult, PartResult, QuestionGrader
+from quizgen.practice.input_fields import join_fields
 from quizgen.question.contract import Box, Control
 from quizgen.responses.attempts import Attempt, Response
 from quizgen.responses.keys import Entry, Kept, Keys, Shape
 from quizgen.responses.qti import variables
 from quizgen.responses.summaries import Values, fields
 
-Typed = str | ReadError
+Typed = str | FormulaReadError
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ def marked(
     lang : str, optional
         Language of the remarks; else that of each question.
     settle : bool
-        As of ``quizgen.paper.marking.mark_paper``.
+        As of ``quizgen.paper.grading.mark_paper``.
 
     Raises
     ------
@@ -66,10 +66,10 @@ def marked(
     seen = Counter[tuple[str, str]]()
     for attempt in attempts:
         seen[attempt.who] += 1
-        yield _marked(keys, attempt, seen[attempt.who], Options(lang or "", settle=settle))
+        yield _marked(keys, attempt, seen[attempt.who], GradingOptions(lang or "", settle=settle))
 
 
-def _marked(keys: Keys, attempt: Attempt, number: int, options: Options) -> Marked:
+def _marked(keys: Keys, attempt: Attempt, number: int, options: GradingOptions) -> Marked:
     found = given(keys, attempt)
     parts = [part for one in found.questions for part in _parts(one, options)]
     places = [*found.places]
@@ -116,18 +116,18 @@ def given(keys: Keys, attempt: Attempt) -> Given:
 
 
 def _parts(
-    question: tuple[Kept, Mapping[str, tuple[str, Typed]]], options: Options
+    question: tuple[Kept, Mapping[str, tuple[str, Typed]]], options: GradingOptions
 ) -> Iterator[PartResult]:
     """The parts of one question, which a system may have asked as several."""
     kept, typed = question
-    marker = Marker(kept.key, structs.replace(options, lang=options.lang or kept.lang))
+    marker = QuestionGrader(kept.key, structs.replace(options, lang=options.lang or kept.lang))
     for part in kept.key.parts:
         if part.id in typed:
             number, text = typed[part.id]
             done = (
-                marker.asked_back(part, text.found, text)
-                if isinstance(text, ReadError)
-                else marker.mark(part, text)
+                marker.ask_back(part, text.found, text)
+                if isinstance(text, FormulaReadError)
+                else marker.grade_part(part, text)
             )
             label = part.id.removeprefix(kept.key.number)
             between = "" if number[-1:].isdigit() or not label else "."
@@ -136,7 +136,7 @@ def _parts(
 
 def _typed(kept: Kept, entry: Entry, response: Response) -> dict[str, Typed]:
     """Part to what it was answered with, in one line."""
-    found: dict[str, list[Values | ReadError]] = {}
+    found: dict[str, list[Values | FormulaReadError]] = {}
     stems: dict[str, list[str]] = {}
     given = response.given
     read = fields(entry, given) if isinstance(given, str) else variables(entry, given)
@@ -146,11 +146,11 @@ def _typed(kept: Kept, entry: Entry, response: Response) -> dict[str, Typed]:
     return {part: _line(kept.shapes[part], values, stems[part]) for part, values in found.items()}
 
 
-def _line(shape: Shape, values: list[Values | ReadError], stems: list[str]) -> Typed:
+def _line(shape: Shape, values: list[Values | FormulaReadError], stems: list[str]) -> Typed:
     filled: list[str] = []
     for one in values:
-        if isinstance(one, ReadError):
+        if isinstance(one, FormulaReadError):
             return one
         filled += one if len(values) == 1 else one or [""]
     control = Control(shape.form, boxes=tuple(map(Box, shape.names)), named=shape.named)
-    return joined(control, filled, stems)
+    return join_fields(control, filled, stems)

@@ -10,10 +10,10 @@ from io import StringIO
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-from quizgen.errors import KeyFileError
-from quizgen.marking.echo import safe
-from quizgen.maths.notation import ReadError
-from quizgen.outside import DEEPEST, MOST_VALUES
+from quizgen.core.errors import KeyFileError
+from quizgen.core.untrusted import DEEPEST, MOST_VALUES
+from quizgen.grading.echo import safe_echo
+from quizgen.maths.notation import FormulaReadError
 from quizgen.responses.attempts import LONGEST, Attempt, Lost, Response
 from quizgen.responses.keys import Asked, Entry
 from quizgen.responses.summaries import Values, in_places, with_unit
@@ -40,7 +40,7 @@ def from_xml(text: str, where: Path, _known: Collection[str], _lost: Lost) -> It
     root = _tree(text, where)
     if _name(root) != "assessmentResult":
         raise KeyFileError(f"{where}: not a result report of QTI (its first element is "
-                           f"{safe(_name(root))})")  # fmt: skip
+                           f"{safe_echo(_name(root))})")  # fmt: skip
     who = "".join(one.get("sourcedId", "") for one in root if _name(one) == "context")
     items = {one.get("identifier", ""): one for one in root if _name(one) == "itemResult"}
     given = {name: _given(one) for name, one in items.items()}
@@ -94,16 +94,16 @@ def _too_long(given: Mapping[str, list[str]]) -> bool:
     return any(len(value) > LONGEST for values in given.values() for value in values)
 
 
-def variables(entry: Entry, given: Mapping[str, list[str]]) -> list[Values | ReadError]:
+def variables(entry: Entry, given: Mapping[str, list[str]]) -> list[Values | FormulaReadError]:
     """What each field of an entry was answered with, as ``summaries.fields`` has it."""
     return [_tried(ask, given.get(ask.name, [])) for ask in entry.asks]
 
 
-def _tried(ask: Asked, given: list[str]) -> Values | ReadError:
+def _tried(ask: Asked, given: list[str]) -> Values | FormulaReadError:
     there = [value for value in given if value.strip()]
     try:
         return _values(ask, there) if there else []
-    except ReadError as error:
+    except FormulaReadError as error:
         return error
 
 
@@ -133,4 +133,4 @@ def _pair(marks: list[str], ask: Asked) -> tuple[str, str]:
 def _known(mark: str, marks: Collection[str]) -> str:
     if mark in marks:
         return mark
-    raise ReadError("option-unknown", 1, safe(mark))
+    raise FormulaReadError("option-unknown", 1, safe_echo(mark))

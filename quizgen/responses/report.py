@@ -9,10 +9,10 @@ from fractions import Fraction
 from statistics import correlation, fmean
 
 from quizgen.columns import width
-from quizgen.locale import numbers_in
-from quizgen.outside import csv_text, visible
-from quizgen.paper.marking import PartResult
-from quizgen.paper.report import note, points_text
+from quizgen.core.untrusted import escape_control_characters, format_csv
+from quizgen.locale import localise_numbers
+from quizgen.paper.grade_report import format_points, part_note
+from quizgen.paper.grading import PartResult
 from quizgen.responses.marks import Marked
 
 HEAD = ("where", "name", "id", "email", "attempt", "marks", "points", "asked_back", "to_decide")
@@ -63,13 +63,13 @@ def statistics(marked: Sequence[Marked]) -> Iterator[Statistics]:
                  if number in found]  # fmt: skip
         shares = [_share(parts) for _, parts in asked]
         others = [float(one.result.marks - _marks(parts)) for one, parts in asked]
-        wrong = (note(part) for _, parts in asked for part in parts if _missed(part))
+        wrong = (part_note(part) for _, parts in asked for part in parts if _missed(part))
         notes = Counter(wrong).most_common(USUAL_NOTES)
         yield Statistics(number, len(asked), fmean(shares), _correlated(shares, others), notes)
 
 
 def _missed(part: PartResult) -> bool:
-    return part.marks is not None and part.verdict.credit < 1 and not part.blank
+    return part.marks is not None and part.verdict.credit < 1 and not part.is_blank
 
 
 def _marks(parts: Sequence[PartResult]) -> Fraction:
@@ -93,20 +93,20 @@ def as_csv(marked: Sequence[Marked]) -> str:
     parts = list(dict.fromkeys(part.id for one in marked for part in one.result.parts))
     titles = [f"{number} question" for number in numbers]
     titles += [f"{part} {what}" for what in ("typed", "marks", "note") for part in parts]
-    return csv_text([(*HEAD, *titles), *(_attempt(one, numbers, parts) for one in marked)])
+    return format_csv([(*HEAD, *titles), *(_attempt(one, numbers, parts) for one in marked)])
 
 
 def _attempt(one: Marked, numbers: Sequence[str], parts: Sequence[str]) -> list[str]:
     found = {part.id: part for part in one.result.parts}
     row = [*_person(one), *(one.questions.get(number, "") for number in numbers)]
-    for shown in (_typed, _given, note):
+    for shown in (_typed, _given, part_note):
         row += [shown(found[part]) if part in found else "" for part in parts]
     return row
 
 
 def _person(one: Marked) -> list[str]:
     attempt, result = one.attempt, one.result
-    totals = (points_text(result.marks), points_text(result.points))
+    totals = (format_points(result.marks), format_points(result.points))
     counts = (one.number, result.asked_back, result.to_decide)
     number, asked_back, to_decide = map(str, counts)
     known = [attempt.where, attempt.name, attempt.id, attempt.email, number]
@@ -118,7 +118,7 @@ def _typed(part: PartResult) -> str:
 
 
 def _given(part: PartResult) -> str:
-    return "" if part.marks is None else points_text(part.marks)
+    return "" if part.marks is None else format_points(part.marks)
 
 
 def as_json(one: Marked) -> dict[str, object]:
@@ -148,15 +148,23 @@ def lines(marked: Sequence[Marked], lang: str) -> Iterator[str]:
 def _row(one: Marked, lang: str) -> tuple[str, ...]:
     result = one.result
     again = f" ({one.number})" if one.number > 1 else ""
-    marks = numbers_in(lang, f"{points_text(result.marks)} / {points_text(result.points)}")
-    name = visible(one.attempt.name) + again
-    return (name, visible(one.attempt.who[0]), marks, str(result.asked_back), str(result.to_decide))
+    marks = localise_numbers(
+        lang, f"{format_points(result.marks)} / {format_points(result.points)}"
+    )
+    name = escape_control_characters(one.attempt.name) + again
+    return (
+        name,
+        escape_control_characters(one.attempt.who[0]),
+        marks,
+        str(result.asked_back),
+        str(result.to_decide),
+    )
 
 
 def _question(one: Statistics, lang: str) -> tuple[str, ...]:
-    apart = "" if one.apart is None else numbers_in(lang, f"{one.apart:.2f}")
+    apart = "" if one.apart is None else localise_numbers(lang, f"{one.apart:.2f}")
     notes = ", ".join(f"{count} {name}" for name, count in one.notes)
-    return (visible(one.number), str(one.count), f"{one.share:.0%}", apart, notes)
+    return (escape_control_characters(one.number), str(one.count), f"{one.share:.0%}", apart, notes)
 
 
 def _table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:

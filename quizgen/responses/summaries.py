@@ -10,8 +10,8 @@ import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 
-from quizgen.marking.echo import safe
-from quizgen.maths.notation import ReadError
+from quizgen.grading.echo import safe_echo
+from quizgen.maths.notation import FormulaReadError
 from quizgen.responses.keys import Asked, Entry
 
 NOTHING = "-"
@@ -29,7 +29,7 @@ _IGNORED = re.compile(r"[\s_*\u200b-\u200d\ufeff]+")
 """What a system puts between, around or into words when it makes text of a page."""
 
 
-def fields(entry: Entry, text: str) -> list[Values | ReadError]:
+def fields(entry: Entry, text: str) -> list[Values | FormulaReadError]:
     """What each field of an entry was answered with.
 
     Parameters
@@ -50,9 +50,9 @@ def fields(entry: Entry, text: str) -> list[Values | ReadError]:
     widths = [_width(ask) for ask in entry.asks]
     try:
         pieces = _pieces(text.strip(), sum(widths))
-    except ReadError as error:
+    except FormulaReadError as error:
         return [error for _ in entry.asks]
-    found: list[Values | ReadError] = []
+    found: list[Values | FormulaReadError] = []
     for ask, width in zip(entry.asks, widths, strict=True):
         found.append(_tried(ask, *pieces[:width]) if width == 1 else _placed(ask, pieces[:width]))
         del pieces[:width]
@@ -74,12 +74,12 @@ def _pieces(text: str, count: int) -> list[str]:
     """
     first = _FIRST.match(text)
     if first is None:
-        raise ReadError("parts-apart", 1, safe(text))
+        raise FormulaReadError("parts-apart", 1, safe_echo(text))
     pieces, rest = [], text[first.end() :]
     for number in range(2, count + 2):
         heads = re.split(_head(first, number), rest)
         if len(heads) != (2 if number <= count else 1):
-            raise ReadError("parts-apart", 1, safe(text))
+            raise FormulaReadError("parts-apart", 1, safe_echo(text))
         pieces.append(heads[0].strip())
         rest = heads[-1]
     return pieces
@@ -90,12 +90,12 @@ def _head(first: re.Match[str], number: int) -> str:
     return rf";\s+{re.escape(first['word'])}{number}\s?{sign}(?:\s|$)"
 
 
-def _tried(ask: Asked, text: str) -> Values | ReadError:
+def _tried(ask: Asked, text: str) -> Values | FormulaReadError:
     if not text.strip():
         return []
     try:
         return _values(ask, text)
-    except ReadError as error:
+    except FormulaReadError as error:
         return error
 
 
@@ -161,8 +161,8 @@ def _which(options: Mapping[str, Iterable[str]], text: str) -> str:
         if len(hits) == 1:
             return hits[0]
         if hits:
-            raise ReadError("option-twice", 1, safe(text))
-    raise ReadError("option-unknown", 1, safe(text))
+            raise FormulaReadError("option-twice", 1, safe_echo(text))
+    raise FormulaReadError("option-unknown", 1, safe_echo(text))
 
 
 def _listed(options: Mapping[str, Iterable[str]], text: str) -> Values:
@@ -177,14 +177,14 @@ def _listed(options: Mapping[str, Iterable[str]], text: str) -> Values:
         for count in range(1, longest + 1):
             try:
                 found.append(_which(options, ";".join(pieces[:count])))
-            except ReadError:
+            except FormulaReadError:
                 if count == longest:
                     raise
             else:
                 del pieces[:count]
                 break
         if len(found) > len(options):
-            raise ReadError("option-twice", 1, safe(text))
+            raise FormulaReadError("option-twice", 1, safe_echo(text))
     return found
 
 
@@ -198,20 +198,20 @@ def _in_order(ask: Asked, text: str) -> Values:
     """The letters of steps, of each of which a report has but the first few signs."""
     found = _LETTER.findall(text)
     if sorted(found) != sorted(ask.options):
-        raise ReadError("steps-apart", 1, safe(text))
+        raise FormulaReadError("steps-apart", 1, safe_echo(text))
     return [str(mark) for mark in found]
 
 
-def _placed(ask: Asked, pieces: Sequence[str]) -> Values | ReadError:
+def _placed(ask: Asked, pieces: Sequence[str]) -> Values | FormulaReadError:
     """Pairs or an order from a drop-down for each stem, which holds the letters of the targets."""
     if not any(pieces):
         return []
     unknown = [piece for piece in pieces if piece and piece not in ask.targets]
     if unknown:
-        return ReadError("option-unknown", 1, safe(unknown[0]))
+        return FormulaReadError("option-unknown", 1, safe_echo(unknown[0]))
     try:
         return in_places(pieces, ask) if ask.kind == "order" else [*pieces]
-    except ReadError as error:
+    except FormulaReadError as error:
         return error
 
 
@@ -227,5 +227,5 @@ def in_places(places: Sequence[str], ask: Asked) -> Values:
     pairs = zip(places, ask.options, strict=True)
     taken = [(place, mark) for place, mark in pairs if place in given]
     if len(given) < len(taken):
-        raise ReadError("place-twice", 1, ", ".join(place for place, _ in taken))
+        raise FormulaReadError("place-twice", 1, ", ".join(place for place, _ in taken))
     return [mark for _, mark in sorted(taken, key=lambda one: int(one[0]))]

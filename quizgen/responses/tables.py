@@ -12,9 +12,9 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from quizgen.errors import KeyFileError
-from quizgen.marking.echo import safe
-from quizgen.outside import located, parse_csv, parse_json
+from quizgen.core.errors import KeyFileError
+from quizgen.core.untrusted import error_context, parse_csv, parse_json
+from quizgen.grading.echo import safe_echo
 from quizgen.responses.attempts import LONGEST, Attempt, Lost, Response
 from quizgen.responses.keys import MARK
 from quizgen.responses.summaries import NOTHING
@@ -91,7 +91,7 @@ def _attempts(
     rows: Sequence[Row], where: Path, known: Collection[str], lost: Lost
 ) -> Iterator[Attempt]:
     head = [cell.strip() for cell in rows[0][1]] if rows else []
-    with located(where, KeyFileError):
+    with error_context(where, KeyFileError):
         columns = _columns(rows, head, known)
     if not columns:
         raise KeyFileError(
@@ -154,7 +154,7 @@ def _response(named: Sequence[tuple[str, str]], question: int) -> int:
     name, other = named[question + 1] if question + 1 < len(named) else ("", "")
     if other != number or _RIGHT.search(name):
         raise KeyFileError(
-            f"no responses behind the column '{safe(title)} {safe(number)}'; tick 'response' above "
+            f"no responses behind the column '{safe_echo(title)} {safe_echo(number)}'; tick 'response' above "
             "the report in Moodle"
         )
     return question + 1

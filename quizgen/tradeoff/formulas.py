@@ -15,12 +15,12 @@ from functools import cached_property
 
 import numpy as np
 
-from quizgen.arrays.distortion import inverse_radius
-from quizgen.arrays.gaussian import inverse_tail
-from quizgen.arrays.projection import pixel
-from quizgen.maths.notation import parse
-from quizgen.maths.systems import arrays, compile_expr
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.number_systems import array_system, compile_expr
 from quizgen.maths.tree import Expr, substitute
+from quizgen.numerics.distortion import inverse_radius
+from quizgen.numerics.gaussian import inverse_upper_tail
+from quizgen.numerics.projection import pixel_coordinate
 from quizgen.tradeoff import lines
 from quizgen.tradeoff.lines import Column
 
@@ -89,12 +89,12 @@ class Formula:
     def tree(self) -> Expr:
         """The printed formula; for a chain one formula from what is given."""
         if isinstance(self.source, str):
-            return parse(self.source)
-        from quizgen.bank.folder import builtin
+            return parse_formula(self.source)
+        from quizgen.bank.bank import builtin_bank
 
         solver, quantity = self.source
         known: dict[str, Expr] = {}
-        for step in builtin().chain(solver)[0].steps:
+        for step in builtin_bank().chain(solver)[0].steps:
             known[step.name] = substitute(step.expr, known)
         return known[quantity]
 
@@ -104,7 +104,7 @@ class Formula:
         given = [column.astype(number) for column in columns]
         if self.printed is not None:
             return self.printed(*given)
-        compiled = compile_expr(self.tree, arrays(bits))
+        compiled = compile_expr(self.tree, array_system(bits))
         found: Column = compiled(dict(zip(self.names.split(), given, strict=True)))
         return found
 
@@ -113,11 +113,11 @@ class Formula:
         return np.geomspace(self.easiest, _HARDEST, count)
 
 
-def _same(value: float, like: Column) -> Column:
+def _fill_column(value: float, like: Column) -> Column:
     return np.full(like.size, value)
 
 
-def _pick(rng: Random, values: tuple[float, ...], count: int) -> Column:
+def _pick_values(rng: Random, values: tuple[float, ...], count: int) -> Column:
     return rng.choice(np.array(values), count)
 
 
@@ -130,39 +130,39 @@ _H = 50 + 2500 / 0.24
 """Hyperfocal distance of 50 mm, f/8 and 0.03 mm."""
 
 
-def _lens(rng: Random, n: int) -> Columns:
-    f = _pick(rng, _FOCAL, n)
+def _draw_lens_inputs(rng: Random, n: int) -> Columns:
+    f = _pick_values(rng, _FOCAL, n)
     return [f, f * rng.integers(3, 40, n) / 2]
 
 
-def _blur(rng: Random, n: int) -> Columns:
+def _draw_blur_inputs(rng: Random, n: int) -> Columns:
     s = 100.0 * rng.integers(10, 60, n)
     z = s * rng.integers(3, 19, n) / 10 + 50
-    return [_pick(rng, _FOCAL, n), _pick(rng, _STOPS, n), s, z]
+    return [_pick_values(rng, _FOCAL, n), _pick_values(rng, _STOPS, n), s, z]
 
 
-def _field(rng: Random, n: int) -> Columns:
-    f = _pick(rng, _FOCAL, n)
-    return [f, _pick(rng, _STOPS, n), _same(0.03, f), f * rng.integers(10, 40, n) / 2]
+def _draw_field_inputs(rng: Random, n: int) -> Columns:
+    f = _pick_values(rng, _FOCAL, n)
+    return [f, _pick_values(rng, _STOPS, n), _fill_column(0.03, f), f * rng.integers(10, 40, n) / 2]
 
 
-def _colour(rng: Random, n: int) -> Columns:
+def _draw_colour_inputs(rng: Random, n: int) -> Columns:
     return list((np.array([rng.permutation(11)[:3] for _ in range(n)]) / 10).T.copy())
 
 
-def _range(rng: Random, n: int) -> Columns:
+def _draw_range_inputs(rng: Random, n: int) -> Columns:
     low, high = 10.0 * rng.integers(0, 6, n), 10.0 * rng.integers(15, 26, n)
     level = low + rng.integers(5, 95, n)
-    return [level, low, high, _same(-1, low), _same(1, low)]
+    return [level, low, high, _fill_column(-1, low), _fill_column(1, low)]
 
 
-def _pixel(rng: Random, n: int) -> Columns:
+def _draw_pixel_inputs(rng: Random, n: int) -> Columns:
     """Points that are in the picture."""
     x, z = rng.integers(-6, 21, n) / 20, rng.integers(10, 60, n) / 10
-    return [_same(0.004, x), _same(5e-6, x), x, z, _same(320, x)]
+    return [_fill_column(0.004, x), _fill_column(5e-6, x), x, z, _fill_column(320, x)]
 
 
-def _counts(rng: Random, n: int) -> Columns:
+def _draw_count_inputs(rng: Random, n: int) -> Columns:
     lam = rng.integers(1, 21, n) * 5.0
     return [rng.poisson(lam).astype(np.float64), lam]
 
@@ -182,13 +182,13 @@ def _textbook_poisson(k: Column, lam: Column) -> Column:
 _log_gamma = np.vectorize(math.lgamma, otypes=[np.float64])
 
 
-def _blurred(left: Column) -> Columns:
-    f, N, s = (_same(value, left) for value in (50, 2.8, 3000))
+def _make_blur_inputs(left: Column) -> Columns:
+    f, N, s = (_fill_column(value, left) for value in (50, 2.8, 3000))
     return [f, N, s, f * s * (1 - left) / (f - left * s)]
 
 
-def _grey(left: Column) -> Columns:
-    R, B = _same(0.5, left), 0.5 * (1 - left)
+def _make_grey_inputs(left: Column) -> Columns:
+    R, B = _fill_column(0.5, left), 0.5 * (1 - left)
     return [R, (R + B) / 2, B]
 
 
@@ -197,39 +197,39 @@ def _gap_of(left: Column) -> Columns:
     return [0.5 * (1 - d), 0.5 * (1 + d)]
 
 
-def _loss(left: Column) -> Columns:
-    return [25 / np.expm1(-2 * np.log1p(-left)), _same(5, left)]
+def _make_loss_inputs(left: Column) -> Columns:
+    return [25 / np.expm1(-2 * np.log1p(-left)), _fill_column(5, left)]
 
 
-def _corner(left: Column) -> Columns:
+def _make_corner_inputs(left: Column) -> Columns:
     p = left / (1 + np.sqrt(1 - left))
-    return [50 * np.sqrt(p / (1 - p)), _same(50, left)]
+    return [50 * np.sqrt(p / (1 - p)), _fill_column(50, left)]
 
 
 FORMULAS = (
     Formula(
-        "thin-lens", "f z", "1/(1/f - 1/z)", _lens,
-        lambda f, z: (z - f) / z, lambda u: [_same(50, u), 50 / (1 - u)],
+        "thin-lens", "f z", "1/(1/f - 1/z)", _draw_lens_inputs,
+        lambda f, z: (z - f) / z, lambda u: [_fill_column(50, u), 50 / (1 - u)],
         stable=lines.image_distance,
         shown=Shown("z − f", "mm", lambda f, z: z - f, "1/(1/f − 1/z)", "f z/(z − f)"),
     ),
     Formula(
         "gaussian-tail", "k", "1 - erf(k/sqrt(2))", lambda rng, n: [rng.integers(2, 13, n) / 4],
-        lines.two_sided_tail, lambda u: [inverse_tail(u / 2)], stable=lines.two_sided_tail,
+        lines.two_sided_tail, lambda u: [inverse_upper_tail(u / 2)], stable=lines.two_sided_tail,
         shown=Shown("k", "", lambda k: k, "1 − erf(k/√2)", "erfc(k/√2)"),
     ),
     Formula(
         "blur-disc", "f N s z",
-        "f/N*abs(1/(1/f - 1/s) - 1/(1/f - 1/z))/(1/(1/f - 1/z))", _blur,
-        lambda f, N, s, z: np.abs(f * (z - s) / (s * (z - f))), _blurred, 0.012,
+        "f/N*abs(1/(1/f - 1/s) - 1/(1/f - 1/z))/(1/(1/f - 1/z))", _draw_blur_inputs,
+        lambda f, N, s, z: np.abs(f * (z - s) / (s * (z - f))), _make_blur_inputs, 0.012,
         stable=lines.blur_disc,
         shown=Shown("z − s", "mm", lambda f, N, s, z: z - s,
                     "f/N · |s′ − z′|/z′", "f/N · f/(s − f) · |z − s|/z"),
     ),
     Formula(
-        "far-limit", "f N c s", "s*((f^2/(N*c) + f) - f)/((f^2/(N*c) + f) - s)", _field,
+        "far-limit", "f N c s", "s*((f^2/(N*c) + f) - f)/((f^2/(N*c) + f) - s)", _draw_field_inputs,
         lambda f, N, c, s: 1 - s / (f + f * f / (N * c)),
-        lambda u: [_same(50, u), _same(8, u), _same(0.03, u), _H * (1 - u)],
+        lambda u: [_fill_column(50, u), _fill_column(8, u), _fill_column(0.03, u), _H * (1 - u)],
         stable=lines.far_limit,
         shown=Shown("H − s", "mm", lambda f, N, c, s: f + f * f / (N * c) - s,
                     "s (H − f)/(H − s)", "s f²/(f² − N c (s − f))"),
@@ -238,7 +238,7 @@ FORMULAS = (
         "inverse-distortion", "r k", "",
         lambda rng, n: [_FOLD * rng.uniform(0.05, 0.5, n), np.full(n, _K1)],
         lambda r, k: 1 - r / (2 / (3 * np.sqrt(-3 * k))),
-        lambda u: [_FOLD * (1 - u), _same(_K1, u)],
+        lambda u: [_FOLD * (1 - u), _fill_column(_K1, u)],
         stable=inverse_radius, printed=lines.fixed_point,
         shown=Shown("1 − r/fold", "", lambda r, k: 1 - r / _FOLD,
                     "r ← r<sub>d</sub>/(1 + k₁r²), × 5", "r + k₁r³ = r<sub>d</sub>"),
@@ -246,7 +246,7 @@ FORMULAS = (
     Formula(
         "snr-loss", "N s", "1 - (N/sqrt(N + s^2))/sqrt(N)",
         lambda rng, n: [100.0 * rng.integers(1, 50, n), rng.integers(2, 12, n) * 1.0],
-        lines.snr_loss, _loss, stable=lines.snr_loss,
+        lines.snr_loss, _make_loss_inputs, stable=lines.snr_loss,
         shown=Shown("N", "e⁻", lambda N, s: N,
                     "1 − √N/√(N + s²)", "−expm1(−½ log1p(s²/N))"),
     ),
@@ -261,39 +261,39 @@ FORMULAS = (
     ),
     Formula(
         "vignetting", "r f", "1 - (1/(1 + (r/f)^2))^2",
-        lambda rng, n: [rng.integers(5, 22, n) * 1.0, _pick(rng, _FOCAL, n)],
-        lines.falloff, _corner, stable=lines.falloff,
+        lambda rng, n: [rng.integers(5, 22, n) * 1.0, _pick_values(rng, _FOCAL, n)],
+        lines.falloff, _make_corner_inputs, stable=lines.falloff,
         shown=Shown("r", "mm", lambda r, f: r, "1 − cos⁴θ", "p (2 − p), p = r²/(r² + f²)"),
     ),
     Formula(
         "stops", "a b", "2*(log2(b) - log2(a))",
-        lambda rng, n: [_pick(rng, _STOPS[1:4], n), _pick(rng, _STOPS[4:], n)],
+        lambda rng, n: [_pick_values(rng, _STOPS[1:4], n), _pick_values(rng, _STOPS[4:], n)],
         lambda a, b: np.log2(b / a) / np.log2(b),
-        lambda u: [_same(4, u), 4 ** (1 / (1 - u))], 0.7,
+        lambda u: [_fill_column(4, u), 4 ** (1 / (1 - u))], 0.7,
     ),
     Formula(
-        "hue", "R G B", ("colour/rgb_to_hsv", "H"), _colour,
-        lambda *rgb: 1 - np.min(rgb, axis=0) / np.max(rgb, axis=0), _grey,
+        "hue", "R G B", ("colour/rgb_to_hsv", "H"), _draw_colour_inputs,
+        lambda *rgb: 1 - np.min(rgb, axis=0) / np.max(rgb, axis=0), _make_grey_inputs,
         printed=lines.hue, turn=360.0,
     ),
     Formula(
-        "normalisation", "I low high a b", "(I - low)*(b - a)/(high - low) + a", _range,
+        "normalisation", "I low high a b", "(I - low)*(b - a)/(high - low) + a", _draw_range_inputs,
         lambda I, low, high, a, b: np.abs((2 * I - low - high) / (high - low)),  # noqa: E741
-        lambda u: [100 + 60 * u, _same(40, u), _same(160, u), _same(-1, u), _same(1, u)],
+        lambda u: [100 + 60 * u, _fill_column(40, u), _fill_column(160, u), _fill_column(-1, u), _fill_column(1, u)],
     ),
     Formula(
-        "pixel", "f s x z o", "1/s*f*(x/z) + o", _pixel,
+        "pixel", "f s x z o", "1/s*f*(x/z) + o", _draw_pixel_inputs,
         lambda f, s, x, z, o: np.minimum(np.abs(1 + f * x / (s * z * o)), 1),
-        lambda u: [_same(0.004, u), _same(5e-6, u), 0.8 * (u - 1), _same(2, u), _same(320, u)],
-        stable=np.vectorize(pixel, otypes=[np.float64]), decimal=True,
+        lambda u: [_fill_column(0.004, u), _fill_column(5e-6, u), 0.8 * (u - 1), _fill_column(2, u), _fill_column(320, u)],
+        stable=np.vectorize(pixel_coordinate, otypes=[np.float64]), decimal=True,
     ),
     Formula(
         "weak-perspective", "z zbar", "(1/z - 1/zbar)/(1/z)",
         lambda rng, n: [rng.integers(90, 99, n) / 10, rng.integers(100, 111, n) / 10],
-        lambda z, zbar: 1 - z / zbar, lambda u: [10 * (1 - u), _same(10, u)],
+        lambda z, zbar: 1 - z / zbar, lambda u: [10 * (1 - u), _fill_column(10, u)],
     ),
     Formula(
-        "poisson", "k lam", "", _counts, lambda k, lam: 1 / np.maximum(k * np.log(lam), 1),
+        "poisson", "k lam", "", _draw_count_inputs, lambda k, lam: 1 / np.maximum(k * np.log(lam), 1),
         lambda u: [_mean_count(u), _mean_count(u)], 0.2, printed=_textbook_poisson,
     ),
 )  # fmt: skip

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from quizgen.arrays.aliases import Array
-from quizgen.arrays.double_double import pairs
+from quizgen.numerics.double_double import as_pairs
+from quizgen.numerics.typing import Array
 
 Column = npt.NDArray[np.floating[Any]]
 """One quantity of many inputs, in the precision of a way of computing."""
@@ -40,7 +40,7 @@ def blur_disc(f: Column, N: Column, s: Column, z: Column) -> Column:
 
 def far_limit(f: Array, N: Array, c: Array, s: Array) -> Array:
     """Far limit of the depth of field; only the difference that cancels has twice the digits."""
-    f2, N2, c2, s2 = pairs(f, N, c, s)
+    f2, N2, c2, s2 = as_pairs(f, N, c, s)
     rest = (f2 * f2 - N2 * c2 * (s2 - f2)).rounded()
     return s * (f * f / rest)
 

@@ -8,13 +8,13 @@ from typing import Any
 
 from quizgen.figures import Figure, plot_figure
 from quizgen.tradeoff.digits import MOST_DIGITS
-from quizgen.tradeoff.report import Report
+from quizgen.tradeoff.report import TradeoffReport
 
 SIZE = (380.0, 170.0)
 ITERATED = "inverse-distortion"  # loses its digits by its steps, not by a subtraction
 
 
-def draw_digits(report: Report, alt: str, lang: str) -> Figure:
+def draw_digits(report: TradeoffReport, alt: str, lang: str) -> Figure:
     """The printed formulas with their exam inputs, and the stable forms."""
 
     def draw(ax: Any) -> None:
@@ -30,15 +30,15 @@ def draw_digits(report: Report, alt: str, lang: str) -> Figure:
         for one in report.sweeps:
             colour, width = ("red", 1.6) if one.name == ITERATED else ("blue", 0.7)
             if "stable" in one.ways:
-                stable = _worst(one.ways["stable"].digits)
+                stable = _compute_running_minimum(one.ways["stable"].digits)
                 ax.plot(one.left, stable, color="teal", linewidth=0.8, linestyle="-")
-            printed = _worst(one.ways["float64"].digits)
+            printed = _compute_running_minimum(one.ways["float64"].digits)
             ax.plot(one.left, printed, color=colour, linewidth=width, linestyle="-")
             ax.plot([one.exam_left], [one.exam_digits], "o", color=colour, markersize=4)
 
     return plot_figure(draw, alt, lang, SIZE)
 
 
-def _worst(digits: Sequence[float]) -> list[float]:
+def _compute_running_minimum(digits: Sequence[float]) -> list[float]:
     """The fewest digits up to each place: a result that is right by chance is no promise."""
     return list(accumulate((min(count, MOST_DIGITS) for count in digits), min))

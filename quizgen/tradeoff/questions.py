@@ -14,22 +14,22 @@ from itertools import repeat
 
 import msgspec
 
-from quizgen.arrays.distortion import inverse_radius
-from quizgen.arrays.gamma import srgb_decode
-from quizgen.arrays.hsv import to_rgb
-from quizgen.bank.draw import Draw, draw
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
+from quizgen.bank.variant import Variant, draw_variant
+from quizgen.core.decoding import decode_json
 from quizgen.maths.chain import Chain
 from quizgen.maths.values import AnyNumber
-from quizgen.shapes import decoded
-from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, solved
+from quizgen.numerics.distortion import inverse_radius
+from quizgen.numerics.gamma import srgb_decode
+from quizgen.numerics.hsv import hsv_to_rgb
+from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, solve_in
 from quizgen.tradeoff.timing import Timing, in_turns
 
 _RUNS = 15
 _ALONE: tuple[Callable[[], object], ...] = (
     partial(srgb_decode, 0.5),
     partial(inverse_radius, 0.3, -0.2),
-    partial(to_rgb, 200.0, 0.5, 0.5),
+    partial(hsv_to_rgb, 200.0, 0.5, 0.5),
 )
 """Array functions called for one value."""
 
@@ -90,36 +90,36 @@ class Questions:
 
 def measure_questions(bank: Bank) -> Questions:
     """Time the built-in questions; the counts are those recorded."""
-    computing = [one for one in map(bank.template, bank.paths) if one.chain.steps]
-    drawn = [one for one in map(draw, computing, repeat(0)) if _is_solved(one, "balls")]
+    computing = [one for one in map(bank.template, bank.template_paths) if one.chain.steps]
+    drawn = [one for one in map(draw_variant, computing, repeat(0)) if _is_solved(one, "balls")]
     systems = [name for name in ARITHMETICS if name != "rounded"]  # float64, rounded afterwards
-    spent = [in_turns([_solving(one, name) for name in systems], _RUNS) for one in drawn]
+    spent = [in_turns([_prepare_solving(one, name) for name in systems], _RUNS) for one in drawn]
     least = {name: [times[i].least for times in spent] for i, name in enumerate(systems)}
-    costs = {name: _cost(seconds, least["float64"]) for name, seconds in least.items()}
+    costs = {name: _summarise_cost(seconds, least["float64"]) for name, seconds in least.items()}
     alone = in_turns(_ALONE, 10 * _RUNS)
     return Questions(len(drawn), costs | {"rounded": costs["float64"]}, tuple(alone), recorded())
 
 
-def _is_solved(drawn: Draw, system: str) -> bool:
+def _is_solved(drawn: Variant, system: str) -> bool:
     """Whether an arithmetic has an answer at all: balls cannot tell that two colours are equal."""
     try:
-        solved(drawn, system)
+        solve_in(drawn, system)
     except FAILURES:
         return False
     return True
 
 
-def _solving(drawn: Draw, system: str) -> Callable[[], object]:
+def _prepare_solving(drawn: Variant, system: str) -> Callable[[], object]:
     way, chain = ARITHMETICS[system], drawn.template.chain
     given = way.given({quantity: drawn.values[quantity] for quantity in chain.given})
-    return partial(_solve, way, chain, given)
+    return partial(_solve_chain, way, chain, given)
 
 
-def _solve(way: Arithmetic, chain: Chain, given: dict[str, AnyNumber]) -> object:
+def _solve_chain(way: Arithmetic, chain: Chain, given: dict[str, AnyNumber]) -> object:
     return way.run(chain, dict(given))
 
 
-def _cost(seconds: Sequence[float], doubles: Sequence[float]) -> Cost:
+def _summarise_cost(seconds: Sequence[float], doubles: Sequence[float]) -> Cost:
     ratios = [one / other for one, other in zip(seconds, doubles, strict=True)]
     low, times, high = statistics.quantiles(ratios, n=4, method="inclusive")
     more = statistics.median(one - other for one, other in zip(seconds, doubles, strict=True))
@@ -128,4 +128,4 @@ def _cost(seconds: Sequence[float], doubles: Sequence[float]) -> Cost:
 
 def recorded() -> Counted:
     """What was counted when it was last counted in full."""
-    return decoded((files("quizgen.tradeoff") / "counted.json").read_bytes(), Counted)
+    return decode_json((files("quizgen.tradeoff") / "counted.json").read_bytes(), Counted)

@@ -10,18 +10,18 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 from quizgen.tradeoff.formulas import FORMULAS
 from quizgen.tradeoff.questions import Questions, measure_questions
 from quizgen.tradeoff.rivals import Match, matches
-from quizgen.tradeoff.sweeps import Sweep, sweep
+from quizgen.tradeoff.sweeps import FormulaSweep, sweep_formula
 
 
 @dataclass(frozen=True)
-class Report:
+class TradeoffReport:
     """Everything the page shows, and where and when it was measured."""
 
-    sweeps: tuple[Sweep, ...]
+    sweeps: tuple[FormulaSweep, ...]
     questions: Questions
     matches: tuple[Match, ...]
     machine: str
@@ -40,7 +40,7 @@ class Report:
         return min(one.exam_left for one in self.sweeps)
 
 
-def measure(bank: Bank) -> Report:
+def measure_tradeoff(bank: Bank) -> TradeoffReport:
     """Measure digits, questions and arrays.
 
     Parameters
@@ -49,11 +49,11 @@ def measure(bank: Bank) -> Report:
         The questions that are timed.
     """
     start = time.perf_counter()
-    sweeps = tuple(map(sweep, FORMULAS))
+    sweeps = tuple(map(sweep_formula, FORMULAS))
     questions, arrays = measure_questions(bank), tuple(matches())
     machine = (
         f"{platform.system()} {platform.machine()}, {os.cpu_count()} CPU, "
         f"Python {platform.python_version()}, NumPy {np.__version__}"
     )
     date = datetime.now(UTC).date().isoformat()
-    return Report(sweeps, questions, arrays, machine, date, time.perf_counter() - start)
+    return TradeoffReport(sweeps, questions, arrays, machine, date, time.perf_counter() - start)

@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from quizgen.arrays.distortion import inverse_radius
+from quizgen.numerics.distortion import inverse_radius
 from quizgen.tradeoff import lines
-from quizgen.tradeoff.digits import digits
+from quizgen.tradeoff.digits import correct_digits
 from quizgen.tradeoff.formulas import BY_NAME, Columns
 from quizgen.tradeoff.lines import Column
 from quizgen.tradeoff.sweeps import EXAMS, PLACES, SEED
@@ -52,13 +52,13 @@ class Match:
     rivals: tuple[Rival, ...]
 
 
-def _plain(call: Callable[..., Any]) -> Ready:
+def _prepare_plain_call(call: Callable[..., Any]) -> Ready:
     return lambda *columns: partial(call, *columns)
 
 
-def _undistorting() -> Iterator[tuple[str, Ready]]:
-    yield "fixed-point", _plain(lines.fixed_point)
-    yield "newton", _plain(lines.newton)
+def _iter_undistortion_rivals() -> Iterator[tuple[str, Ready]]:
+    yield "fixed-point", _prepare_plain_call(lines.fixed_point)
+    yield "newton", _prepare_plain_call(lines.newton)
     yield "quizgen", lambda r, k: partial(inverse_radius, r, k[0])
     import cv2
 
@@ -70,45 +70,45 @@ def _undistorting() -> Iterator[tuple[str, Ready]]:
     yield "OpenCV undistortPoints", opencv
 
 
-def _picture(*rgb: Column) -> Column:
+def _stack_channels(*rgb: Column) -> Column:
     return np.stack(rgb, axis=-1)[None]
 
 
-def _hues() -> Iterator[tuple[str, Ready]]:
-    yield "printed", _plain(lines.hue)
+def _iter_hue_rivals() -> Iterator[tuple[str, Ready]]:
+    yield "printed", _prepare_plain_call(lines.hue)
     from matplotlib.colors import rgb_to_hsv
 
     def matplotlib(*rgb: Column) -> Call:
-        picture = _picture(*rgb)
+        picture = _stack_channels(*rgb)
         return lambda: 360 * rgb_to_hsv(picture)[0, :, 0]
 
     yield "matplotlib rgb_to_hsv", matplotlib
     import cv2
 
     def opencv(*rgb: Column) -> Call:
-        picture = _picture(*rgb).astype(np.float32)
+        picture = _stack_channels(*rgb).astype(np.float32)
         return lambda: cv2.cvtColor(picture, cv2.COLOR_RGB2HSV)[0, :, 0]
 
     yield "OpenCV cvtColor, float32", opencv
 
 
-def _falloffs() -> Iterator[tuple[str, Ready]]:
-    yield "printed", _plain(lambda r, f: 1 - (1 / (1 + (r / f) ** 2)) ** 2)
-    yield "line", _plain(lines.falloff)
+def _iter_falloff_rivals() -> Iterator[tuple[str, Ready]]:
+    yield "printed", _prepare_plain_call(lambda r, f: 1 - (1 / (1 + (r / f) ** 2)) ** 2)
+    yield "line", _prepare_plain_call(lines.falloff)
 
 
-def _tails() -> Iterator[tuple[str, Ready]]:
+def _iter_tail_rivals() -> Iterator[tuple[str, Ready]]:
     from scipy import special
 
-    yield "printed", _plain(lambda k: 1 - special.erf(k / 2**0.5))
-    yield "SciPy erfc", _plain(lambda k: special.erfc(k / 2**0.5))
+    yield "printed", _prepare_plain_call(lambda k: 1 - special.erf(k / 2**0.5))
+    yield "SciPy erfc", _prepare_plain_call(lambda k: special.erfc(k / 2**0.5))
 
 
 _MATCHES = {
-    "inverse-distortion": _undistorting,
-    "hue": _hues,
-    "vignetting": _falloffs,
-    "gaussian-tail": _tails,
+    "inverse-distortion": _iter_undistortion_rivals,
+    "hue": _iter_hue_rivals,
+    "vignetting": _iter_falloff_rivals,
+    "gaussian-tail": _iter_tail_rivals,
 }
 
 
@@ -116,33 +116,40 @@ def matches() -> list[Match]:
     """Measure every formula that an array is computed of, with the libraries that are installed."""
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
-        found = [_match(name, list(_there(ways()))) for name, ways in _MATCHES.items()]
+        found = [
+            _measure_match(name, list(_iter_installed(ways()))) for name, ways in _MATCHES.items()
+        ]
     return [match for match in found if len(match.rivals) > 1]
 
 
-def _there(ways: Iterator[tuple[str, Ready]]) -> Iterator[tuple[str, Ready]]:
+def _iter_installed(ways: Iterator[tuple[str, Ready]]) -> Iterator[tuple[str, Ready]]:
     with suppress(ImportError):
         yield from ways
 
 
-def _match(name: str, ways: list[tuple[str, Ready]]) -> Match:
+def _measure_match(name: str, ways: list[tuple[str, Ready]]) -> Match:
     formula = BY_NAME[name]
     exam = formula.exam(np.random.default_rng(SEED), EXAMS)
     hard = formula.path(formula.places(PLACES))
     long = [np.resize(column, ARRAY) for column in exam]
     times = in_turns([ready(*long) for _, ready in ways], _RUNS)
     rivals = tuple(
-        Rival(way, time.per(ARRAY), _worst(name, ready, exam), _worst(name, ready, hard))
+        Rival(
+            way,
+            time.per(ARRAY),
+            _find_fewest_digits(name, ready, exam),
+            _find_fewest_digits(name, ready, hard),
+        )
         for (way, ready), time in zip(ways, times, strict=True)
     )
     return Match(name, rivals)
 
 
-def _worst(name: str, ready: Ready, columns: Columns) -> float:
+def _find_fewest_digits(name: str, ready: Ready, columns: Columns) -> float:
     formula = BY_NAME[name]
     found = np.ma.filled(ready(*columns)(), np.nan)
     right = truths(formula, columns)
     return min(
-        digits(float(value), truth, formula.turn)
+        correct_digits(float(value), truth, formula.turn)
         for value, truth in zip(found, right.tolist(), strict=True)
     )

@@ -9,12 +9,12 @@ from fractions import Fraction
 
 from flint import arb, fmpq
 
-from quizgen.bank.draw import Draw
-from quizgen.errors import MathError, QuizgenError
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import MathError, QuizgenError
 from quizgen.maths.chain import Chain
-from quizgen.maths.numbers import rational, to_float
+from quizgen.maths.number_systems import NumberSystem, exact_system, float64_system
+from quizgen.maths.numbers import to_float, to_rational
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import NumberSystem, exact, floats
 from quizgen.maths.values import AnyNumber, Value, Values
 
 FIGURES = 12
@@ -46,7 +46,7 @@ class Arithmetic:
     @working_precision()
     def run(self, chain: Chain, given: dict[str, AnyNumber]) -> dict[str, AnyNumber]:
         """Every quantity of a chain: this is what is timed."""
-        for name, compiled in chain.compiled(self.system()).items():
+        for name, compiled in chain.compile_steps(self.system()).items():
             given[name] = compiled(given)
         return given
 
@@ -55,7 +55,7 @@ class Arithmetic:
         return {name: self.leave(value) for name, value in found.items()}
 
 
-def _kept(value: AnyNumber) -> Value:
+def _return_unchanged(value: AnyNumber) -> Value:
     kept: Value = value
     return kept
 
@@ -67,14 +67,14 @@ def _as_it_is(value: float) -> fmpq:
 def _to_figures(value: float) -> fmpq:
     if not math.isfinite(value):
         raise MathError("no finite value")
-    return rational(f"{value:.{FIGURES}g}")
+    return to_rational(f"{value:.{FIGURES}g}")
 
 
 ARITHMETICS: Mapping[str, Arithmetic] = {
-    "float64": Arithmetic(floats, to_float, _as_it_is),
-    "rounded": Arithmetic(floats, to_float, _to_figures),
-    "balls": Arithmetic(exact, arb, _kept),
-    "exact": Arithmetic(exact, _kept, _kept),
+    "float64": Arithmetic(float64_system, to_float, _as_it_is),
+    "rounded": Arithmetic(float64_system, to_float, _to_figures),
+    "balls": Arithmetic(exact_system, arb, _return_unchanged),
+    "exact": Arithmetic(exact_system, _return_unchanged, _return_unchanged),
 }
 """By name: doubles as they are, doubles kept to twelve figures, balls throughout, and rationals
 that become balls where a value is irrational, as the product does it."""
@@ -82,7 +82,7 @@ FAILURES = (QuizgenError, ZeroDivisionError, OverflowError, ValueError)
 """What an arithmetic raises where it has no answer."""
 
 
-def solved(drawn: Draw, name: str) -> Draw:
+def solve_in(drawn: Variant, name: str) -> Variant:
     """The same question, its values as an arithmetic gives them."""
     way, chain = ARITHMETICS[name], drawn.template.chain
     given = way.given({quantity: drawn.values[quantity] for quantity in chain.given})

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quizgen.tradeoff.digits import digits
+from quizgen.tradeoff.digits import correct_digits
 from quizgen.tradeoff.formulas import Columns, Formula
 from quizgen.tradeoff.lines import Column
 from quizgen.tradeoff.truth import truths
@@ -26,7 +26,7 @@ class Way:
 
 
 @dataclass(frozen=True)
-class Sweep:
+class FormulaSweep:
     """A formula from easy to hard.
 
     Parameters
@@ -53,7 +53,7 @@ class Sweep:
     exam_digits: float
 
 
-def sweep(formula: Formula) -> Sweep:
+def sweep_formula(formula: Formula) -> FormulaSweep:
     """Follow a formula along its path, and draw its exam inputs."""
     rng = np.random.default_rng(SEED)
     exam = [np.asarray(column, np.float64) for column in formula.exam(rng, EXAMS)]
@@ -62,26 +62,26 @@ def sweep(formula: Formula) -> Sweep:
         warnings.simplefilter("ignore")
         right = truths(formula, path)
         ways = {
-            name: Way(tuple(map(float, found)), _digits(formula, found, right))
-            for name, found in _computed(formula, path).items()
+            name: Way(tuple(map(float, found)), _count_digits_per_point(formula, found, right))
+            for name, found in _compute_by_system(formula, path).items()
         }
-        worst = min(_digits(formula, formula.compute(exam), truths(formula, exam)))
+        worst = min(_count_digits_per_point(formula, formula.compute(exam), truths(formula, exam)))
         away = np.abs(formula.left(*exam))
         moved = () if formula.shown is None else formula.shown.value(*path)
         left = formula.left(*path)
-    return Sweep(
+    return FormulaSweep(
         formula.name, tuple(map(float, left)), tuple(map(float, moved)), tuple(right.tolist()),
         ways, float(away[away > 0].min()), worst,
     )  # fmt: skip
 
 
-def _computed(formula: Formula, columns: Columns) -> dict[str, Column]:
+def _compute_by_system(formula: Formula, columns: Columns) -> dict[str, Column]:
     found = {"float64": formula.compute(columns), "float32": formula.compute(columns, 32)}
     if formula.stable is not None:
         found["stable"] = np.ma.filled(formula.stable(*columns), np.nan)
     return found
 
 
-def _digits(formula: Formula, found: Column, right: Column) -> tuple[float, ...]:
+def _count_digits_per_point(formula: Formula, found: Column, right: Column) -> tuple[float, ...]:
     pairs = zip(found.tolist(), right.tolist(), strict=True)
-    return tuple(digits(value, truth, formula.turn) for value, truth in pairs)
+    return tuple(correct_digits(value, truth, formula.turn) for value, truth in pairs)

@@ -5,23 +5,23 @@ from __future__ import annotations
 from importlib.resources import files
 from typing import Any
 
-from quizgen.locale import table
+from quizgen.locale import load_words
 
 
 def words(lang: str) -> dict[str, Any]:
     """All sentences of the page in one language."""
-    return table(lang, "tradeoff")
+    return load_words(lang, "tradeoff")
 
 
 def style_sheet() -> str:
     """The style of what is measured."""
-    return _beside("tradeoff.css")
+    return _read_page_file("tradeoff.css")
 
 
 def script() -> str:
     """What moves the slider."""
-    return _beside("tradeoff.js")
+    return _read_page_file("tradeoff.js")
 
 
-def _beside(name: str) -> str:
+def _read_page_file(name: str) -> str:
     return (files("quizgen.tradeoff") / "pages" / name).read_text("utf-8")

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from flint import arb, fmpq
 
-from quizgen.errors import MathError
-from quizgen.maths.numbers import rational
+from quizgen.core.errors import MathError
+from quizgen.maths.number_systems import compile_expr, exact_system
+from quizgen.maths.numbers import to_rational
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import compile_expr, exact
 from quizgen.tradeoff.formulas import Columns, Formula
 from quizgen.tradeoff.lines import Column
 
@@ -36,18 +36,18 @@ def truths(formula: Formula, columns: Columns) -> Column:
     MathError
         If a ball does not become small enough, as where there is no answer.
     """
-    compute = _compute(formula)
+    compute = _choose_exact_function(formula)
     rows = zip(*(column.tolist() for column in columns), strict=True)
     names = formula.names.split()
     read = _as_decimal if formula.decimal else _as_it_is
     return np.array([
-        _nearest(compute, dict(zip(names, map(read, row), strict=True))) for row in rows
+        _round_to_nearest_double(compute, dict(zip(names, map(read, row), strict=True))) for row in rows
     ])  # fmt: skip
 
 
-def _compute(formula: Formula) -> Callable[[Inputs], Any]:
-    special = {"inverse-distortion": _radius, "poisson": _probability}
-    return special.get(formula.name) or compile_expr(formula.tree, exact())
+def _choose_exact_function(formula: Formula) -> Callable[[Inputs], Any]:
+    special = {"inverse-distortion": _evaluate_inverse_radius, "poisson": _evaluate_poisson}
+    return special.get(formula.name) or compile_expr(formula.tree, exact_system())
 
 
 def _as_it_is(value: float) -> fmpq:
@@ -55,10 +55,10 @@ def _as_it_is(value: float) -> fmpq:
 
 
 def _as_decimal(value: float) -> fmpq:
-    return rational(repr(value))
+    return to_rational(repr(value))
 
 
-def _nearest(compute: Callable[[Inputs], Any], given: Inputs) -> float:
+def _round_to_nearest_double(compute: Callable[[Inputs], Any], given: Inputs) -> float:
     """The nearest double, with as much precision as that takes."""
     precision = 80
     while precision <= _MOST_BITS:
@@ -75,12 +75,12 @@ def _nearest(compute: Callable[[Inputs], Any], given: Inputs) -> float:
     raise MathError("a ball does not become small enough")
 
 
-def _radius(given: Inputs) -> arb:
+def _evaluate_inverse_radius(given: Inputs) -> arb:
     """Closed form of the cubic: 2/sqrt(-3 k) sin(asin(r/fold)/3)."""
     size = (-3 * arb(given["k"])).sqrt()
     return 2 / size * ((3 * size * given["r"] / 2).asin() / 3).sin()
 
 
-def _probability(given: Inputs) -> arb:
+def _evaluate_poisson(given: Inputs) -> arb:
     k, lam = arb(given["k"]), arb(given["lam"])
     return (k * lam.log() - lam - (k + 1).lgamma()).exp()

@@ -21,40 +21,40 @@ u = \frac{f X}{Z} = \frac{50\,\mathrm{mm} \cdot 30\,\mathrm{m} }{600\,\mathrm{m}
 = 2.5\,\mathrm{mm}
 """
 
-from quizgen.typeset.build import (
+from quizgen.typeset.builders import (
     comma_list,
     decimal,
-    fenced,
+    fence,
     negative,
     number,
     power_of_ten,
     quantity,
-    relation,
+    relation_chain,
 )
-from quizgen.typeset.latex import latex
-from quizgen.typeset.layout import bracketed, layout, power
-from quizgen.typeset.mathml import mathml
-from quizgen.typeset.names import name
+from quizgen.typeset.latex import to_latex
+from quizgen.typeset.layout import add_brackets, lay_out, lay_out_power
+from quizgen.typeset.mathml import to_mathml
+from quizgen.typeset.names import lay_out_name
 from quizgen.typeset.nodes import Node
-from quizgen.typeset.spoken import spoken
-from quizgen.typeset.typst import typst
+from quizgen.typeset.speech import to_speech
+from quizgen.typeset.typst import to_typst
 
 __all__ = [
     "Node",
-    "bracketed",
+    "add_brackets",
     "comma_list",
     "decimal",
-    "fenced",
-    "latex",
-    "layout",
-    "mathml",
-    "name",
+    "fence",
+    "to_latex",
+    "lay_out",
+    "to_mathml",
+    "lay_out_name",
     "negative",
     "number",
-    "power",
+    "lay_out_power",
     "power_of_ten",
     "quantity",
-    "relation",
-    "spoken",
-    "typst",
+    "relation_chain",
+    "to_speech",
+    "to_typst",
 ]

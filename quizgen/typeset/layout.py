@@ -10,11 +10,11 @@ from fractions import Fraction
 
 from msgspec.structs import replace
 
-from quizgen.errors import RenderError
-from quizgen.maths.operators import Operator, Typed, typed_as
+from quizgen.core.errors import RenderError
+from quizgen.maths.operators import Operator, OperatorSyntax, operators_with_syntax
 from quizgen.maths.tree import Call, Expr, Num, Sym
-from quizgen.typeset.build import decimal, negative, number
-from quizgen.typeset.names import name
+from quizgen.typeset.builders import decimal, negative, number
+from quizgen.typeset.names import lay_out_name
 from quizgen.typeset.nodes import (
     ATOM,
     FRACTION,
@@ -26,26 +26,26 @@ from quizgen.typeset.nodes import (
     SUM,
     WORDS,
     Cases,
-    Fence,
+    Digits,
+    Fenced,
     Frac,
     Func,
     Ident,
+    MathRow,
     Node,
-    Number,
-    Op,
+    OperatorSign,
+    ReaderWord,
     Root,
-    Row,
     Scripts,
-    Text,
     Word,
 )
-from quizgen.typeset.products import between
+from quizgen.typeset.products import needs_dot
 
 SIGNS = {"eq": "=", "ne": "≠", "lt": "<", "le": "≤", "gt": ">", "ge": "≥"}
 FENCES = {"abs": "||", "floor": "⌊⌋", "ceil": "⌈⌉"}
 HEADS: dict[str, Node] = {
-    "log2": Scripts(Word("log"), Number("2")),
-    "log10": Scripts(Word("log"), Number("10")),
+    "log2": Scripts(Word("log"), Digits("2")),
+    "log10": Scripts(Word("log"), Digits("10")),
     "asin": Word("arcsin"),
     "acos": Word("arccos"),
     "atan": Word("arctan"),
@@ -56,12 +56,12 @@ HEADS: dict[str, Node] = {
 _POWER_ON_NAME = frozenset({"sin", "cos", "tan"})
 _OPPOSITES = {"eq": "ne", "ne": "eq", "lt": "ge", "ge": "lt", "gt": "le", "le": "gt"}
 
-_NEG = Op("neg")
+_NEG = OperatorSign("neg")
 _ONE = Fraction(1)
 _MINUS_ONES = (Num(-_ONE), Call("neg", (Num(_ONE),)))
 
 
-def layout(expr: Expr, *, leaves: Mapping[str, Node] | None = None, inline: bool = False) -> Node:
+def lay_out(expr: Expr, *, leaves: Mapping[str, Node] | None = None, inline: bool = False) -> Node:
     """Lay a formula out in the order in which it is written.
 
     Parameters
@@ -108,13 +108,13 @@ class _Layout:
     def leaf(self, symbol: str) -> Node:
         """Print the drawn number of a symbol, or its name."""
         node = self.leaves.get(symbol)
-        return name(symbol) if node is None else self.slashed(node)
+        return lay_out_name(symbol) if node is None else self.slashed(node)
 
     def slashed(self, node: Node) -> Node:
         """Let a fraction of two numbers follow the style of the formula around it."""
         if self.inline and isinstance(node, Frac):
             return replace(node, inline=True)
-        if self.inline and isinstance(node, Row) and isinstance(node.items[-1], Frac):
+        if self.inline and isinstance(node, MathRow) and isinstance(node.items[-1], Frac):
             return replace(node, items=(*node.items[:-1], replace(node.items[-1], inline=True)))
         return node
 
@@ -124,53 +124,66 @@ class _Layout:
 
     def held(self, expr: Expr, level: int) -> Node:
         """Lay out, in brackets unless it holds together at ``level``."""
-        return bracketed(self.lay(expr), level)
+        return add_brackets(self.lay(expr), level)
 
 
-Rule = Callable[[_Layout, tuple[Expr, ...]], Node]
+LayoutRule = Callable[[_Layout, tuple[Expr, ...]], Node]
 
 
-def bracketed(node: Node, level: int) -> Node:
+def add_brackets(node: Node, level: int) -> Node:
     """Put round brackets around a node that is weaker than ``level``."""
-    return node if node.level >= level else Fence("()", node)
+    return node if node.level >= level else Fenced("()", node)
 
 
 # Sums
 
 
-def _add(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_sum(run: _Layout, args: tuple[Expr, ...]) -> Node:
     if not args:
         raise ValueError
     items = [run.held(args[0], SUM)]
     for arg in args[1:]:
         minus, term = split_sign(arg)
-        items += [Op("-"), _subtrahend(run, term)] if minus else [Op("+"), _term(run, term)]
-    return Row(_flat(items, SUM), SUM)
+        items += (
+            [OperatorSign("-"), _lay_out_subtrahend(run, term)]
+            if minus
+            else [OperatorSign("+"), _lay_out_term(run, term)]
+        )
+    return MathRow(_flatten_rows(items, SUM), SUM)
 
 
-def _sub(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_difference(run: _Layout, args: tuple[Expr, ...]) -> Node:
     first, second = args
-    return Row(_flat([run.held(first, SUM), Op("-"), _subtrahend(run, second)], SUM), SUM)
+    return MathRow(
+        _flatten_rows(
+            [run.held(first, SUM), OperatorSign("-"), _lay_out_subtrahend(run, second)], SUM
+        ),
+        SUM,
+    )
 
 
-def _subtrahend(run: _Layout, expr: Expr) -> Node:
+def _lay_out_subtrahend(run: _Layout, expr: Expr) -> Node:
     node = run.lay(expr)
-    return node if node.level == MODULO else bracketed(node, PRODUCT)
+    return node if node.level == MODULO else add_brackets(node, PRODUCT)
 
 
-def _term(run: _Layout, expr: Expr) -> Node:
+def _lay_out_term(run: _Layout, expr: Expr) -> Node:
     """Lay out a later term of a sum: a sum needs no brackets, a minus sign does."""
     node = run.lay(expr)
-    return node if node.level in {SUM, MODULO} and not _signed(node) else bracketed(node, PRODUCT)
+    return (
+        node
+        if node.level in {SUM, MODULO} and not _has_leading_minus(node)
+        else add_brackets(node, PRODUCT)
+    )
 
 
-def _signed(node: Node) -> bool:
-    while isinstance(node, Row):
+def _has_leading_minus(node: Node) -> bool:
+    while isinstance(node, MathRow):
         node = node.items[0]
     return node == _NEG
 
 
-def _neg(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_negative(run: _Layout, args: tuple[Expr, ...]) -> Node:
     (arg,) = args
     return negative(run.held(arg, PRODUCT))
 
@@ -197,11 +210,11 @@ def _with_first(expr: Call, first: Expr) -> Expr:
     return Call(expr.op, (first, *rest))
 
 
-def _flat(items: list[Node], level: int) -> tuple[Node, ...]:
+def _flatten_rows(items: list[Node], level: int) -> tuple[Node, ...]:
     """Merge rows of the same kind, so that a long sum or product is one row."""
     flat: list[Node] = []
     for item in items:
-        if isinstance(item, Row) and item.level == level:
+        if isinstance(item, MathRow) and item.level == level:
             flat += item.items
         else:
             flat.append(item)
@@ -211,77 +224,77 @@ def _flat(items: list[Node], level: int) -> tuple[Node, ...]:
 # Products and quotients
 
 
-def _mul(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_product(run: _Layout, args: tuple[Expr, ...]) -> Node:
     if args[0] in _MINUS_ONES and len(args) > 1:
         return negative(run.held(_with_first(Call("mul", args), Num(_ONE)), PRODUCT))
     items = [run.held(args[0], NEGATIVE)]
     for arg in args[1:]:
         factor = run.held(arg, PRODUCT)
-        items += [between(items[-1], factor), factor]
+        items += [needs_dot(items[-1], factor), factor]
     level = NEGATIVE if items[0].level == NEGATIVE else PRODUCT
-    return Row(_flat(items, PRODUCT), level)
+    return MathRow(_flatten_rows(items, PRODUCT), level)
 
 
-def _div(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_quotient(run: _Layout, args: tuple[Expr, ...]) -> Node:
     top, bottom = (run.lay(arg) for arg in args)
     if run.inline:
-        over = Fence("()", top) if _has_slash(top) else bracketed(top, NEGATIVE)
-        return Frac(over, bracketed(bottom, QUANTITY), inline=True)
-    return Frac(bracketed(top, SUM), bracketed(bottom, SUM))
+        over = Fenced("()", top) if _has_slash(top) else add_brackets(top, NEGATIVE)
+        return Frac(over, add_brackets(bottom, QUANTITY), inline=True)
+    return Frac(add_brackets(top, SUM), add_brackets(bottom, SUM))
 
 
 def _has_slash(node: Node) -> bool:
-    if isinstance(node, Row):
+    if isinstance(node, MathRow):
         return node.level >= NEGATIVE and any(map(_has_slash, node.items))
     return isinstance(node, Frac) and node.inline
 
 
-def _mod(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_modulo(run: _Layout, args: tuple[Expr, ...]) -> Node:
     left, right = (run.held(arg, FRACTION) for arg in args)
-    return Row((left, Op("mod"), right), MODULO)
+    return MathRow((left, OperatorSign("mod"), right), MODULO)
 
 
 # Powers and functions
 
 
-def _pow(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_power_of(run: _Layout, args: tuple[Expr, ...]) -> Node:
     base, exponent = args
-    return power(run.lay(base), run.small(exponent), on_name=_takes_power(base))
+    return lay_out_power(run.lay(base), run.small(exponent), on_name=_takes_power(base))
 
 
 def _takes_power(base: Expr) -> bool:
     return isinstance(base, Call) and base.op in _POWER_ON_NAME
 
 
-def power(base: Node, exponent: Node, *, on_name: bool = False) -> Node:
+def lay_out_power(base: Node, exponent: Node, *, on_name: bool = False) -> Node:
     """Raise a node, merging with its subscript; ``on_name`` writes sin²(x)."""
     if on_name and isinstance(base, Func):
-        return Func(power(base.head, exponent), base.args)
-    base = Fence("()", base) if isinstance(base, Func) else bracketed(base, ATOM)
+        return Func(lay_out_power(base.head, exponent), base.args)
+    base = Fenced("()", base) if isinstance(base, Func) else add_brackets(base, ATOM)
     if isinstance(base, Scripts):
         return replace(base, sup=exponent)
     return Scripts(base, None, exponent)
 
 
-def _exp(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_exponential(run: _Layout, args: tuple[Expr, ...]) -> Node:
     (exponent,) = args
     return Scripts(Ident("e"), None, run.small(exponent))
 
 
-def _sqrt(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_square_root(run: _Layout, args: tuple[Expr, ...]) -> Node:
     (body,) = args
     return Root(run.lay(body))
 
 
-def _fence(kind: str) -> Rule:
+def _make_fence_rule(kind: str) -> LayoutRule:
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
         (body,) = args
-        return Fence(kind, run.lay(body))
+        return Fenced(kind, run.lay(body))
 
     return rule
 
 
-def _function(row: Operator) -> Rule:
+def _make_function_rule(row: Operator) -> LayoutRule:
     head = HEADS.get(row.name, Word(row.name))
 
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
@@ -295,30 +308,30 @@ def _function(row: Operator) -> Rule:
 # Relations and choices
 
 
-def _relation(sign: str) -> Rule:
+def _make_relation_rule(sign: str) -> LayoutRule:
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
         left, right = (run.held(arg, SUM) for arg in args)
-        return Row((left, Op(sign), right), RELATION)
+        return MathRow((left, OperatorSign(sign), right), RELATION)
 
     return rule
 
 
-def _join(word: str) -> Rule:
+def _make_connective_rule(word: str) -> LayoutRule:
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
         between = _between_bounds(run, args) if word == "and" and len(args) == 2 else None
         if between is not None:
             return between
         items = [run.held(args[0], RELATION)]
         for arg in args[1:]:
-            items += [Text(word), run.held(arg, RELATION)]
-        return Row(tuple(items), WORDS)
+            items += [ReaderWord(word), run.held(arg, RELATION)]
+        return MathRow(tuple(items), WORDS)
 
     return rule
 
 
 def _between_bounds(run: _Layout, args: tuple[Expr, ...]) -> Node | None:
     """Write ``x >= 0 and x < 1`` as 0 ≤ x < 1."""
-    first, second = map(_ascending, args)
+    first, second = map(_order_comparison, args)
     if first is None or second is None:
         return None
     if first[2] != second[1]:
@@ -326,24 +339,26 @@ def _between_bounds(run: _Layout, args: tuple[Expr, ...]) -> Node | None:
     if first[2] != second[1]:
         return None
     parts = [run.held(expr, SUM) for expr in (first[1], first[2], second[2])]
-    return Row((parts[0], Op(first[0]), parts[1], Op(second[0]), parts[2]), RELATION)
+    return MathRow(
+        (parts[0], OperatorSign(first[0]), parts[1], OperatorSign(second[0]), parts[2]), RELATION
+    )
 
 
-def _ascending(expr: Expr) -> tuple[str, Expr, Expr] | None:
+def _order_comparison(expr: Expr) -> tuple[str, Expr, Expr] | None:
     if not isinstance(expr, Call) or expr.op not in {"lt", "le", "gt", "ge"}:
         return None
     low, high = expr.args if expr.op in {"lt", "le"} else expr.args[::-1]
     return ("<" if expr.op in {"lt", "gt"} else "≤"), low, high
 
 
-def _not(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_negation(run: _Layout, args: tuple[Expr, ...]) -> Node:
     (arg,) = args
     if isinstance(arg, Call) and arg.op in _OPPOSITES:
         return run.lay(Call(_OPPOSITES[arg.op], arg.args))
-    return Row((Text("not"), Fence("()", run.lay(arg))), RELATION)
+    return MathRow((ReaderWord("not"), Fenced("()", run.lay(arg))), RELATION)
 
 
-def _piecewise(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_cases(run: _Layout, args: tuple[Expr, ...]) -> Node:
     if len(args) % 2 == 0:
         raise ValueError
     pairs = zip(args[:-1:2], args[1::2], strict=True)
@@ -351,28 +366,30 @@ def _piecewise(run: _Layout, args: tuple[Expr, ...]) -> Node:
     return Cases((*rows, (run.lay(args[-1]), None)))
 
 
-def _pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _lay_out_pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
     if args:
         raise ValueError
     return Ident("π")
 
 
-_RULES: dict[str, Rule] = {
-    **{row.name: _function(row) for row in typed_as(Typed.FUNCTION)},
-    "add": _add,
-    "sub": _sub,
-    "neg": _neg,
-    "mul": _mul,
-    "div": _div,
-    "mod": _mod,
-    "pow": _pow,
-    "exp": _exp,
-    "sqrt": _sqrt,
-    "not": _not,
-    "piecewise": _piecewise,
-    "pi": _pi,
-    "and": _join("and"),
-    "or": _join("or"),
-    **{op: _relation(sign) for op, sign in SIGNS.items()},
-    **{op: _fence(kind) for op, kind in FENCES.items()},
+_RULES: dict[str, LayoutRule] = {
+    **{
+        row.name: _make_function_rule(row) for row in operators_with_syntax(OperatorSyntax.FUNCTION)
+    },
+    "add": _lay_out_sum,
+    "sub": _lay_out_difference,
+    "neg": _lay_out_negative,
+    "mul": _lay_out_product,
+    "div": _lay_out_quotient,
+    "mod": _lay_out_modulo,
+    "pow": _lay_out_power_of,
+    "exp": _lay_out_exponential,
+    "sqrt": _lay_out_square_root,
+    "not": _lay_out_negation,
+    "piecewise": _lay_out_cases,
+    "pi": _lay_out_pi,
+    "and": _make_connective_rule("and"),
+    "or": _make_connective_rule("or"),
+    **{op: _make_relation_rule(sign) for op, sign in SIGNS.items()},
+    **{op: _make_fence_rule(kind) for op, kind in FENCES.items()},
 }

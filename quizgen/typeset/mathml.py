@@ -6,16 +6,16 @@ import re
 from functools import lru_cache, singledispatch
 from html import escape
 
-from quizgen.errors import RenderError
-from quizgen.locale import numbers_in
+from quizgen.core.errors import RenderError
+from quizgen.locale import localise_numbers
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK_LETTERS
-from quizgen.typeset.separators import separated, separator
-from quizgen.typeset.tables import known
-from quizgen.typeset.units import TIGHT, parts
-from quizgen.typeset.words import words_of
+from quizgen.typeset.separators import insert_separators, list_separator
+from quizgen.typeset.tables import strict_lookup
+from quizgen.typeset.units import TIGHT, split_unit
+from quizgen.typeset.words import load_speech_words
 
-_known = known("MathML")
+_known = strict_lookup("MathML")
 
 THIN = '<mspace width="0.17em"/>'
 _APPLY, _TIMES = "<mo>\u2061</mo>", "<mo>\u2062</mo>"
@@ -49,7 +49,7 @@ _TALL = re.compile("<(?:mfrac|msqrt|mroot|mtable|munder|mo>[∑∏∫])")
 _OPENING, _CLOSING = "([{|⌊⌈", ")]}|⌋⌉"
 
 
-def mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
+def to_mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
     """Write a layout as a ``<math>`` element.
 
     Parameters
@@ -67,45 +67,45 @@ def mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
         If the layout holds something that has no MathML form.
     """
     start = '<math display="block">' if display else "<math>"
-    if isinstance(node, n.Row):
-        return start + _joined(node.items, lang) + "</math>"
-    return start + _emit(node, lang) + "</math>"
+    if isinstance(node, n.MathRow):
+        return start + _join_items(node.items, lang) + "</math>"
+    return start + _format_node(node, lang) + "</math>"
 
 
-def _joined(items: tuple[n.Node, ...], lang: str) -> str:
-    items = separated(items, lang)
-    written = [_emit(item, lang) for item in items]
+def _join_items(items: tuple[n.Node, ...], lang: str) -> str:
+    items = insert_separators(items, lang)
+    written = [_format_node(item, lang) for item in items]
     for index, item in enumerate(items):
         if isinstance(item, n.Func) and isinstance(item.head, n.Word | n.Scripts):
-            _widen(written, index)
+            _widen_before_function(written, index)
     return "".join(written)
 
 
-def _widen(written: list[str], index: int) -> None:
+def _widen_before_function(written: list[str], index: int) -> None:
     """Leave a thin space between a factor and a function's name."""
     if index and written[index - 1] == _TIMES:
         written[index - 1] = _TIMES_NAMED
 
 
 @singledispatch
-def _emit(node: n.Node, lang: str) -> str:
+def _format_node(node: n.Node, lang: str) -> str:
     raise RenderError(f"no MathML for {type(node).__name__} ({lang})")
 
 
-@_emit.register
-def _number(node: n.Number, lang: str) -> str:
-    return f"<mn>{numbers_in(lang, node.text).replace(' ', chr(0x202F))}</mn>"
+@_format_node.register
+def _format_digits(node: n.Digits, lang: str) -> str:
+    return f"<mn>{localise_numbers(lang, node.text).replace(' ', chr(0x202F))}</mn>"
 
 
-@_emit.register
-def _ident(node: n.Ident, _lang: str) -> str:
+@_format_node.register
+def _format_letter(node: n.Ident, _lang: str) -> str:
     if node.bold:
-        return f"<mi>{bold(node.text)}</mi>"
+        return f"<mi>{bold_letter(node.text)}</mi>"
     upright = node.text in GREEK_LETTERS and node.text.isupper()
     return f'<mi mathvariant="normal">{node.text}</mi>' if upright else f"<mi>{node.text}</mi>"
 
 
-def bold(letter: str) -> str:
+def bold_letter(letter: str) -> str:
     """Find the mathematical bold form of a letter, which maths fonts have even when bold is not.
 
     Examples
@@ -119,20 +119,20 @@ def bold(letter: str) -> str:
     raise RenderError(f"no bold form of {letter!r}")
 
 
-@_emit.register
-def _word(node: n.Word, _lang: str) -> str:
+@_format_node.register
+def _format_word(node: n.Word, _lang: str) -> str:
     return f"<mi>{escape(node.text)}</mi>"
 
 
-@_emit.register
-def _text(node: n.Text, lang: str) -> str:
-    return f"<mtext>\u00a0{_known(words_of(lang).printed, node.key, 'word')}\u00a0</mtext>"
+@_format_node.register
+def _format_reader_word(node: n.ReaderWord, lang: str) -> str:
+    return f"<mtext>\u00a0{_known(load_speech_words(lang).printed, node.key, 'word')}\u00a0</mtext>"
 
 
 @lru_cache(maxsize=512)
 def _unit_text(text: str) -> str:
     written, plain = "", ""
-    for part in parts(text):
+    for part in split_unit(text):
         plain += part.sign.replace("·", "⋅") + part.shown
         if part.power:
             exponent = f"<mn>{part.power.replace('-', '−')}</mn>"
@@ -142,75 +142,77 @@ def _unit_text(text: str) -> str:
     return f"<mrow>{written}{tail}</mrow>" if written and tail else written + tail
 
 
-@_emit.register
-def _unit(node: n.Unit, _lang: str) -> str:
+@_format_node.register
+def _format_unit(node: n.UnitText, _lang: str) -> str:
     return _unit_text(node.text)
 
 
-@_emit.register
-def _quantity(node: n.Quantity, lang: str) -> str:
+@_format_node.register
+def _format_quantity(node: n.NumberWithUnit, lang: str) -> str:
     space = "" if node.unit.text in TIGHT else THIN
-    return f"<mrow>{_emit(node.value, lang)}{space}{_unit_text(node.unit.text)}</mrow>"
+    return f"<mrow>{_format_node(node.value, lang)}{space}{_unit_text(node.unit.text)}</mrow>"
 
 
-@_emit.register
-def _op(node: n.Op, _lang: str) -> str:
+@_format_node.register
+def _format_operator(node: n.OperatorSign, _lang: str) -> str:
     return _known(_OPERATORS, node.name, "operator")
 
 
-@_emit.register
-def _row(node: n.Row, lang: str) -> str:
-    return f"<mrow>{_joined(node.items, lang)}</mrow>"
+@_format_node.register
+def _format_row(node: n.MathRow, lang: str) -> str:
+    return f"<mrow>{_join_items(node.items, lang)}</mrow>"
 
 
-@_emit.register
-def _frac(node: n.Frac, lang: str) -> str:
-    top, bottom = _emit(node.top, lang), _emit(node.bottom, lang)
+@_format_node.register
+def _format_fraction(node: n.Frac, lang: str) -> str:
+    top, bottom = _format_node(node.top, lang), _format_node(node.bottom, lang)
     if node.inline:
         return f"<mrow>{top}{_OPERATORS['/']}{bottom}</mrow>"
     return f"<mfrac>{top}{bottom}</mfrac>"
 
 
-@_emit.register
-def _root(node: n.Root, lang: str) -> str:
-    body = _emit(node.body, lang)
+@_format_node.register
+def _format_root(node: n.Root, lang: str) -> str:
+    body = _format_node(node.body, lang)
     if node.index is None:
         return f"<msqrt>{body}</msqrt>"
-    return f"<mroot>{body}{_emit(node.index, lang)}</mroot>"
+    return f"<mroot>{body}{_format_node(node.index, lang)}</mroot>"
 
 
-@_emit.register
-def _scripts(node: n.Scripts, lang: str) -> str:
-    base = _emit(node.base, lang)
-    sup = "" if node.sup is None else _emit(node.sup, lang)
+@_format_node.register
+def _format_scripts(node: n.Scripts, lang: str) -> str:
+    base = _format_node(node.base, lang)
+    sup = "" if node.sup is None else _format_node(node.sup, lang)
     if node.sub is None:
         primed = f"<mrow>{base}{_PRIME * node.primes}</mrow>" if node.primes else base
         return f"<msup>{primed}{sup}</msup>" if sup else primed
-    sub = _emit(node.sub, lang)
+    sub = _format_node(node.sub, lang)
     if node.primes:  # without a width of their own, so that the subscript stands below them
         base = f'<mrow>{base}<mpadded width="0">{_PRIME * node.primes}</mpadded></mrow>'
         sup = sup and f'<mrow><mspace width="{_PRIME_WIDTH * node.primes:.2f}em"/>{sup}</mrow>'
     return f"<msubsup>{base}{sub}{sup}</msubsup>" if sup else f"<msub>{base}{sub}</msub>"
 
 
-@_emit.register
-def _accent(node: n.Accent, lang: str) -> str:
+@_format_node.register
+def _format_accent(node: n.Accent, lang: str) -> str:
     mark = _known(_ACCENTS, node.kind, "accent")
     # the padding keeps Chromium from lowering the mark into the letter
     sign = f'<mo stretchy="false" style="padding-bottom:.07em">{mark}</mo>'
-    return f'<mover accent="true">{_emit(node.base, lang)}{sign}</mover>'
+    return f'<mover accent="true">{_format_node(node.base, lang)}{sign}</mover>'
 
 
-@_emit.register
-def _fence(node: n.Fence, lang: str) -> str:
-    return f"<mrow>{_between(node.kind, _inside(node.body, lang))}</mrow>"
+@_format_node.register
+def _format_fence(node: n.Fenced, lang: str) -> str:
+    return f"<mrow>{_format_brackets(node.kind, _format_inside(node.body, lang))}</mrow>"
 
 
-def _inside(node: n.Node, lang: str) -> str:
-    return _joined(node.items, lang) if isinstance(node, n.Row) else _emit(node, lang)
+def _format_inside(node: n.Node, lang: str) -> str:
+    return (
+        _join_items(node.items, lang) if isinstance(node, n.MathRow) else _format_node(node, lang)
+    )
 
 
-def _between(kind: str, body: str) -> str:
+def _format_brackets(kind: str, body: str) -> str:
     left, right = kind[0], kind[-1]
     if left not in _OPENING or right not in _CLOSING:
         raise RenderError(f"no MathML for the brackets {kind!r}")
@@ -222,21 +224,21 @@ def _between(kind: str, body: str) -> str:
     )
 
 
-@_emit.register
-def _func(node: n.Func, lang: str) -> str:
-    arguments = _OPERATORS[separator(node.args, lang).name].join(
-        [_inside(arg, lang) for arg in node.args]
+@_format_node.register
+def _format_function(node: n.Func, lang: str) -> str:
+    arguments = _OPERATORS[list_separator(node.args, lang).name].join(
+        [_format_inside(arg, lang) for arg in node.args]
     )
-    head = _emit(node.head, lang)
-    return f"<mrow>{head}{_APPLY}<mrow>{_between('()', arguments)}</mrow></mrow>"
+    head = _format_node(node.head, lang)
+    return f"<mrow>{head}{_APPLY}<mrow>{_format_brackets('()', arguments)}</mrow></mrow>"
 
 
-@_emit.register
-def _big(node: n.Big, lang: str) -> str:
+@_format_node.register
+def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
     if node.sign not in {"∑", "∏", "∫"}:
         raise RenderError(f"no MathML for the sign {node.sign!r}")
     sign = f"<mo>{node.sign}</mo>"
-    low, high = (bound and _emit(bound, lang) for bound in (node.lower, node.upper))
+    low, high = (bound and _format_node(bound, lang) for bound in (node.lower, node.upper))
     kind = ("sub", "sup") if node.sign == "∫" else ("under", "over")
     if low and high:
         return f"<m{kind[0]}{kind[1]}>{sign}{low}{high}</m{kind[0]}{kind[1]}>"
@@ -246,38 +248,38 @@ def _big(node: n.Big, lang: str) -> str:
     return sign
 
 
-@_emit.register
-def _under(node: n.Under, lang: str) -> str:
-    return f"<munder>{_emit(node.base, lang)}{_emit(node.below, lang)}</munder>"
+@_format_node.register
+def _format_under(node: n.Under, lang: str) -> str:
+    return f"<munder>{_format_node(node.base, lang)}{_format_node(node.below, lang)}</munder>"
 
 
-@_emit.register
-def _cases(node: n.Cases, lang: str) -> str:
+@_format_node.register
+def _format_cases(node: n.Cases, lang: str) -> str:
     rows = []
     for value, condition in node.rows:
-        when = f"<mtext>{words_of(lang).printed['otherwise']}</mtext>"
+        when = f"<mtext>{load_speech_words(lang).printed['otherwise']}</mtext>"
         if condition is not None:
-            when = _case(_inside(condition, lang), lang)
-        rows.append(f"<mtr>{_cell(_emit(value, lang))}{_cell(when)}</mtr>")
+            when = _format_case_condition(_format_inside(condition, lang), lang)
+        rows.append(f"<mtr>{_format_cell(_format_node(value, lang))}{_format_cell(when)}</mtr>")
     brace = '<mo form="prefix" stretchy="true">{</mo>'
     return f"<mrow>{brace}<mtable>{''.join(rows)}</mtable></mrow>"
 
 
-def _cell(body: str) -> str:
+def _format_cell(body: str) -> str:
     return f'<mtd style="text-align:left;padding:0.2em 0.4em">{body}</mtd>'
 
 
-def _case(condition: str, lang: str) -> str:
-    before, after = (half.strip() for half in words_of(lang).printed["if"].split("{}"))
+def _format_case_condition(condition: str, lang: str) -> str:
+    before, after = (half.strip() for half in load_speech_words(lang).printed["if"].split("{}"))
     left = f"<mtext>{before}\u00a0</mtext>" if before else ""
     return left + condition + (f"<mtext>\u00a0{after}</mtext>" if after else "")
 
 
-@_emit.register
-def _matrix(node: n.Matrix, lang: str) -> str:
+@_format_node.register
+def _format_matrix(node: n.Matrix, lang: str) -> str:
     rows = [
-        "<mtr>" + "".join([f"<mtd>{_emit(cell, lang)}</mtd>" for cell in row]) + "</mtr>"
+        "<mtr>" + "".join([f"<mtd>{_format_node(cell, lang)}</mtd>" for cell in row]) + "</mtr>"
         for row in node.rows
     ]
     table = f"<mtable>{''.join(rows)}</mtable>"
-    return f"<mrow>{_between('()', table)}</mrow>"
+    return f"<mrow>{_format_brackets('()', table)}</mrow>"

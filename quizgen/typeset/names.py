@@ -10,8 +10,18 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from quizgen.errors import RenderError
-from quizgen.typeset.nodes import PRODUCT, Accent, Ident, Node, Number, Op, Row, Scripts, Word
+from quizgen.core.errors import RenderError
+from quizgen.typeset.nodes import (
+    PRODUCT,
+    Accent,
+    Digits,
+    Ident,
+    MathRow,
+    Node,
+    OperatorSign,
+    Scripts,
+    Word,
+)
 
 GREEK = {
     "alpha": "α",
@@ -63,7 +73,7 @@ _PART = re.compile(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
 
 
 @lru_cache(maxsize=4096)
-def name(symbol: str) -> Node:
+def lay_out_name(symbol: str) -> Node:
     """Lay a quantity's name out.
 
     Parameters
@@ -80,21 +90,21 @@ def name(symbol: str) -> Node:
     match = _PART.fullmatch(first) or _MIXED.fullmatch(first)
     if match is None:
         raise RenderError(f"cannot write the name {symbol!r}: it must begin with a letter")
-    base, accent = _stem(match["stem"])
+    base, accent = _lay_out_stem(match["stem"])
     primes = len(match["primes"])
-    subs: list[Node] = [Number(match["digits"])] if match["digits"] else []
+    subs: list[Node] = [Digits(match["digits"])] if match["digits"] else []
     for part in rest:
         body = part.rstrip("'′")
         primes += len(part) - len(body) + (body == "prime")
         if body in ACCENTS:
             accent = body
         elif body and body != "prime":
-            subs.append(_subscript(body, symbol))
+            subs.append(_lay_out_subscript(body, symbol))
     marked = Accent(accent, base) if accent else base
-    return Scripts(marked, _joined(subs), None, primes) if subs or primes else marked
+    return Scripts(marked, _join_subscripts(subs), None, primes) if subs or primes else marked
 
 
-def _stem(stem: str) -> tuple[Node, str]:
+def _lay_out_stem(stem: str) -> tuple[Node, str]:
     """Letter, Greek letter, accented letter, difference or word; and the accent's name."""
     letter = GREEK.get(stem, stem)
     if len(letter) == 1:
@@ -105,31 +115,31 @@ def _stem(stem: str) -> tuple[Node, str]:
             return Ident(GREEK.get(head, head)), accent
     tail = stem.removeprefix("Delta").removeprefix("Δ")
     if tail != stem and len(GREEK.get(tail, tail)) == 1:
-        return Row((Ident("Δ"), Ident(GREEK.get(tail, tail))), PRODUCT), ""
+        return MathRow((Ident("Δ"), Ident(GREEK.get(tail, tail))), PRODUCT), ""
     return Word(stem), ""
 
 
-def _subscript(part: str, symbol: str) -> Node:
+def _lay_out_subscript(part: str, symbol: str) -> Node:
     if part.isdigit():
-        return Number(part)
+        return Digits(part)
     if part in _SIGNS:
-        return Op(_SIGNS[part])
+        return OperatorSign(_SIGNS[part])
     if len(part) > 1 and _AXES.issuperset(part):
-        return Row(tuple(Ident(letter) for letter in part))
+        return MathRow(tuple(Ident(letter) for letter in part))
     match = _PART.fullmatch(part)
     if match is None and _MIXED.fullmatch("x" + part):
         return Word(part)
     if match is None:
         raise RenderError(f"cannot write the name {symbol!r}: subscript {part!r}")
-    base, accent = _stem(match["stem"])
+    base, accent = _lay_out_stem(match["stem"])
     marked = Accent(accent, base) if accent else base
-    return Row((marked, Number(match["digits"]))) if match["digits"] else marked
+    return MathRow((marked, Digits(match["digits"]))) if match["digits"] else marked
 
 
-def _joined(subs: list[Node]) -> Node | None:
+def _join_subscripts(subs: list[Node]) -> Node | None:
     if len(subs) < 2:
         return subs[0] if subs else None
     items: list[Node] = [subs[0]]
     for sub in subs[1:]:
-        items += [Op(","), sub]
-    return Row(tuple(items))
+        items += [OperatorSign(","), sub]
+    return MathRow(tuple(items))

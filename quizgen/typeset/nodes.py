@@ -16,7 +16,7 @@ WORDS, RELATION, SUM, MODULO, NEGATIVE, PRODUCT, FRACTION, QUANTITY, POWER, ATOM
 """Levels, weakest first."""
 
 
-class Number(Struct, frozen=True):
+class Digits(Struct, frozen=True):
     """Digits without a sign, for example ``2.5`` or ``200 000``."""
 
     text: str
@@ -38,21 +38,21 @@ class Word(Struct, frozen=True):
     level: ClassVar[int] = ATOM
 
 
-class Text(Struct, frozen=True):
+class ReaderWord(Struct, frozen=True):
     """A word of the reader's language, by key: ``if otherwise and or not``."""
 
     key: str
     level: ClassVar[int] = WORDS
 
 
-class Unit(Struct, frozen=True):
+class UnitText(Struct, frozen=True):
     """A unit as written in the closed list, for example ``um/px``."""
 
     text: str
     level: ClassVar[int] = ATOM
 
 
-class Op(Struct, frozen=True):
+class OperatorSign(Struct, frozen=True):
     """An operator, relation or separator by its character.
 
     ``neg`` is the sign, an empty name an unwritten product, a blank a small gap.
@@ -62,18 +62,18 @@ class Op(Struct, frozen=True):
     level: ClassVar[int] = ATOM
 
 
-class Row(Struct, frozen=True):
+class MathRow(Struct, frozen=True):
     """Nodes side by side."""
 
     items: tuple[Node, ...]
     level: int = ATOM
 
 
-class Quantity(Struct, frozen=True):
+class NumberWithUnit(Struct, frozen=True):
     """A number with its unit."""
 
     value: Node
-    unit: Unit
+    unit: UnitText
 
     @property
     def level(self) -> int:
@@ -118,7 +118,7 @@ class Scripts(Struct, frozen=True):
     @property
     def alone(self) -> Scripts:
         """The primes, sub- and superscript without their base."""
-        return replace(self, base=Op(""))
+        return replace(self, base=OperatorSign(""))
 
 
 class Accent(Struct, frozen=True):
@@ -129,7 +129,7 @@ class Accent(Struct, frozen=True):
     level: ClassVar[int] = ATOM
 
 
-class Fence(Struct, frozen=True):
+class Fenced(Struct, frozen=True):
     """Brackets around a node: ``()``, ``[]``, ``{}``, ``||``, ``⌊⌋``, ``⌈⌉``, ``[)``, ``(]``."""
 
     kind: str
@@ -145,7 +145,7 @@ class Func(Struct, frozen=True):
     level: ClassVar[int] = ATOM
 
 
-class Big(Struct, frozen=True):
+class LargeOperator(Struct, frozen=True):
     """A sum, product or integral sign with its bounds."""
 
     sign: str
@@ -156,7 +156,7 @@ class Big(Struct, frozen=True):
     @property
     def bounds(self) -> Scripts:
         """The bounds as scripts of the sign."""
-        return Scripts(Op(""), self.lower, self.upper)
+        return Scripts(OperatorSign(""), self.lower, self.upper)
 
 
 class Under(Struct, frozen=True):
@@ -182,21 +182,21 @@ class Matrix(Struct, frozen=True):
 
 
 Node = (
-    Number
+    Digits
     | Ident
     | Word
-    | Text
-    | Unit
-    | Op
-    | Row
-    | Quantity
+    | ReaderWord
+    | UnitText
+    | OperatorSign
+    | MathRow
+    | NumberWithUnit
     | Frac
     | Root
     | Scripts
     | Accent
-    | Fence
+    | Fenced
     | Func
-    | Big
+    | LargeOperator
     | Under
     | Cases
     | Matrix

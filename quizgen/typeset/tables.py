@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TypeVar
 
-from quizgen.errors import RenderError
+from quizgen.core.errors import RenderError
 
 V = TypeVar("V")
 
 
-def known(medium: str) -> Callable[[Mapping[str, V], str, str], V]:
+def strict_lookup(medium: str) -> Callable[[Mapping[str, V], str, str], V]:
     """Look-up in a medium's tables that names what it does not know."""
 
     def look_up(table: Mapping[str, V], key: str, what: str) -> V:

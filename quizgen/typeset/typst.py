@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from functools import lru_cache, singledispatch
 
-from quizgen.errors import RenderError
-from quizgen.locale import numbers_in
+from quizgen.core.errors import RenderError
+from quizgen.locale import localise_numbers
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import KNOWN
-from quizgen.typeset.separators import separated, separator
-from quizgen.typeset.tables import known
-from quizgen.typeset.units import TIGHT, parts
-from quizgen.typeset.words import words_of
+from quizgen.typeset.separators import insert_separators, list_separator
+from quizgen.typeset.tables import strict_lookup
+from quizgen.typeset.units import TIGHT, split_unit
+from quizgen.typeset.words import load_speech_words
 
-_known = known("Typst")
+_known = strict_lookup("Typst")
 
 _OPERATORS = {
     "": "",
@@ -49,7 +49,7 @@ _UNITS = {"e⁻": '"e"^(-)'}
 _SIGNS = {"∑": "sum", "∏": "product", "∫": "integral"}
 
 
-def typst(node: n.Node, lang: str = "en") -> str:
+def to_typst(node: n.Node, lang: str = "en") -> str:
     """Write a layout as Typst mathematics.
 
     Parameters
@@ -64,10 +64,10 @@ def typst(node: n.Node, lang: str = "en") -> str:
     RenderError
         If the layout holds something that has no Typst form.
     """
-    return _emit(node, lang)
+    return _format_node(node, lang)
 
 
-def quoted(text: str) -> str:
+def typst_string(text: str) -> str:
     r"""Make a Typst string literal.
 
     Examples
@@ -79,63 +79,65 @@ def quoted(text: str) -> str:
 
 
 @singledispatch
-def _emit(node: n.Node, lang: str) -> str:
+def _format_node(node: n.Node, lang: str) -> str:
     raise RenderError(f"no Typst for {type(node).__name__} ({lang})")
 
 
-@_emit.register
-def _number(node: n.Number, lang: str) -> str:
-    text = numbers_in(lang, node.text).replace(" ", "\u202f")
-    return text if text.replace(".", "", 1).isdigit() and text.isascii() else quoted(text)
+@_format_node.register
+def _format_digits(node: n.Digits, lang: str) -> str:
+    text = localise_numbers(lang, node.text).replace(" ", "\u202f")
+    return text if text.replace(".", "", 1).isdigit() and text.isascii() else typst_string(text)
 
 
-@_emit.register
-def _ident(node: n.Ident, _lang: str) -> str:
+@_format_node.register
+def _format_letter(node: n.Ident, _lang: str) -> str:
     return f"upright(bold({node.text}))" if node.bold else node.text
 
 
-@_emit.register
-def _word(node: n.Word, _lang: str) -> str:
-    return quoted(node.text)
+@_format_node.register
+def _format_word(node: n.Word, _lang: str) -> str:
+    return typst_string(node.text)
 
 
-@_emit.register
-def _text(node: n.Text, lang: str) -> str:
-    return quoted(f" {_known(words_of(lang).printed, node.key, 'word')} ")
+@_format_node.register
+def _format_reader_word(node: n.ReaderWord, lang: str) -> str:
+    return typst_string(f" {_known(load_speech_words(lang).printed, node.key, 'word')} ")
 
 
 @lru_cache(maxsize=512)
 def _unit_text(text: str) -> str:
     written = ""
-    for part in parts(text):
+    for part in split_unit(text):
         sign = {"·": "dot.op", "/": "slash", "": ""}[part.sign]
         power = f"^({part.power})" if part.power else ""
-        written += f"{sign}{_UNITS.get(part.shown) or quoted(part.shown)}{power}"
+        written += f"{sign}{_UNITS.get(part.shown) or typst_string(part.shown)}{power}"
     return written
 
 
-@_emit.register
-def _unit(node: n.Unit, _lang: str) -> str:
+@_format_node.register
+def _format_unit(node: n.UnitText, _lang: str) -> str:
     return _unit_text(node.text)
 
 
-@_emit.register
-def _quantity(node: n.Quantity, lang: str) -> str:
+@_format_node.register
+def _format_quantity(node: n.NumberWithUnit, lang: str) -> str:
     space = "" if node.unit.text in TIGHT else " thin"
-    return f"{_emit(node.value, lang)}{space}{_unit_text(node.unit.text)}"
+    return f"{_format_node(node.value, lang)}{space}{_unit_text(node.unit.text)}"
 
 
-@_emit.register
-def _op(node: n.Op, _lang: str) -> str:
+@_format_node.register
+def _format_operator(node: n.OperatorSign, _lang: str) -> str:
     return _known(_OPERATORS, node.name, "operator")
 
 
-@_emit.register
-def _row(node: n.Row, lang: str) -> str:
-    return _spaced([_emit(item, lang) for item in separated(node.items, lang)])
+@_format_node.register
+def _format_row(node: n.MathRow, lang: str) -> str:
+    return _join_with_spaces(
+        [_format_node(item, lang) for item in insert_separators(node.items, lang)]
+    )
 
 
-def _spaced(texts: list[str]) -> str:
+def _join_with_spaces(texts: list[str]) -> str:
     """Join by spaces, except beside a string literal, where Typst would print the space."""
     written = ""
     for text in texts:
@@ -144,38 +146,38 @@ def _spaced(texts: list[str]) -> str:
     return written
 
 
-@_emit.register
-def _frac(node: n.Frac, lang: str) -> str:
-    top, bottom = _emit(node.top, lang), _emit(node.bottom, lang)
+@_format_node.register
+def _format_fraction(node: n.Frac, lang: str) -> str:
+    top, bottom = _format_node(node.top, lang), _format_node(node.bottom, lang)
     if node.inline:
-        return _spaced([top, "slash", bottom])
+        return _join_with_spaces([top, "slash", bottom])
     return f"frac({top}, {bottom})"
 
 
-@_emit.register
-def _root(node: n.Root, lang: str) -> str:
-    body = _emit(node.body, lang)
-    return f"root({_emit(node.index, lang)}, {body})" if node.index else f"sqrt({body})"
+@_format_node.register
+def _format_root(node: n.Root, lang: str) -> str:
+    body = _format_node(node.body, lang)
+    return f"root({_format_node(node.index, lang)}, {body})" if node.index else f"sqrt({body})"
 
 
-@_emit.register
-def _scripts(node: n.Scripts, lang: str) -> str:
-    written = _emit(node.base, lang) + "'" * node.primes
+@_format_node.register
+def _format_scripts(node: n.Scripts, lang: str) -> str:
+    written = _format_node(node.base, lang) + "'" * node.primes
     if node.sub is not None:
-        written += f"_({_emit(node.sub, lang)})"
+        written += f"_({_format_node(node.sub, lang)})"
     if node.sup is not None:
-        written += f"^({_emit(node.sup, lang)})"
+        written += f"^({_format_node(node.sup, lang)})"
     return written
 
 
-@_emit.register
-def _accent(node: n.Accent, lang: str) -> str:
-    return f"{_known(_ACCENTS, node.kind, 'accent')}({_emit(node.base, lang)})"
+@_format_node.register
+def _format_accent(node: n.Accent, lang: str) -> str:
+    return f"{_known(_ACCENTS, node.kind, 'accent')}({_format_node(node.base, lang)})"
 
 
-@_emit.register
-def _fence(node: n.Fence, lang: str) -> str:
-    body = _emit(node.body, lang)
+@_format_node.register
+def _format_fence(node: n.Fenced, lang: str) -> str:
+    body = _format_node(node.body, lang)
     if node.kind == "()":
         return f"({body})"
     if node.kind in _CALLS:
@@ -184,52 +186,52 @@ def _fence(node: n.Fence, lang: str) -> str:
     return f"lr({left} {body} {right})"
 
 
-@_emit.register
-def _func(node: n.Func, lang: str) -> str:
-    between = f" {_OPERATORS[separator(node.args, lang).name]} "
-    arguments = between.join([_emit(arg, lang) for arg in node.args])
-    return f"{_head(node.head, lang)} ({arguments})"
+@_format_node.register
+def _format_function(node: n.Func, lang: str) -> str:
+    between = f" {_OPERATORS[list_separator(node.args, lang).name]} "
+    arguments = between.join([_format_node(arg, lang) for arg in node.args])
+    return f"{_format_function_head(node.head, lang)} ({arguments})"
 
 
-def _head(node: n.Node, lang: str) -> str:
+def _format_function_head(node: n.Node, lang: str) -> str:
     if isinstance(node, n.Word):
-        return node.text if node.text in KNOWN else f"op({quoted(node.text)})"
+        return node.text if node.text in KNOWN else f"op({typst_string(node.text)})"
     if isinstance(node, n.Scripts):
-        return _head(node.base, lang) + _scripts(node.alone, lang)
-    return _emit(node, lang)
+        return _format_function_head(node.base, lang) + _format_scripts(node.alone, lang)
+    return _format_node(node, lang)
 
 
-@_emit.register
-def _big(node: n.Big, lang: str) -> str:
-    return _known(_SIGNS, node.sign, "sign") + _scripts(node.bounds, lang)
+@_format_node.register
+def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
+    return _known(_SIGNS, node.sign, "sign") + _format_scripts(node.bounds, lang)
 
 
-@_emit.register
-def _under(node: n.Under, lang: str) -> str:
-    base = _head(node.base, lang)
+@_format_node.register
+def _format_under(node: n.Under, lang: str) -> str:
+    base = _format_function_head(node.base, lang)
     if isinstance(node.base, n.Word) and node.base.text in {"lim", "max", "min"}:
-        return f"limits({base})_({_emit(node.below, lang)})"
-    return f"attach({base}, b: {_emit(node.below, lang)})"
+        return f"limits({base})_({_format_node(node.below, lang)})"
+    return f"attach({base}, b: {_format_node(node.below, lang)})"
 
 
-@_emit.register
-def _cases(node: n.Cases, lang: str) -> str:
+@_format_node.register
+def _format_cases(node: n.Cases, lang: str) -> str:
     rows = []
     for value, condition in node.rows:
-        when = quoted(words_of(lang).printed["otherwise"])
+        when = typst_string(load_speech_words(lang).printed["otherwise"])
         if condition is not None:
-            when = _case(_emit(condition, lang), lang)
-        rows.append(f"{_emit(value, lang)} quad & {when}")
+            when = _format_case_condition(_format_node(condition, lang), lang)
+        rows.append(f"{_format_node(value, lang)} quad & {when}")
     return "cases(" + ", ".join(rows) + ")"
 
 
-def _case(condition: str, lang: str) -> str:
-    before, after = (half.strip() for half in words_of(lang).printed["if"].split("{}"))
-    left = quoted(f"{before} ") if before else ""
-    return left + condition + (quoted(f" {after}") if after else "")
+def _format_case_condition(condition: str, lang: str) -> str:
+    before, after = (half.strip() for half in load_speech_words(lang).printed["if"].split("{}"))
+    left = typst_string(f"{before} ") if before else ""
+    return left + condition + (typst_string(f" {after}") if after else "")
 
 
-@_emit.register
-def _matrix(node: n.Matrix, lang: str) -> str:
-    rows = [", ".join([_emit(cell, lang) for cell in row]) for row in node.rows]
+@_format_node.register
+def _format_matrix(node: n.Matrix, lang: str) -> str:
+    rows = [", ".join([_format_node(cell, lang) for cell in row]) for row in node.rows]
     return "mat(" + "; ".join(rows) + ")"

@@ -6,7 +6,7 @@ import re
 from functools import lru_cache
 from typing import NamedTuple
 
-from quizgen.errors import RenderError
+from quizgen.core.errors import RenderError
 from quizgen.maths.superscripts import LOWERED
 from quizgen.maths.units import SHOWN
 
@@ -19,7 +19,7 @@ _PART = re.compile(r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(
 _NAME = re.compile(r"[^\W\d_]+|e-|[%°1]")
 
 
-class Part(NamedTuple):
+class UnitPart(NamedTuple):
     """One simple unit: the sign before it, its listed name, how it is shown, its power."""
 
     sign: str
@@ -29,7 +29,7 @@ class Part(NamedTuple):
 
 
 @lru_cache(maxsize=512)
-def parts(text: str) -> tuple[Part, ...]:
+def split_unit(text: str) -> tuple[UnitPart, ...]:
     """Split a unit into its simple parts.
 
     Raises
@@ -46,6 +46,6 @@ def parts(text: str) -> tuple[Part, ...]:
             raise RenderError(f"no way to print the unit {text!r}")
         sign = "/" if match["sign"] == "/" else "·" * bool(match["sign"])
         power = (match["power"] or "").translate(LOWERED)
-        found.append(Part(sign, listed, SHOWN.get(listed, listed), power))
+        found.append(UnitPart(sign, listed, SHOWN.get(listed, listed), power))
         position = match.end()
     return tuple(found)

@@ -6,12 +6,12 @@ from functools import cache
 
 import msgspec
 
-from quizgen.errors import QuizgenError
-from quizgen.locale import table
-from quizgen.shapes import converted
+from quizgen.core.decoding import convert
+from quizgen.core.errors import QuizgenError
+from quizgen.locale import load_words
 
 
-class Words(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+class SpeechWords(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """How one language prints words in a formula and reads it aloud.
 
     Braces mark where the parts go, so the order of words is the language's own.
@@ -37,7 +37,7 @@ class Words(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 @cache
-def words_of(lang: str) -> Words:
+def load_speech_words(lang: str) -> SpeechWords:
     """Read the words of a language, once.
 
     Raises
@@ -46,6 +46,6 @@ def words_of(lang: str) -> Words:
         If there is no such language, or a table is missing in its file.
     """
     try:
-        return converted(table(lang, "speech"), Words)
+        return convert(load_words(lang, "speech"), SpeechWords)
     except msgspec.ValidationError as error:
         raise QuizgenError(f"{lang}/speech.toml: {error}") from error

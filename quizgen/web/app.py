@@ -17,31 +17,31 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from quizgen.errors import QuizgenError
+from quizgen.core.errors import QuizgenError
 from quizgen.render.fonts import WEB
 from quizgen.web import (
     accounts,
-    anki,
     author,
     camera,
+    error_cards,
     exam,
-    formulas,
+    formula_sheet,
     practice,
     progress,
     tradeoff,
 )
-from quizgen.web.door import Door
-from quizgen.web.forms import one, posted
-from quizgen.web.guard import Guard
-from quizgen.web.settings import Settings
-from quizgen.web.site import Site
-from quizgen.web.views import inside, language_style, page, to
+from quizgen.web.auth import AuthMiddleware
+from quizgen.web.forms import field_text, read_form
+from quizgen.web.security import SecurityMiddleware
+from quizgen.web.settings import ServerSettings
+from quizgen.web.state import ServerState
+from quizgen.web.views import page_language_css, page_response, redirect, safe_redirect_target
 
-PAGES = (*practice.ROUTES, *exam.ROUTES, *progress.ROUTES, *formulas.ROUTES, *camera.ROUTES,
-         *anki.ROUTES, *tradeoff.ROUTES)  # fmt: skip
+PAGES = (*practice.ROUTES, *exam.ROUTES, *progress.ROUTES, *formula_sheet.ROUTES, *camera.ROUTES,
+         *error_cards.ROUTES, *tradeoff.ROUTES)  # fmt: skip
 
 
-def application(settings: Settings) -> Starlette:
+def create_app(settings: ServerSettings) -> Starlette:
     """The application.
 
     Parameters
@@ -53,7 +53,7 @@ def application(settings: Settings) -> Starlette:
     BankError, StoreError
         If the bank or the database cannot be opened.
     """
-    site = Site(settings)
+    site = ServerState(settings)
 
     @contextlib.asynccontextmanager
     async def lifespan(_app: Starlette) -> AsyncIterator[None]:
@@ -64,16 +64,16 @@ def application(settings: Settings) -> Starlette:
             site.close()
 
     app = Starlette(
-        routes=_routes(settings),
+        routes=_build_routes(settings),
         middleware=[
-            Middleware(Guard, settings=site.settings),
+            Middleware(SecurityMiddleware, settings=site.settings),
             Middleware(GZipMiddleware, minimum_size=2000, compresslevel=3),
-            Middleware(Door, site=site),
+            Middleware(AuthMiddleware, site=site),
         ],
         exception_handlers={
-            HTTPException: refused,
-            SQLAlchemyError: unreachable,
-            QuizgenError: failed,
+            HTTPException: handle_http_error,
+            SQLAlchemyError: handle_store_error,
+            QuizgenError: handle_bank_error,
         },
         lifespan=lifespan,
     )
@@ -81,59 +81,63 @@ def application(settings: Settings) -> Starlette:
     return app
 
 
-def _routes(settings: Settings) -> list[BaseRoute]:
+def _build_routes(settings: ServerSettings) -> list[BaseRoute]:
     return [
         *PAGES,
         *(author.ROUTES if settings.examine else ()),
-        *(_classroom() if settings.classroom else ()),
+        *(_load_classroom_routes() if settings.classroom else ()),
         *(accounts.ROUTES if settings.accounts else ()),
-        Route("/settings", settle, methods=["POST"]),
-        Route("/static/languages.css", language_sheet),
+        Route("/settings", set_language, methods=["POST"]),
+        Route("/static/languages.css", serve_language_css),
         Mount("/static/fonts", StaticFiles(directory=WEB)),
         Mount("/static/board", StaticFiles(directory=str(files("quizgen.render") / "board"))),
         Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
     ]
 
 
-def _classroom() -> list[Route]:
+def _load_classroom_routes() -> list[Route]:
     """Pages for who marks a class; they load what nobody else waits for."""
-    from quizgen.web import classroom
+    from quizgen.web import manual_grading
 
-    return classroom.ROUTES
+    return manual_grading.ROUTES
 
 
-async def settle(request: Request) -> Response:
+async def set_language(request: Request) -> Response:
     """Choose the language, and go back."""
-    form = await posted(request)
-    lang = one(form, "lang")
-    site: Site = request.app.state.site
+    form = await read_form(request)
+    lang = field_text(form, "lang")
+    site: ServerState = request.app.state.site
     if lang in site.languages:
-        await run_in_threadpool(site.store.settle, request.state.learner.id, {"lang": lang})
-    return to(inside(one(form, "back")))
+        await run_in_threadpool(
+            site.store.update_settings, request.state.learner.id, {"lang": lang}
+        )
+    return redirect(safe_redirect_target(field_text(form, "back")))
 
 
-async def language_sheet(_request: Request) -> Response:
+async def serve_language_css(_request: Request) -> Response:
     """The style of languages with lines of their own height."""
-    return Response(language_style(), media_type="text/css")
+    return Response(page_language_css(), media_type="text/css")
 
 
-async def refused(request: Request, error: Exception) -> Response:
+async def handle_http_error(request: Request, error: Exception) -> Response:
     """A page for what is not there or not allowed."""
     status = error.status_code if isinstance(error, HTTPException) else 500
     name = f"error.{status}" if status in {400, 403, 404, 405, 410, 413, 429} else "error.400"
     if not hasattr(request.state, "learner"):  # a style or a picture that is not there
         return PlainTextResponse(str(status), status)
-    return page(request, "message.html.j2", status, title="error.title", text=name)
+    return page_response(request, "message.html.j2", status, title="error.title", text=name)
 
 
-async def unreachable(request: Request, error: Exception) -> Response:
+async def handle_store_error(request: Request, error: Exception) -> Response:
     """A page for a database that does not answer."""
     del error
-    return page(request, "message.html.j2", 503, title="error.title", text="error.503")
+    return page_response(request, "message.html.j2", 503, title="error.title", text="error.503")
 
 
-async def failed(request: Request, error: Exception) -> Response:
+async def handle_bank_error(request: Request, error: Exception) -> Response:
     """A page for a template that is wrong; authors are told what is."""
-    site: Site = request.app.state.site
+    site: ServerState = request.app.state.site
     wrong = str(error) if site.settings.examine else ""
-    return page(request, "message.html.j2", 500, title="error.title", text="error.500", wrong=wrong)
+    return page_response(
+        request, "message.html.j2", 500, title="error.title", text="error.500", wrong=wrong
+    )

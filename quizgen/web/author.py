@@ -13,15 +13,15 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 from quizgen.bank.levels import EXAM, GUIDED
-from quizgen.errors import QuizgenError
+from quizgen.core.decoding import decode_json
+from quizgen.core.errors import QuizgenError
 from quizgen.figures import clear_alt_words
-from quizgen.question.compose import instance, put_into_words
-from quizgen.shapes import decoded
-from quizgen.web.made import Made, Wanted, made
-from quizgen.web.site import Site
-from quizgen.web.views import lang_of, page
+from quizgen.question.compose import compose_variant, draw_instance
+from quizgen.web.question_view import QuestionRequest, QuestionView, question_view
+from quizgen.web.state import ServerState
+from quizgen.web.views import page_response, request_language
 
 LEVELS = (EXAM, GUIDED, "transfer")
 FOLDERS = ("templates", "solvers")
@@ -31,7 +31,7 @@ DIGITS = 9
 
 
 @dataclass(frozen=True)
-class Preview:
+class PreviewJob:
     """A template in all its languages, as the files were when they had this stamp."""
 
     template: str
@@ -41,17 +41,17 @@ class Preview:
 
     def run(self, bank: Bank) -> bytes:
         """Make it."""
-        template = _afresh(bank).template(self.template)
-        drawn = instance(template, self.seed)
+        template = _reload_bank(bank).template(self.template)
+        drawn = draw_instance(template, self.seed)
         found = []
         for lang in template.texts:
-            wanted = Wanted(self.template, self.seed, lang, level=self.level)
-            found.append(made(wanted, *put_into_words(drawn, lang, level=self.level)))
+            wanted = QuestionRequest(self.template, self.seed, lang, level=self.level)
+            found.append(question_view(wanted, *compose_variant(drawn, lang, level=self.level)))
         return msgspec.json.encode(found)
 
 
 @dataclass(frozen=True)
-class Examined:
+class LintJob:
     """What is wrong with a template."""
 
     template: str
@@ -60,18 +60,18 @@ class Examined:
 
     def run(self, bank: Bank) -> bytes:
         """Find it."""
-        return msgspec.json.encode(self.examine(*_afresh(bank).home(self.template)))
+        return msgspec.json.encode(self.examine(*_reload_bank(bank).owner_of(self.template)))
 
 
-def _afresh(bank: Bank) -> Bank:
+def _reload_bank(bank: Bank) -> Bank:
     """The same bank, its files, solvers, figures and what figures say read again."""
     clear_alt_words()
-    return bank.afresh()
+    return bank.reload()
 
 
-def stamp_of(bank: Bank) -> str:
+def bank_stamp(bank: Bank) -> str:
     """What changes when a file of a bank is saved."""
-    folders = [part.root / name for part in bank.parts for name in FOLDERS]
+    folders = [part.root / name for part in bank.members for name in FOLDERS]
     files = sorted(path for folder in folders for path in folder.rglob("*"))
     seen = [
         (str(path), path.stat().st_mtime_ns)
@@ -81,48 +81,48 @@ def stamp_of(bank: Bank) -> str:
     return hashlib.sha256(repr(seen).encode()).hexdigest()[:16]
 
 
-async def templates(request: Request) -> Response:
+async def list_templates(request: Request) -> Response:
     """All templates by topic."""
-    site: Site = request.app.state.site
-    bank, lang = site.bank.afresh(), lang_of(request)
+    site: ServerState = request.app.state.site
+    bank, lang = site.bank.reload(), request_language(request)
     found, broken = dict[str, list[tuple[str, str]]](), list[tuple[str, str]]()
-    for name in bank.paths:
+    for name in bank.template_paths:
         try:
             rules = bank.rules(name)
             found.setdefault(rules.topic, []).append((name, rules.tier))
         except QuizgenError as error:
             broken.append((name, str(error)))
-    order = [topic for topic in (bank.about.topics or sorted(found)) if topic in found]
+    order = [topic for topic in (bank.metadata.topics or sorted(found)) if topic in found]
     groups = [(bank.topic_title(topic, lang), found[topic]) for topic in order]
-    return page(request, "templates.html.j2", groups=groups, broken=broken)
+    return page_response(request, "templates.html.j2", groups=groups, broken=broken)
 
 
-def _name(request: Request) -> str:
+def _get_requested_template(request: Request) -> str:
     """The template that is asked for; the bank may have got it just now."""
-    site: Site = request.app.state.site
+    site: ServerState = request.app.state.site
     name: str = request.path_params["name"]
-    if name not in site.bank.afresh().paths:
+    if name not in site.bank.reload().template_paths:
         raise HTTPException(404)
     return name
 
 
-async def template(request: Request) -> Response:
+async def show_template(request: Request) -> Response:
     """A template: its question and solution in all languages."""
-    site: Site = request.app.state.site
-    name, asked = _name(request), request.query_params
+    site: ServerState = request.app.state.site
+    name, asked = _get_requested_template(request), request.query_params
     seed = asked.get("seed", "")
     seed = str(int(seed)) if seed.isascii() and seed.isdecimal() and len(seed) <= DIGITS else "0"
     level = asked.get("level", "") if asked.get("level") in LEVELS else EXAM
-    stamp = await run_in_threadpool(stamp_of, site.bank)
+    stamp = await run_in_threadpool(bank_stamp, site.bank)
     if asked.get("stamp") == stamp:
         return Response(status_code=204)  # nothing was saved: what is shown stays
-    shown, wrong = list[Made](), ""
+    shown, wrong = list[QuestionView](), ""
     try:
-        data = await site.workers.done(Preview(name, seed, level, stamp))
-        shown = decoded(data, list[Made])
+        data = await site.workers.get_result(PreviewJob(name, seed, level, stamp))
+        shown = decode_json(data, list[QuestionView])
     except QuizgenError as error:
         wrong = str(error)
-    return page(
+    return page_response(
         request,
         "template.html.j2",
         name=name,
@@ -135,20 +135,20 @@ async def template(request: Request) -> Response:
     )
 
 
-async def lint(request: Request) -> Response:
+async def lint_template_page(request: Request) -> Response:
     """What is wrong with a template."""
-    site: Site = request.app.state.site
-    name, examine = _name(request), site.settings.examine
-    stamp = await run_in_threadpool(stamp_of, site.bank)
+    site: ServerState = request.app.state.site
+    name, examine = _get_requested_template(request), site.settings.examine
+    stamp = await run_in_threadpool(bank_stamp, site.bank)
     assert examine is not None  # noqa: S101 - without it there is no such page
-    problems: list[str] = decoded(
-        await site.workers.done(Examined(name, examine, stamp)), list[str]
+    problems: list[str] = decode_json(
+        await site.workers.get_result(LintJob(name, examine, stamp)), list[str]
     )
-    return page(request, "lint.html.j2", name=name, problems=problems)
+    return page_response(request, "lint.html.j2", name=name, problems=problems)
 
 
 ROUTES = [
-    Route("/author", templates),
-    Route("/author/{name}", template),
-    Route("/author/{name}/lint", lint),
+    Route("/author", list_templates),
+    Route("/author/{name}", show_template),
+    Route("/author/{name}/lint", lint_template_page),
 ]

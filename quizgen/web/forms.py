@@ -8,7 +8,7 @@ from starlette.datastructures import FormData, UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
-from quizgen.web.door import form_token
+from quizgen.web.auth import csrf_token
 
 LONGEST = 10_000
 """Characters of one field."""
@@ -16,7 +16,7 @@ MOST = 400
 """Fields of a form."""
 
 
-async def posted(request: Request) -> FormData:
+async def read_form(request: Request) -> FormData:
     """The form that was sent.
 
     Raises
@@ -25,14 +25,14 @@ async def posted(request: Request) -> FormData:
         403 without the token, 400 where it is no form, or longer than any of ours.
     """
     form = await request.form(max_files=0, max_fields=MOST, max_part_size=LONGEST * 4)
-    _check(request, form)
+    _check_form_token(request, form)
     for name, value in form.multi_items():
         if not isinstance(value, str) or len(value) > LONGEST or "\0" in name + value:
             raise HTTPException(400)
     return form
 
 
-async def posted_file(request: Request, name: str) -> bytes:
+async def read_upload(request: Request, name: str) -> bytes:
     """The file that was sent in a form; empty if there is none.
 
     Raises
@@ -41,23 +41,23 @@ async def posted_file(request: Request, name: str) -> bytes:
         403 without the token.
     """
     async with request.form(max_files=1, max_fields=5) as form:
-        _check(request, form)
+        _check_form_token(request, form)
         sent = form.get(name)
         return await sent.read() if isinstance(sent, UploadFile) else b""
 
 
-def _check(request: Request, form: FormData) -> None:
-    expected = form_token(request.state.token)
-    if not secrets.compare_digest(one(form, "token").encode(), expected.encode()):
+def _check_form_token(request: Request, form: FormData) -> None:
+    expected = csrf_token(request.state.token)
+    if not secrets.compare_digest(field_text(form, "token").encode(), expected.encode()):
         raise HTTPException(403)
 
 
-def one(form: FormData, name: str) -> str:
+def field_text(form: FormData, name: str) -> str:
     """A field's text; empty if there is none."""
     value = form.get(name, "")
     return value if isinstance(value, str) else ""
 
 
-def every(form: FormData, name: str) -> list[str]:
+def field_texts(form: FormData, name: str) -> list[str]:
     """All texts of a field, in order."""
     return [value for value in form.getlist(name) if isinstance(value, str)]

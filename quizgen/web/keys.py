@@ -11,7 +11,7 @@ import html
 import secrets
 from pathlib import Path
 
-from quizgen.files import private
+from quizgen.core.files import open_private
 
 
 class Keys:
@@ -46,7 +46,7 @@ class Keys:
         key = secrets.token_urlsafe(24)
         file = folder / f"open-{secrets.token_hex(8)}.html"
         there = html.escape(f"{address}?key={key}")
-        with private(file) as stream:
+        with open_private(file) as stream:
             stream.write(
                 b'<!DOCTYPE html><meta charset="utf-8"><title>quizgen</title>'
                 b'<meta name="referrer" content="no-referrer">'

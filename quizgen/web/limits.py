@@ -28,30 +28,30 @@ class TimedProtocol(H11Protocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Begin to wait for a request."""
         super().connection_made(transport)
-        self._watch()
+        self._watch_deadline()
 
     def data_received(self, data: bytes) -> None:
         """Go on waiting for what is still missing."""
         super().data_received(data)
-        self._watch()
+        self._watch_deadline()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Wait for nothing more."""
-        self._stop()
+        self._stop_watching()
         super().connection_lost(exc)
 
-    def _watch(self) -> None:
+    def _watch_deadline(self) -> None:
         """Time what is missing of a request, from when it was first missing."""
         state = self.conn.their_state
         if state is self._kind:
             return
-        self._stop()
+        self._stop_watching()
         seconds = {h11.IDLE: HEAD, h11.SEND_BODY: BODY}.get(state)
         if seconds is not None:
             self._kind = state
             self._ends = self.loop.call_later(seconds, self.transport.close)
 
-    def _stop(self) -> None:
+    def _stop_watching(self) -> None:
         self._kind = None
         if self._ends is not None:
             self._ends.cancel()

@@ -11,10 +11,10 @@ import multiprocessing
 import threading
 from multiprocessing.connection import Connection
 
-from quizgen.bank.folder import Bank
-from quizgen.errors import BankError
+from quizgen.bank.bank import Bank
+from quizgen.core.errors import BankError
 from quizgen.executors import uninterrupted
-from quizgen.web.made import Job, Wanted, WantedPaper, make
+from quizgen.web.question_view import PaperRequest, QuestionRequest, WorkerJob, run_request
 
 LONGEST = 120.0
 """Seconds after which a process is taken to hang."""
@@ -46,7 +46,7 @@ class Maker:
             self.process.start()
         there.close()
 
-    def make(self, wanted: Wanted | WantedPaper | Job) -> bytes:
+    def make(self, wanted: QuestionRequest | PaperRequest | WorkerJob) -> bytes:
         """A question, a paper or another job, as ``made.make`` gives it.
 
         Raises
@@ -99,8 +99,8 @@ def _work(line: Connection, bank: Bank) -> None:
             line.send(_made(bank, line.recv()))
 
 
-def _made(bank: Bank, wanted: Wanted | WantedPaper | Job) -> bytes | Exception:
+def _made(bank: Bank, wanted: QuestionRequest | PaperRequest | WorkerJob) -> bytes | Exception:
     try:
-        return make(bank, wanted)
+        return run_request(bank, wanted)
     except Exception as error:  # noqa: BLE001 - raised again by who asked
         return error

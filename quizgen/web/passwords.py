@@ -30,7 +30,7 @@ _JOINERS = "\u200c\u200d"  # Bangla writes with them
 _HIDDEN = {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}
 
 
-def as_name(typed: str) -> str | None:
+def normalise_user_name(typed: str) -> str | None:
     """A name as it is kept; None if it cannot be one.
 
     Nothing in it may turn the text around it, or not be seen.
@@ -41,41 +41,45 @@ def as_name(typed: str) -> str | None:
     return name if readable and not hidden and len(name) <= LONGEST_NAME else None
 
 
-def acceptable(password: str) -> bool:
+def is_acceptable(password: str) -> bool:
     """Whether a password is neither too short nor too long."""
     return SHORTEST <= len(password) <= LONGEST
 
 
-async def hashed(password: str) -> str:
+async def hash_password(password: str) -> str:
     """What is kept of a password."""
-    return await asyncio.get_running_loop().run_in_executor(_few(), _hash, password)
+    return await asyncio.get_running_loop().run_in_executor(
+        _make_hashing_threads(), _hash_password, password
+    )
 
 
-async def fits(kept: str | None, password: str) -> bool:
+async def verify_password(kept: str | None, password: str) -> bool:
     """Whether a password is the one that was kept; takes as long where none was."""
-    return await asyncio.get_running_loop().run_in_executor(_few(), _fits, kept, password)
+    return await asyncio.get_running_loop().run_in_executor(
+        _make_hashing_threads(), _is_right_password, kept, password
+    )
 
 
-def _hash(password: str) -> str:
-    return _hasher().hash(_bytes(password))
+def _hash_password(password: str) -> str:
+    return _make_hasher().hash(_encode_password(password))
 
 
-def _fits(kept: str | None, password: str) -> bool:
+def _is_right_password(kept: str | None, password: str) -> bool:
     from argon2.exceptions import VerifyMismatchError
 
     try:
-        right = _hasher().verify(kept or _other(), _bytes(password))
+        right = _make_hasher().verify(kept or _make_dummy_hash(), _encode_password(password))
     except VerifyMismatchError:
         return False
     return right and kept is not None
 
 
-def _bytes(password: str) -> bytes:
+def _encode_password(password: str) -> bytes:
     return unicodedata.normalize("NFKC", password[:LONGEST]).encode()
 
 
 @cache
-def _hasher() -> PasswordHasher:
+def _make_hasher() -> PasswordHasher:
     from argon2 import PasswordHasher  # which only servers need where people sign in
 
     # OWASP's least for Argon2id: a class that signs in together waits seconds, not minutes.
@@ -83,16 +87,16 @@ def _hasher() -> PasswordHasher:
 
 
 @cache
-def _other() -> str:
-    return _hasher().hash(b"nobody's")
+def _make_dummy_hash() -> str:
+    return _make_hasher().hash(b"nobody's")
 
 
 @cache
-def _few() -> ThreadPoolExecutor:
+def _make_hashing_threads() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(AT_ONCE, "passwords")
 
 
-class Patience:
+class RateLimiter:
     """Lets what keeps failing be tried again only later and later.
 
     Parameters
@@ -104,11 +108,11 @@ class Patience:
         self._clock = clock
         self._tries: OrderedDict[Hashable, tuple[int, float]] = OrderedDict()
 
-    def begin(self, who: Hashable) -> int:
+    def seconds_to_wait(self, who: Hashable) -> int:
         """Seconds to wait before a try; 0 if it may be made now, and then it counts as failed."""
         count, since = self._tries.pop(who, (0, 0.0))
         now = self._clock()
-        left = since + _wait(count) - now if count >= FREE else 0.0
+        left = since + _compute_waiting_time(count) - now if count >= FREE else 0.0
         if left > 0:
             self._tries[who] = count, since
             return math.ceil(left)
@@ -117,10 +121,10 @@ class Patience:
             self._tries.popitem(last=False)
         return 0
 
-    def succeeded(self, who: Hashable) -> None:
+    def reset(self, who: Hashable) -> None:
         """Forget what failed before."""
         self._tries.pop(who, None)
 
 
-def _wait(count: int) -> float:
+def _compute_waiting_time(count: int) -> float:
     return min(LONGEST_WAIT, 2.0 ** min(count - FREE, 20))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -47,7 +47,7 @@ STOPS: dict[str, tuple[float, ...]] = {
 """Where each slider can stand, in base units; besides, wherever the scene itself has it."""
 
 
-class Slider(msgspec.Struct, frozen=True):
+class CameraSlider(msgspec.Struct, frozen=True):
     """A setting, where it can stand, and where the scene has it."""
 
     name: str
@@ -55,7 +55,7 @@ class Slider(msgspec.Struct, frozen=True):
     own: int
 
 
-class Shot(msgspec.Struct, frozen=True):
+class CameraView(msgspec.Struct, frozen=True):
     """A photograph with and without what is asked, and what was measured; pictures as PNG."""
 
     taken: bytes
@@ -85,7 +85,7 @@ class Shot(msgspec.Struct, frozen=True):
 
 
 @dataclass(frozen=True)
-class Shoot:
+class CameraJob:
     """What to photograph: a shipped scene with other settings of its camera."""
 
     scene: str
@@ -105,34 +105,36 @@ class Shoot:
         from quizgen.camera.prepared import Prepared
         from quizgen.camera.reading import load
 
-        scene, own = load(_file(self.scene))
-        camera = self._set(own)
+        scene, own = load(_find_scene_file(self.scene))
+        camera = self._apply_changes(own)
         prepared = Prepared(scene, camera)
         found = [one.name for one in prepared.present if not one.always]
         chosen = self.effect if self.effect in (*found, EVERYTHING) else ""
-        taken = self._take(scene, camera, found, chosen)
+        taken = self._take_photo(scene, camera, found, chosen)
         scale, apart = amplify_difference(taken.photo.values, taken.without.values)
         return msgspec.msgpack.encode(
-            Shot(
-                taken=_png(taken.photo.values),
-                plain=_png(taken.without.values),
+            CameraView(
+                taken=_encode_picture(taken.photo.values),
+                plain=_encode_picture(taken.without.values),
                 difference=_png_of(apart),
                 scale=scale if apart.any() else 0,
                 asked=list(taken.plan.asked),
                 chosen=chosen,
                 effects=[*found, EVERYTHING] if found else [],
-                ran=list(_ran(taken)),
+                ran=list(_iter_run_effects(taken)),
                 left_out=[(one.effect, one.bound_dn) for one in taken.plan.left_out],
                 absent=list(prepared.absent),
                 is_seen=any(one.is_visible for one in taken.seen),
                 needs_colour=taken.needs_colour,
                 share=max([one.share for one in taken.seen], default=0.0),
                 mean=max([one.mean for one in taken.seen], default=0.0),
-                exposed=_expose(own, camera),
+                exposed=_find_exposure_time(own, camera),
             )
         )
 
-    def _take(self, scene: Scene, camera: Camera, found: list[str], chosen: str) -> QuestionPhoto:
+    def _take_photo(
+        self, scene: Scene, camera: Camera, found: list[str], chosen: str
+    ) -> QuestionPhoto:
         """What was set runs besides what is asked; without a question the first effect is."""
         from quizgen.camera.planning import Selection
         from quizgen.camera.question import take_photographs
@@ -156,7 +158,7 @@ class Shoot:
             if any(setting.name in changed for setting in one.settings):
                 yield one.name
 
-    def _set(self, camera: Camera) -> Camera:
+    def _apply_changes(self, camera: Camera) -> Camera:
         changes: dict[str, object] = dict(self.changes)
         if "bit_depth" in changes:
             bits = dict(self.changes)["bit_depth"]
@@ -164,7 +166,7 @@ class Shoot:
         return camera.but(**changes)
 
 
-def _file(scene: str) -> Path:
+def _find_scene_file(scene: str) -> Path:
     return Path(str(files("quizgen.camera") / "scenes" / f"{scene}.toml"))
 
 
@@ -172,13 +174,13 @@ _EFFECTS = {"f_number": "defocus", "focus_distance": "defocus", "full_well": "sh
 """What shows settings that belong to the camera's body."""
 
 
-def _ran(taken: QuestionPhoto) -> Iterator[tuple[str, str]]:
+def _iter_run_effects(taken: QuestionPhoto) -> Iterator[tuple[str, str]]:
     why = {"asked": "asked", "wanted": "set"}
     for step in taken.plan.steps:
         yield step.effect, why.get(step.why, "needed")
 
 
-def _expose(own: Camera, camera: Camera) -> tuple[float, float] | None:
+def _find_exposure_time(own: Camera, camera: Camera) -> tuple[float, float] | None:
     """Exposure time that lets in as much light as the scene's own f-number and time."""
     from quizgen.camera.setup.body import F_NUMBER, SHUTTER
 
@@ -188,7 +190,7 @@ def _expose(own: Camera, camera: Camera) -> tuple[float, float] | None:
     return time * (after / before) ** 2, time
 
 
-def _png(values: Image) -> bytes:
+def _encode_picture(values: Image) -> bytes:
     import numpy as np
 
     from quizgen.camera.codes import rounded
@@ -203,12 +205,12 @@ def _png_of(codes: NDArray[np.uint8]) -> bytes:
 
 
 @cache
-def sliders(scene: str) -> tuple[Slider, ...]:
+def camera_sliders(scene: str) -> tuple[CameraSlider, ...]:
     """What can be changed of a scene's camera."""
     from quizgen.camera import effects
     from quizgen.camera.reading import load
 
-    camera = load(_file(scene))[1]
+    camera = load(_find_scene_file(scene))[1]
     lens = {"focal_length", "pixel_pitch"} <= camera.given.keys()
     known = effects.settings()
     found = []
@@ -219,9 +221,9 @@ def sliders(scene: str) -> tuple[Slider, ...]:
         own = OFF if value is None else float(str(value))
         places = tuple(sorted({*stops, own} - {OFF}, key=float))
         places = (OFF, *places) if OFF in stops or math.isnan(own) else places
-        found.append(Slider(name, places, _place(places, own)))
+        found.append(CameraSlider(name, places, _find_stop_index(places, own)))
     return tuple(found)
 
 
-def _place(stops: tuple[float, ...], value: float) -> int:
+def _find_stop_index(stops: tuple[float, ...], value: float) -> int:
     return 0 if math.isnan(value) else stops.index(value)

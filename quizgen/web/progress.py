@@ -11,20 +11,26 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from quizgen.bank.formulas import asked_in, formulas
-from quizgen.bank.pages import read_text
-from quizgen.bank.prose import Formula, Inline, Unfilled, Words, fill
-from quizgen.errors import StoreError
-from quizgen.practice.agenda import Agenda, Standing
-from quizgen.practice.schedule import NAMED, Card
-from quizgen.question.authored import printed, sentence
-from quizgen.question.markup import inline
-from quizgen.web.agenda import learning_of, today
-from quizgen.web.forms import one, posted, posted_file
-from quizgen.web.made import Html
-from quizgen.web.site import Site
-from quizgen.web.store.archive import read_archive
-from quizgen.web.views import lang_of, page, said, to, when
+from quizgen.bank.formulas import read_formulas, templates_by_formula
+from quizgen.bank.language_file import read_language_file
+from quizgen.bank.markdown import Inline, InlineFormula, PlainText, Unfilled, fill_inlines
+from quizgen.core.errors import StoreError
+from quizgen.practice.agenda import Agenda, Mastery
+from quizgen.practice.scheduler import NAMED, ReviewCard
+from quizgen.question.entry_prose import entry_inlines, typeset_slot
+from quizgen.question.html import inlines_to_html
+from quizgen.store.archive import read_archive
+from quizgen.web.due import due_today, progress_of
+from quizgen.web.forms import field_text, read_form, read_upload
+from quizgen.web.question_view import Html
+from quizgen.web.state import ServerState
+from quizgen.web.views import (
+    page_response,
+    redirect,
+    relative_time,
+    request_language,
+    translate_page,
+)
 
 SHOWN = 30
 """Mistakes on the page, those that are due first before others."""
@@ -33,90 +39,94 @@ BLANK = "…"
 
 
 @dataclass(frozen=True)
-class Row:
+class MasteryRow:
     """A topic or a formula, and how far it is known."""
 
     name: str
     title: Html
-    standing: Standing
+    standing: Mastery
 
 
 @dataclass(frozen=True)
-class Told:
+class MistakeRow:
     """A mistake in words, and the template in which it was made."""
 
-    card: Card
+    card: ReviewCard
     due: float
     template: str
     title: str
     told: Html
 
 
-async def progress(request: Request) -> Response:
+async def show_progress(request: Request) -> Response:
     """How far somebody has got."""
-    return await run_in_threadpool(_shown, request)
+    return await run_in_threadpool(_render_progress_page, request)
 
 
-def _shown(request: Request, status: int = 200, problem: str = "") -> Response:
-    learning, lang = learning_of(request), lang_of(request)
+def _render_progress_page(request: Request, status: int = 200, problem: str = "") -> Response:
+    learning, lang = progress_of(request), request_language(request)
     agenda = learning.agenda()
     came = request.query_params.get("came", "")[:9]
-    return page(
+    return page_response(
         request, "progress.html.j2", status,
-        plan=today(request),
+        plan=due_today(request),
         begun=bool(agenda.cards),
         exam=learning.exam or "",
         problem=problem,
         came=came if came.isdecimal() else "",
-        topics=_topics(agenda, lang),
-        formulas=_formulas(agenda, lang),
-        mistakes=[told for card in agenda.mistakes[:SHOWN] if (told := _told(agenda, card, lang))],
-        when=when(agenda.now, lang),
-        lasting=_lasting(lang),
+        topics=_build_topic_rows(agenda, lang),
+        formulas=_build_formula_rows(agenda, lang),
+        mistakes=[told for card in agenda.mistakes[:SHOWN] if (told := _describe_mistake(agenda, card, lang))],
+        when=relative_time(agenda.now, lang),
+        lasting=_make_duration_formatter(lang),
     )  # fmt: skip
 
 
-def _topics(agenda: Agenda, lang: str) -> list[Row]:
+def _build_topic_rows(agenda: Agenda, lang: str) -> list[MasteryRow]:
     bank = agenda.bank
     names: dict[str, list[str]] = {topic: [] for topic in bank.topics}
-    for name in bank.paths:
+    for name in bank.template_paths:
         names[bank.rules(name).topic].append(name)
     return [
-        Row(topic, bank.topic_title(topic, lang), agenda.standing(found))
+        MasteryRow(topic, bank.topic_title(topic, lang), agenda.mastery_of(found))
         for topic, found in names.items()
     ]
 
 
-def _formulas(agenda: Agenda, lang: str) -> list[Row]:
-    names = asked_in(agenda.bank)
+def _build_formula_rows(agenda: Agenda, lang: str) -> list[MasteryRow]:
+    names = templates_by_formula(agenda.bank)
     return [
-        Row(
-            entry.id, inline(sentence(entry, "title", lang), lang), agenda.standing(names[entry.id])
+        MasteryRow(
+            entry.id,
+            inlines_to_html(entry_inlines(entry, "title", lang), lang),
+            agenda.mastery_of(names[entry.id]),
         )
-        for entry in formulas(agenda.bank)
+        for entry in read_formulas(agenda.bank)
         if names[entry.id]
     ]
 
 
-def _told(agenda: Agenda, card: Card, lang: str) -> Told | None:
+def _describe_mistake(agenda: Agenda, card: ReviewCard, lang: str) -> MistakeRow | None:
     """A mistake in the words of its template; None if it has been taken out since."""
     bank, name = agenda.bank, agenda.names[card.template]
-    found = lang if lang in bank.written_in(name) else next(iter(bank.written_in(name)))
-    text = read_text(bank.paths[name] / f"{found}.md")
+    found = (
+        lang if lang in bank.template_languages(name) else next(iter(bank.template_languages(name)))
+    )
+    text = read_language_file(bank.template_paths[name] / f"{found}.md")
     trap = card.note.removeprefix(NAMED)
     cases = text.cases.get(("traps", trap))
     told = cases[-1][1] if cases else text.sentence("traps", trap)
     if told is None:
         return None
-    words = inline(fill(told, _blanked, str), found)
-    return Told(card, agenda.due(card), name, text.title, words)
+    words = inlines_to_html(fill_inlines(told, _replace_formula_by_blank, str), found)
+    return MistakeRow(card, agenda.due(card), name, text.title, words)
 
 
-def _blanked(part: Unfilled) -> tuple[Inline, ...]:
-    return printed(part) if isinstance(part, Formula) else (Words(BLANK),)
+def _replace_formula_by_blank(part: Unfilled) -> tuple[Inline, ...]:
+    return typeset_slot(part) if isinstance(part, InlineFormula) else (PlainText(BLANK),)
 
 
-def _lasting(lang: str) -> Callable[[float | None], str]:
+def _make_duration_formatter(lang: str) -> Callable[[float | None], str]:
     """Says in words for how many days something holds."""
 
     def lasting(days: float | None) -> str:
@@ -124,54 +134,56 @@ def _lasting(lang: str) -> Callable[[float | None], str]:
             return ""
         whole = round(days)
         if whole < 1:
-            return said(lang, "progress.below_day")
-        return said(lang, "progress.one_day" if whole == 1 else "progress.days", count=whole)
+            return translate_page(lang, "progress.below_day")
+        return translate_page(
+            lang, "progress.one_day" if whole == 1 else "progress.days", count=whole
+        )
 
     return lasting
 
 
 async def set_exam(request: Request) -> Response:
     """Keep the day of the exam; an empty field takes it away."""
-    form = await posted(request)
-    typed = one(form, "exam").strip()
+    form = await read_form(request)
+    typed = field_text(form, "exam").strip()
     try:
         day = date.fromisoformat(typed).isoformat() if typed else ""
     except ValueError:
-        problem = said(lang_of(request), "progress.no_date")
-        return await run_in_threadpool(_shown, request, 400, problem)
-    site: Site = request.app.state.site
-    await run_in_threadpool(site.store.settle, request.state.learner.id, {"exam": day})
-    return to("/progress")
+        problem = translate_page(request_language(request), "progress.no_date")
+        return await run_in_threadpool(_render_progress_page, request, 400, problem)
+    site: ServerState = request.app.state.site
+    await run_in_threadpool(site.store.update_settings, request.state.learner.id, {"exam": day})
+    return redirect("/progress")
 
 
-async def export(request: Request) -> Response:
+async def download_archive(request: Request) -> Response:
     """Everything that somebody did, as a file."""
-    site: Site = request.app.state.site
+    site: ServerState = request.app.state.site
     data = await run_in_threadpool(site.store.archives.write, request.state.learner.id)
     named = {"content-disposition": 'attachment; filename="quizgen-progress.json"'}
     return Response(data, media_type="application/json", headers=named)
 
 
-async def take_in(request: Request) -> Response:
+async def upload_archive(request: Request) -> Response:
     """Add what a file holds to what is there, all of it or nothing."""
-    data = await posted_file(request, "file")
+    data = await read_upload(request, "file")
     return await run_in_threadpool(_taken_in, request, data)
 
 
 def _taken_in(request: Request, data: bytes) -> Response:
-    site: Site = request.app.state.site
+    site: ServerState = request.app.state.site
     try:
         archive = read_archive(data)
     except StoreError as error:
-        reason = said(lang_of(request), "progress.no_file", reason=str(error))
-        return _shown(request, 400, reason)
-    count = site.store.archives.take_in(request.state.learner.id, archive)
-    return to(f"/progress?came={count}")
+        reason = translate_page(request_language(request), "progress.no_file", reason=str(error))
+        return _render_progress_page(request, 400, reason)
+    count = site.store.archives.import_archive(request.state.learner.id, archive)
+    return redirect(f"/progress?came={count}")
 
 
 ROUTES = [
-    Route("/progress/export", export),
-    Route("/progress/import", take_in, methods=["POST"]),
-    Route("/progress", progress),
+    Route("/progress/export", download_archive),
+    Route("/progress/import", upload_archive, methods=["POST"]),
+    Route("/progress", show_progress),
     Route("/progress/exam", set_exam, methods=["POST"]),
 ]

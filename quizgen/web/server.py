@@ -13,13 +13,13 @@ from collections.abc import Callable
 import uvicorn
 from starlette.applications import Starlette
 
-from quizgen.errors import StoreError
-from quizgen.web.app import application
-from quizgen.web.door import ENTRANCE, INVITED
+from quizgen.core.errors import StoreError
+from quizgen.store import Store
+from quizgen.web.app import create_app
+from quizgen.web.auth import ENTRANCE, INVITED
 from quizgen.web.limits import TimedProtocol, allow_connections
-from quizgen.web.settings import LOCAL, Settings
-from quizgen.web.site import Site
-from quizgen.web.store import Store
+from quizgen.web.settings import LOCAL, ServerSettings
+from quizgen.web.state import ServerState
 
 PATIENCE = 5
 """Seconds that answers on their way have when the server ends."""
@@ -27,8 +27,8 @@ IDLE = 75
 """Seconds that a connection may rest: who thinks, or saves every few seconds, keeps it."""
 
 
-def run(
-    settings: Settings,
+def run_server(
+    settings: ServerSettings,
     port: int,
     *,
     show: bool,
@@ -54,22 +54,26 @@ def run(
     StoreError
         If the port is taken.
     """
-    app = application(settings)
-    site: Site = app.state.site
-    listening = _listening(settings.host, port) if port else _as_before(settings.host, site.store)
-    address = _address(site, listening.getsockname()[1], invite=invite)
+    app = create_app(settings)
+    site: ServerState = app.state.site
+    listening = (
+        _open_listening_socket(settings.host, port)
+        if port
+        else _as_before(settings.host, site.store)
+    )
+    address = _build_start_url(site, listening.getsockname()[1], invite=invite)
 
     def ready() -> None:
         tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
         if show:
-            webbrowser.open(_opened(site, address))
+            webbrowser.open(_build_browser_url(site, address))
 
     _end_like_ctrl_c()
-    _serve(app, settings, listening, ready)
+    _run_server(app, settings, listening, ready)
 
 
-def _serve(
-    app: Starlette, settings: Settings, listening: socket.socket, ready: Callable[[], None]
+def _run_server(
+    app: Starlette, settings: ServerSettings, listening: socket.socket, ready: Callable[[], None]
 ) -> None:
     """What is asked is written nowhere; only a proxy of ours is believed who asked."""
     config = uvicorn.Config(
@@ -103,19 +107,19 @@ class _Server(uvicorn.Server):
         self.ready()
 
 
-def _address(site: Site, port: int, *, invite: bool) -> str:
+def _build_start_url(site: ServerState, port: int, *, invite: bool) -> str:
     """What is opened first; where people sign in, an invitation for the first one who manages."""
     settings = site.settings
-    place = settings.place(port)
+    place = settings.base_url(port)
     if not settings.accounts:
         return f"{place}{ENTRANCE}?key={settings.token}"
     accounts = site.store.accounts
-    if invite or not accounts.managed():
+    if invite or not accounts.has_manager():
         return f"{place}{INVITED}?key={accounts.invite(manages=True)}"
     return place
 
 
-def _opened(site: Site, address: str) -> str:
+def _build_browser_url(site: ServerState, address: str) -> str:
     """What the browser is started with: anybody on the machine may read that."""
     if site.settings.accounts:  # an invitation is for whoever reads the terminal
         return address.partition("?")[0].removesuffix(INVITED)
@@ -127,20 +131,20 @@ def _opened(site: Site, address: str) -> str:
 
 def _as_before(host: str, store: Store) -> socket.socket:
     """Listen where a page that was left open asks, and finds what its browser kept."""
-    anywhere = _listening(host, 0)
+    anywhere = _open_listening_socket(host, 0)
     port = anywhere.getsockname()[1]
-    before = int(store.lasting("port", str(port)))
+    before = int(store.shared_value("port", str(port)))
     if before == port:
         return anywhere
     try:
-        found = _listening(host, before)
+        found = _open_listening_socket(host, before)
     except StoreError:
         return anywhere
     anywhere.close()
     return found
 
 
-def _listening(host: str, port: int) -> socket.socket:
+def _open_listening_socket(host: str, port: int) -> socket.socket:
     try:
         family, kind, _, _, place = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
     except OSError as error:

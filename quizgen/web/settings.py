@@ -11,14 +11,14 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.bank import Bank, builtin_bank
 
 LOCAL = ("127.0.0.1", "localhost")
 """Names under which a browser on this machine reaches a server of its own."""
 
 
 @dataclass(frozen=True)
-class Settings:
+class ServerSettings:
     """What a server is started with.
 
     Parameters
@@ -45,7 +45,7 @@ class Settings:
     """
 
     database: str
-    bank: Bank = field(default_factory=builtin)
+    bank: Bank = field(default_factory=builtin_bank)
     host: str = LOCAL[0]
     names: tuple[str, ...] = ()
     behind_proxy: bool = False
@@ -57,9 +57,9 @@ class Settings:
     @property
     def accounts(self) -> bool:
         """Whether people sign in: wherever others can reach the server."""
-        return self.behind_proxy or not (self.host in LOCAL or _loopback(self.host))
+        return self.behind_proxy or not (self.host in LOCAL or _is_loopback(self.host))
 
-    def serves(self, name: str) -> bool:
+    def is_own_name(self, name: str) -> bool:
         """Whether the server may be asked under a name.
 
         Another site can make its own name lead here, but no number: where people sign in, any
@@ -69,12 +69,12 @@ class Settings:
             return True
         return self.accounts and (name in _own_names() or _is_number(name))
 
-    def place(self, port: int) -> str:
+    def base_url(self, port: int) -> str:
         """Where a browser finds the server."""
         if self.behind_proxy and self.names:
             return f"https://{self.names[0]}"
         everywhere = _is_number(self.host) and ipaddress.ip_address(self.host).is_unspecified
-        name = self.names[0] if self.names else _reached() if everywhere else self.host
+        name = self.names[0] if self.names else _find_network_address() if everywhere else self.host
         return f"http://[{name}]:{port}" if ":" in name else f"http://{name}:{port}"
 
 
@@ -84,7 +84,7 @@ def _own_names() -> frozenset[str]:
     return frozenset({own, f"{own}.local"})
 
 
-def _reached() -> str:
+def _find_network_address() -> str:
     """The number of this machine in its network; nothing is sent to find it out."""
     with contextlib.suppress(OSError), socket.socket(type=socket.SOCK_DGRAM) as out:
         out.connect(("192.0.2.1", 9))  # an address that nobody has (RFC 5737)
@@ -100,5 +100,5 @@ def _is_number(name: str) -> bool:
     return True
 
 
-def _loopback(host: str) -> bool:
+def _is_loopback(host: str) -> bool:
     return _is_number(host) and ipaddress.ip_address(host).is_loopback

@@ -7,17 +7,17 @@ from collections.abc import Sequence
 from markupsafe import Markup
 
 from quizgen.figures import DrawingField
-from quizgen.marking.reading.strokes import read_strokes
-from quizgen.maths.notation import ReadError
+from quizgen.grading.drawing.strokes import read_strokes
+from quizgen.maths.notation import FormulaReadError
 
 _LINE = Markup('<polyline points="{}"/>')
 
 
-def strokes(board: DrawingField, values: Sequence[str]) -> Markup:
+def strokes_to_svg(board: DrawingField, values: Sequence[str]) -> Markup:
     """The lines of an answer in the picture of its field; nothing if they cannot be read."""
     try:
         lines = read_strokes(" ".join(values), board.view)
-    except ReadError:
+    except FormulaReadError:
         return Markup()
     _, tall = board.picture_size
     return Markup().join(

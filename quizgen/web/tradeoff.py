@@ -10,13 +10,13 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from quizgen.bank.folder import Bank
-from quizgen.locale import languages
-from quizgen.shapes import decoded
+from quizgen.bank.bank import Bank
+from quizgen.core.decoding import decode_json
+from quizgen.locale import list_languages
 from quizgen.tradeoff.texts import script, style_sheet, words
-from quizgen.web.made import Html
-from quizgen.web.site import Site
-from quizgen.web.views import lang_of, page
+from quizgen.web.question_view import Html
+from quizgen.web.state import ServerState
+from quizgen.web.views import page_response, request_language
 
 PATIENCE = 0.3
 """Seconds in which a measurement that is kept has come."""
@@ -25,30 +25,32 @@ COMMAND = "quizgen tradeoff"
 
 
 @dataclass(frozen=True)
-class Measurement:
+class TradeoffJob:
     """Everything measured once; what is said of it in every language."""
 
     def run(self, bank: Bank) -> bytes:
         """Measure."""
-        from quizgen.tradeoff.page import fragment
-        from quizgen.tradeoff.report import measure
+        from quizgen.tradeoff.page import render_tradeoff_fragment
+        from quizgen.tradeoff.report import measure_tradeoff
 
-        report = measure(bank)
-        return msgspec.json.encode({lang: fragment(report, COMMAND, lang) for lang in languages()})
+        report = measure_tradeoff(bank)
+        return msgspec.json.encode(
+            {lang: render_tradeoff_fragment(report, COMMAND, lang) for lang in list_languages()}
+        )
 
 
-async def tradeoff(request: Request) -> Response:
+async def show_tradeoff(request: Request) -> Response:
     """What was measured; a page that looks again by itself while it is being measured."""
-    site: Site = request.app.state.site
+    site: ServerState = request.app.state.site
     said: dict[str, Html] = {}
     try:
-        data = await asyncio.wait_for(site.workers.done(Measurement()), PATIENCE)
-        said = decoded(data, dict[str, Html])
+        data = await asyncio.wait_for(site.workers.get_result(TradeoffJob()), PATIENCE)
+        said = decode_json(data, dict[str, Html])
     except TimeoutError:
         pass
-    lang = lang_of(request)
+    lang = request_language(request)
     title = words(lang)["page"]["title"]
-    return page(request, "tradeoff.html.j2", title=title, measured=said.get(lang, ""))
+    return page_response(request, "tradeoff.html.j2", title=title, measured=said.get(lang, ""))
 
 
 async def style(_request: Request) -> Response:
@@ -56,13 +58,13 @@ async def style(_request: Request) -> Response:
     return Response(style_sheet(), media_type="text/css")
 
 
-async def moves(_request: Request) -> Response:
+async def serve_tradeoff_js(_request: Request) -> Response:
     """What moves its slider."""
     return Response(script(), media_type="text/javascript")
 
 
 ROUTES = [
-    Route("/tradeoff", tradeoff),
+    Route("/tradeoff", show_tradeoff),
     Route("/static/tradeoff.css", style),
-    Route("/static/tradeoff.js", moves),
+    Route("/static/tradeoff.js", serve_tradeoff_js),
 ]

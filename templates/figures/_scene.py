@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.arrays.hsv import to_rgb
+from quizgen.numerics.hsv import hsv_to_rgb
 
 Colour = tuple[int, int, int]
 Codes = NDArray[np.uint8]
@@ -51,7 +51,7 @@ _INDEX = {name: place for place, name in enumerate(_PAINTS)}
 
 def _mix_paints() -> Codes:
     hues, saturations, values = np.array(list(_PAINTS.values())).T
-    channels = np.stack(to_rgb(hues, saturations, values), axis=1)
+    channels = np.stack(hsv_to_rgb(hues, saturations, values), axis=1)
     return np.asarray(channels * 255 + 0.5).astype(np.uint8)
 
 

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from quizgen.arrays.distortion import distort, fold_radius
 from quizgen.figures.kit import (
     ABSENT,
     SQUARE,
@@ -22,6 +21,7 @@ from quizgen.figures.kit import (
     load_alt_words,
     require,
 )
+from quizgen.numerics.distortion import distort, fold_radius
 
 from ._plots import trace_lines
 

@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from quizgen.arrays.hsv import to_rgb
-from quizgen.arrays.luminosity import DAY, NIGHT, efficiency
 from quizgen.figures.kit import (
     ABSENT,
     Parameter,
@@ -20,6 +18,8 @@ from quizgen.figures.kit import (
     require,
     strip_mathtext,
 )
+from quizgen.numerics.hsv import hsv_to_rgb
+from quizgen.numerics.luminosity import DAY, NIGHT, luminous_efficiency
 
 from ._plots import format_learned, mark_point
 
@@ -47,14 +47,14 @@ def list_marks(values: Values) -> tuple[float, ...]:
 @lru_cache(256)
 def read_efficiency(wavelength: float, *, night: bool) -> float:
     """V or V' at a wavelength in nm."""
-    return float(efficiency(wavelength, NIGHT if night else DAY))
+    return float(luminous_efficiency(wavelength, NIGHT if night else DAY))
 
 
 @cache
 def _curve(night: bool, logarithmic: bool) -> Any:
     """Points of a curve; on a logarithmic axis it leaves through the floor."""
     grid = np.linspace(FIRST, LAST, 161)
-    heights = np.asarray(efficiency(grid, NIGHT if night else DAY), float)
+    heights = np.asarray(luminous_efficiency(grid, NIGHT if night else DAY), float)
     if logarithmic:
         seen = heights >= _FLOOR
         grid, heights = grid[seen], np.log10(heights[seen])
@@ -70,7 +70,7 @@ def _spectrum() -> Any:
     places = np.arange(FIRST, LAST, 4.0)
     hues = np.interp(places, [400, 460, 490, 530, 580, 640], [270, 240, 180, 120, 60, 0])
     fades = np.interp(places, [FIRST, 430, 680, LAST], [0.35, 1, 1, 0.35])
-    row = np.stack(to_rgb(hues, 1.0, fades), axis=-1)
+    row = np.stack(hsv_to_rgb(hues, 1.0, fades), axis=-1)
     return np.round(row[None] * 255).astype(np.uint8)
 
 

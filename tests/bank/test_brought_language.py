@@ -13,10 +13,10 @@ import pikepdf
 import pytest
 
 from quizgen import locale
-from quizgen.audit.located import bank_problems
-from quizgen.bank.folder import Bank
-from quizgen.locale import brought
-from quizgen.web.door import _visitor
+from quizgen.bank.bank import Bank
+from quizgen.lint.located import bank_problems
+from quizgen.locale import custom
+from quizgen.web.auth import _make_visitor
 
 FRENCH = """# Durée d'un trajet
 Une cycliste parcourt {{ s }} à la vitesse constante de {{ v }}.
@@ -161,9 +161,9 @@ def test_a_sentence_that_asks_for_more_than_its_words_is_not_used(hostile):
     """Where nobody has run lint: a bank's text is read without trust, and never runs."""
     english = {"paper": {"page": "Page {page} of {pages}", "notes": ["See {page}"]}}
     own = {"paper": {"page": hostile, "notes": [hostile]}, "more": {"open": hostile}}
-    assert brought.over(english, own) == english
+    assert custom.merge_translation(english, own) == english
     sound = {"paper": {"page": "{pages}/{page} {{", "notes": ["Voir {page}"]}}
-    assert brought.over(english, sound) == sound
+    assert custom.merge_translation(english, sound) == sound
 
 
 def test_all_that_is_said_can_be_translated(place):
@@ -200,7 +200,7 @@ def test_a_mistake_in_its_words_is_named_with_its_place(tmp_path, monkeypatch, f
     wrong = tmp_path / "templates" / "locale" / file
     wrong.parent.mkdir(parents=True)
     wrong.write_text(text, "utf-8")
-    locale.language.cache_clear()
+    locale.get_language.cache_clear()
     found = [str(problem) for problem in bank_problems(Bank(tmp_path))]
     assert any(one.startswith(f"{wrong}{said}") or (str(wrong) in one and said in one)
                for one in found), found  # fmt: skip
@@ -209,17 +209,17 @@ def test_a_mistake_in_its_words_is_named_with_its_place(tmp_path, monkeypatch, f
 def test_what_a_word_stands_for_stays_where_it_does_not_fit():
     english = {"paper": {"exam": "Mock exam", "page": "Page {page}"}, "letters": {}}
     own = {"paper": {"exam": "Examen", "page": 3}, "letters": {"x": "iks"}}
-    assert brought.over(english, own) == {
+    assert custom.merge_translation(english, own) == {
         "paper": {"exam": "Examen", "page": "Page {page}"}, "letters": {"x": "iks"},
     }  # fmt: skip
 
 
 @pytest.mark.parametrize("lang", ["../../etc", "e", "EN", "english", "en_GB", "en-gb", "", "en\n"])
 def test_what_names_no_language_is_taken_up_by_nothing(lang):
-    before = locale.languages()
-    locale.take_up([lang])
-    assert locale.languages() == before
-    assert not brought.is_tag(lang)
+    before = locale.list_languages()
+    locale.register_languages([lang])
+    assert locale.list_languages() == before
+    assert not custom.is_language_tag(lang)
 
 
 @pytest.mark.parametrize(
@@ -228,13 +228,13 @@ def test_what_names_no_language_is_taken_up_by_nothing(lang):
 )  # fmt: skip
 def test_a_browser_is_answered_in_the_nearest_language(asked, spoken):
     scope = {"query_string": b"", "headers": [(b"accept-language", asked.encode())]}
-    assert _visitor(scope, ("fr", "pt-BR")).settings["lang"] == spoken
+    assert _make_visitor(scope, ("fr", "pt-BR")).settings["lang"] == spoken
 
 
 def test_a_language_from_right_to_left_is_written_so(tmp_path):
     """Its formulas and the words of other languages are not."""
-    assert brought.script_of("he") == "Hebr"
-    assert "rtl" not in locale.styles(":lang({})")
+    assert custom.script_of("he") == "Hebr"
+    assert "rtl" not in locale.language_css(":lang({})")
     quizgen(tmp_path, "new", "bank", "masa", "--lang", "he")
     asked = ("exam", "--bank", "masa", "--trust", "--topic", "example")
     quizgen(tmp_path, *asked, "--format", "html", "--out", "p", "--seed", "5")

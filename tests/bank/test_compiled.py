@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.bank import pages, template
-from quizgen.bank.folder import Bank, builtin
-from quizgen.bank.pages import parse_text, read_text
+from quizgen.bank import language_file, template
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.bank.language_file import parse_language_file, read_language_file
 from quizgen.bank.template import read_rules
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
 
 PROSE = """# Title
 A lens of $f$ = {{ f }}, *thin*, with `code {{ n }}`.
@@ -40,17 +40,17 @@ def unread(*_arguments):
 
 def test_what_is_kept_of_prose_is_all_of_it(tmp_path, empty_cache, monkeypatch):
     (tmp_path / "en.md").write_text(PROSE)
-    first = read_text(tmp_path / "en.md")
-    monkeypatch.setattr(pages, "parse_text", unread)
-    again = read_text(tmp_path / "en.md")
-    assert (again, repr(again)) == (first, repr(first)) == (parse_text(PROSE), repr(first))
+    first = read_language_file(tmp_path / "en.md")
+    monkeypatch.setattr(language_file, "parse_language_file", unread)
+    again = read_language_file(tmp_path / "en.md")
+    assert (again, repr(again)) == (first, repr(first)) == (parse_language_file(PROSE), repr(first))
 
 
 def test_the_banks_own_files_are_all_read_once(empty_cache, monkeypatch):
-    root = builtin().root
-    names = list(builtin().paths)[::SAMPLE]
+    root = builtin_bank().root
+    names = list(builtin_bank().template_paths)[::SAMPLE]
     first = [Bank(root, trusted=True).template(name) for name in names]
-    monkeypatch.setattr(pages, "parse_text", unread)
+    monkeypatch.setattr(language_file, "parse_language_file", unread)
     monkeypatch.setattr(template, "parse_toml", unread)
     bank = Bank(root, trusted=True)
     assert [bank.template(name) for name in names] == first
@@ -60,14 +60,14 @@ def test_the_banks_own_files_are_all_read_once(empty_cache, monkeypatch):
 def test_changed_prose_is_read_anew(tmp_path, empty_cache, change):
     file = tmp_path / "en.md"
     file.write_text(PROSE)
-    before = read_text(file)
+    before = read_language_file(file)
     file.write_text(PROSE.replace(*change))
     if "{{" in change[1]:
         for _ in range(2):
             with pytest.raises(BankError, match=r"en\.md: only"):
-                read_text(file)
+                read_language_file(file)
     else:
-        assert read_text(file) != before
+        assert read_language_file(file) != before
 
 
 def test_rules_that_are_wrong_are_told_each_time(tmp_path, empty_cache):

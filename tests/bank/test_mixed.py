@@ -8,23 +8,23 @@ from pathlib import Path
 import pytest
 from mechanics import write
 
-from quizgen.bank.draw import draw
-from quizgen.bank.folder import Bank, builtin
-from quizgen.bank.mixed import Mixed, opened, sources
-from quizgen.cards import build as deck
-from quizgen.errors import BankError, FormulaError
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.bank.combined import CombinedBank, bank_sources, open_banks
+from quizgen.bank.variant import draw_variant
+from quizgen.cards import build_deck as deck
+from quizgen.core.errors import BankError, FormulaError
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.choose import choose
-from quizgen.paper.paper import build
-from quizgen.question.compose import compose
-from quizgen.question.sheet import sheet
+from quizgen.paper.paper import build_paper
+from quizgen.paper.selection import select_templates
+from quizgen.question.compose import compose_question
+from quizgen.question.formula_sheet import compose_sheet
 
 FILTERING = Path(__file__).parent.parent.parent / "examples" / "filtering"
 
 
 @pytest.fixture(scope="module")
 def both():
-    return opened([("", True), (str(FILTERING), True)])
+    return open_banks([("", True), (str(FILTERING), True)])
 
 
 @pytest.fixture
@@ -37,15 +37,15 @@ def twins(tmp_path):
     about.write_text(
         said.replace('"mechanics"', '"statics"').replace("= kg * m", "= 2 * kg * m"), "utf-8"
     )
-    return Mixed((Bank(one, trusted=True), Bank(other, trusted=True)))
+    return CombinedBank((Bank(one, trusted=True), Bank(other, trusted=True)))
 
 
 def test_a_name_of_one_bank_alone_is_kept(both):
-    assert len(both) == len(builtin()) + 15
+    assert len(both) == len(builtin_bank()) + 15
     assert "otsu-threshold" in both.paths
     assert not [name for name in both.paths if ":" in name]
     assert list(both.paths) == sorted(both.paths)
-    assert both.topics == (*builtin().topics, *Bank(FILTERING).topics)
+    assert both.topics == (*builtin_bank().topics, *Bank(FILTERING).topics)
     assert both.topic_title("edges", "de") == "Kanten"
 
 
@@ -67,30 +67,30 @@ def test_each_bank_has_its_own_units_and_figures(twins, both):
 
 def test_questions_are_those_of_the_bank_alone(both):
     alone = Bank(FILTERING, trusted=True)
-    pair = [draw(bank.template("otsu-threshold"), 3).shown_values for bank in (both, alone)]
+    pair = [draw_variant(bank.template("otsu-threshold"), 3).shown_values for bank in (both, alone)]
     assert pair[0] == pair[1]
 
 
 def test_another_process_opens_the_same_banks(both):
     again = pickle.loads(pickle.dumps(both))
     assert list(again.paths) == list(both.paths)
-    assert again.parts[0] is builtin()
-    assert sources(again) == sources(both)
+    assert again.parts[0] is builtin_bank()
+    assert bank_sources(again) == bank_sources(both)
 
 
 def test_a_blueprint_of_a_bank_asks_its_own_questions(both):
     alone = Bank(FILTERING, trusted=True)
     assert {"trial", "filtering:mock", "image-acquisition:mock"} <= {*both.blueprints}
-    mixed = build(both, load_blueprint("filtering:mock", both), 4, figures=False)
-    own = build(alone, load_blueprint("mock", alone), 4, figures=False)
+    mixed = build_paper(both, load_blueprint("filtering:mock", both), 4, figures=False)
+    own = build_paper(alone, load_blueprint("mock", alone), 4, figures=False)
     assert mixed.code == f"filtering:{own.code}"
-    names = {*choose(both, load_blueprint("image-acquisition:mock", both), 4)}
-    assert names <= {*builtin().paths}
+    names = {*select_templates(both, load_blueprint("image-acquisition:mock", both), 4)}
+    assert names <= {*builtin_bank().template_paths}
 
 
 def test_a_paper_of_all_asks_every_bank(both):
     for seed in range(5):
-        names = choose(both, load_blueprint("all.60", both), seed)
+        names = select_templates(both, load_blueprint("all.60", both), seed)
         share = sum(name in both.parts[1].paths for name in names) / len(names)
         assert 0.3 < share < 0.7
 
@@ -107,13 +107,13 @@ def test_languages_are_those_of_all(both, tmp_path):
     about = third / "templates" / "bank.toml"
     about.write_text(about.read_text("utf-8").replace('"mechanics"', '"third"'), "utf-8")
     with pytest.raises(BankError, match=r"no language is common.*mechanics is written in de"):
-        assert Mixed((Bank(third), Bank(other))).languages
+        assert CombinedBank((Bank(third), Bank(other))).languages
 
 
 def test_two_banks_of_one_name_are_refused(tmp_path):
     roots = [write(tmp_path / name) for name in ("one", "other")]
     with pytest.raises(BankError, match=r"one and .*other: both are called 'mechanics'"):
-        Mixed(tuple(Bank(root) for root in roots))
+        CombinedBank(tuple(Bank(root) for root in roots))
 
 
 def test_a_topic_of_two_banks_is_one(twins):
@@ -154,15 +154,15 @@ def test_formulas_of_one_number_are_told_apart(tmp_path):
     (root / "templates" / "cards" / "formulas.toml").write_text(FORMULA, "utf-8")
     rules = root / "templates" / "forces" / "push" / "template.toml"
     rules.write_text(rules.read_text("utf-8").replace("\n\n", '\ncovers = ["F01"]\n\n', 1), "utf-8")
-    mixed = Mixed((builtin(), Bank(root, trusted=True)))
+    mixed = CombinedBank((builtin_bank(), Bank(root, trusted=True)))
     assert mixed.rules("push").covers == ("mechanics:F01",)
-    found = {line.id: line for group in sheet(mixed, "en").groups for line in group.lines}
+    found = {line.id: line for group in compose_sheet(mixed, "en").groups for line in group.lines}
     assert [name for name, _ in found["mechanics:F01"].said[0].questions] == ["push"]
     assert "push" not in {name for name, _ in found["image-acquisition:F01"].said[0].questions}
 
 
 def test_a_question_of_each_can_be_asked(both, twins):
     for bank, name in ((both, "count-components"), (twins, "statics:push")):
-        question, key = compose(bank.template(name), 1, "en")
+        question, key = compose_question(bank.template(name), 1, "en")
         assert question.figure
         assert key.template == name

@@ -11,17 +11,16 @@ import pytest
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 from quizgen.bank.pictures import read_picture
-from quizgen.cards.deck import build
-from quizgen.errors import BankError
+from quizgen.cards.deck import build_deck
+from quizgen.core.errors import BankError
 from quizgen.export import FORMATS, exporter
 from quizgen.export.items import of_templates
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.paper import build as build_paper
-from quizgen.paper.paper import single
+from quizgen.paper.paper import build_paper, single_question_paper
 from quizgen.render import html, pdf, text
-from quizgen.web.made import Wanted, made
+from quizgen.web.question_view import QuestionRequest, question_view
 
 RULES = """
 topic = "circuits"
@@ -105,16 +104,18 @@ ALTS = ("Two resistors R₁ and R₂ in series at {U} V", "a box", 'a "brown" cy
 
 
 def said(template, seed: int = 1) -> list[str]:
-    item = single(template, seed, "en").items[0]
-    return [alt.format(U=item.keys[0].draw.text("U")) for alt in ALTS]
+    item = single_question_paper(template, seed, "en").items[0]
+    return [alt.format(U=item.keys[0].draw.format_value("U")) for alt in ALTS]
 
 
 # Every output
 
 
 def test_a_page_holds_the_pictures_and_their_words(folder):
-    paper = single(template_of(folder), 1, "en")
-    exam, solutions = (html.render(paper, kind).decode() for kind in ("exam", "solutions"))
+    paper = single_question_paper(template_of(folder), 1, "en")
+    exam, solutions = (
+        html.render_paper_html(paper, kind).decode() for kind in ("exam", "solutions")
+    )
     shown = dict(re.findall(r'src="data:image/([a-z+]+);base64,[^"]+" alt="([^"]*)"', solutions))
     circuit, box, board = (one.replace('"', "&#34;") for one in said(template_of(folder)))
     assert shown == {"svg+xml": circuit, "png": box, "jpeg": board}
@@ -122,30 +123,30 @@ def test_a_page_holds_the_pictures_and_their_words(folder):
 
 
 def test_a_pdf_draws_them(folder):
-    paper = single(template_of(folder), 1, "en")
-    source = pdf.source(paper, "solutions")["main.typ"].decode()
+    paper = single_question_paper(template_of(folder), 1, "en")
+    source = pdf.typst_sources(paper, "solutions")["main.typ"].decode()
     for words in said(template_of(folder)):
         assert words.replace('"', r"\\\"") in source or words in source
-    with_jpeg = pdf.render(paper, "solutions")
+    with_jpeg = pdf.render_paper_pdf(paper, "solutions")
     assert with_jpeg.startswith(b"%PDF")
     assert with_jpeg.count(b"/Subtype/Image") + with_jpeg.count(b"/Subtype /Image") >= 2
 
 
 def test_plain_text_says_their_words(folder):
-    item = single(template_of(folder), 1, "en").items[0]
-    told = text.question_text(item)
+    item = single_question_paper(template_of(folder), 1, "en").items[0]
+    told = text.format_question(item)
     assert all(f"[{words}]" in told for words in said(template_of(folder)))
 
 
 def test_both_languages_on_a_sheet_show_a_picture_of_the_story_once(folder):
     bank = bank_of(folder)
     paper = build_paper(bank, load_blueprint("circuits", bank), 1, "both")
-    page = html.render(paper, "exam").decode()
+    page = html.render_paper_html(paper, "exam").decode()
     assert page.count("data:image/svg+xml") == 1
 
 
 def test_a_deck_brings_their_files(folder):
-    deck = build(bank=bank_of(folder))
+    deck = build_deck(bank=bank_of(folder))
     assert {Path(name).suffix for name in deck.media} == {".svg", ".png", ".jpeg"}
     fields = "".join("".join(note.fields()) for note in deck.notes)
     assert set(re.findall(r'src="([^"]+)"', fields)) == set(deck.media)
@@ -168,18 +169,18 @@ def test_an_export_holds_them_or_their_files(folder, target):
 
 
 def test_practice_in_a_browser_shows_them(folder):
-    item = single(template_of(folder), 1, "en").items[0]
-    page = made(Wanted("divider", "1", "en"), item.questions[0], item.keys[0])
+    item = single_question_paper(template_of(folder), 1, "en").items[0]
+    page = question_view(QuestionRequest("divider", "1", "en"), item.questions[0], item.keys[0])
     assert 'class="picture" src="data:image/svg+xml' in page.stem
     assert any("data:image/png" in words for _, words in page.parts[0].field.options)
     assert "data:image/jpeg" in page.note
 
 
 def test_a_changed_picture_is_another_template(folder):
-    before, files = template_of(folder).digest, bank_of(folder).contents("divider")
+    before, files = template_of(folder).digest, bank_of(folder).template_files("divider")
     (folder / "board.jpg").write_bytes(encode("JPEG", (41, 20)))
     assert template_of(folder).digest != before
-    assert bank_of(folder).contents("divider") != files
+    assert bank_of(folder).template_files("divider") != files
 
 
 # What is wrong is said with its line
@@ -219,17 +220,17 @@ def test_a_file_that_is_no_picture_is_refused(folder):
 
 
 def test_a_picture_cannot_stand_where_there_is_no_folder():
-    from quizgen.bank.entries import load
-    from quizgen.cards.content import Trap
-    from quizgen.question.authored import passage
+    from quizgen.bank.entries import load_entries
+    from quizgen.cards.content import TrapEntry
+    from quizgen.question.entry_prose import entry_blocks
 
     source = (
         '[[entry]]\nid = "a"\ntopic = "t"\ntier = "A"\nsection = "1"\n'
         'claim = { en = "![words](box.png)" }\nright = { en = "x" }\n'
     )
-    (entry,) = load(source, Trap, "traps.toml", ("en",))
+    (entry,) = load_entries(source, TrapEntry, "traps.toml", ("en",))
     with pytest.raises(BankError, match=r"claim\.en: picture 'box\.png' cannot stand here"):
-        passage(entry, "claim", "en")
+        entry_blocks(entry, "claim", "en")
 
 
 # Nothing but pixels and drawing is left

@@ -7,11 +7,11 @@ from itertools import combinations
 
 import pytest
 
-from quizgen.bank.draw import draw
-from quizgen.bank.folder import Bank
-from quizgen.bank.pools import claims, taken, variants
-from quizgen.errors import BankError
-from quizgen.question.compose import identity
+from quizgen.bank.bank import Bank
+from quizgen.bank.pools import count_pool_variants, select_from_pool, selected_claims
+from quizgen.bank.variant import draw_variant
+from quizgen.core.errors import BankError
+from quizgen.question.compose import variant_identity
 
 SEEDS = 400
 HEAD = 'topic = "light"\ntier = "A"\n'
@@ -38,7 +38,7 @@ def claimed(count, true=4, false=4):
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_claims_of_one_draw_differ_and_each_comes_up_about_as_often(tmp_path, count):
     template = made(tmp_path, claimed(count))
-    found = [claims(draw(template, seed)) for seed in range(SEEDS)]
+    found = [selected_claims(draw_variant(template, seed)) for seed in range(SEEDS)]
     assert all(len({*one.values()}) == len(one) == count for one in found)
     counts = Counter(name for one in found for name in one.values())
     share = SEEDS * count / 8
@@ -49,12 +49,15 @@ def test_claims_of_one_draw_differ_and_each_comes_up_about_as_often(tmp_path, co
 def test_three_claims_are_neither_all_true_nor_all_false(tmp_path):
     template = made(tmp_path, claimed(3, true=1, false=9))
     for seed in range(SEEDS):
-        assert {name[0] for name in claims(draw(template, seed)).values()} == {"t", "f"}
+        assert {name[0] for name in selected_claims(draw_variant(template, seed)).values()} == {
+            "t",
+            "f",
+        }
 
 
 def test_true_and_false_are_as_likely_however_many_there_are(tmp_path):
     template = made(tmp_path, claimed(1, true=2, false=10))
-    true = sum(claims(draw(template, seed))[0][0] == "t" for seed in range(SEEDS))
+    true = sum(selected_claims(draw_variant(template, seed))[0][0] == "t" for seed in range(SEEDS))
     assert abs(true - SEEDS / 2) < 5 * (SEEDS / 4) ** 0.5
 
 
@@ -62,7 +65,7 @@ def test_a_condition_decides_whether_a_claim_is_true(tmp_path):
     rules = '[draw]\nk = { pick = [0, 1] }\n[claims]\none = "k = 1"\ntwo = { true = "k = 0" }\n'
     template = made(tmp_path, rules + part('{ kind = "tf", from = "claims" }') * 2)
     for seed in range(50):
-        assert {*claims(draw(template, seed)).values()} == {"one", "two"}
+        assert {*selected_claims(draw_variant(template, seed)).values()} == {"one", "two"}
 
 
 def test_a_further_claim_leaves_the_others_in_their_order(tmp_path):
@@ -70,7 +73,7 @@ def test_a_further_claim_leaves_the_others_in_their_order(tmp_path):
     after = made(tmp_path / "b", claimed(2, true=7, false=6))
     same = 0
     for seed in range(SEEDS):
-        old, new = (claims(draw(template, seed)) for template in (before, after))
+        old, new = (selected_claims(draw_variant(template, seed)) for template in (before, after))
         assert old == new or "t6" in new.values()
         same += old == new
     assert same > SEEDS * 0.7
@@ -87,7 +90,7 @@ GAP = '{ kind = "gap", take = 2, gaps = ["a", "b", "c", "d"] }'
 def sets_of(template):
     return {
         tuple(map(frozenset, (one.names, one.extra)))
-        for one in (taken(draw(template, seed), 0) for seed in range(SEEDS))
+        for one in (select_from_pool(draw_variant(template, seed), 0) for seed in range(SEEDS))
     }
 
 
@@ -120,8 +123,10 @@ def subsets(names, count):
 def test_every_set_that_may_come_comes_and_no_other(tmp_path, answer, expected):
     template = made(tmp_path, part(answer))
     assert sets_of(template) == expected
-    assert variants(draw(template, 0)) == len(expected)
-    assert len({identity(draw(template, seed)) for seed in range(SEEDS)}) == len(expected)
+    assert count_pool_variants(draw_variant(template, 0)) == len(expected)
+    assert len({variant_identity(draw_variant(template, seed)) for seed in range(SEEDS)}) == len(
+        expected
+    )
 
 
 def test_how_many_may_be_right_is_no_count_of_steps(tmp_path):
@@ -133,7 +138,7 @@ def test_how_many_may_be_right_is_no_count_of_steps(tmp_path):
 def test_steps_keep_their_order(tmp_path):
     template = made(tmp_path, part(ORDER))
     for seed in range(50):
-        names = taken(draw(template, seed), 0).names
+        names = select_from_pool(draw_variant(template, seed), 0).names
         assert names == tuple(sorted(names))
 
 
@@ -141,9 +146,12 @@ def test_steps_keep_their_order(tmp_path):
 def test_sets_of_claims_are_counted(tmp_path, count, expected):
     """28 = 8 over 2; 48 = 56 - 4 - 4 and 68 = 70 - 1 - 1 without those of one kind only."""
     template = made(tmp_path, claimed(count))
-    assert variants(draw(template, 0)) == expected
+    assert count_pool_variants(draw_variant(template, 0)) == expected
     if count <= 3:
-        assert len({identity(draw(template, seed)) for seed in range(SEEDS)}) == expected
+        assert (
+            len({variant_identity(draw_variant(template, seed)) for seed in range(SEEDS)})
+            == expected
+        )
 
 
 @pytest.mark.parametrize(
@@ -181,4 +189,4 @@ def test_too_few_right_options_are_said(tmp_path):
         ),
     )
     with pytest.raises(BankError, match="3 right and 1 wrong options are too few"):
-        taken(draw(template, 0), 0)
+        select_from_pool(draw_variant(template, 0), 0)

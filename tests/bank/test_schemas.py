@@ -15,16 +15,16 @@ import msgspec
 import pytest
 from jsonschema import Draft202012Validator
 
-from quizgen.bank.about import read_about
 from quizgen.bank.answers import ANSWERS
-from quizgen.bank.schemas import schema
+from quizgen.bank.json_schema import build_json_schema
+from quizgen.bank.metadata import read_metadata
 from quizgen.bank.template import read_rules
-from quizgen.errors import BankError
-from quizgen.marking.kinds import KINDS as MARKED
+from quizgen.core.errors import BankError
+from quizgen.grading.kinds import KINDS as MARKED
 from quizgen.question.kinds import KINDS as ASKED
 
 ROOT = Path(__file__).parents[2]
-READ: dict[str, Callable[[Path], object]] = {"template": read_rules, "bank": read_about}
+READ: dict[str, Callable[[Path], object]] = {"template": read_rules, "bank": read_metadata}
 SHAPE = re.compile(r"stands there|unknown key|is missing|is not allowed")
 """What is said of a value of another type, of a key that there is not, and of one that lacks."""
 OTHERS = ("text", 7, 2.5, 3.0, True, [], ["one"], [1, 2], {}, {"some": "table"}, [[]], [{}])
@@ -34,7 +34,7 @@ CHANGES = 500
 
 @cache
 def validator(kind: str) -> Draft202012Validator:
-    return Draft202012Validator(json.loads(schema(kind)))
+    return Draft202012Validator(json.loads(build_json_schema(kind)))
 
 
 def files(kind: str) -> list[Path]:
@@ -100,7 +100,7 @@ def verdicts(folder: Path, kind: str, table: dict[str, object]) -> tuple[str, st
 
 @pytest.mark.parametrize("kind", READ)
 def test_real_files_fit_their_schema(kind):
-    Draft202012Validator.check_schema(json.loads(schema(kind)))
+    Draft202012Validator.check_schema(json.loads(build_json_schema(kind)))
     for path in files(kind):
         found = validator(kind).iter_errors(tomllib.loads(path.read_text("utf-8")))
         assert [f"{path}: {error.message}" for error in found] == []
@@ -122,14 +122,16 @@ def test_schema_and_loader_refuse_the_same(tmp_path, kind):
 
 @pytest.mark.parametrize("kind", READ)
 def test_editors_are_told_what_each_key_means(kind):
-    for part in json.loads(schema(kind))["$defs"].values():
+    for part in json.loads(build_json_schema(kind))["$defs"].values():
         for key, value in part["properties"].items():
             assert value["description"].endswith("."), key
 
 
 def test_nothing_is_told_of_a_key_that_there_is_not():
     parts = {
-        name: part for kind in READ for name, part in json.loads(schema(kind))["$defs"].items()
+        name: part
+        for kind in READ
+        for name, part in json.loads(build_json_schema(kind))["$defs"].items()
     }
     known = {name: set(part["properties"]) for name, part in parts.items()}
     answers = [known.pop(shape.__name__) for shape in ANSWERS.values()]

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from quizgen.bank.folder import Bank, builtin
-from quizgen.cli.main import group
-from quizgen.errors import BankError
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.cli.main import root_group
+from quizgen.core.errors import BankError
 from quizgen.paper.blueprint import load_blueprint
 
 PACKAGE = Path(__file__).parent.parent.parent / "quizgen"
@@ -47,7 +47,7 @@ def root(tmp_path):
 
 def run(root, *arguments):
     result = CliRunner().invoke(
-        group, [arguments[0], "--bank", str(root), *arguments[1:]], catch_exceptions=False
+        root_group, [arguments[0], "--bank", str(root), *arguments[1:]], catch_exceptions=False
     )
     assert result.exit_code == 0, result.output
     return result.output
@@ -84,7 +84,7 @@ def test_bank_toml_names_topics_and_holds_blueprints(root, tmp_path):
     assert load_blueprint("algebra", bank).title["en"] == "Mock exam: Letters for numbers"
     assert load_blueprint("all", bank).title["en"] == "Mock exam: School maths"
     assert load_blueprint("week1", bank).title == {"en": "Week 1"}
-    assert list(bank.paths) == ["compare"]
+    assert list(bank.template_paths) == ["compare"]
     run(root, "exam", "--blueprint", "week1", "--seed", "1", "--out", str(tmp_path / "paper"))
     told = run(root, "templates", "--coverage")
     assert "skills" in told
@@ -98,12 +98,12 @@ def test_bank_toml_names_topics_and_holds_blueprints(root, tmp_path):
 def test_a_bad_bank_toml_is_located(root, text, said):
     (root / "templates" / "bank.toml").write_text(text)
     with pytest.raises(BankError, match=r"bank\.toml.*" + said):
-        assert Bank(root).about
+        assert Bank(root).metadata
 
 
 def test_the_topics_of_the_built_in_bank_are_those_of_its_templates():
-    bank = builtin()
-    assert {bank.rules(name).topic for name in bank.paths} == set(bank.topics)
+    bank = builtin_bank()
+    assert {bank.rules(name).topic for name in bank.template_paths} == set(bank.topics)
 
 
 SUBJECT = {"arrays", "camera", "tradeoff"}
@@ -113,7 +113,7 @@ OTHERWISE = {"code", "camera", "colour", "image", "projection"}
 
 
 def test_the_engine_names_no_topic_and_no_title():
-    about = builtin().about
+    about = builtin_bank().metadata
     titles = {text for topic in about.topics.values() for text in topic.values()}
     named = {*about.topics, *titles, *about.title.values()} - OTHERWISE - {"Code", "কোড"}
     for path in PACKAGE.rglob("*"):
@@ -128,10 +128,14 @@ def test_the_engine_names_no_topic_and_no_title():
 
 def _chapter() -> set[str]:
     """Names of the built-in bank's templates, present and former, and of its solvers."""
-    bank = builtin()
+    bank = builtin_bank()
     solvers = {path.relative_to(bank.root / "solvers").with_suffix("").as_posix()
                for path in (bank.root / "solvers").rglob("[a-z]*.py")}  # fmt: skip
-    return {*bank.paths, *(bank.rules(name).formerly for name in bank.paths), *solvers} - {""}
+    return {
+        *bank.template_paths,
+        *(bank.rules(name).formerly for name in bank.template_paths),
+        *solvers,
+    } - {""}
 
 
 EXAMPLE = {"point-to-image-plane"}
@@ -150,7 +154,7 @@ def _texts(path: Path) -> set[object]:
 
 def test_the_engine_names_no_template_no_solver_and_no_figure():
     """A name of a single word (``noise``) may stand in a sentence, but is no text of a program."""
-    figures = builtin().figures
+    figures = builtin_bank().figures
     word = re.compile(r"[\w/-]+")
     named = {name for name in {*_chapter(), *figures} - EXAMPLE if re.search("[-_/]", name)}
     single = {name.rpartition("/")[2] for name in {*_chapter(), *figures}} - SCENES

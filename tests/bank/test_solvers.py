@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from quizgen import kept
 from quizgen.bank import solvers
-from quizgen.bank.folder import Bank, builtin
-from quizgen.bank.solvers import _is_pure, chain_of
-from quizgen.errors import BankError
-from quizgen.maths.notation.writer import to_text
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.bank.solvers import _is_pure, load_chain
+from quizgen.core import cache
+from quizgen.core.errors import BankError
+from quizgen.maths.notation.printer import format_tree
 
 UNCHECKED = py_compile.PycInvalidationMode.UNCHECKED_HASH
 
@@ -40,13 +40,13 @@ def folder(tmp_path):
 def runs(monkeypatch, empty_cache):
     """Names of the solvers that were run."""
     names = []
-    compiled = solvers._compiled
+    compiled = solvers._compile_solver
 
     def noted(folder, name):
         names.append(name)
         return compiled(folder, name)
 
-    monkeypatch.setattr(solvers, "_compiled", noted)
+    monkeypatch.setattr(solvers, "_compile_solver", noted)
     return names
 
 
@@ -55,7 +55,7 @@ def written(folder, name, formula="a + b"):
 
 
 def formula(folder, name):
-    return to_text(chain_of(folder, name)[0].steps[0].expr)
+    return format_tree(load_chain(folder, name)[0].steps[0].expr)
 
 
 def test_a_solver_is_run_once(folder, runs):
@@ -103,7 +103,7 @@ def test_what_has_no_source_is_no_module_of_a_bank(folder, runs, name):
     written(folder, "one", "FACTOR * a")
     (folder / "one.py").write_text("from .common import FACTOR\n" + (folder / "one.py").read_text())
     with pytest.raises(BankError, match="No module named"):
-        chain_of(folder, "one")
+        load_chain(folder, "one")
 
 
 def test_what_a_solver_imports_from_its_bank_counts(folder, runs):
@@ -132,7 +132,7 @@ def test_what_may_follow_from_other_files_is_never_kept(folder, runs, first):
 @pytest.mark.parametrize("data", [b"", b"\x80", b"\x81\xa5given\x80", b"\xc1", b"\x91" * 100_000])
 def test_a_chain_that_cannot_be_read_is_compiled_anew(folder, runs, data, monkeypatch):
     written(folder, "one")
-    monkeypatch.setattr(kept, "find", lambda *_place: data)
+    monkeypatch.setattr(cache, "read_cached", lambda *_place: data)
     assert formula(folder, "one") == "a + b"
     assert runs == ["one"]
 
@@ -141,28 +141,28 @@ def test_a_solver_that_fails_is_told_each_time(folder, runs):
     (folder / "bad.py").write_text("x = 1\nMODEL = nothing\n")
     for _ in range(2):
         with pytest.raises(BankError, match=r"bad\.py:2: NameError"):
-            chain_of(folder, "bad")
+            load_chain(folder, "bad")
     assert runs == ["bad", "bad"]
 
 
 def test_a_bank_that_is_not_trusted_runs_and_reads_no_solver_of_its_own(folder, runs):
     written(folder, "one")
     (folder.parent / "templates").mkdir()
-    assert to_text(Bank(folder.parent, trusted=True).chain("one")[0].steps[0].expr) == "a + b"
+    assert format_tree(Bank(folder.parent, trusted=True).chain("one")[0].steps[0].expr) == "a + b"
     with pytest.raises(BankError, match="--trust"):
         Bank(folder.parent).chain("one")
 
 
 def test_every_chain_comes_back_as_its_model_has_it():
     """Traps, units, formulas of the sheet, and whether a number was typed as a decimal."""
-    bank = builtin()
-    for name in dict.fromkeys(bank.rules(name).solver for name in bank.paths):
+    bank = builtin_bank()
+    for name in dict.fromkeys(bank.rules(name).solver for name in bank.template_paths):
         if name:
-            chain, _ = chain_of(bank.root / "solvers", name)
+            chain, _ = load_chain(bank.root / "solvers", name)
             again = Bank(bank.root, trusted=True).solver(name).MODEL.chain()
             assert (chain, repr(chain)) == (again, repr(again)), name
 
 
 def test_all_solvers_of_the_bank_can_be_kept():
-    for file in (builtin().root / "solvers").rglob("*.py"):
+    for file in (builtin_bank().root / "solvers").rglob("*.py"):
         assert _is_pure(file.read_bytes()), file

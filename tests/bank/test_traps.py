@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from flint import fmpq
 
-from quizgen.bank.folder import Bank
-from quizgen.bank.plan import plan_of
-from quizgen.bank.traps import PartPlan
+from quizgen.bank.bank import Bank
+from quizgen.bank.misconceptions import PartChecker
+from quizgen.bank.sampler import sampler_for
 
 RULES = """
 topic = "projection"
@@ -30,15 +30,15 @@ ENV = {"f": 8.0, "p_x": 20.0, "p_y": 100.0, "p_z": 4.0, "p'_x": 40.0, "p'_y": 20
 ALL = ("divided-by-f", "forgot-f", "physical-plane")
 
 
-def part(folder: Path, answer: str = "", vanish: str = "") -> PartPlan:
+def part(folder: Path, answer: str = "", vanish: str = "") -> PartChecker:
     place = folder / "templates" / "projection" / "mine"
     place.mkdir(parents=True)
     (place / "template.toml").write_text(RULES.format(answer=answer, vanish=vanish), "utf-8")
     (place / "en.md").write_text("# T\nstem\n", "utf-8")
-    return plan_of(Bank(folder).template("mine")).parts[0]
+    return sampler_for(Bank(folder).template("mine")).parts[0]
 
 
-def check(plan: PartPlan, *, lenient: bool = False, **env: float) -> tuple[str, ...] | str:
+def check(plan: PartChecker, *, lenient: bool = False, **env: float) -> tuple[str, ...] | str:
     values = {**ENV, **{name.replace("key", "p'_x"): value for name, value in env.items()}}
     return plan.check(values, {"f": fmpq(8)}, lenient=lenient)
 

@@ -11,7 +11,6 @@ from click.testing import CliRunner
 from sweep import draws
 
 from quizgen import png
-from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera import Camera, Prepared, Scene, SceneError
 from quizgen.camera.effects import EFFECTS
 from quizgen.camera.filters import everywhere_alike
@@ -20,6 +19,7 @@ from quizgen.camera.power import encode_number
 from quizgen.camera.reading import load
 from quizgen.camera.simulate import run
 from quizgen.cli.simulate import simulate
+from quizgen.numerics.gamma import srgb_decode
 
 SCENE = Path(__file__).parents[2] / "quizgen/camera/scenes/texture.toml"
 SEEDS = [range(60), pytest.param(range(60, draws(400)), marks=pytest.mark.slow)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.bank.draw import draw
+from quizgen.bank.variant import draw_variant
 from quizgen.camera import Camera, Length, Prepared, Scene, Thing, run
 from quizgen.camera.simulate import measure_difference
 from quizgen.question.kinds import build
@@ -46,7 +46,7 @@ def _camera(given) -> Camera:
 
 @pytest.mark.parametrize("seed", range(0, SEEDS, 5))
 def test_what_the_key_leaves_out_changes_no_more_than_two_levels(bank, seed):
-    drawn = draw(bank.template("which-effects-to-simulate"), seed)
+    drawn = draw_variant(bank.template("which-effects-to-simulate"), seed)
     given = {name: float(value) for name, value in drawn.shown.items()}
     prepared = Prepared(_scene(given), _camera(given))
     names = [effect.name for effect in prepared.present]
@@ -59,5 +59,5 @@ def test_what_the_key_leaves_out_changes_no_more_than_two_levels(bank, seed):
 
 def test_every_number_of_effects_occurs(bank):
     template = bank.template("which-effects-to-simulate")
-    sizes = {len(build(draw(template, seed), 4).right) for seed in range(SEEDS)}
+    sizes = {len(build(draw_variant(template, seed), 4).right) for seed in range(SEEDS)}
     assert sizes == {1, 2, 3}

@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from quizgen.arrays.gamma import srgb_decode
-from quizgen.arrays.hsv import to_rgb
 from quizgen.camera import Camera, Prepared, Scene, View, pictures, simulate
 from quizgen.camera.codes import histogram, rounded
 from quizgen.camera.effects import (
@@ -33,6 +31,8 @@ from quizgen.camera.poisson import poisson_quantiles
 from quizgen.camera.power import encode, encode_number
 from quizgen.camera.raster.draw import Layer
 from quizgen.camera.simulate import run
+from quizgen.numerics.gamma import srgb_decode
+from quizgen.numerics.hsv import hsv_to_rgb
 
 
 def flat(level, size=300):
@@ -314,7 +314,9 @@ def test_hsv_against_colorsys():
 def test_hsv_is_that_of_the_array_functions():
     """There in single precision and back in double."""
     hue, saturation, value = rgb_to_hsv(colours())[0].astype(float).T
-    assert np.stack(to_rgb(hue, saturation, value), axis=1) == pytest.approx(colours()[0], abs=2e-6)
+    assert np.stack(hsv_to_rgb(hue, saturation, value), axis=1) == pytest.approx(
+        colours()[0], abs=2e-6
+    )
 
 
 def srgb_encode(x):

@@ -177,7 +177,7 @@ def test_a_turning_thing_at_the_border_comes_in_from_outside():
     assert (
         np.abs(
             composite((turned,))
-            - layers._turned([colour], uneven.whole((80, 90)), layer.motion, [0.7])[0]
+            - layers._measure_angle_sine([colour], uneven.whole((80, 90)), layer.motion, [0.7])[0]
         ).max()
         < 1e-6
     )

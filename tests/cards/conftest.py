@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.cards import build
-from quizgen.cards.apkg import package
+from quizgen.cards import build_deck
+from quizgen.cards.apkg import write_apkg
 
 
 @pytest.fixture(scope="session")
 def deck():
-    return build("both", seed=1)
+    return build_deck("both", seed=1)
 
 
 @pytest.fixture(scope="session")
 def packed(deck):
-    return package(deck)
+    return write_apkg(deck)

@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 from anki.collection import ImportAnkiPackageOptions, ImportAnkiPackageRequest
 
-from quizgen.bank.prose import Paragraph, Words
-from quizgen.cards import apkg, build, looks
-from quizgen.cards.apkg import package
+from quizgen.bank.markdown import Paragraph, PlainText
+from quizgen.cards import apkg, build_deck, note_types
+from quizgen.cards.apkg import write_apkg
 
 GOOD = 3
 
@@ -30,7 +30,7 @@ def corrected(deck, key, name, text):
     def changed(note):
         if note.key != key:
             return note
-        words = {**note.words, name: {**note.words[name], "en": (Paragraph((Words(text),)),)}}
+        words = {**note.words, name: {**note.words[name], "en": (Paragraph((PlainText(text),)),)}}
         return replace(note, words=words, version=note.version + 1)
 
     return replace(deck, notes=tuple(map(changed, deck.notes)))
@@ -125,7 +125,7 @@ def test_a_corrected_text_updates_the_note_and_keeps_its_schedule(
     assert before[5] == 1
     assert before[3] > 0
     better = corrected(deck, "vocab/pixel", "Meaning", "A corrected meaning.")
-    log = bring_in(collection, package(better), tmp_path)
+    log = bring_in(collection, write_apkg(better), tmp_path)
     assert not log.new
     assert [entry.id.nid for entry in log.updated] == [note_of(collection, "vocab/pixel").id]
     assert "A corrected meaning." in note_of(collection, "vocab/pixel")["Meaning"]
@@ -141,7 +141,7 @@ def test_a_changed_text_without_a_new_version_would_not_arrive(deck, packed, col
         replace(note, version=old.version)
         for note, old in zip(better.notes, deck.notes, strict=True)
     ))  # fmt: skip
-    assert not bring_in(collection, package(same), tmp_path).updated
+    assert not bring_in(collection, write_apkg(same), tmp_path).updated
 
 
 def test_another_seed_gives_the_questions_new_numbers_and_no_new_notes(
@@ -150,7 +150,7 @@ def test_another_seed_gives_the_questions_new_numbers_and_no_new_notes(
     bring_in(collection, packed, tmp_path)
     number = studied(collection, "question/A3")
     before, text = schedule(collection, number), note_of(collection, "question/A3")["Front"]
-    log = bring_in(collection, package(build("both", seed=2)), tmp_path)
+    log = bring_in(collection, write_apkg(build_deck("both", seed=2)), tmp_path)
     assert not log.new
     questions = sum(note.kind == "question" for note in deck.notes)
     assert len(log.updated) == questions
@@ -160,8 +160,8 @@ def test_another_seed_gives_the_questions_new_numbers_and_no_new_notes(
 
 @pytest.mark.parametrize("lang", ["en", "bn"])
 def test_a_second_language_joins_the_same_notes(lang, deck, packed, collection, tmp_path):
-    single = build(lang, seed=1)
-    bring_in(collection, package(single), tmp_path)
+    single = build_deck(lang, seed=1)
+    bring_in(collection, write_apkg(single), tmp_path)
     alone = note_of(collection, "vocab/pixel")
     assert bool(alone["Meaning"]) == (lang == "en")
     log = bring_in(collection, packed, tmp_path)
@@ -179,12 +179,14 @@ def test_a_second_language_joins_the_same_notes(lang, deck, packed, collection, 
 
 def test_a_new_look_arrives_with_a_re_import(deck, packed, collection, tmp_path, monkeypatch):
     bring_in(collection, packed, tmp_path)
-    better = {**looks.note_type("term", deck.wish.columns), "css": ".card { color: red; }"}
+    better = {**note_types.note_type("term", deck.wish.columns), "css": ".card { color: red; }"}
     better["mod"] += 100_000
     monkeypatch.setattr(
-        apkg, "note_type", lambda form, of: better if form == "term" else looks.note_type(form, of)
+        apkg,
+        "note_type",
+        lambda form, of: better if form == "term" else note_types.note_type(form, of),
     )
-    bring_in(collection, package(deck), tmp_path)
+    bring_in(collection, write_apkg(deck), tmp_path)
     assert collection.models.by_name("Quizgen term")["css"] == better["css"]
     assert "qg-term" in collection.models.by_name("Quizgen")["css"]
     assert collection.card_count() == deck.cards
@@ -196,6 +198,6 @@ def test_a_learners_own_change_is_kept(packed, deck, collection, tmp_path):
     note = note_of(collection, "vocab/pixel")
     note["Meaning"] = "My own words."
     collection.update_note(note)
-    newer = package(corrected(deck, "vocab/pixel", "Meaning", "A corrected meaning."))
+    newer = write_apkg(corrected(deck, "vocab/pixel", "Meaning", "A corrected meaning."))
     assert not bring_in(collection, newer, tmp_path).updated
     assert note_of(collection, "vocab/pixel")["Meaning"] == "My own words."

@@ -13,28 +13,28 @@ from fractions import Fraction
 import pytest
 from fontTools.ttLib import TTFont
 
-from quizgen.bank.entries import load
-from quizgen.bank.folder import builtin
-from quizgen.cards import build, content, looks
-from quizgen.cards.content import KINDS, Cheat, Statement, Term
-from quizgen.cards.kinds.choice import choices
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.entries import load_entries
+from quizgen.cards import build_deck, content, note_types
+from quizgen.cards.content import KINDS, CheatSheetEntry, StatementEntry, VocabularyEntry
+from quizgen.cards.kinds.choice import pick_distractors
 from quizgen.cards.note import field_names
-from quizgen.cards.versions import digest_of, registry
-from quizgen.errors import BankError
-from quizgen.maths.notation import parse
-from quizgen.question.authored import passage
-from quizgen.question.equations import inline, side, sides
+from quizgen.cards.versions import note_digest, read_versions
+from quizgen.core.errors import BankError
+from quizgen.maths.notation import parse_formula
+from quizgen.question.entry_prose import entry_blocks
+from quizgen.question.formula_lines import parse_formula_line, typeset_inline, typeset_side
 from quizgen.render.fonts import bangla_file
-from quizgen.typeset import latex
+from quizgen.typeset import to_latex
 
-BANK = builtin()
+BANK = builtin_bank()
 AUTHORED = ("vocab", "formula", "cheat", "trap", "figure", "truth", "choice")
 BENGALI = re.compile("[\u0980-\u09ff]")
 BANGLA_DIGITS = re.compile("[০-৯]")
 
 
 def entries(name):
-    return content.entries(BANK, KINDS[name])
+    return content.read_card_entries(BANK, KINDS[name])
 
 
 def read(name):
@@ -43,7 +43,7 @@ def read(name):
 
 @pytest.fixture(scope="module")
 def authored():
-    return build("both", kinds=AUTHORED)
+    return build_deck("both", kinds=AUTHORED)
 
 
 @pytest.fixture(scope="module")
@@ -212,27 +212,27 @@ def test_each_choice_has_four_terms_and_the_right_one_anywhere():
     terms = entries("vocabulary")
     places = []
     for term in terms:
-        options = choices(term, terms)
+        options = pick_distractors(term, terms)
         assert len({option.id for option in options}) == 4
         places.append(options.index(term))
     assert min(places.count(i) for i in range(4)) >= 3
 
 
 def test_every_authored_card_is_in_the_list_of_versions(authored):
-    """A changed card needs a higher version: run ``python -m quizgen.cards.renew``."""
-    listed = registry(BANK)
+    """A changed card needs a higher version: run ``python -m quizgen.cards.update_versions``."""
+    listed = read_versions(BANK)
     for note in authored.notes:
         version, digest = listed.get(note.key, (0, ""))
-        assert (note.version, digest_of(note)) == (version, digest), (
-            f"{note.key} changed: run `python -m quizgen.cards.renew`"
+        assert (note.version, note_digest(note)) == (version, digest), (
+            f"{note.key} changed: run `python -m quizgen.cards.update_versions`"
         )
 
 
-@pytest.mark.parametrize("form", list(looks.NAMES))
+@pytest.mark.parametrize("form", list(note_types.NAMES))
 def test_every_note_type_is_in_the_list_of_versions(form):
-    assert looks.listed().looks[form][1] == looks.digest_of(form), (
-        "fields, card templates or style changed: run `python -m quizgen.cards.renew`"
-    )
+    assert note_types.read_note_type_versions().looks[form][1] == note_types.note_type_digest(
+        form
+    ), "fields, card templates or style changed: run `python -m quizgen.cards.update_versions`"
 
 
 GOOD = 'id = "x"\ntopic = "noise"\ntier = "A"\nsection = "1"\n'
@@ -241,18 +241,22 @@ GOOD = 'id = "x"\ntopic = "noise"\ntier = "A"\nsection = "1"\n'
 @pytest.mark.parametrize(
     ("source", "kind", "words"),
     [
-        ("[[entry]\n", Cheat, ["f.toml", "line 1"]),
-        ("[[card]]\n", Cheat, ["f.toml", "[[entry]]", "card"]),
-        (f'[[entry]]\n{GOOD}ask.en = "a"\n', Cheat, ["f.toml", "'x'", "answer"]),
-        (f'[[entry]]\n{GOOD}ask.en = "a"\nanswer.en = "a"\n', Cheat, ["'x'", "ask.bn is missing"]),
-        (f"[[entry]]\n{GOOD}why = 1\n", Statement, ["f.toml", "'x'"]),
-        (f"[[entry]]\n{GOOD}colour = 1\n", Statement, ["f.toml", "'x'"]),
-        (f"[[entry]]\n{GOOD.replace('A', 'E')}", Term, ["f.toml", "'x'", "tier"]),
+        ("[[entry]\n", CheatSheetEntry, ["f.toml", "line 1"]),
+        ("[[card]]\n", CheatSheetEntry, ["f.toml", "[[entry]]", "card"]),
+        (f'[[entry]]\n{GOOD}ask.en = "a"\n', CheatSheetEntry, ["f.toml", "'x'", "answer"]),
+        (
+            f'[[entry]]\n{GOOD}ask.en = "a"\nanswer.en = "a"\n',
+            CheatSheetEntry,
+            ["'x'", "ask.bn is missing"],
+        ),
+        (f"[[entry]]\n{GOOD}why = 1\n", StatementEntry, ["f.toml", "'x'"]),
+        (f"[[entry]]\n{GOOD}colour = 1\n", StatementEntry, ["f.toml", "'x'"]),
+        (f"[[entry]]\n{GOOD.replace('A', 'E')}", VocabularyEntry, ["f.toml", "'x'", "tier"]),
     ],
 )
 def test_bad_files_are_located(source, kind, words):
     with pytest.raises(BankError) as caught:
-        load(source, kind, "f.toml", ("en", "bn"))
+        load_entries(source, kind, "f.toml", ("en", "bn"))
     for word in words:
         assert word in str(caught.value)
 
@@ -260,22 +264,22 @@ def test_bad_files_are_located(source, kind, words):
 def test_two_entries_of_one_name_are_refused():
     row = f'[[entry]]\n{GOOD}ask = {{ en = "a", bn = "b" }}\nanswer = {{ en = "a", bn = "b" }}\n'
     with pytest.raises(BankError, match="two entries have the id 'x'"):
-        load(row + row, Cheat, "f.toml")
+        load_entries(row + row, CheatSheetEntry, "f.toml")
 
 
 @pytest.mark.parametrize("text", ["$f*$", "{{ f }}", "{% if %}"])
 def test_bad_prose_is_located(text):
     both = {"en": "fine", "bn": text}
-    entry = Cheat(
+    entry = CheatSheetEntry(
         id="x", topic="noise", tier="A", section="1", ask=both, answer=both, file="cheat.toml"
     )
-    assert passage(entry, "ask", "en")
+    assert entry_blocks(entry, "ask", "en")
     with pytest.raises(BankError, match=r"^cheat\.toml: entry 'x': ask\.bn"):
-        passage(entry, "ask", "bn")
+        entry_blocks(entry, "ask", "bn")
 
 
 def test_lines_split_only_outside_brackets():
-    signs, parts = sides("I = piecewise(0, u = 1, 255)", {}, "here")
+    signs, parts = parse_formula_line("I = piecewise(0, u = 1, 255)", {}, "here")
     assert signs == ["="]
     assert len(parts) == 2
 
@@ -290,18 +294,18 @@ def test_lines_split_only_outside_brackets():
     ],
 )
 def test_pieces_beyond_the_grammar(text, inside, expected):
-    squeezed = latex(side(text, inside, "here").node).replace(" ", "")
+    squeezed = to_latex(typeset_side(text, inside, "here").node).replace(" ", "")
     assert squeezed == expected.replace(" ", "")
 
 
 def test_an_unknown_piece_is_located():
     with pytest.raises(BankError, match=r"here.*unknown piece"):
-        side("A", {"A": {"sum": "x"}}, "here")
+        typeset_side("A", {"A": {"sum": "x"}}, "here")
 
 
 def test_a_chain_in_a_sentence_is_not_read_as_a_conjunction():
-    assert latex(inline(parse("a = b = c")).node).replace(" ", "") == "a=b=c"
-    assert "and" in latex(inline(parse("a = b and c = d")).node)
+    assert to_latex(typeset_inline(parse_formula("a = b = c")).node).replace(" ", "") == "a=b=c"
+    assert "and" in to_latex(typeset_inline(parse_formula("a = b and c = d")).node)
 
 
 def test_every_figure_card_draws_and_hides_its_answer():

@@ -20,19 +20,19 @@ from xml.etree import ElementTree as ET
 import pytest
 from click.testing import CliRunner
 
-from quizgen.bank.prose import Paragraph, Words
-from quizgen.cards import build
-from quizgen.cards.renew import raised
-from quizgen.cards.tables import COLUMNS, HEADER, as_csv, tsv
-from quizgen.cards.versions import BASE, STEP, modified
-from quizgen.cli.main import group
+from quizgen.bank.markdown import Paragraph, PlainText
+from quizgen.cards import build_deck
+from quizgen.cards.delimited import COLUMNS, HEADER, write_csv, write_tsv
+from quizgen.cards.update_versions import raise_versions
+from quizgen.cards.versions import BASE, STEP, modification_time
+from quizgen.cli.main import root_group
 
 ROOT = Path(__file__).parent.parent.parent
 SCRIPT = """
 import hashlib
 from quizgen.cards import build
 from quizgen.cards.apkg import package
-from quizgen.cards.tables import as_csv, tsv
+from quizgen.cards.delimited import as_csv, tsv
 deck = build("both", seed=1, kinds=("vocab", "formula", "figure", "trap"))
 for data in (package(deck), tsv(deck), as_csv(deck)):
     print(hashlib.sha256(data).hexdigest())
@@ -120,7 +120,7 @@ def test_every_field_is_well_formed_html(deck):
 
 
 def test_guids_depend_on_the_key_alone(deck):
-    other = {note.key: note.guid for note in build("bn", seed=9).notes}
+    other = {note.key: note.guid for note in build_deck("bn", seed=9).notes}
     for note in deck.notes:
         assert other[note.key] == note.guid
         assert note.guid == hashlib.sha256(f"quizgen/{note.key}".encode()).hexdigest()[:20]
@@ -131,17 +131,21 @@ def test_times_rise_with_version_then_seed_then_languages(deck):
     term = next(note for note in deck.notes if note.kind == "vocab")
     alone = replace(note, langs=("en",))
     assert (
-        modified(note, 0) < modified(note, 1) < modified(replace(note, version=note.version + 1), 0)
+        modification_time(note, 0)
+        < modification_time(note, 1)
+        < modification_time(replace(note, version=note.version + 1), 0)
     )
-    assert modified(alone, 3) < modified(note, 3) < modified(alone, 4)
-    assert modified(note, 10**9) < modified(replace(note, version=note.version + 1), 0)
-    assert modified(term, 0) == modified(term, 5)
+    assert modification_time(alone, 3) < modification_time(note, 3) < modification_time(alone, 4)
+    assert modification_time(note, 10**9) < modification_time(
+        replace(note, version=note.version + 1), 0
+    )
+    assert modification_time(term, 0) == modification_time(term, 5)
     assert BASE + 1000 * STEP < 1_700_000_000, "a thousand versions stay in the past"
 
 
 def test_a_change_raises_only_its_own_version():
     old = {"a": (3, "x"), "b": (1, "y"), "gone": (2, "z")}
-    new = raised(old, {"a": "x", "b": "changed", "c": "new"})
+    new = raise_versions(old, {"a": "x", "b": "changed", "c": "new"})
     assert new == {"a": (3, "x"), "b": (2, "changed"), "c": (1, "new"), "gone": (2, "z")}
 
 
@@ -149,20 +153,20 @@ def nasty(deck):
     """A deck of one note that holds everything a table might trip over."""
     text = 'tab\there, "quotes", comma, line\nbreak; # <b>&amp;'
     note = next(note for note in deck.notes if note.kind == "trap")
-    words = {name: {"en": (Paragraph((Words(text),)),)} for name in ("Front", "Back")}
+    words = {name: {"en": (Paragraph((PlainText(text),)),)} for name in ("Front", "Back")}
     return text, replace(deck, notes=(replace(note, words=words, langs=("en",)),))
 
 
 def test_csv_gives_every_text_back(deck):
     text, single = nasty(deck)
-    data = as_csv(single).decode("utf-8-sig")
+    data = write_csv(single).decode("utf-8-sig")
     head, row = csv.reader(io.StringIO(data, newline=""))
     assert tuple(head) == COLUMNS
     assert row[3] == row[4] == text
 
 
 def test_csv_has_a_row_per_card_and_formulas_in_plain_text(deck):
-    rows = list(csv.DictReader(io.StringIO(as_csv(deck).decode("utf-8-sig"), newline="")))
+    rows = list(csv.DictReader(io.StringIO(write_csv(deck).decode("utf-8-sig"), newline="")))
     sides = sum(1 if note.form == "cloze" else len(note.cards()) for note in deck.notes)
     assert len(rows) == sides
     assert len({row["id"] for row in rows}) == sides
@@ -173,7 +177,7 @@ def test_csv_has_a_row_per_card_and_formulas_in_plain_text(deck):
 
 def test_tsv_stays_one_line_per_card(deck):
     text, single = nasty(deck)
-    lines = tsv(single).decode().splitlines()
+    lines = write_tsv(single).decode().splitlines()
     assert tuple(lines[: len(HEADER)]) == HEADER
     (row,) = csv.reader(lines[len(HEADER) :], delimiter="\t")
     assert len(row) == len(COLUMNS)
@@ -186,13 +190,13 @@ def test_anki_reads_the_tsv(deck, collection, tmp_path):
     from anki.import_export_pb2 import ImportCsvRequest
 
     path = tmp_path / "quizgen.tsv"
-    path.write_bytes(tsv(deck))
+    path.write_bytes(write_tsv(deck))
 
     def bring_in():
         metadata = collection.get_csv_metadata(path=str(path), delimiter=None)
         return collection.import_csv(ImportCsvRequest(path=str(path), metadata=metadata)).log
 
-    rows = len(tsv(deck).decode().splitlines()) - len(HEADER)
+    rows = len(write_tsv(deck).decode().splitlines()) - len(HEADER)
     first = bring_in()
     assert len(first.new) == rows
     assert collection.find_cards("deck:Quizgen::Noise")
@@ -203,7 +207,7 @@ def test_anki_reads_the_tsv(deck, collection, tmp_path):
 
 
 def run(*arguments):
-    return CliRunner().invoke(group, ["cards", *map(str, arguments)])
+    return CliRunner().invoke(root_group, ["cards", *map(str, arguments)])
 
 
 def test_the_command_writes_what_is_asked(tmp_path):
@@ -247,7 +251,7 @@ def test_bad_wishes_get_one_clear_line(arguments, words, tmp_path):
 
 def test_any_number_of_processes_makes_the_same_deck(tmp_path):
     for jobs in ("1", "2"):
-        done = CliRunner().invoke(group, ["cards", "--lang", "both", "--topic", "noise", "--seed", "7",
+        done = CliRunner().invoke(root_group, ["cards", "--lang", "both", "--topic", "noise", "--seed", "7",
             "--format", "apkg,tsv,csv", "--jobs", jobs, "--out", str(tmp_path / jobs)])  # fmt: skip
         assert done.exit_code == 0, done.output
     one, two = (

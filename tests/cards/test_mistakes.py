@@ -7,13 +7,13 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from quizgen.cards.mistakes import from_marks
-from quizgen.cli.main import group
-from quizgen.errors import CodeError, KeyFileError
+from quizgen.cards.error_deck import deck_from_grades
+from quizgen.cli.main import root_group
+from quizgen.core.errors import KeyFileError, PaperCodeError
+from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.key import key_bytes
-from quizgen.paper.marking import mark_paper
-from quizgen.paper.paper import build
+from quizgen.paper.grading import grade_paper
+from quizgen.paper.paper import build_paper
 
 BLUEPRINT = """
 [title]
@@ -34,7 +34,9 @@ def blueprint(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def key(bank, blueprint):
-    return json.loads(key_bytes(build(bank, load_blueprint(blueprint), 3, "en", figures=False)))
+    return json.loads(
+        write_answer_key(build_paper(bank, load_blueprint(blueprint), 3, "en", figures=False))
+    )
 
 
 def part_of(key, template):
@@ -44,7 +46,7 @@ def part_of(key, template):
 
 def marked(key, answers, folder):
     path = folder / "result.json"
-    table = mark_paper(key, answers, "en").as_json()
+    table = grade_paper(key, answers, "en").as_json()
     path.write_text(json.dumps(table, ensure_ascii=False), encoding="utf-8")
     return path
 
@@ -64,7 +66,7 @@ def text(note, name):
 def test_the_mistake_is_on_the_front_and_the_right_way_on_the_back(key, blueprint, bank, tmp_path):
     name, typed = swapped(key)
     path = marked(key, {name: typed}, tmp_path)
-    deck = from_marks(path, "both", bank=bank, blueprint=blueprint)
+    deck = deck_from_grades(path, "both", bank=bank, blueprint=blueprint)
     note = next(note for note in deck.notes if "swapped" in note.key)
     assert note.key == "mistake/A3/-/trap:swapped"
     assert typed.replace("-", "−") in text(note, "Front").replace("-", "−")
@@ -79,7 +81,7 @@ def test_the_mistake_is_on_the_front_and_the_right_way_on_the_back(key, blueprin
 def test_right_answers_give_no_card_and_blank_ones_do(key, blueprint, bank, tmp_path):
     part = part_of(key, "point-to-image-plane")
     right = "({}; {})".format(*part["spec"]["values"])
-    deck = from_marks(
+    deck = deck_from_grades(
         marked(key, {part["id"]: right}, tmp_path), "en", bank=bank, blueprint=blueprint
     )
     assert {note.refs[0] for note in deck.notes} == {"image-height-and-fill-distance"}
@@ -93,7 +95,9 @@ def test_right_answers_give_no_card_and_blank_ones_do(key, blueprint, bank, tmp_
 
 def test_an_unreadable_answer_is_not_a_mistake(key, blueprint, bank, tmp_path):
     name, _ = swapped(key)
-    deck = from_marks(marked(key, {name: "((("}, tmp_path), "en", bank=bank, blueprint=blueprint)
+    deck = deck_from_grades(
+        marked(key, {name: "((("}, tmp_path), "en", bank=bank, blueprint=blueprint
+    )
     assert not [note for note in deck.notes if note.refs[0] == "point-to-image-plane"]
 
 
@@ -101,10 +105,12 @@ def test_the_same_mistake_on_two_papers_is_one_note(bank, blueprint, tmp_path):
     guids = set()
     for seed in (3, 4):
         key = json.loads(
-            key_bytes(build(bank, load_blueprint(blueprint), seed, "en", figures=False))
+            write_answer_key(
+                build_paper(bank, load_blueprint(blueprint), seed, "en", figures=False)
+            )
         )
         name, typed = swapped(key)
-        deck = from_marks(marked(key, {name: typed}, tmp_path), "en", bank=bank,
+        deck = deck_from_grades(marked(key, {name: typed}, tmp_path), "en", bank=bank,
                           blueprint=blueprint)  # fmt: skip
         assert deck.wish.seed == seed
         guids |= {note.guid for note in deck.notes if "swapped" in note.key}
@@ -116,7 +122,7 @@ def test_several_papers_in_one_file(key, blueprint, bank, tmp_path):
     path = marked(key, {name: typed}, tmp_path)
     table = json.loads(path.read_text("utf-8"))
     path.write_text(json.dumps([table, table]), encoding="utf-8")
-    notes = from_marks(path, "en", bank=bank, blueprint=blueprint).notes
+    notes = deck_from_grades(path, "en", bank=bank, blueprint=blueprint).notes
     assert len({note.key for note in notes}) == len(notes)
 
 
@@ -127,7 +133,7 @@ def test_typed_html_stays_text(key, blueprint, bank, tmp_path):
     for part in table["parts"]:
         part.update(status="wrong", typed="<script>x</script>", read_as="")
     path.write_text(json.dumps(table), encoding="utf-8")
-    for note in from_marks(path, "en", bank=bank, blueprint=blueprint).notes:
+    for note in deck_from_grades(path, "en", bank=bank, blueprint=blueprint).notes:
         assert "<script>" not in "".join(note.fields())
         assert "&lt;script&gt;" in text(note, "Front")
 
@@ -137,7 +143,7 @@ def test_a_bad_file_is_named(content, bank, tmp_path):
     path = tmp_path / "bad.json"
     path.write_text(content, encoding="utf-8")
     with pytest.raises(KeyFileError, match=r"bad\.json"):
-        from_marks(path, "en", bank=bank)
+        deck_from_grades(path, "en", bank=bank)
 
 
 def test_a_paper_of_other_templates_is_refused(key, blueprint, bank, tmp_path):
@@ -145,8 +151,8 @@ def test_a_paper_of_other_templates_is_refused(key, blueprint, bank, tmp_path):
     table = json.loads(path.read_text("utf-8"))
     table["code"] = table["code"][:-6] + "000000"
     path.write_text(json.dumps(table), encoding="utf-8")
-    with pytest.raises(CodeError, match="other templates"):
-        from_marks(path, "en", bank=bank, blueprint=blueprint)
+    with pytest.raises(PaperCodeError, match="other templates"):
+        deck_from_grades(path, "en", bank=bank, blueprint=blueprint)
 
 
 def test_a_result_of_another_paper_is_refused(key, blueprint, bank, tmp_path):
@@ -155,7 +161,7 @@ def test_a_result_of_another_paper_is_refused(key, blueprint, bank, tmp_path):
     table["parts"][0]["question"] = "99"
     path.write_text(json.dumps(table), encoding="utf-8")
     with pytest.raises(KeyFileError, match="not in the paper"):
-        from_marks(path, "en", bank=bank, blueprint=blueprint)
+        deck_from_grades(path, "en", bank=bank, blueprint=blueprint)
 
 
 def test_the_command(key, blueprint, collection, tmp_path):
@@ -165,7 +171,7 @@ def test_the_command(key, blueprint, collection, tmp_path):
     name, typed = swapped(key)
     path = marked(key, {name: typed}, tmp_path)
     result = CliRunner().invoke(
-        group, ["cards", "--from-marks", str(path), "--blueprint", blueprint, "--out",
+        root_group, ["cards", "--from-marks", str(path), "--blueprint", blueprint, "--out",
                 str(tmp_path / "out")]
     )  # fmt: skip
     assert result.exit_code == 0, result.output

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.classes import make
+from quizgen.classes import generation
 from quizgen.cli.main import main
 
 BLUEPRINT = """
@@ -42,6 +42,6 @@ def made(root: Path, students: Iterable[tuple[str, str, str]]) -> Path:
         csv.writer(stream).writerows([("id", "name", "lang"), *students])
     wished = ("--blueprint", root / "short.toml", "--out", root / "class", "--jobs", 1)
     with pytest.MonkeyPatch.context() as same:
-        same.setattr(make, "new_secret", lambda: "5" * 32)
+        same.setattr(generation, "new_secret", lambda: "5" * 32)
         assert run("class", "make", root / "roster.csv", *wished) == 0
     return root / "class"

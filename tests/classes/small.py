@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from quizgen.bank.folder import builtin
-from quizgen.classes.folder import ClassFolder
-from quizgen.classes.make import make, new_settings
-from quizgen.classes.roster import Student
+from quizgen.bank.bank import builtin_bank
+from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.generation import create_settings, generate_papers
+from quizgen.classes.roster import RosterStudent
 from quizgen.executors import Here
 from quizgen.paper.blueprint import Blueprint, load_blueprint
 from quizgen.paper.paper import silent
@@ -29,17 +29,17 @@ def blueprint(folder: Path) -> Blueprint:
     return load_blueprint(str(path))
 
 
-def begun(folder: Path, students: list[Student]) -> tuple[ClassFolder, Blueprint]:
+def begun(folder: Path, students: list[RosterStudent]) -> tuple[ClassFolder, Blueprint]:
     """A folder with a secret and no papers."""
     plan = blueprint(folder)
     made = ClassFolder(folder / "class")
-    made.create(new_settings("class", builtin(), plan, "en"), students)
+    made.create(create_settings("class", builtin_bank(), plan, "en"), students)
     return made, plan
 
 
-def with_papers(folder: ClassFolder, plan: Blueprint, students: list[Student], executor=None):
+def with_papers(folder: ClassFolder, plan: Blueprint, students: list[RosterStudent], executor=None):
     """What ``make`` reports."""
-    return make(folder, students, plan, executor or Here(), 2, silent)
+    return generate_papers(folder, students, plan, executor or Here(), 2, silent)
 
 
 def bytes_of(folder: Path) -> dict[str, bytes]:

@@ -6,18 +6,18 @@ import random
 
 import pytest
 
-from quizgen.classes.analysis import analysed
-from quizgen.classes.effects import Draws, drawn
-from quizgen.classes.keys import Outline
-from quizgen.classes.mark import Marks, PartMark
+from quizgen.classes.grading import GradedClassPart, StudentMarks
+from quizgen.classes.item_analysis import analyse_class
+from quizgen.classes.key_index import PaperOutline
+from quizgen.classes.variant_difficulty import VariantDifficulty, parse_identity
 
 
 def part(item, marks, *, points=1.0, status="", note="", chosen=()):
     said = status or ("correct" if marks == points else "wrong")
-    return PartMark(item, item, "x", said, points, marks, note, chosen=chosen)
+    return GradedClassPart(item, item, "x", said, points, marks, note, chosen=chosen)
 
 
-OUTLINE = Outline({}, {"c/a": ("one", "two", "three")})
+OUTLINE = PaperOutline({}, {"c/a": ("one", "two", "three")})
 
 
 def test_figures_of_items():
@@ -34,8 +34,8 @@ def test_figures_of_items():
         ],
         [part("c/a", 0.0, status="blank"), part("d", None, points=2.0, status="open")],
     ]
-    found = analysed(
-        (Marks(f"s{n}", tuple(row), minutes=float(n)), OUTLINE) for n, row in enumerate(rows)
+    found = analyse_class(
+        (StudentMarks(f"s{n}", tuple(row), minutes=float(n)), OUTLINE) for n, row in enumerate(rows)
     )
     first, second = found.items
     assert (found.students, found.points, found.totals) == (4, 3.0, (3.0, 2.0, 0.0, 0.0))
@@ -53,7 +53,9 @@ def test_what_was_dropped_counts_nowhere():
     rows = [
         [part("c", float(n % 2)), part("d", 0.0, points=0.0, status="dropped")] for n in range(4)
     ]
-    found = analysed((Marks(f"s{n}", tuple(row)), Outline({}, {})) for n, row in enumerate(rows))
+    found = analyse_class(
+        (StudentMarks(f"s{n}", tuple(row)), PaperOutline({}, {})) for n, row in enumerate(rows)
+    )
     assert found.questions == 1
     assert [item.difficulty for item in found.items] == [0.5, None]
 
@@ -64,14 +66,16 @@ def test_alpha_is_over_whole_questions():
         [part("a/a", s), part("a/b", s), part("b", t)]
         for s, t in ((1.0, 1.0), (0.0, 1.0), (0.0, 0.0), (1.0, 0.0))
     ]
-    found = analysed((Marks(f"s{n}", tuple(row)), Outline({}, {})) for n, row in enumerate(rows))
+    found = analyse_class(
+        (StudentMarks(f"s{n}", tuple(row)), PaperOutline({}, {})) for n, row in enumerate(rows)
+    )
     assert found.questions == 2
     assert found.alpha == pytest.approx(0.0, abs=1e-12)
 
 
 def test_the_values_of_a_draw():
     whole = "a-question(f=6, p_x=-12, N_1=28/5, pattern=grbg, part=one+two, claims=half)/guided"
-    assert drawn(whole) == [
+    assert parse_identity(whole) == [
         ("f", "6"),
         ("p_x", "-12"),
         ("N_1", "28/5"),
@@ -79,12 +83,12 @@ def test_the_values_of_a_draw():
         ("part", "one+two"),
         ("claims", "half"),
     ]
-    assert drawn("plain") == []
+    assert parse_identity("plain") == []
 
 
-def simulated(harder: bool) -> Draws:
+def simulated(harder: bool) -> VariantDifficulty:
     """Two hundred students; a wide f is hard if wished, and grbg is hard if wished."""
-    chance, draws = random.Random(3), Draws()
+    chance, draws = random.Random(3), VariantDifficulty()
     for _ in range(200):
         f, pattern, z = (
             chance.randrange(1, 40),
@@ -97,7 +101,7 @@ def simulated(harder: bool) -> Draws:
 
 
 def test_a_draw_that_is_harder_is_found():
-    first, second, third = simulated(harder=True).effects()
+    first, second, third = simulated(harder=True).find_effects()
     assert {first.quantity, second.quantity} == {"f", "pattern"}
     assert max(first.corrected, second.corrected) < 0.05 < third.corrected
     trend = next(one for one in (first, second) if one.quantity == "f")
@@ -109,11 +113,11 @@ def test_a_draw_that_is_harder_is_found():
 
 
 def test_where_chance_alone_decides_nothing_is_found():
-    assert all(effect.corrected > 0.05 for effect in simulated(harder=False).effects())
+    assert all(effect.corrected > 0.05 for effect in simulated(harder=False).find_effects())
 
 
 def test_too_few_students_are_not_compared():
-    draws = Draws()
+    draws = VariantDifficulty()
     for n in range(8):
         draws.add("q", f"q(f={n % 2})", float(n % 2))
-    assert draws.effects() == []
+    assert draws.find_effects() == []

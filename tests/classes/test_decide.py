@@ -6,22 +6,22 @@ import csv
 
 import pytest
 
-from quizgen.classes.decide import (
-    agreement,
-    cases,
-    grouped,
-    kappa,
+from quizgen.classes.grading import Submission, grade_submission
+from quizgen.classes.manual_grading import (
+    cohens_kappa,
+    decision_cases,
+    group_cases,
+    marker_agreement,
     read_queue,
-    waiting,
+    undecided_answers,
     write_queue,
 )
-from quizgen.classes.mark import Sheet, mark_sheet
-from quizgen.classes.rulings import Book, Ruling
-from quizgen.errors import ClassError
-from quizgen.paper.key import Key, KeyPart, KeyQuestion
+from quizgen.classes.rulings import Ruling, RulingBook
+from quizgen.core.errors import ClassError
+from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
 
 POINTS = {"light": ["light", "আলো"], "noise": ["noise"]}
-KEY = Key("quizgen-key/2", [
+KEY = AnswerKey("quizgen-key/2", [
     KeyQuestion("1", [KeyPart("1", "2", {"kind": "text", "points": POINTS})], template="why"),
     KeyQuestion("2", [KeyPart("2", "1", {"kind": "quantity", "value": "1/2", "unit": "m"})], template="far"),
 ])  # fmt: skip
@@ -29,10 +29,10 @@ KEY = Key("quizgen-key/2", [
 
 def groups(sentences=(), numbers=()):
     """The groups of what students typed, each as its texts with their counts."""
-    sheets = [Sheet(f"s{n}", {"1": text}) for n, text in enumerate(sentences)]
-    sheets += [Sheet(f"n{n}", {"2": text}) for n, text in enumerate(numbers)]
-    marked = [mark_sheet(KEY, sheet, Book([])) for sheet in sheets]
-    return grouped(cases(waiting(marked), lambda _: KEY, "en"))
+    sheets = [Submission(f"s{n}", {"1": text}) for n, text in enumerate(sentences)]
+    sheets += [Submission(f"n{n}", {"2": text}) for n, text in enumerate(numbers)]
+    marked = [grade_submission(KEY, sheet, RulingBook([])) for sheet in sheets]
+    return group_cases(decision_cases(undecided_answers(marked), lambda _: KEY, "en"))
 
 
 def texts(found):
@@ -131,7 +131,7 @@ def test_agreement_of_two_markers():
     said = [("1", "1"), ("1", "0"), ("0", "0"), ("0", "0")]
     lines = [Ruling(what, "why", "x", value, group=f"g{n}")
              for n, pair in enumerate(said) for what, value in zip(("decide", "second"), pair, strict=True)]  # fmt: skip
-    found = agreement([*lines, Ruling("decide", "why", "y", "1", group="g9")])
+    found = marker_agreement([*lines, Ruling("decide", "why", "y", "1", group="g9")])
     # 3 of 4 agree; by chance 1/2*1/4 + 1/2*3/4 = 1/2: kappa (3/4 - 1/2)/(1/2) = 1/2
     assert (found.answers, found.kappa, len(found.apart)) == (4, 0.5, 1)
 
@@ -139,6 +139,6 @@ def test_agreement_of_two_markers():
 def test_kappa_of_two_readers_of_grant_proposals():
     """Wikipedia, Cohen's kappa, Simple example: 20 and 15 agreed, 5 and 10 not."""
     pairs = [("y", "y")] * 20 + [("y", "n")] * 5 + [("n", "y")] * 10 + [("n", "n")] * 15
-    assert kappa(pairs) == pytest.approx(0.4)
-    assert kappa([("y", "y")] * 3) is None
-    assert kappa([]) is None
+    assert cohens_kappa(pairs) == pytest.approx(0.4)
+    assert cohens_kappa([("y", "y")] * 3) is None
+    assert cohens_kappa([]) is None

@@ -12,9 +12,9 @@ from made import made, run
 from starlette.testclient import TestClient
 
 from quizgen.classes.rulings import Ruling, append_rulings
-from quizgen.web.app import application
-from quizgen.web.door import COOKIE, form_token
-from quizgen.web.settings import Settings
+from quizgen.web.app import create_app
+from quizgen.web.auth import COOKIE, csrf_token
+from quizgen.web.settings import ServerSettings
 
 ADDRESS = "http://127.0.0.1:8000"
 ITEM = "blur-and-light-factors/b"
@@ -49,11 +49,11 @@ def folder(marked, tmp_path):
 @pytest.fixture
 def asked(folder, tmp_path):
     """A browser on the page, and the token of its forms."""
-    settings = Settings(f"sqlite:///{tmp_path / 'l.sqlite3'}", workers=1, classroom=folder)
-    app = application(settings)
+    settings = ServerSettings(f"sqlite:///{tmp_path / 'l.sqlite3'}", workers=1, classroom=folder)
+    app = create_app(settings)
     with TestClient(app, ADDRESS) as client:
         client.get(f"/enter?key={app.state.site.settings.token}")
-        yield client, form_token(client.cookies[COOKIE])
+        yield client, csrf_token(client.cookies[COOKIE])
 
 
 def groups(page: str) -> list[list[str]]:

@@ -10,13 +10,13 @@ import pytest
 from dying import Long, Mortal, always_dead
 from small import begun, bytes_of, with_papers
 
-from quizgen.classes import make
-from quizgen.classes.folder import ClassFolder
-from quizgen.classes.roster import Student
-from quizgen.errors import ChoiceError, WorkerError
+from quizgen.classes import generation
+from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.roster import RosterStudent
+from quizgen.core.errors import InvalidChoiceError, WorkerError
 from quizgen.executors import Here, Processes, run, workers
 
-STUDENTS = [Student(f"{n}") for n in range(4)]
+STUDENTS = [RosterStudent(f"{n}") for n in range(4)]
 
 
 def pid_of(_job):
@@ -116,7 +116,7 @@ def test_work_that_is_given_up_ends_its_processes():
 
 @pytest.mark.slow
 def test_a_worker_that_is_killed_changes_no_byte(tmp_path, monkeypatch):
-    monkeypatch.setattr(make, "CHUNK", 1)
+    monkeypatch.setattr(generation, "CHUNK", 1)
     folder, plan = begun(tmp_path, STUDENTS)
     other = ClassFolder(tmp_path / "other")
     other.create(folder.settings, STUDENTS)
@@ -143,7 +143,7 @@ def test_papers_that_kill_every_worker_are_given_up_with_a_sentence():
 @pytest.mark.slow
 def test_a_scheduler_that_is_not_there_is_named():
     with (
-        pytest.raises(ChoiceError, match=r"scheduler tcp://127\.0\.0\.1:1"),
+        pytest.raises(InvalidChoiceError, match=r"scheduler tcp://127\.0\.0\.1:1"),
         workers(1, "tcp://127.0.0.1:1"),
     ):
         pass

@@ -12,16 +12,19 @@ import pytest
 from made import run
 from small import begun, bytes_of, with_papers
 
-from quizgen.classes import make
-from quizgen.classes.folder import ClassFolder
-from quizgen.classes.printing import print_file
-from quizgen.classes.roster import Student
-from quizgen.classes.secret import seed_of
-from quizgen.errors import ClassError
-from quizgen.paper.key import digest_of_key, load_key
+from quizgen.classes import generation
+from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.print_file import write_print_file
+from quizgen.classes.pseudonyms import student_seed
+from quizgen.classes.roster import RosterStudent
+from quizgen.core.errors import ClassError
+from quizgen.paper.answer_key import answer_key_digest, parse_answer_key
 
 IDS = ("11", "12", "13", "14", "../15")
-STUDENTS = [Student("11", '李 "Ada" #raw(1)', extra="25%"), *(Student(one, one) for one in IDS[1:])]
+STUDENTS = [
+    RosterStudent("11", '李 "Ada" #raw(1)', extra="25%"),
+    *(RosterStudent(one, one) for one in IDS[1:]),
+]
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +79,7 @@ def printed(path):
 def test_every_page_says_whose_it_is(made):
     """The foot of the page is text on all pages; the code is among the words about the file."""
     for one in keys(made[0]).values():
-        name = Student(one["id"]).file
+        name = RosterStudent(one["id"]).file
         assert one["code"].encode() in printed(made[0].path / f"papers/{name}.pdf")
     text = (made[0].path / "forms/11.toml").read_text(encoding="utf-8")
     assert 'matriculation = "11"' in text
@@ -88,11 +91,17 @@ def test_nothing_that_students_hold_leads_to_the_key(made):
     folder = made[0]
     secret = folder.settings.secret
     for one in keys(folder).values():
-        name, key = Student(one["id"]).file, load_key(one["key"])
-        digest = digest_of_key(key, one["made"])
+        name, key = RosterStudent(one["id"]).file, parse_answer_key(one["key"])
+        digest = answer_key_digest(key, one["made"])
         form = (folder.path / f"forms/{name}.toml").read_bytes()
         held = form + printed(folder.path / f"papers/{name}.pdf")
-        for told in (secret, seed_of(secret, one["id"]), seed_of(secret), digest, one["made"]):
+        for told in (
+            secret,
+            student_seed(secret, one["id"]),
+            student_seed(secret),
+            digest,
+            one["made"],
+        ):
             assert told.encode() not in held
         assert key.paper.encode() in form
         assert key.questions[0].identity.encode() not in held
@@ -119,7 +128,7 @@ def test_only_what_is_missing_or_changed_is_made_again_and_the_same(copied):
     folder, plan = copied
     before = bytes_of(folder.path)
     (folder.path / "papers/12.pdf").unlink()
-    changed = [*STUDENTS[:3], Student("14", "Renamed"), STUDENTS[4]]
+    changed = [*STUDENTS[:3], RosterStudent("14", "Renamed"), STUDENTS[4]]
     report = with_papers(folder, plan, changed)
     assert {one.student for one in report.made} == {"12", "14"}
     after = bytes_of(folder.path)
@@ -137,7 +146,7 @@ def test_only_what_is_missing_or_changed_is_made_again_and_the_same(copied):
 def test_who_comes_late_changes_no_other_paper_and_who_leaves_keeps_the_key(copied):
     folder, plan = copied
     before = bytes_of(folder.path)
-    students = [STUDENTS[0], Student("late"), *STUDENTS[2:]]
+    students = [STUDENTS[0], RosterStudent("late"), *STUDENTS[2:]]
     report = with_papers(folder, plan, students)
     assert [one.student for one in report.made] == ["late"]
     assert report.left == ("12",)
@@ -186,19 +195,19 @@ def test_another_blueprint_needs_another_folder(copied, tmp_path):
 def test_a_code_leads_to_its_student_as_long_as_the_key_is_that_of_the_paper(copied):
     folder, _ = copied
     code = keys(folder)["13"]["code"]
-    assert folder.whose(f" {code.lower()} ").head.id == "13"
+    assert folder.find_by_code(f" {code.lower()} ").head.id == "13"
     with pytest.raises(ClassError, match="no paper of this class"):
-        folder.whose("G-0000-0000-0000-0000")
+        folder.find_by_code("G-0000-0000-0000-0000")
     path = folder.path / "keys.jsonl"
     identity = json.dumps(keys(folder)["13"]["key"]["questions"][0]["identity"])
     path.write_text(path.read_text(encoding="utf-8").replace(identity, '"other"'), encoding="utf-8")
     with pytest.raises(ClassError, match="has been changed"):
-        folder.whose(code)
+        folder.find_by_code(code)
 
 
 def test_for_the_printer_every_paper_begins_on_a_right_hand_page(copied):
     folder, _ = copied
-    print_file(folder, STUDENTS)
+    write_print_file(folder, STUDENTS)
     with pikepdf.open(folder.path / "print.pdf") as whole:
         at = 0
         for one in STUDENTS:
@@ -225,7 +234,7 @@ def test_other_templates_of_the_same_kind_are_worth_and_take_as_much(tmp_path):
         stream.writelines(["id\n", *(f"{number}\n" for number in range(8))])
     wished = ("--blueprint", tmp_path / "one.toml", "--out", tmp_path / "class", "--jobs", 1)
     with pytest.MonkeyPatch.context() as same:
-        same.setattr(make, "new_secret", lambda: "5" * 32)
+        same.setattr(generation, "new_secret", lambda: "5" * 32)
         assert run("class", "make", tmp_path / "roster.csv", *wished, "--vary") == 0
     folder = ClassFolder(tmp_path / "class")
     asked = [one["key"]["questions"][0] for one in keys(folder).values()]

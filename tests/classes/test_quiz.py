@@ -13,7 +13,7 @@ import pytest
 from made import run
 
 from quizgen.classes import plots
-from quizgen.classes.effects import Effect, Level
+from quizgen.classes.variant_difficulty import ValueGroup, VariantEffect
 from quizgen.figures.alt_text import strip_mathtext
 
 HERE = Path(__file__).parents[1] / "responses" / "moodle"
@@ -80,7 +80,9 @@ def test_the_analysis_speaks_the_language_that_is_asked_for(taken, lang, said):
 
 @pytest.mark.parametrize(("lang", "sign"), [("en", "."), ("bn", "."), ("de", ",")])
 def test_the_plots_have_the_decimal_sign_of_the_language(lang, sign):
-    effect = Effect("t", "q", (Level("0.5", 9, 0.25, 0.1), Level("1.5", 9, 0.5, 0.1)), 0.01)
+    effect = VariantEffect(
+        "t", "q", (ValueGroup("0.5", 9, 0.25, 0.1), ValueGroup("1.5", 9, 0.5, 0.1)), 0.01
+    )
     items = plots.plot_items([("1", 0.4, 0.3), ("2", 0.8, 0.1)], lang, "Items.")
     for figure in (items, plots.plot_effect(effect, lang, "An effect.")):
         labels = " ".join(strip_mathtext(label.text) for label in figure.labels)

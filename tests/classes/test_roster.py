@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.classes.roster import Student, neighbours, read_roster, roster_bytes
-from quizgen.errors import ClassError
+from quizgen.classes.roster import RosterStudent, read_roster, seat_neighbours, write_roster
+from quizgen.core.errors import ClassError
 
 
 def roster(tmp_path, text, **columns):
@@ -17,14 +17,14 @@ def roster(tmp_path, text, **columns):
 def test_columns_may_be_called_anything(tmp_path):
     text = "Nachname;Matrikel;Raum\nMüller, Ö.;104;A\n"
     assert roster(tmp_path, text, id="matrikel", name="Nachname", group="Raum") == [
-        Student("104", "Müller, Ö.", group="A")
+        RosterStudent("104", "Müller, Ö.", group="A")
     ]
 
 
 def test_columns_in_full_words_are_known_and_what_is_not_read_is_told(tmp_path):
     path, unread = tmp_path / "roster.csv", []
     path.write_text("id,Language,extra time,E-mail,,name\n7,bn,25%,a@b,x,Ada\n", encoding="utf-8")
-    assert read_roster(path, tell=unread.append) == [Student("7", "Ada", "bn", "25%")]
+    assert read_roster(path, tell=unread.append) == [RosterStudent("7", "Ada", "bn", "25%")]
     assert unread == ["E-mail"]
 
 
@@ -81,7 +81,7 @@ HOSTILE = (
 
 
 def test_no_id_leaves_the_folder_by_its_file(tmp_path):
-    files = [Student(one).file for one in HOSTILE]
+    files = [RosterStudent(one).file for one in HOSTILE]
     assert len(set(files)) == len(HOSTILE)
     for file in files:
         made = tmp_path / f"{file}.pdf"
@@ -89,21 +89,30 @@ def test_no_id_leaves_the_folder_by_its_file(tmp_path):
         assert made.resolve().parent == tmp_path.resolve()
         assert file.isascii()
         assert file[0] not in ".-"
-    assert Student("1234567").file == "1234567"
-    assert Student("con").file != "con"
+    assert RosterStudent("1234567").file == "1234567"
+    assert RosterStudent("con").file != "con"
 
 
 def test_seats_are_counted_and_groups_apart(tmp_path):
     text = "id,group,seat\na,H2,1\nb,H1,10\nc,H1,9\nd,H1,A2\ne,H1,8\n"
     found = roster(tmp_path, text)
     assert [one.id for one in found] == ["d", "e", "c", "b", "a"]
-    assert neighbours(found) == {"d": ["e"], "e": ["d", "c"], "c": ["e", "b"], "b": ["c"], "a": []}
+    assert seat_neighbours(found) == {
+        "d": ["e"],
+        "e": ["d", "c"],
+        "c": ["e", "b"],
+        "b": ["c"],
+        "a": [],
+    }
 
 
 def test_a_roster_written_is_inert_and_reads_back(tmp_path):
-    students = [Student("=1+1", '@Ada, "B"', "bn", "25%", "H1", "-3"), Student("'q", "+49")]
+    students = [
+        RosterStudent("=1+1", '@Ada, "B"', "bn", "25%", "H1", "-3"),
+        RosterStudent("'q", "+49"),
+    ]
     path = tmp_path / "again.csv"
-    path.write_bytes(roster_bytes(students))
+    path.write_bytes(write_roster(students))
     assert "\n'=1+1," in path.read_text(encoding="utf-8-sig")
     assert sorted(read_roster(path), key=lambda one: one.id) == sorted(
         students, key=lambda one: one.id
@@ -114,4 +123,4 @@ def test_a_roster_written_is_inert_and_reads_back(tmp_path):
     ("extra", "more"), [("", 0), ("25%", 30), ("30", 30), ("15 min", 15), ("33 %", 40)]
 )
 def test_extra_time_is_a_share_or_minutes(extra, more):
-    assert Student("1", extra=extra).more(120) == more
+    assert RosterStudent("1", extra=extra).extra_minutes(120) == more

@@ -7,12 +7,12 @@ from fractions import Fraction
 
 import pytest
 
-from quizgen.classes.mark import Sheet, mark_sheet
-from quizgen.classes.rulings import Book, Ruling, append_rulings, read_rulings
-from quizgen.errors import ClassError
-from quizgen.paper.key import Key, KeyPart, KeyQuestion
+from quizgen.classes.grading import Submission, grade_submission
+from quizgen.classes.rulings import Ruling, RulingBook, append_rulings, read_rulings
+from quizgen.core.errors import ClassError
+from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
 
-KEY = Key("quizgen-key/2", [
+KEY = AnswerKey("quizgen-key/2", [
     KeyQuestion("1", [
         KeyPart("1a", "2", {"kind": "number", "value": "4", "decimals": 2, "traps": {"halved": "2"}}),
         KeyPart("1b", "1", {"kind": "text", "points": [["light"], ["noise"]]}),
@@ -23,7 +23,7 @@ KEY = Key("quizgen-key/2", [
 
 
 def marks(rulings=(), student="s1", **typed):
-    found = mark_sheet(KEY, Sheet(student, typed), Book(rulings))
+    found = grade_submission(KEY, Submission(student, typed), RulingBook(rulings))
     return {part.item: part.marks for part in found.parts}, found
 
 
@@ -67,8 +67,8 @@ def test_later_lines_count(rulings, typed, expected):
 
 def test_what_was_ticked_is_kept_by_its_words():
     spec = {"kind": "tf", "correct": [2], "options": ["true", "false"]}
-    key = Key("quizgen-key/2", [KeyQuestion("1", [KeyPart("1", "1", spec)], template="so")])
-    found = mark_sheet(key, Sheet("s", {"1": "wahr"}), Book([]))
+    key = AnswerKey("quizgen-key/2", [KeyQuestion("1", [KeyPart("1", "1", spec)], template="so")])
+    found = grade_submission(key, Submission("s", {"1": "wahr"}), RulingBook([]))
     assert [(part.item, part.chosen, part.marks) for part in found.parts] == [
         ("so", ("true",), 0.0)
     ]

@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import pytest
 
-from quizgen.classes.scale import Scale, read_scale
-from quizgen.errors import ClassError
+from quizgen.classes.grade_scale import GradeScale, read_grade_scale
+from quizgen.core.errors import ClassError
 
 # The usual scale of German universities of 100 points: 4.0 from 50, then a step every five points.
 GERMAN = {0: "5.0", 49.75: "5.0", 50: "4.0", 54.75: "4.0", 55: "3.7", 60: "3.3", 65: "3.0", 70: "2.7", 75: "2.3",
@@ -16,13 +16,13 @@ GERMAN = {0: "5.0", 49.75: "5.0", 50: "4.0", 54.75: "4.0", 55: "3.7", 60: "3.3",
 
 @pytest.mark.parametrize(("points", "grade"), GERMAN.items())
 def test_the_german_scale(points, grade):
-    assert Scale().grade(Fraction(points), Fraction(100)) == grade
-    assert Scale().passes(grade) == (grade != "5.0")
+    assert GradeScale().grade(Fraction(points), Fraction(100)) == grade
+    assert GradeScale().passes(grade) == (grade != "5.0")
 
 
 def written(folder, text):
     (folder / "scale.toml").write_text(text, "utf-8")
-    return read_scale(folder)
+    return read_grade_scale(folder)
 
 
 def test_a_lower_pass_mark_moves_all_steps(tmp_path):
@@ -68,4 +68,4 @@ def test_a_scale_that_makes_no_sense_is_refused_with_its_place(tmp_path, text):
 
 
 def test_nothing_to_reach_is_the_best_grade_of_nothing():
-    assert Scale().grade(Fraction(0), Fraction(0)) == "1.0"
+    assert GradeScale().grade(Fraction(0), Fraction(0)) == "1.0"

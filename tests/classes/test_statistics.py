@@ -32,33 +32,33 @@ BINARY = np.array(
 
 
 def test_alpha_and_its_interval_are_those_of_pingouin():
-    found = statistics.alpha(LIKERT)
+    found = statistics.cronbach_alpha(LIKERT)
     assert found == pytest.approx(0.5917188485995825, abs=1e-12)
-    assert statistics.alpha_interval(found, 15, 10) == pytest.approx((0.195, 0.840), abs=5e-4)
-    assert statistics.alpha_interval(found, 15, 10, 0.9) == pytest.approx((0.277, 0.812), abs=5e-4)
+    assert statistics.feldt_interval(found, 15, 10) == pytest.approx((0.195, 0.840), abs=5e-4)
+    assert statistics.feldt_interval(found, 15, 10, 0.9) == pytest.approx((0.277, 0.812), abs=5e-4)
 
 
 def test_alpha_of_a_table_with_holes_is_that_of_pingouin():
-    assert statistics.alpha(BINARY) == pytest.approx(0.732660835214447, abs=1e-12)
+    assert statistics.cronbach_alpha(BINARY) == pytest.approx(0.732660835214447, abs=1e-12)
     whole = BINARY[~np.isnan(BINARY).any(axis=1)]
-    assert statistics.alpha(whole) == pytest.approx(0.8016949152542373, abs=1e-12)
-    found = statistics.alpha_interval(0.8016949152542373, 9, 11)
+    assert statistics.cronbach_alpha(whole) == pytest.approx(0.8016949152542373, abs=1e-12)
+    found = statistics.feldt_interval(0.8016949152542373, 9, 11)
     assert found == pytest.approx((0.533, 0.947), abs=5e-4)
 
 
 def test_discrimination_is_the_correlation_with_the_sum_of_the_others():
     expected = [0.57476679, 0.56780284, 0.52139108, 0.41760582, -0.10758308,
                 -0.15723652, 0.26100774, 0.09217320, 0.44337275, 0.43368836]  # fmt: skip
-    found = [statistics.rest_correlation(LIKERT, column) for column in range(10)]
+    found = [statistics.item_rest_correlation(LIKERT, column) for column in range(10)]
     assert found == pytest.approx(expected, abs=1e-7)
 
 
 def test_kruskal_and_wallis_on_mucociliary_efficiency():
     """Hollander and Wolfe (1973), page 116; R's kruskal.test prints 0.77143, df = 2, p = 0.68."""
     groups = [[2.9, 3.0, 2.5, 2.6, 3.2], [3.8, 2.7, 4.0, 2.4], [2.8, 3.4, 3.7, 2.2, 2.0]]
-    found = statistics.kruskal([np.array(group) for group in groups])
+    found = statistics.kruskal_wallis([np.array(group) for group in groups])
     assert found == pytest.approx(0.6799647735788936, abs=1e-12)
-    assert statistics.kruskal([np.ones(4), np.ones(5)]) is None
+    assert statistics.kruskal_wallis([np.ones(4), np.ones(5)]) is None
 
 
 def test_spearman_on_iq_and_hours_of_television():
@@ -78,10 +78,12 @@ def test_quantiles_are_those_of_printed_tables():
 
 def test_several_tests_are_corrected_after_holm():
     """R: p.adjust(c(0.01, 0.04, 0.03, 0.005), "holm")."""
-    assert statistics.holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
+    assert statistics.holm_correction([0.01, 0.04, 0.03, 0.005]) == pytest.approx(
+        [0.03, 0.06, 0.06, 0.02]
+    )
 
 
 def test_what_cannot_be_said_is_not_said():
-    assert statistics.alpha(np.ones((5, 3))) is None
-    assert statistics.alpha(np.ones((1, 3))) is None
-    assert statistics.rest_correlation(np.ones((5, 3)), 0) is None
+    assert statistics.cronbach_alpha(np.ones((5, 3))) is None
+    assert statistics.cronbach_alpha(np.ones((1, 3))) is None
+    assert statistics.item_rest_correlation(np.ones((5, 3)), 0) is None

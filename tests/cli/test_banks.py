@@ -14,9 +14,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "bank"))
 
 from mechanics import FILES, write
 
-from quizgen.bank import found
+from quizgen.bank import discovery
 from quizgen.cli import options
-from quizgen.cli.main import group
+from quizgen.cli.main import root_group
 
 SOLVER = "solvers/forces/newton.py"
 
@@ -29,7 +29,7 @@ def root(tmp_path, monkeypatch):
 
 
 def run(*arguments, typed: str | None = None):
-    return CliRunner().invoke(group, [*map(str, arguments)], input=typed)
+    return CliRunner().invoke(root_group, [*map(str, arguments)], input=typed)
 
 
 class _Terminal:
@@ -89,16 +89,16 @@ def test_who_allows_it_is_asked_once_until_it_changes(root, asked):
     "name", ["solvers/more.py", "templates/figures/more.py", "templates/push/figure.py"]
 )
 def test_all_python_that_could_run_is_asked_for(root, name):
-    found.remember(root)
-    assert found.is_remembered(root)
+    discovery.remember_trust(root)
+    assert discovery.is_trust_remembered(root)
     (root / name).parent.mkdir(parents=True, exist_ok=True)
     (root / name).write_text("import os\n")
-    assert not found.is_remembered(root)
+    assert not discovery.is_trust_remembered(root)
 
 
 def test_to_trust_for_once_is_not_remembered(root):
     assert run("preview", "push", "--bank", root, "--trust").exit_code == 0
-    assert not found.is_remembered(root)
+    assert not discovery.is_trust_remembered(root)
 
 
 @pytest.fixture
@@ -112,9 +112,9 @@ def package(root, tmp_path, monkeypatch):
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mechanics\nVersion: 1.2\n")
     (info / "entry_points.txt").write_text("[quizgen.banks]\nmechanics = bank_of_mechanics\n")
     monkeypatch.syspath_prepend(site)
-    found.installed.cache_clear()
+    discovery.installed_banks.cache_clear()
     yield site / "bank_of_mechanics"
-    found.installed.cache_clear()
+    discovery.installed_banks.cache_clear()
 
 
 def test_a_package_brings_a_bank_by_its_name(package, tmp_path, monkeypatch):
@@ -128,7 +128,7 @@ def test_banks_are_listed_with_what_they_are(package):
     rows = [re.split(" {2,}", line) for line in run("banks").output.splitlines()]
     (own,) = [row for row in rows if row[0] == "mechanics"]
     assert own[1:] == ["1.2", "en", "1", "needs --trust", "CC BY 4.0", str(package)]
-    found.remember(package)
+    discovery.remember_trust(package)
     assert "  runs  " in run("banks").output.splitlines()[-1]
     assert any(row[0] == "image-acquisition" for row in rows)
 
@@ -145,7 +145,10 @@ def test_each_of_several_banks_is_asked_for(root, tmp_path, asked):
     assert [str(one) in said for one, said in zip((root, second), questions, strict=True)] == [
         True, True,
     ]  # fmt: skip
-    assert (found.is_remembered(root), found.is_remembered(second)) == (True, False)
+    assert (discovery.is_trust_remembered(root), discovery.is_trust_remembered(second)) == (
+        True,
+        False,
+    )
     answers.append(False)
     done = run("preview", "second:push", *both)
     assert str(second) in str(done.exception)

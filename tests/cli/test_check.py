@@ -10,19 +10,19 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.cli.check import check
+from quizgen.paper.answer_form import write_blank_form
+from quizgen.paper.answer_key import FORMAT, AnswerKey, KeyPart, KeyQuestion, write_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.form import form_bytes
-from quizgen.paper.key import FORMAT, Key, KeyPart, KeyQuestion, key_bytes
-from quizgen.paper.marking import mark_paper
-from quizgen.paper.paper import build
-from quizgen.paper.report import rows
+from quizgen.paper.grade_report import result_rows
+from quizgen.paper.grading import grade_paper
+from quizgen.paper.paper import build_paper
 
 
 @pytest.fixture
 def folder(bank, tmp_path):
-    paper = build(bank, load_blueprint("trial"), 4, "en", figures=False)
-    (tmp_path / "key.json").write_bytes(key_bytes(paper))
-    (tmp_path / "answers.toml").write_bytes(form_bytes(paper))
+    paper = build_paper(bank, load_blueprint("trial"), 4, "en", figures=False)
+    (tmp_path / "key.json").write_bytes(write_answer_key(paper))
+    (tmp_path / "answers.toml").write_bytes(write_blank_form(paper))
     return tmp_path
 
 
@@ -136,8 +136,8 @@ READ = {
 def test_what_was_read_has_the_decimal_sign_of_the_language(kind):
     more, typed, shown = READ[kind]
     part = KeyPart("1", "1", {"kind": kind, **more})
-    key = Key(FORMAT, [KeyQuestion("1", [part])])
-    result = mark_paper(key, {"1": typed}, "de")
-    ((_, cells),) = rows(result, "de")
+    key = AnswerKey(FORMAT, [KeyQuestion("1", [part])])
+    result = grade_paper(key, {"1": typed}, "de")
+    ((_, cells),) = result_rows(result, "de")
     assert cells[3] == shown
     assert result.parts[0].verdict.read_as == shown.replace(",", ".")

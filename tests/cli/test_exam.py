@@ -159,12 +159,12 @@ def test_a_form_that_cannot_be_read_is_never_overwritten(tmp_path):
 
 
 def test_the_printed_answers_get_full_marks(made):
-    from quizgen.marking.mark import show
+    from quizgen.grading.mark import show_key
 
     folder, _ = made
     key = json.loads((folder / "exam" / "key.json").read_text())
     answers = {
-        part["id"]: show(part["spec"], "en")
+        part["id"]: show_key(part["spec"], "en")
         for question in key["questions"]
         for part in question["parts"]
     }
@@ -244,8 +244,8 @@ def test_a_folder_that_cannot_be_written_leaves_nothing(tmp_path):
 
 
 def test_a_full_disk_leaves_nothing_half_written(tmp_path, monkeypatch):
-    from quizgen import files
-    from quizgen.errors import RenderError
+    from quizgen.core import files
+    from quizgen.core.errors import RenderError
 
     (tmp_path / "a.txt").write_bytes(b"old")
     written = []

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from inside import run
 
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 
 RULES = (
     'topic = "x"\ntier = "A"\nsolver = "{name}"\n[draw]\na = {{ pick = [1, 2, 3] }}\n'
@@ -123,7 +123,7 @@ def test_a_sound_template_is_one_row_and_no_problem(bank):
 
 
 RAISING = """
-import quizgen.audit.lint as module
+import quizgen.lint.template_checks as module
 def failing(template, *others):
     raise RuntimeError("deep inside")
 module.lint_template = failing
@@ -163,10 +163,10 @@ def test_any_number_of_processes_finds_the_same(tmp_path, what):
     names = ("point-to-image-plane", "thin-lens-image-distance", "no-teaching")
     folder = tmp_path / "templates" / "here"
     for name in names[:2]:
-        shutil.copytree(builtin().folder_of(name), folder / name)
+        shutil.copytree(builtin_bank().folder_of(name), folder / name)
     shutil.copytree(folder / names[0], folder / names[2])
     (folder / names[2] / "bn.md").write_text("# x\n## steps\n- f: no step\n")
-    shutil.copy(builtin().folder / "bank.toml", tmp_path / "templates")
+    shutil.copy(builtin_bank().folder / "bank.toml", tmp_path / "templates")
     found = []
     for jobs in ("1", "3"):
         done = run("lint", str(tmp_path), *what, "--jobs", jobs, cwd=tmp_path)

@@ -9,7 +9,7 @@ import sys
 import pytest
 from click.testing import CliRunner
 
-from quizgen.cli.main import COMMANDS, group
+from quizgen.cli.main import COMMANDS, root_group
 
 STOPPED = """
 import signal
@@ -31,15 +31,15 @@ SWALLOWED = """try:
         raise ValueError("Invalid affine transformation matrix")"""
 
 PLACES = [
-    ("quizgen.bank.folder", "module.Bank.rules", ["templates"]),
-    ("quizgen.audit.lint", "module.lint_template", ["lint", "--only", "rgb-to-hsv"]),
-    ("quizgen.bank.folder", "module.Bank.template", ["preview", "rgb-to-hsv"]),
-    ("quizgen.audit.doctor", "module.checks", ["doctor"]),
+    ("quizgen.bank.bank", "module.Bank.rules", ["templates"]),
+    ("quizgen.lint.template_checks", "module.lint_template", ["lint", "--only", "rgb-to-hsv"]),
+    ("quizgen.bank.bank", "module.Bank.template", ["preview", "rgb-to-hsv"]),
+    ("quizgen.lint.doctor", "module.checks", ["doctor"]),
     ("quizgen.tradeoff.report", "module.measure", ["tradeoff"]),
     ("quizgen.camera.reading", "module.load", ["simulate", "flat"]),
-    ("quizgen.paper.key", "module.read_key", ["check", "key.json", "answers.toml"]),
+    ("quizgen.paper.answer_key", "module.read_key", ["check", "key.json", "answers.toml"]),
     ("quizgen.cards", "module.build", ["cards"]),
-    ("quizgen.marking.mark", "module.mark", ["mark", "{}", "1"]),
+    ("quizgen.grading.mark", "module.mark", ["mark", "{}", "1"]),
 ]
 
 
@@ -135,6 +135,6 @@ def test_control_characters_in_messages_are_named(tmp_path, arguments):
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_help_fits_80_columns(name):
-    done = CliRunner().invoke(group, [name, "--help"], terminal_width=80)
+    done = CliRunner().invoke(root_group, [name, "--help"], terminal_width=80)
     assert done.exit_code == 0
     assert max(map(len, done.output.splitlines())) <= 80

@@ -16,12 +16,12 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "bank"))
 
 from mechanics import FILES, write
 
-from quizgen.bank.folder import builtin
-from quizgen.classes.make import bank_of
-from quizgen.cli.main import group
-from quizgen.errors import QuizgenError
+from quizgen.bank.bank import builtin_bank
+from quizgen.classes.generation import open_class_bank
+from quizgen.cli.main import root_group
+from quizgen.core.errors import QuizgenError
 
-OURS = builtin().name
+OURS = builtin_bank().name
 SOLVER = "solvers/forces/newton.py"
 RAN = "from pathlib import Path\nPath({!r}).touch()\n"
 PLAN = """
@@ -42,7 +42,7 @@ def root(tmp_path, monkeypatch):
 
 
 def run(*arguments):
-    return CliRunner().invoke(group, [*map(str, arguments)])
+    return CliRunner().invoke(root_group, [*map(str, arguments)])
 
 
 def exam(root, *more):
@@ -60,7 +60,7 @@ def commands(found: click.Command, words: tuple[str, ...] = ()):
 
 def test_every_command_that_takes_a_bank_takes_trust_and_several():
     taking = {}
-    for words, command in commands(group):
+    for words, command in commands(root_group):
         options = {name: one for one in command.params for name in one.opts}
         if "--bank" in options:
             assert "--trust" in options, words
@@ -126,7 +126,7 @@ def test_a_paper_that_cannot_be_made_again_says_which_bank_differs(root):
     prose = root / "templates/forces/push/en.md"
     prose.write_text(prose.read_text("utf-8").replace("A push", "A pull"), "utf-8")
     again = CliRunner().invoke(
-        group, ["exam", "--code", code, "--blueprint", "both.toml", "--bank", OURS,
+        root_group, ["exam", "--code", code, "--blueprint", "both.toml", "--bank", OURS,
                 "--bank", str(root), "--trust", "--out", "paper"],
     )  # fmt: skip
     assert isinstance(again.exception, QuizgenError)
@@ -212,7 +212,7 @@ def test_a_class_of_two_banks(root):
     assert "was made with bank" in str(other.exception)
     prose = root / "templates/forces/push/en.md"
     prose.write_text(prose.read_text("utf-8").replace("A push", "A pull"), "utf-8")
-    bank_of.cache_clear()  # another process would open the bank anew
+    open_class_bank.cache_clear()  # another process would open the bank anew
     assert "(mechanics: other files here" in str(run(*make).exception)
 
 

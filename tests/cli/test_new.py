@@ -8,14 +8,14 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from quizgen.audit.teach import examine
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.scaffold import KINDS
-from quizgen.cli.main import group, main
+from quizgen.cli.main import main, root_group
+from quizgen.lint.item_quality import review_template
 
 
 def run(*arguments: str | Path):
-    return CliRunner().invoke(group, [*map(str, arguments)], catch_exceptions=False)
+    return CliRunner().invoke(root_group, [*map(str, arguments)], catch_exceptions=False)
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def test_what_is_written_is_sound_and_teaches(root):
     done = run("lint", "--bank", root, "--trust", "--seeds", "60")
     assert done.exit_code == 0, done.output
     for template in Bank(root, trusted=True):
-        found = [one for one in examine(template, 200) if one.level == "error"]
+        found = [one for one in review_template(template, 200) if one.level == "error"]
         assert not found, template.id
 
 
@@ -127,5 +127,5 @@ def test_a_preview_for_learners_holds_no_answer():
     whole, quiz = (run("preview", name, "--seed", "3", *more).output for more in ((), ("--quiz",)))
     assert "Answer:" in whole
     assert "Answer:" not in quiz
-    assert builtin().template(name).texts["en"].title in quiz
+    assert builtin_bank().template(name).texts["en"].title in quiz
     assert "The image distance z′ is asked for." in quiz

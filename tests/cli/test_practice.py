@@ -11,19 +11,19 @@ import pytest
 from click.testing import CliRunner
 from rich.cells import cell_len
 
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 from quizgen.cli import practice
 from quizgen.cli.options import own_database
-from quizgen.locale import languages
-from quizgen.marking.mark import show
-from quizgen.marking.messages import practice_words
-from quizgen.practice.choosing import fitting, nth, seed_of
-from quizgen.practice.schedule import Asked, Grade
-from quizgen.practice.shelf import Shelf
-from quizgen.practice.state import Wish
-from quizgen.question.compose import compose
-from quizgen.web.store import Seen, Which
-from quizgen.web.store.archive import read_archive
+from quizgen.grading.feedback import load_practice_words
+from quizgen.grading.mark import show_key
+from quizgen.locale import list_languages
+from quizgen.practice.scheduler import ReviewEvent, ReviewRating
+from quizgen.practice.selection import matching_templates, question_seed, template_at
+from quizgen.practice.session_state import PracticeRequest
+from quizgen.practice.session_store import SessionStore
+from quizgen.question.compose import compose_question
+from quizgen.store import OutcomeRecord, QuestionRef
+from quizgen.store.archive import read_archive
 
 
 @pytest.fixture(autouse=True)
@@ -31,7 +31,7 @@ def shelf(tmp_path, monkeypatch):
     folder = tmp_path / "state"
     monkeypatch.setattr(practice, "state_folder", lambda: folder)
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
-    return Shelf(folder)
+    return SessionStore(folder)
 
 
 def run(lines, *arguments):
@@ -43,13 +43,18 @@ def run(lines, *arguments):
 
 
 def first_question(seed="s", lang="en", number=1):
-    name = nth(builtin(), fitting(builtin(), Wish(lang, 1, "projection", "A")), seed, number)
-    template = builtin().template(name)
-    return compose(template, seed_of(seed, number), lang, figures=False)[1]
+    name = template_at(
+        builtin_bank(),
+        matching_templates(builtin_bank(), PracticeRequest(lang, 1, "projection", "A")),
+        seed,
+        number,
+    )
+    template = builtin_bank().template(name)
+    return compose_question(template, question_seed(seed, number), lang, figures=False)[1]
 
 
 def test_right_answers_end_in_a_summary():
-    typed = [show(spec) for spec in first_question().specs]
+    typed = [show_key(spec) for spec in first_question().specs]
     done = run(typed, "--seed", "s", "--count", "1")
     assert done.exit_code == 0
     assert done.output.count("Correct.") == len(typed)
@@ -89,9 +94,9 @@ def test_the_same_command_goes_on_where_it_was_left(shelf, monkeypatch, stop, se
     (path,) = shelf.folder.glob("*.json")
     state = json.loads(path.read_text())
     template, numbers = state["due"]
-    first = compose(builtin().template(template), numbers, figures=False)[1]
+    first = compose_question(builtin_bank().template(template), numbers, figures=False)[1]
     left = [part for part in state["parts"] if part["outcome"] is None]
-    rest = [show(spec) for spec in first.specs[-len(left) :]]
+    rest = [show_key(spec) for spec in first.specs[-len(left) :]]
     done = run([*rest, *["!"] * 9], *options, "--count", "2")
     assert f"Continuing the session with seed {state['seed']}." in done.output
     assert done.output.count("Correct.") == len(rest)
@@ -149,18 +154,18 @@ def test_the_bangla_word_for_quit():
 def test_no_word_that_steers_is_an_answer():
     """A gap or a piece of code might ask for the word itself."""
     words = {
-        word.casefold() for lang in languages() for name in ("skip-words", "quit-words")
-        for word in practice_words(lang)[name].split(", ")
+        word.casefold() for lang in list_languages() for name in ("skip-words", "quit-words")
+        for word in load_practice_words(lang)[name].split(", ")
     }  # fmt: skip
-    for name in builtin().paths:
-        for text in builtin().template(name).texts.values():
+    for name in builtin_bank().template_paths:
+        for text in builtin_bank().template(name).texts.values():
             for accepted in text.named.get("gaps", {}).values():
                 answers = str(accepted).casefold()
                 assert not [w for w in words if f"'{w}'" in answers], name
 
 
 def test_a_broken_session_file_is_ignored(shelf):
-    wish = Wish("en", 1, "projection", "A")
+    wish = PracticeRequest("en", 1, "projection", "A")
     shelf.folder.mkdir(parents=True)
     shelf.path(wish).write_text("{not json")
     assert run(["!"] * 9, "--count", "1").exit_code == 0
@@ -172,24 +177,26 @@ POINT = "point-to-image-plane"
 @pytest.fixture
 def browser_side():
     """What a server of the same database has of the learner."""
-    from quizgen.web.learning import Learning
-    from quizgen.web.store import Store
+    from quizgen.store import Store
+    from quizgen.store.learner import LearnerProgress
 
     store = Store(own_database())
-    yield Learning(store, builtin(), store.learner())
+    yield LearnerProgress(store, builtin_bank(), store.learner())
     store.close()
 
 
 def test_what_is_practised_here_shows_in_the_browser(browser_side):
     key = first_question("s")
-    lines = [show(spec) for spec in key.specs]
+    lines = [show_key(spec) for spec in key.specs]
     assert run(lines, "--seed", "s", "--count", "1").exit_code == 0
     card = browser_side.agenda().card(key.template)
     assert card.stability == 2.3065, "FSRS: right at once"
     assert browser_side.store.times(browser_side.learner.id) == {key.template: 1}
     (attempt,) = browser_side.store.latest(browser_side.learner.id)
     assert attempt.ended is not None
-    question, _ = compose(builtin().template(attempt.template), attempt.seed, figures=False)
+    question, _ = compose_question(
+        builtin_bank().template(attempt.template), attempt.seed, figures=False
+    )
     names = {part.field.id for part in question.parts}
     assert set(attempt.state["parts"]) == names, "as the pages of the browser call them"
     seen = browser_side.store.seen(browser_side.learner.id)
@@ -205,7 +212,7 @@ def test_a_skipped_part_says_nothing(browser_side):
     assert "Practise next: Projection" in done.output
     assert browser_side.store.seen(browser_side.learner.id) == []
     assert browser_side.agenda().cards == {}
-    browser_side.store.archives.take_in(
+    browser_side.store.archives.import_archive(
         browser_side.learner.id,
         read_archive(browser_side.store.archives.write(browser_side.learner.id)),
     )
@@ -213,13 +220,13 @@ def test_a_skipped_part_says_nothing(browser_side):
 
 def test_what_went_wrong_in_the_browser_is_asked_here_first(browser_side):
     browser_side.store.cards.review(
-        browser_side.learner.id, [Asked("A3", Grade.AGAIN)], time.time() - 30 * 86400
+        browser_side.learner.id, [ReviewEvent("A3", ReviewRating.AGAIN)], time.time() - 30 * 86400
     )
     done = run(["quit"], "--count", "1")
-    title = compose(builtin().template(POINT), figures=False)[0].title
+    title = compose_question(builtin_bank().template(POINT), figures=False)[0].title
     assert f"Question 1 of 1: {title}" in done.output
-    seen = Seen("rgb-to-hsv", "colour", "a", "", right=False, first=False, at=time.time())
-    attempt = browser_side.store.begin(browser_side.learner.id, Which("rgb-to-hsv", "1"), {})
+    seen = OutcomeRecord("rgb-to-hsv", "colour", "a", "", right=False, first=False, at=time.time())
+    attempt = browser_side.store.begin(browser_side.learner.id, QuestionRef("rgb-to-hsv", "1"), {})
     browser_side.store.keep(attempt, (seen,))
     done = run(["!"] * 9, "--count", "1", "--seed", "s")
     assert "So far, here and in the browser" in done.output
@@ -227,7 +234,7 @@ def test_what_went_wrong_in_the_browser_is_asked_here_first(browser_side):
 
 
 def test_a_database_of_ones_own(tmp_path):
-    from quizgen.web.store import Store
+    from quizgen.store import Store
 
     file = tmp_path / "mine.sqlite3"
     run(["!"] * 9, "--count", "1", "--seed", "s", "--database", f"sqlite:///{file}")
@@ -251,7 +258,7 @@ def test_text_wraps_at_the_width_of_the_terminal(monkeypatch, lang, columns, top
         practice.practice, ["--topic", topic, "--lang", lang, "--count", "6", "--seed", "w"],
         input="?\n!\n" * 60,
     )  # fmt: skip
-    prompt = practice_words(lang)["prompt"]
+    prompt = load_practice_words(lang)["prompt"]
     lines = [line.removeprefix(f"{prompt}: ") for line in done.output.splitlines()]
     breakable = [line for line in lines if len(line.split()) > 1 and ".svg" not in line]
     assert max(map(cell_len, breakable)) <= columns
@@ -268,8 +275,8 @@ def nothing():
     """A topic that has no question of a tier."""
     return next(
         ["--topic", topic, "--tier", tier]
-        for topic in builtin().topics for tier in "ABCD"
-        if not fitting(builtin(), Wish(topic=topic, tier=tier))
+        for topic in builtin_bank().topics for tier in "ABCD"
+        if not matching_templates(builtin_bank(), PracticeRequest(topic=topic, tier=tier))
     )  # fmt: skip
 
 
@@ -297,7 +304,7 @@ def test_topics_are_found_in_capitals_and_by_their_title(topic):
 
 
 def test_every_sentence_exists_in_every_language():
-    first, *others = (practice_words(lang) for lang in languages())
+    first, *others = (load_practice_words(lang) for lang in list_languages())
     assert all(first.keys() == other.keys() for other in others)
 
 
@@ -308,7 +315,7 @@ def test_a_german_answer_is_read_back_with_a_comma(shelf):
         ["--bank", str(bank), "--trust", "--lang", "de", "--count", "3", "--seed", "s"],
         input="0.5\n" * 60,
     )
-    word = practice_words("de")["read"].split("{")[0]
+    word = load_practice_words("de")["read"].split("{")[0]
     read = [line.partition(word)[2] for line in done.output.splitlines() if word in line]
     assert [text for text in read if text.startswith("0,5")]
     assert not [text for text in read if "0.5" in text]

@@ -5,35 +5,35 @@ from __future__ import annotations
 import pytest
 from click.testing import CliRunner
 
-from quizgen.audit.coverage import covering
-from quizgen.bank.folder import builtin
-from quizgen.cli.main import COMMANDS, group
+from quizgen.bank.bank import builtin_bank
+from quizgen.cli.main import COMMANDS, root_group
 from quizgen.cli.templates import templates
+from quizgen.lint.coverage import templates_covering
 
 
 def covers(name):
-    return builtin().rules(name).covers
+    return builtin_bank().rules(name).covers
 
 
 def test_an_item_finds_the_templates_that_claim_it():
-    found = covering(builtin(), "Q4a")
-    assert found == [name for name in builtin().paths if "Q4a" in covers(name)]
+    found = templates_covering(builtin_bank(), "Q4a")
+    assert found == [name for name in builtin_bank().template_paths if "Q4a" in covers(name)]
     assert found
 
 
 def test_a_question_finds_its_parts_but_not_a_longer_number():
-    found = covering(builtin(), "C12")
+    found = templates_covering(builtin_bank(), "C12")
     assert found
-    for name in builtin().paths:
+    for name in builtin_bank().template_paths:
         claimed = {"C12", *(f"C12{letter}" for letter in "abcde")} & set(covers(name))
         assert (name in found) == bool(claimed), name
-    assert not [name for name in covering(builtin(), "A1") if not {"A1", "A1a", "A1b", "A1c", "A1d"}
+    assert not [name for name in templates_covering(builtin_bank(), "A1") if not {"A1", "A1a", "A1b", "A1c", "A1d"}
                 & set(covers(name))]  # fmt: skip
 
 
 @pytest.mark.parametrize("item", ["", "(", "Z99", "Q4a.*"])
 def test_what_nothing_covers_finds_nothing(item):
-    assert covering(builtin(), item) == []
+    assert templates_covering(builtin_bank(), item) == []
     done = CliRunner().invoke(templates, ["--covers", item])
     assert done.exit_code == 0
     assert f"no template covers {item!r}" in done.output
@@ -49,7 +49,7 @@ def rows(*arguments):
 def test_piped_there_is_one_line_of_cells_for_each_template(monkeypatch):
     monkeypatch.setenv("COLUMNS", "40")
     found = rows()
-    assert [row[0] for row in found] == list(builtin().paths)
+    assert [row[0] for row in found] == list(builtin_bank().template_paths)
     assert {len(row) for row in found} == {6}
     cells = {row[0]: row for row in found}["bayer-site-counts"]
     assert cells == ["bayer-site-counts", "B", "sensor", "2800", "en,bn", "Counting photosites"]
@@ -57,15 +57,17 @@ def test_piped_there_is_one_line_of_cells_for_each_template(monkeypatch):
 
 def test_the_command_prints_name_topic_and_title():
     found = {row[0]: row for row in rows("--covers", "Q4a")}
-    assert list(found) == covering(builtin(), "Q4a")
+    assert list(found) == templates_covering(builtin_bank(), "Q4a")
     for name, row in found.items():
-        template = builtin().template(name)
+        template = builtin_bank().template(name)
         assert (row[2], row[5]) == (template.rules.topic, template.texts["en"].title)
 
 
 def test_filters_hold_together():
     noise = {row[0] for row in rows("--topic", "Noise")}
-    assert noise == {n for n in builtin().paths if builtin().rules(n).topic == "noise"}
+    assert noise == {
+        n for n in builtin_bank().template_paths if builtin_bank().rules(n).topic == "noise"
+    }
     choices = {row[0] for row in rows("--kind", "choice")}
     assert {row[0] for row in rows("--topic", "noise", "--kind", "CHOICE")} == noise & choices
     assert "bayer-site-counts" in {row[0] for row in rows("--search", "PHOTOSITES")}
@@ -108,6 +110,6 @@ def test_every_command_stands_in_the_module_of_its_name(name):
     module, line = COMMANDS[name]
     # No module can be imported by a keyword's name.
     assert module == f"quizgen.cli.{'classes' if name == 'class' else name}"
-    done = CliRunner().invoke(group, [name, "--help"])
+    done = CliRunner().invoke(root_group, [name, "--help"])
     assert done.exit_code == 0
     assert line

@@ -9,7 +9,7 @@ from rich.cells import cell_len
 
 from quizgen.cli import terminal
 from quizgen.cli.terminal import Progress, many, wrapped
-from quizgen.outside import visible
+from quizgen.core.untrusted import escape_control_characters
 
 ENGLISH = "The pupil lets in less light, and shorter wavelengths are refracted with more power."
 BANGLA = "একটি পিনহোল ক্যামেরায় ফোকাস দূরত্ব দেওয়া আছে; বিন্দুটি ছবিতে কোথায় দেখা যাবে তা বের করো।"
@@ -41,9 +41,9 @@ def test_lines_are_as_full_as_they_can_be():
 
 
 def test_control_characters_are_named_and_bangla_joiners_kept():
-    assert visible("a\x1b[31m") == "a[U+001B control character][31m"
-    assert visible("\u202e") == "[U+202E RIGHT-TO-LEFT OVERRIDE]"
-    assert visible("উদ্\u200cযাপন\n") == "উদ্\u200cযাপন\n"
+    assert escape_control_characters("a\x1b[31m") == "a[U+001B control character][31m"
+    assert escape_control_characters("\u202e") == "[U+202E RIGHT-TO-LEFT OVERRIDE]"
+    assert escape_control_characters("উদ্\u200cযাপন\n") == "উদ্\u200cযাপন\n"
 
 
 def progress(monkeypatch, times, *, terminal_there):

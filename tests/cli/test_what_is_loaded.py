@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 
 WALK = """
 import sys
@@ -24,7 +24,7 @@ DRAWING = {"numpy", "matplotlib", "PIL"}
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):
     """A folder; solvers are compiled and prose is read, once and for all."""
-    list(builtin())
+    list(builtin_bank())
     return tmp_path_factory.mktemp("loaded")
 
 

@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from quizgen.audit.lint import lint_template
-from quizgen.bank.draw import draw
-from quizgen.bank.folder import Bank
-from quizgen.marking.mark import mark
+from quizgen.bank.bank import Bank
+from quizgen.bank.variant import draw_variant
+from quizgen.grading.mark import mark
+from quizgen.lint.template_checks import lint_template
 from quizgen.maths.numbers import to_float
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.paper import build, single
-from quizgen.question.levels import level_of
+from quizgen.paper.paper import build_paper, single_question_paper
+from quizgen.question.levels import effective_level
 from quizgen.render import render_paper
 
 ROOT = Path(__file__).parent.parent.parent / "examples" / "filtering"
@@ -22,20 +22,20 @@ BANK = Bank(ROOT, trusted=True)
 SEEDS = range(8)
 
 
-@pytest.mark.parametrize("name", BANK.paths)
+@pytest.mark.parametrize("name", BANK.template_paths)
 def test_every_template_is_clean(name):
     report = lint_template(BANK.template(name), 60, BANK.languages)
     assert not report.problems
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", BANK.paths)
+@pytest.mark.parametrize("name", BANK.template_paths)
 def test_every_template_is_clean_in_many_draws(name):
     assert not lint_template(BANK.template(name), 1000, BANK.languages).problems
 
 
 def values(name, seed):
-    drawn = draw(BANK.template(name), seed)
+    drawn = draw_variant(BANK.template(name), seed)
     return {key: to_float(value) for key, value in drawn.shown_values.items()}
 
 
@@ -152,7 +152,7 @@ def test_cost_and_spread():
 
 
 def test_a_paper_in_two_languages():
-    paper = build(BANK, load_blueprint("mock", BANK), 5, "both")
+    paper = build_paper(BANK, load_blueprint("mock", BANK), 5, "both")
     page = render_paper(paper, "exam", "html").decode()
     assert 'lang="de"' in page
     assert "Mock exam: Filtering" in page
@@ -173,10 +173,10 @@ READ = {
 def test_what_is_read_in_a_figure_is_asked_step_by_step_and_turned_round(name):
     """The figure stays on the page."""
     for seed in SEEDS:
-        drawn = draw(BANK.template(name), seed)
+        drawn = draw_variant(BANK.template(name), seed)
         for asked in ("guided", "transfer"):
-            assert level_of(drawn, asked) == asked
-            (item,) = single(BANK.template(name), seed, "de", level=asked).items
+            assert effective_level(drawn, asked) == asked
+            (item,) = single_question_paper(BANK.template(name), seed, "de", level=asked).items
             assert (item.questions[0].figure is not None) is (name in READ)
 
 
@@ -185,5 +185,5 @@ def test_the_first_step_of_the_mean_is_the_sum_of_what_is_drawn(seed):
     v = values("mean-and-median-with-outlier", seed)
     seen = [v[f"f_{k}"] for k in (1, 2, 3, 4, 6, 7, 8, 9)] + [v["c"]]
     template = BANK.template("mean-and-median-with-outlier")
-    (item,) = single(template, seed, "en", level="guided", figures=False).items
+    (item,) = single_question_paper(template, seed, "en", level="guided", figures=False).items
     assert mark(item.keys[0].specs[0], str(int(sum(seen)))).verdict == "correct"

@@ -15,13 +15,13 @@ import pytest
 from click.testing import CliRunner
 from starlette.testclient import TestClient
 
-from quizgen.bank.folder import Bank
-from quizgen.bank.mixed import opened
+from quizgen.bank.bank import Bank
+from quizgen.bank.combined import open_banks
 from quizgen.cli import practice
-from quizgen.cli.main import group
-from quizgen.web.app import application
-from quizgen.web.door import COOKIE, form_token
-from quizgen.web.settings import Settings
+from quizgen.cli.main import root_group
+from quizgen.web.app import create_app
+from quizgen.web.auth import COOKIE, csrf_token
+from quizgen.web.settings import ServerSettings
 
 ROOT = Path(__file__).parent.parent.parent / "examples" / "filtering"
 FEW = """
@@ -47,7 +47,7 @@ def here(tmp_path, monkeypatch):
 
 def run(*words, typed: str | None = None, banks=(ROOT,)):
     named = [part for bank in banks for part in ("--bank", str(bank))]
-    done = CliRunner().invoke(group, [*map(str, words), *named, "--trust"], input=typed)
+    done = CliRunner().invoke(root_group, [*map(str, words), *named, "--trust"], input=typed)
     assert done.exit_code == 0, (done.output, done.exception)
     return done.output
 
@@ -128,14 +128,14 @@ def test_a_class_of_one(here, banks):
 
 
 @pytest.mark.parametrize(
-    "bank", [Bank(ROOT, trusted=True), opened([("", True), (str(ROOT), True)])]
+    "bank", [Bank(ROOT, trusted=True), open_banks([("", True), (str(ROOT), True)])]
 )
 def test_the_first_question_in_the_browser(here, bank):
-    app = application(Settings("sqlite:///l.sqlite3", bank, workers=1))
+    app = create_app(ServerSettings("sqlite:///l.sqlite3", bank, workers=1))
     with TestClient(app, "http://127.0.0.1:8000") as client:
         key = app.state.site.settings.token
         assert "Binary pictures" in client.get(f"/enter?key={key}").text
-        wish = {"template": "count-components", "token": form_token(client.cookies[COOKIE])}
+        wish = {"template": "count-components", "token": csrf_token(client.cookies[COOKIE])}
         page = client.post("/practice", data=wish)
         assert page.status_code == 200
         assert "<svg" in page.text

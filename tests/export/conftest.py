@@ -8,9 +8,9 @@ from itertools import cycle
 
 import pytest
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 from quizgen.export.items import Item, of_templates
-from quizgen.question.compose import compose
+from quizgen.question.compose import compose_question
 
 
 def some(bank, count: slice) -> list[str]:
@@ -60,7 +60,7 @@ def awkward(bank, tmp_path_factory) -> list[Item]:
                 lines.append(line + more)
             file.write_text("\n".join(lines), "utf-8")
     own = Bank(root)
-    return list(of_templates(own, list(own.paths), 0, 2, ["en", "bn"]))
+    return list(of_templates(own, list(own.template_paths), 0, 2, ["en", "bn"]))
 
 
 @pytest.fixture(scope="session")
@@ -74,7 +74,7 @@ def reference(bank):
     """A question with the numbers of the notes."""
 
     def made(name: str, lang: str = "en") -> Item:
-        question, key = compose(bank.template(name), "reference", lang)
+        question, key = compose_question(bank.template(name), "reference", lang)
         return Item(f"{name}.reference.{lang}", name, question, key)
 
     return made

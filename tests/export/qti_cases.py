@@ -8,8 +8,8 @@ from itertools import chain
 from xml.etree import ElementTree as ET
 
 from quizgen.export.asks import Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
-from quizgen.marking.mark import mark
-from quizgen.question.markup import inline
+from quizgen.grading.mark import mark
+from quizgen.question.html import inlines_to_html
 
 INSIDE, OUTSIDE = 0.98, 1.02
 """Shares of the width of an interval that are surely in it and surely beyond it."""
@@ -36,7 +36,7 @@ class Asked:
 
     def words(self, said) -> frozenset[str]:
         """A sentence as it is read."""
-        markup = inline(said, self.lang)
+        markup = inlines_to_html(said, self.lang)
         return frozenset({text_of(ET.fromstring(f"<p>{markup}</p>"))}) if said else frozenset()
 
     def choice(self, mark: str) -> str:

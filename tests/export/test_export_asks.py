@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 from quizgen.export.asks import Choose, Fill, Numeric, Order, Pairs, Truth
-from quizgen.marking.mark import mark
+from quizgen.grading.mark import mark
 
 INSIDE = 0.98
 """Share of an interval that our closed one holds, too: it was widened by a hundredth."""

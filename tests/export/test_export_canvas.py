@@ -11,7 +11,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from msgspec.structs import replace
 
-from quizgen.bank.prose import Words
+from quizgen.bank.markdown import PlainText
 from quizgen.export.asks import Choose, Fill, Numeric, Order, Pairs, Truth, as_pairs
 from quizgen.export.canvas import contents, queries, write
 from quizgen.export.items import Item
@@ -187,7 +187,7 @@ def test_braces_brackets_and_bangla_survive(reference):
     awkward = "[blank1] ]]> {a} ~ # & &amp; <b> \"q\" 'x' ১,৫ ক্যামেরা"
     part, spec = item.question.parts[0], item.key.specs[0]
     first, *rest = part.field.options
-    options = ((first[0], (Words(awkward),)), *rest)
+    options = ((first[0], (PlainText(awkward),)), *rest)
     part = replace(part, field=replace(part.field, options=options))
     made = Item(item.id, item.slot, replace(item.question, parts=(part,)), item.key)
     assert spec.kind == "choice"

@@ -9,7 +9,7 @@ import pytest
 
 from quizgen.export import FORMATS, exporter
 from quizgen.export.items import Item
-from quizgen.question.compose import compose
+from quizgen.question.compose import compose_question
 
 PAGE = Path(__file__).parents[2] / "docs" / "export.md"
 
@@ -18,7 +18,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "export.md"
 def plain(bank) -> list[Item]:
     """Every template once, without its figures."""
     return [
-        Item(f"{name}.1.en", name, *compose(bank.template(name), 1, "en", figures=False))
+        Item(f"{name}.1.en", name, *compose_question(bank.template(name), 1, "en", figures=False))
         for name in bank.paths
     ]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from quizgen.bank.solvers import module_of
+from quizgen.bank.solvers import import_module_file
 
 PAGE = Path(__file__).parents[2] / "docs" / "figures.md"
 _BLOCK = re.compile(
@@ -26,7 +26,7 @@ def load_examples(folder: Path):
         if file.endswith(".py"):
             name = "box_plot" if file == "figure.py" else Path(file).stem
             (folder / f"{name}.py").write_text(text, encoding="utf-8")
-            found[name] = module_of(folder, name)
+            found[name] = import_module_file(folder, name)
     return found
 
 

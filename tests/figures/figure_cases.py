@@ -6,16 +6,16 @@ from __future__ import annotations
 import random
 
 from quizgen import figures
-from quizgen.bank.folder import builtin
-from quizgen.bank.solvers import module_of
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.solvers import import_module_file
 
-FIGURES = builtin().figures
-FOLDER = builtin().folder / "figures"
+FIGURES = builtin_bank().figures
+FOLDER = builtin_bank().folder / "figures"
 
 
 def module(name):
     """What draws a figure, or what these share."""
-    return module_of(FOLDER, name) if name.startswith("_") else builtin().figure(name)
+    return import_module_file(FOLDER, name) if name.startswith("_") else builtin_bank().figure(name)
 
 
 def draw(name, values, *, quiz=False, lang="en", marks=None):

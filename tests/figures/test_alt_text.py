@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
 from quizgen.figures.kit import (
     format_derived,
     format_equation,

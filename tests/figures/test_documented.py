@@ -13,12 +13,12 @@ from click.testing import CliRunner
 from documented import PAGE, read_blocks
 from figure_cases import FIGURES, module
 
-from quizgen.bank.folder import Bank
-from quizgen.cli.main import group
-from quizgen.errors import BankError
-from quizgen.paper.whole import candidate
-from quizgen.question.compose import instance
-from quizgen.question.picture import described, pictured
+from quizgen.bank.bank import Bank
+from quizgen.cli.main import root_group
+from quizgen.core.errors import BankError
+from quizgen.paper.constraints import make_candidate
+from quizgen.question.compose import draw_instance
+from quizgen.question.figure import describe_question_figure, draw_question_figure
 
 BLOCKS = read_blocks()
 SHARED = [name for name in BLOCKS if name.startswith("templates/figures/")]
@@ -62,7 +62,7 @@ def root(tmp_path):
 
 def run(root, *arguments):
     result = CliRunner().invoke(
-        group, [arguments[0], "--bank", str(root), "--trust", *arguments[1:]],
+        root_group, [arguments[0], "--bank", str(root), "--trust", *arguments[1:]],
         catch_exceptions=False,
     )  # fmt: skip
     assert result.exit_code == 0, result.output
@@ -96,11 +96,11 @@ def test_lint_finds_nothing_wrong_with_them(root):
 
 
 def test_a_list_of_formulas_becomes_a_list_of_numbers(root):
-    drawn = instance(Bank(root, trusted=True).template("two-samples"), 3)
+    drawn = draw_instance(Bank(root, trusted=True).template("two-samples"), 3)
     a = int(drawn.shown_values["a"])
-    said = described(drawn, "en", quiz=True)
+    said = describe_question_figure(drawn, "en", quiz=True)
     assert f"A: {a - 6}, {a - 2}, {a}, {a + 1}, {a + 5} g" in said
-    assert pictured(drawn, "en", quiz=True).alt == said
+    assert draw_question_figure(drawn, "en", quiz=True).alt == said
 
 
 def test_a_table_of_formulas_becomes_a_table_of_numbers(root):
@@ -111,9 +111,9 @@ def test_a_table_of_formulas_becomes_a_table_of_numbers(root):
                     BLOCKS["figure.py"])  # fmt: skip
     figure = re.sub(r"    a, b = .*\n.*", "    return str(values['codes'])", figure)
     write(own, {"template.toml": rules, "figure.py": figure})
-    drawn = instance(Bank(root, trusted=True).template("two-samples"), 3)
+    drawn = draw_instance(Bank(root, trusted=True).template("two-samples"), 3)
     a, b = (float(drawn.shown_values[name]) for name in "ab")
-    assert described(drawn, "en", quiz=True) == str(((a, 1.0), (2.0, a + b)))
+    assert describe_question_figure(drawn, "en", quiz=True) == str(((a, 1.0), (2.0, a + b)))
 
 
 # A figure beside its template
@@ -136,40 +136,44 @@ def test_a_figure_that_is_not_there_is_told(root):
 def test_a_mistake_in_it_is_one_line_with_its_place(root):
     file = root / "templates/statistics/two-samples/figure.py"
     file.write_text(BLOCKS["figure.py"].replace("ax.boxplot", "ax.boxplots"), encoding="utf-8")
-    drawn = instance(Bank(root, trusted=True).template("two-samples"), 3)
+    drawn = draw_instance(Bank(root, trusted=True).template("two-samples"), 3)
     with pytest.raises(BankError, match=r"figure\.py:8: AttributeError: .*boxplots"):
-        pictured(drawn, "en", quiz=True)
+        draw_question_figure(drawn, "en", quiz=True)
 
 
 def test_the_digest_of_a_template_is_also_that_of_its_figure(root):
     before = {t.id: t.digest for t in Bank(root, trusted=True)}
     file = root / "templates/statistics/two-samples/figure.py"
     file.write_text(BLOCKS["figure.py"].replace("90", "95"), encoding="utf-8")
-    after = {t.id: t.digest for t in Bank(root, trusted=True).afresh()}
+    after = {t.id: t.digest for t in Bank(root, trusted=True).reload()}
     assert [name for name in before if before[name] != after[name]] == ["two-samples"]
-    assert file.read_bytes() in Bank(root, trusted=True).contents("two-samples")
+    assert file.read_bytes() in Bank(root, trusted=True).template_files("two-samples")
 
 
 def test_a_changed_figure_is_read_again(root):
     bank = Bank(root, trusted=True)
-    before = described(instance(bank.template("two-samples"), 3), "en", quiz=True)
+    before = describe_question_figure(
+        draw_instance(bank.template("two-samples"), 3), "en", quiz=True
+    )
     file = root / "templates/statistics/two-samples/figure.py"
     file.write_text(BLOCKS["figure.py"].replace("Box plots", "Boxes"), encoding="utf-8")
-    after = described(instance(bank.afresh().template("two-samples"), 3), "en", quiz=True)
+    after = describe_question_figure(
+        draw_instance(bank.reload().template("two-samples"), 3), "en", quiz=True
+    )
     assert after == before.replace("Box plots", "Boxes")
 
 
 def test_another_process_finds_it(root):
     template = Bank(root, trusted=True).template("two-samples")
     again = pickle.loads(pickle.dumps(template))
-    assert pictured(instance(again, 3), "en", quiz=True) == pictured(
-        instance(template, 3), "en", quiz=True
+    assert draw_question_figure(draw_instance(again, 3), "en", quiz=True) == draw_question_figure(
+        draw_instance(template, 3), "en", quiz=True
     )
 
 
 def test_it_is_a_kind_of_figure_by_itself_in_a_paper(root):
     bank = Bank(root, trusted=True)
-    kinds = [candidate(bank, name, None).figure for name in ("two-samples", "bode")]
+    kinds = [make_candidate(bank, name, None).figure for name in ("two-samples", "bode")]
     assert kinds == ["two-samples", "bode"]
 
 

@@ -27,8 +27,8 @@ from PIL import Image
 from svg_reader import SVG, read_labels, read_parts, read_pictures
 
 from quizgen import figures
-from quizgen.bank.solvers import forget, module_of
-from quizgen.errors import BankError
+from quizgen.bank.solvers import import_module_file, unload_modules
+from quizgen.core.errors import BankError
 from quizgen.figures import describe_figure, draw_figure, engine, plot_figure
 from quizgen.figures.contract import Figure
 from quizgen.figures.kit import ABSENT, SQUARE, Parameter
@@ -60,8 +60,8 @@ def module(tmp_path):
 
     def make(source=LINE, name="line"):
         (tmp_path / f"{name}.py").write_text(source, encoding="utf-8")
-        forget(tmp_path)
-        return module_of(tmp_path, name)
+        unload_modules(tmp_path)
+        return import_module_file(tmp_path, name)
 
     return make
 
@@ -633,7 +633,7 @@ def test_the_same_figure_is_drawn_once(module):
 def test_finished_drawings_are_kept_for_the_next_process(module, empty_cache):
     figure = module()
     first = draw(figure)
-    figures._draw.cache_clear()
+    figures._draw_items.cache_clear()
     assert draw(figure) == first
     assert figure.CALLS == [False]
     assert len([*(empty_cache / "figures").iterdir()]) == 1
@@ -664,7 +664,7 @@ def test_a_damaged_drawing_is_drawn_again(module, empty_cache):
     first = draw(figure)
     (file,) = (empty_cache / "figures").iterdir()
     file.write_bytes(b"damaged")
-    figures._draw.cache_clear()
+    figures._draw_items.cache_clear()
     assert draw(figure) == first
     assert figure.CALLS == [False, False]
 

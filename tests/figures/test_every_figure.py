@@ -22,11 +22,11 @@ from figure_cases import FIGURES, HIDDEN, REFERENCE, draw, draws, module
 from svg_reader import SVG, read_labels
 
 from quizgen import figures
-from quizgen.bank.folder import builtin
-from quizgen.errors import BankError
+from quizgen.bank.bank import builtin_bank
+from quizgen.core.errors import BankError
 from quizgen.figures import describe_figure
 from quizgen.figures.alt_text import strip_mathtext
-from quizgen.locale import languages
+from quizgen.locale import list_languages
 
 BOTH = list(itertools.product(FIGURES, (True, False)))
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
@@ -52,7 +52,7 @@ def digest(name, *, quiz, lang="en"):
 
 def digests(names):
     """Digests of reference figures, drawn by this process and not found among what is kept."""
-    figures._draw.cache_clear()
+    figures._draw_items.cache_clear()
     return [digest(name, quiz=quiz) for name in names for quiz in (True, False)]
 
 
@@ -104,15 +104,15 @@ FEW = ("thin_lens", "gaussian", "hsv_edits", "luminosity")
 @pytest.fixture
 def nothing_kept(monkeypatch):
     """All is drawn: neither found in the cache, nor put there."""
-    monkeypatch.setattr(figures.engine.kept, "find", lambda *_: None)
-    monkeypatch.setattr(figures.engine.kept, "keep", lambda *_: None)
+    monkeypatch.setattr(figures.engine.kept, "read_cached", lambda *_: None)
+    monkeypatch.setattr(figures.engine.kept, "write_cached", lambda *_: None)
 
 
 def test_sixteen_threads_draw_what_one_does(nothing_kept, monkeypatch):
     jobs = [(name, quiz) for name in FEW for quiz in (True, False)] * 3
     alone = [digest(name, quiz=quiz) for name, quiz in jobs]
-    drawn = figures._draw.__wrapped__  # the cache would draw each once
-    monkeypatch.setattr(figures, "_draw", drawn)
+    drawn = figures._draw_items.__wrapped__  # the cache would draw each once
+    monkeypatch.setattr(figures, "_draw_items", drawn)
     before = sys.getswitchinterval()
     sys.setswitchinterval(1e-5)
     try:
@@ -209,7 +209,7 @@ def test_a_figure_fits_a_column_and_a_page(name):
 
 def test_what_holds_a_picture_is_a_photograph_unless_it_is_painted():
     shown = {name for name in FIGURES if b"<image" in draw(name, REFERENCE[name]).inline_svg}
-    assert builtin().about.photographs <= shown
+    assert builtin_bank().metadata.photographs <= shown
 
 
 # Words, and what a quiz hides
@@ -259,7 +259,8 @@ def test_the_order_of_edits_is_not_told():
 
 def described(name, values, quiz):
     return {
-        lang: describe_figure(module(name), values, quiz=quiz, lang=lang) for lang in languages()
+        lang: describe_figure(module(name), values, quiz=quiz, lang=lang)
+        for lang in list_languages()
     }
 
 
@@ -401,7 +402,7 @@ def loaded(code):
 QUESTION = """
 from quizgen import builtin
 from quizgen.question.compose import instance
-from quizgen.question.picture import described, pictured
+from quizgen.question.figure import described, pictured
 bank = builtin()
 name = next(n for n in bank.paths if bank.rules(n).figure and bank.rules(n).figure.name == "noise")
 drawn = instance(bank.template(name), 1)

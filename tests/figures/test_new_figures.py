@@ -11,9 +11,9 @@ from figure_cases import REFERENCE, draw, module
 from scipy.stats import multivariate_normal
 from svg_reader import read_labels, read_parts
 
-from quizgen.bank.folder import builtin
-from quizgen.bank.formulas import formulas
-from quizgen.errors import BankError
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.formulas import read_formulas
+from quizgen.core.errors import BankError
 
 
 def parts(name, quiz=False, **values):
@@ -233,7 +233,7 @@ def test_what_is_no_covariance_matrix_is_refused():
 
 
 def test_the_blocks_stand_in_the_order_of_the_template():
-    steps = builtin().template("imaging-pipeline-order").rules.part[0].answer["steps"]
+    steps = builtin_bank().template("imaging-pipeline-order").rules.part[0].answer["steps"]
     assert list(module("imaging_pipeline").STEPS) == steps
 
 
@@ -280,13 +280,13 @@ def test_a_tile_from_the_middle_of_a_sensor_counts_as_the_sensor_does():
 
 
 def test_every_formula_with_a_sketch_names_one_that_can_be_drawn_and_none_is_unused():
-    named = {e.figure.values["formula"] for e in formulas(builtin()) if e.figure}
+    named = {e.figure.values["formula"] for e in read_formulas(builtin_bank()) if e.figure}
     drawn = {n for numbers, _ in module("formula_sketch").SKETCHES.values() for n in numbers}
     assert named == drawn
 
 
 def test_a_formula_names_its_own_sketch():
-    for entry in formulas(builtin()):
+    for entry in read_formulas(builtin_bank()):
         if entry.figure:
             assert entry.id == f"F{entry.figure.values['formula']:02.0f}"
 

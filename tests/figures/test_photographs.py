@@ -16,9 +16,9 @@ from figure_cases import draw, module
 from skimage.color import hsv2rgb, rgb2hsv, rgb2lab
 from svg_reader import read_labels, read_parts, read_pictures
 
-from quizgen.bank.draw import draw as draw_question
+from quizgen.bank.variant import draw_variant as draw_question
 from quizgen.camera import pictures
-from quizgen.errors import BankError, QuizgenError
+from quizgen.core.errors import BankError, QuizgenError
 from quizgen.figures import complete_parameters, svg
 from quizgen.png import encode
 from quizgen.question.kinds import build

@@ -9,10 +9,10 @@ from figure_cases import draw, module
 from scipy.stats import norm
 from svg_reader import read_labels, read_parts, read_pictures
 
-from quizgen.arrays import luminosity
-from quizgen.bank.draw import draw as draw_numbers
+from quizgen.bank.variant import draw_variant as draw_numbers
 from quizgen.camera import pictures
-from quizgen.errors import BankError
+from quizgen.core.errors import BankError
+from quizgen.numerics import luminosity
 from quizgen.question.kinds import build
 
 find_extent = module("distorted_grid").find_extent
@@ -406,7 +406,7 @@ def _draw_question(bank, name, seed, part=0):
 def test_the_brighter_laser_is_the_higher_on_the_curve(bank, seed):
     given, key = _draw_question(bank, "two-lasers-from-curves", seed)
     curve = luminosity.NIGHT if given["dark"] else luminosity.DAY
-    heights = [float(luminosity.efficiency(given[name], curve)) for name in ("l_1", "l_2")]
+    heights = [float(luminosity.luminous_efficiency(given[name], curve)) for name in ("l_1", "l_2")]
     assert [given["h_1"], given["h_2"]] == pytest.approx(heights, rel=0.01)
     assert heights[("first", "second").index(key)] == max(heights)
 
@@ -423,11 +423,12 @@ def test_spikes_stand_where_the_limits_cut(bank, seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_order_of_five_lights_is_that_of_the_curves(bank, seed):
     given, key = _draw_question(bank, "order-wavelengths-by-brightness", seed, part=1)
-    by_day = [float(luminosity.efficiency(given[f"n_{k}"])) for k in range(1, 6)]
+    by_day = [float(luminosity.luminous_efficiency(given[f"n_{k}"])) for k in range(1, 6)]
     assert by_day == sorted(by_day, reverse=True)
     assert [given[f"V_{k}"] for k in range(1, 6)] == pytest.approx(by_day, rel=0.01)
     by_night = [
-        float(luminosity.efficiency(given[name], luminosity.NIGHT)) for name in ("m_1", "m_2")
+        float(luminosity.luminous_efficiency(given[name], luminosity.NIGHT))
+        for name in ("m_1", "m_2")
     ]
     assert [given["W_1"], given["W_2"]] == pytest.approx(by_night, rel=0.01)
     assert by_night[("short", "long").index(key)] == max(by_night)
@@ -438,8 +439,10 @@ def test_the_lamps_have_the_heights_of_both_curves(bank, seed):
     drawn = draw_numbers(bank.template("two-lamps-by-day-and-by-night"), seed)
     given = {k: float(v) for k, v in drawn.shown.items()}
     for k in "12":
-        assert given[f"V_{k}"] == pytest.approx(luminosity.efficiency(given[f"l_{k}"]), abs=0.001)
-        by_night = luminosity.efficiency(given[f"l_{k}"], luminosity.NIGHT)
+        assert given[f"V_{k}"] == pytest.approx(
+            luminosity.luminous_efficiency(given[f"l_{k}"]), abs=0.001
+        )
+        by_night = luminosity.luminous_efficiency(given[f"l_{k}"], luminosity.NIGHT)
         assert given[f"V'_{k}"] == pytest.approx(by_night, abs=0.001)
 
 
@@ -455,7 +458,7 @@ def test_the_curve_is_as_high_at_the_wavelength_beyond_the_peak(bank, seed):
         (beyond, given["h_s"], 0.002),
         (beyond + given["w"], given["h_s"], 0.008),
     ):
-        assert float(luminosity.efficiency(at, curve)) == pytest.approx(height, abs=off)
+        assert float(luminosity.luminous_efficiency(at, curve)) == pytest.approx(height, abs=off)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -14,14 +14,14 @@ from pathlib import Path
 from msgspec import to_builtins
 from msgspec.structs import replace
 
-from quizgen.bank.folder import builtin
-from quizgen.cards import build as build_deck
-from quizgen.cards.tables import tsv
+from quizgen.bank.bank import builtin_bank
+from quizgen.cards import build_deck
+from quizgen.cards.delimited import write_tsv
+from quizgen.paper.answer_form import write_blank_form
+from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.form import form_bytes
-from quizgen.paper.key import key_bytes
-from quizgen.paper.paper import Paper, build
-from quizgen.question.compose import compose
+from quizgen.paper.paper import Paper, build_paper
+from quizgen.question.compose import compose_question
 from quizgen.render import KINDS, RENDERERS, render_paper
 
 STORED = Path(__file__).with_name("digests.tsv")
@@ -39,7 +39,9 @@ def without_names(data: bytes, names: list[str]) -> bytes:
 def paper(blueprint: str) -> Paper:
     """The paper under a fixed code: a code names the files behind it, which may change."""
     seed, langs = PAPERS[blueprint]
-    return replace(build(builtin(), load_blueprint(blueprint), seed, langs), code="golden")
+    return replace(
+        build_paper(builtin_bank(), load_blueprint(blueprint), seed, langs), code="golden"
+    )
 
 
 def files_of(made: Paper) -> dict[str, bytes]:
@@ -47,13 +49,13 @@ def files_of(made: Paper) -> dict[str, bytes]:
     rendered = {
         f"{kind}.{name}": render_paper(made, kind, name) for name in RENDERERS for kind in KINDS
     }
-    return {**rendered, "key.json": key_bytes(made), "answers.toml": form_bytes(made)}
+    return {**rendered, "key.json": write_answer_key(made), "answers.toml": write_blank_form(made)}
 
 
 def drawn(name: str) -> bytes:
     """What three draws of a template are marked by."""
-    template = builtin().template(name)
-    keys = [compose(template, seed, figures=False)[1] for seed in range(3)]
+    template = builtin_bank().template(name)
+    keys = [compose_question(template, seed, figures=False)[1] for seed in range(3)]
     table = [[key.identity.split("(")[1], to_builtins(key.specs), key.chain] for key in keys]
     return json.dumps(table, sort_keys=True, ensure_ascii=False).encode()
 
@@ -63,8 +65,8 @@ def digests() -> dict[str, str]:
     found = {
         f"{name}/{file}": data for name in PAPERS for file, data in files_of(paper(name)).items()
     }
-    found["deck/cards.tsv"] = tsv(build_deck("both"))
-    names = list(builtin().paths)
+    found["deck/cards.tsv"] = write_tsv(build_deck("both"))
+    names = list(builtin_bank().template_paths)
     found |= {f"draws/{name}": drawn(name) for name in names}
     return {
         name: hashlib.sha256(without_names(data, names)).hexdigest()

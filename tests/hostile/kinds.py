@@ -13,27 +13,27 @@ from pathlib import Path
 
 from values import as_json, bent, damaged, huge, mutated, toml
 
-from quizgen.bank import plan as planning
-from quizgen.bank.entries import load as load_cards
-from quizgen.bank.entries import passages
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank import sampler as planning
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.bank.entries import load_entries as load_cards
+from quizgen.bank.entries import localised_fields
 from quizgen.camera import Prepared, plan_budget
 from quizgen.camera.question import take_photographs
 from quizgen.camera.reading import load as load_scene
 from quizgen.camera.simulate import run as photograph
 from quizgen.cards.content import KINDS as CARDS
-from quizgen.cards.mistakes import from_marks
+from quizgen.cards.error_deck import deck_from_grades
+from quizgen.paper.answer_form import read_filled_form
+from quizgen.paper.answer_key import read_answer_key, write_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.choose import choose, variety
-from quizgen.paper.form import read_answers
-from quizgen.paper.key import key_bytes, read_key
-from quizgen.paper.marking import mark_paper
-from quizgen.paper.paper import build, single
-from quizgen.paper.report import class_csv, table_lines
+from quizgen.paper.grade_report import format_table, write_class_csv
+from quizgen.paper.grading import grade_paper
+from quizgen.paper.paper import build_paper, single_question_paper
+from quizgen.paper.selection import count_papers, select_templates
 from quizgen.png import encode
-from quizgen.question.authored import passage
+from quizgen.question.entry_prose import entry_blocks
 from quizgen.render import render_paper
-from quizgen.render.text import question_text
+from quizgen.render.text import format_question
 
 SCENES = Path(planning.__file__).parents[1] / "camera" / "scenes"
 SMALL = 200_000
@@ -44,7 +44,7 @@ Chance = random.Random
 
 def a_bank(folder: Path, name: str) -> Path:
     """A bank of one template without solvers of its own; returns the template's folder."""
-    source = builtin().paths[name]
+    source = builtin_bank().template_paths[name]
     target = folder / "templates" / source.parent.name / name
     target.mkdir(parents=True, exist_ok=True)
     for file in source.iterdir():
@@ -60,15 +60,17 @@ def use_bank(folder: Path, name: str, chance: Chance) -> None:
         bank.title(lang)
     template = bank.template(name)
     lang = chance.choice(template.languages)
-    paper = single(template, chance.randrange(100), lang, figures=chance.random() < 0.1)
-    key_bytes(paper)
-    question_text(paper.items[0])
+    paper = single_question_paper(
+        template, chance.randrange(100), lang, figures=chance.random() < 0.1
+    )
+    write_answer_key(paper)
+    format_question(paper.items[0])
     if chance.random() < 0.2:
         render_paper(paper, "solutions", "html")
 
 
 def template(folder: Path, chance: Chance) -> None:
-    name = chance.choice(list(builtin().paths))
+    name = chance.choice(list(builtin_bank().template_paths))
     file = a_bank(folder, name) / "template.toml"
     table = tomllib.loads(file.read_text("utf-8"))
     if chance.random() < 0.1:
@@ -79,7 +81,7 @@ def template(folder: Path, chance: Chance) -> None:
 
 
 def prose(folder: Path, chance: Chance) -> None:
-    name = chance.choice(list(builtin().paths))
+    name = chance.choice(list(builtin_bank().template_paths))
     file = a_bank(folder, name) / f"{chance.choice(('en', 'bn'))}.md"
     file.write_text(bent(file.read_text("utf-8"), chance), "utf-8", errors="replace")
     use_bank(folder, name, chance)
@@ -88,7 +90,7 @@ def prose(folder: Path, chance: Chance) -> None:
 def bank(folder: Path, chance: Chance) -> None:
     a_bank(folder, "point-to-image-plane")
     file = chance.choice(("bank.toml", "curriculum.toml"))
-    table = tomllib.loads((builtin().folder / file).read_text("utf-8"))
+    table = tomllib.loads((builtin_bank().folder / file).read_text("utf-8"))
     (folder / "templates" / file).write_text(toml(mutated(table, chance)), "utf-8")
     found = Bank(folder)
     assert found.curriculum.inventory is not None
@@ -97,24 +99,24 @@ def bank(folder: Path, chance: Chance) -> None:
 
 def cards(folder: Path, chance: Chance) -> None:
     name = chance.choice(list(CARDS))
-    table = tomllib.loads(builtin().cards[name].read_text("utf-8"))
+    table = tomllib.loads(builtin_bank().cards[name].read_text("utf-8"))
     few = {"entry": chance.sample(table["entry"], 3)}
     file = folder / f"{name}.toml"
     entries = load_cards(toml(mutated(few, chance)), CARDS[name], str(file))
     for entry in entries:
-        for field in passages(type(entry)):
-            passage(entry, field, "en")
+        for field in localised_fields(type(entry)):
+            entry_blocks(entry, field, "en")
 
 
 def blueprint(folder: Path, chance: Chance) -> None:
-    source = chance.choice(list(builtin().blueprints.values()))
+    source = chance.choice(list(builtin_bank().blueprints.values()))
     file = folder / "paper.toml"
     file.write_text(toml(mutated(tomllib.loads(source.read_text("utf-8")), chance)), "utf-8")
     found = load_blueprint(str(file))
-    chosen = choose(builtin(), found, chance.randrange(100))
-    variety(builtin(), found)
+    chosen = select_templates(builtin_bank(), found, chance.randrange(100))
+    count_papers(builtin_bank(), found)
     if len(chosen) <= 2:
-        build(builtin(), found, 1, figures=False)
+        build_paper(builtin_bank(), found, 1, figures=False)
 
 
 def scene(folder: Path, chance: Chance) -> None:
@@ -152,25 +154,25 @@ def png(folder: Path, chance: Chance) -> None:
 def keys() -> tuple[dict, ...]:
     """Keys of papers of all topics."""
     built = (
-        build(builtin(), load_blueprint(f"{topic}.20"), 3, "en", figures=False)
-        for topic in builtin().topics
+        build_paper(builtin_bank(), load_blueprint(f"{topic}.20"), 3, "en", figures=False)
+        for topic in builtin_bank().topics
     )
-    return tuple(json.loads(key_bytes(paper)) for paper in built)
+    return tuple(json.loads(write_answer_key(paper)) for paper in built)
 
 
 def use_answers(folder: Path, key: Path, form: Path) -> None:
-    answers = read_answers(form)
-    result = mark_paper(read_key(key), answers.typed(), decimal=answers.student.decimal)
-    list(table_lines(result, "en", 80, paint=False))
-    class_csv([(str(form), str(answers.student.name), "", result)])
+    answers = read_filled_form(form)
+    result = grade_paper(read_answer_key(key), answers.typed(), decimal=answers.student.decimal)
+    list(format_table(result, "en", 80, paint=False))
+    write_class_csv([(str(form), str(answers.student.name), "", result)])
     json.dumps(result.as_json()).encode()
 
 
 def form_of(table: dict) -> dict:
     """A form with a right answer in each part."""
-    from quizgen.marking.mark import show
+    from quizgen.grading.mark import show_key
 
-    typed = {p["id"]: show(p["spec"]) for q in table["questions"] for p in q["parts"]}
+    typed = {p["id"]: show_key(p["spec"]) for q in table["questions"] for p in q["parts"]}
     return {
         "code": table["code"],
         "student": {"name": "Rahim", "lang": "en", "decimal": "point"},
@@ -212,16 +214,16 @@ def answers(folder: Path, chance: Chance) -> None:
 
 @cache
 def a_result() -> dict:
-    paper = build(builtin(), load_blueprint("projection.5"), 3, "en", figures=False)
-    table = json.loads(key_bytes(paper))
+    paper = build_paper(builtin_bank(), load_blueprint("projection.5"), 3, "en", figures=False)
+    table = json.loads(write_answer_key(paper))
     wrong = {p["id"]: "1" for q in table["questions"] for p in q["parts"]}
-    return mark_paper(table, wrong).as_json()
+    return grade_paper(table, wrong).as_json()
 
 
 def marks(folder: Path, chance: Chance) -> None:
     file = folder / "marks.json"
     file.write_text(as_json(mutated(a_result(), chance)), "utf-8")
-    from_marks(file, "en", bank=builtin())
+    deck_from_grades(file, "en", bank=builtin_bank())
 
 
 KINDS: dict[str, tuple[int, Callable[[Path, Chance], None]]] = {

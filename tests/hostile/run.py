@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 from kinds import KINDS
 
-from quizgen.errors import QuizgenError
+from quizgen.core.errors import QuizgenError
 
 LONGEST, LARGEST = 2.0, 500
 """CPU seconds and MB that one mutant may take."""

@@ -12,27 +12,27 @@ from html.parser import HTMLParser
 
 import pytest
 
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.camera.reading import load as load_scene
 from quizgen.camera.scene import SceneError
-from quizgen.cards import build
-from quizgen.cards.mistakes import from_marks
-from quizgen.cards.tables import as_csv, tsv
+from quizgen.cards import build_deck
+from quizgen.cards.delimited import write_csv, write_tsv
+from quizgen.cards.error_deck import deck_from_grades
 from quizgen.cli.main import main
-from quizgen.errors import BankError, BlueprintError, CodeError, KeyFileError
-from quizgen.outside import (
+from quizgen.core.errors import BankError, BlueprintError, KeyFileError, PaperCodeError
+from quizgen.core.untrusted import (
     DEEPEST,
-    csv_text,
-    defused,
-    is_name,
+    escape_control_characters,
+    escape_csv_formula,
+    format_csv,
+    is_identifier,
     parse_json,
     parse_toml,
     read_bytes,
-    undefused,
-    visible,
+    unescape_csv_formula,
 )
+from quizgen.paper.answer_key import FORMAT, parse_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.key import FORMAT, load_key
 from quizgen.png import decode
 
 TEMPLATE = """
@@ -152,14 +152,14 @@ def test_a_long_number_in_hexadecimal_is_refused():
     ],
 )
 def test_rules_that_nobody_means_are_one_located_line(tmp_path, rules, words):
-    from quizgen.bank.draw import draw
+    from quizgen.bank.variant import draw_variant
 
     bank = a_bank(tmp_path, **rules)
     if words is None:
-        assert draw(bank.template("compare"), 1).text("a") == "1"
+        assert draw_variant(bank.template("compare"), 1).format_value("a") == "1"
         return
     with pytest.raises(BankError) as caught:
-        draw(bank.template("compare"), 1)
+        draw_variant(bank.template("compare"), 1)
     assert str(caught.value).startswith(f"{tmp_path}/templates/compare/template.toml: {words}")
 
 
@@ -186,13 +186,13 @@ def test_a_template_has_a_plain_name(tmp_path, name, capsys):
         assert stopped.value.code
         said = "".join(capsys.readouterr())
         assert "is no name" in said
-        assert visible(said) == said  # a terminal obeys none of it
+        assert escape_control_characters(said) == said  # a terminal obeys none of it
     assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("name", [".", "..", "...", "", "a/b", "a\x00"])
 def test_a_name_is_never_a_path(name):
-    assert not is_name(name)
+    assert not is_identifier(name)
 
 
 @pytest.mark.parametrize(
@@ -241,8 +241,8 @@ def test_a_blueprint_that_nobody_means_is_one_located_line(tmp_path, slot, words
 def test_a_name_in_a_code_is_never_a_path(tmp_path):
     marks = tmp_path / "marks.json"
     marks.write_text(json.dumps({"code": "/dev/zero-1-en-000000", "parts": []}))
-    with pytest.raises(CodeError, match="no blueprint '/dev/zero'"):
-        from_marks(marks, "en", bank=builtin())
+    with pytest.raises(PaperCodeError, match="no blueprint '/dev/zero'"):
+        deck_from_grades(marks, "en", bank=builtin_bank())
 
 
 SPEC = {"kind": "number", "value": "1"}
@@ -263,7 +263,7 @@ SPEC = {"kind": "number", "value": "1"}
 def test_a_tampered_key_is_one_located_line(parts, words):
     listed = [{"id": name, "points": points, "spec": SPEC} for name, points in parts]
     with pytest.raises(KeyFileError) as caught:
-        load_key({"format": FORMAT, "questions": [{"number": "1", "parts": listed}]})
+        parse_answer_key({"format": FORMAT, "questions": [{"number": "1", "parts": listed}]})
     assert str(caught.value) == words
 
 
@@ -336,9 +336,9 @@ class Attributes(HTMLParser):
 def test_no_word_of_a_bank_becomes_markup_on_a_card(tmp_path, title):
     if title.startswith("{{"):
         title = "{ {c1::x} }"  # double braces are refused when the file is read
-    deck = build("en", kinds=("question",), bank=a_bank(tmp_path, title=title))
+    deck = build_deck("en", kinds=("question",), bank=a_bank(tmp_path, title=title))
     found = Attributes()
-    found.feed(tsv(deck).decode().replace('""', '"'))
+    found.feed(write_tsv(deck).decode().replace('""', '"'))
     assert not {"img", "script", "onerror"} & found.seen
 
 
@@ -347,8 +347,8 @@ def test_no_word_of_a_bank_becomes_markup_on_a_card(tmp_path, title):
     ["\\(\\href{javascript:alert(1)}{x}\\)", "[sound:x.mp3]", "[latex]x[/latex]", "\\begin{x}"],
 )
 def test_no_word_of_a_bank_becomes_a_formula_or_a_sound(tmp_path, title):
-    deck = build("en", kinds=("question",), bank=a_bank(tmp_path, title=title))
-    text = tsv(deck).decode()
+    deck = build_deck("en", kinds=("question",), bank=a_bank(tmp_path, title=title))
+    text = write_tsv(deck).decode()
     for mark in ("\\(\\href", "[sound:", "[latex]", "\\begin{"):
         assert mark not in text
     assert "x" in text
@@ -359,12 +359,12 @@ def test_no_word_of_a_bank_becomes_a_formula_or_a_sound(tmp_path, title):
     ["=", "+", "-", "@", " =", "\n=", "\r\n +", "\t=", "\uff1d", "\uff0b", "\u00a0=", "\u200b="],
 )
 def test_a_cell_is_no_formula(start):
-    assert defused(f"{start}1+1") == f"'{start}1+1"
+    assert escape_csv_formula(f"{start}1+1") == f"'{start}1+1"
 
 
 @pytest.mark.parametrize("text", ["", "Rahim", "1 = 1", "রহিম", "'x", " a", "<p>=1</p>"])
 def test_a_harmless_cell_stays_as_it_is(text):
-    assert defused(text) == text
+    assert escape_csv_formula(text) == text
 
 
 @pytest.mark.parametrize(
@@ -372,29 +372,29 @@ def test_a_harmless_cell_stays_as_it_is(text):
     [("'=1", "=1"), ("'a", "'a"), ("=1", "=1"), ("'", "'"), ("''=1", "''=1"), ("' +", " +")],
 )
 def test_only_what_was_made_inert_is_undone(cell, bare):
-    assert undefused(cell) == bare
+    assert unescape_csv_formula(cell) == bare
 
 
 def test_cells_of_a_table_are_inert_and_steer_no_terminal():
-    made = csv_text([("a", "b"), ("=1+1", 'x, "y"'), ("\x1b[2J", "এক\nদুই")])
+    made = format_csv([("a", "b"), ("=1+1", 'x, "y"'), ("\x1b[2J", "এক\nদুই")])
     assert made == 'a,b\n\'=1+1,"x, ""y"""\n[U+001B control character][2J,"এক\nদুই"\n'
 
 
 def test_a_title_that_is_a_formula_is_none_in_the_deck(tmp_path):
-    deck = build("en", kinds=("question",), bank=a_bank(tmp_path, title="=1+1"))
-    rows = list(csv.reader(io.StringIO(as_csv(deck).decode("utf-8-sig"))))
+    deck = build_deck("en", kinds=("question",), bank=a_bank(tmp_path, title="=1+1"))
+    rows = list(csv.reader(io.StringIO(write_csv(deck).decode("utf-8-sig"))))
     assert any("=1+1" in cell for row in rows for cell in row)
     assert not [cell for row in rows for cell in row if cell.lstrip()[:1] in set("=+-@")]
 
 
 def test_our_own_deck_has_no_cell_that_a_spreadsheet_runs():
-    rows = list(csv.reader(io.StringIO(as_csv(build("both")).decode("utf-8-sig"))))
+    rows = list(csv.reader(io.StringIO(write_csv(build_deck("both")).decode("utf-8-sig"))))
     assert not [cell for row in rows for cell in row if cell.lstrip()[:1] in set("=+-@'")]
 
 
 def test_what_steers_a_terminal_is_named():
-    assert visible("a\x1b]0;x\x07\u202eb\x85") == (
+    assert escape_control_characters("a\x1b]0;x\x07\u202eb\x85") == (
         "a[U+001B control character]]0;x[U+0007 control character]"
         "[U+202E RIGHT-TO-LEFT OVERRIDE]b[U+0085 control character]"
     )
-    assert visible("রহিম\n é") == "রহিম\n é"
+    assert escape_control_characters("রহিম\n é") == "রহিম\n é"

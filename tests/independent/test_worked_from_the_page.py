@@ -22,10 +22,10 @@ from printed_numbers import APERTURE, numbers
 from printed_page import Page, pages
 from sweep import draws
 
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import Blueprint, SlotRule
-from quizgen.paper.key import key_bytes
-from quizgen.paper.paper import build
+from quizgen.paper.paper import build_paper
 from quizgen.render import render_paper
 
 LANGS = ("en", "bn")
@@ -53,15 +53,15 @@ def printed(bank: Bank, names: list[str], seed: int, lang: str, *, figures: bool
     """The questions of some templates as they stand on the page, with what the key has of them."""
     slots = tuple(SlotRule(templates=(name,)) for name in names)
     blueprint = Blueprint({"en": "Everything"}, slots, name="everything", source="everything")
-    paper = build(bank, blueprint, seed, lang, figures=figures)
-    keys = json.loads(key_bytes(paper))["questions"]
+    paper = build_paper(bank, blueprint, seed, lang, figures=figures)
+    keys = json.loads(write_answer_key(paper))["questions"]
     assert [key["template"] for key in keys] == names
     return list(zip(names, pages(render_paper(paper, "exam", "html")), keys, strict=True))
 
 
 def every_page(bank: Bank, seed: int, lang: str) -> Printed:
     """Each template; pictures are drawn only where a solver looks at them, for they take time."""
-    names = [name for name in bank.paths if name in SOLVERS or seed in QUICK]
+    names = [name for name in bank.template_paths if name in SOLVERS or seed in QUICK]
     groups = (
         ([name for name in names if (name in WITH_FIGURE) == figures], figures)
         for figures in (False, True)
@@ -176,7 +176,7 @@ def _other(value: str) -> str:
     return str(Fraction(value) * Fraction("1.61") + 1)
 
 
-@pytest.mark.parametrize("name", builtin().paths)
+@pytest.mark.parametrize("name", builtin_bank().template_paths)
 def test_every_template_is_worked_out_or_listed_with_its_reason(bank, name):
     """Add a function to ``hand_*.py``, or the name to ``not_computed.toml``."""
     assert (name in SOLVERS) + LISTED.count(name) == 1

@@ -13,7 +13,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from quizgen import locale
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 
 LANG = "xx"
 KEPT = re.compile(r"\{\{.*?\}\}|\{[^{}]*\}|\$[^$]*\$|`[^`]*`|<[^<>]*>")
@@ -68,7 +68,7 @@ def prose(line):
 def write_bank(root, names):
     """Write a bank of some templates in English and in accents, with their figures and one card."""
     for name in names:
-        source = builtin().paths[name]
+        source = builtin_bank().template_paths[name]
         folder = root / "templates" / source.parent.name / name
         folder.mkdir(parents=True)
         shutil.copy(source / "template.toml", folder)
@@ -77,7 +77,7 @@ def write_bank(root, names):
         lines = "\n".join(map(prose, text.split("\n")))
         (folder / f"{LANG}.md").write_text(lines, encoding="utf-8")
     figures = root / "templates" / "figures"
-    shutil.copytree(builtin().folder / "figures", figures)
+    shutil.copytree(builtin_bank().folder / "figures", figures)
     words = tomllib.loads((figures / "en.toml").read_text(encoding="utf-8"))
     (figures / f"{LANG}.toml").write_text("\n".join(toml(words)) + "\n", encoding="utf-8")
     cards = root / "templates" / "cards"

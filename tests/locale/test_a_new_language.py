@@ -19,9 +19,9 @@ import pytest
 from pseudo import LANG, accented, write_bank, write_language
 
 from quizgen import figures, locale, typeset
-from quizgen.bank.folder import builtin
-from quizgen.locale import languages, table
-from quizgen.maths.notation import parse
+from quizgen.bank.bank import builtin_bank
+from quizgen.locale import list_languages, load_words
+from quizgen.maths.notation import parse_formula
 
 ROOT = Path(__file__).parent.parent.parent
 NAMES = ("point-to-image-plane", "thin-lens-image-distance", "ccd-and-cmos-artefacts",
@@ -69,10 +69,10 @@ def paper(place):
 
 def test_languages_are_the_folders(place, known):
     shipped = {path.parent.name for path in ROOT.glob("quizgen/locale/*/language.toml")}
-    assert languages()[0] == "en"
-    assert languages()[-1] == LANG
-    assert set(languages()) == shipped | {LANG}
-    assert locale.language(LANG).name == "Áccénts"
+    assert list_languages()[0] == "en"
+    assert list_languages()[-1] == LANG
+    assert set(list_languages()) == shipped | {LANG}
+    assert locale.get_language(LANG).name == "Áccénts"
 
 
 def test_pages_are_in_the_language(paper):
@@ -93,17 +93,17 @@ def test_figures_are_told_in_the_language(paper, known):
 
 def test_a_figure_without_words_in_the_language_is_told_in_english(known):
     values = {"f": 2, "p_z": 6, "p_y": 3}
-    drawn = figures.draw_figure(builtin().figure("pinhole"), values, quiz=True, lang=LANG)
+    drawn = figures.draw_figure(builtin_bank().figure("pinhole"), values, quiz=True, lang=LANG)
     assert drawn.alt.startswith("Pinhole model")
 
 
 def test_mathematics_is_read_aloud_in_the_language(known):
-    node = typeset.layout(parse("sqrt(x + 1)/2"))
+    node = typeset.lay_out(parse_formula("sqrt(x + 1)/2"))
     assert (
-        typeset.spoken(node, "en")
+        typeset.to_speech(node, "en")
         == "the fraction the square root of x plus 1, end of root, over 2, end of fraction"
     )
-    assert typeset.spoken(node, LANG) == accented(typeset.spoken(node, "en"))
+    assert typeset.to_speech(node, LANG) == accented(typeset.to_speech(node, "en"))
 
 
 def test_marks_come_with_messages_in_the_language(place, paper):
@@ -122,7 +122,9 @@ def test_practice_speaks_the_language(place):
     run = quizgen(place, "practice", "--bank", "bank", "--trust", "--lang", LANG, "--count", "1", "--seed", "3",
                   typed="?\n" * 60)  # fmt: skip
     words = {
-        accented(text) for text in table("en", "messages")["practice"].values() if "{" not in text
+        accented(text)
+        for text in load_words("en", "messages")["practice"].values()
+        if "{" not in text
     }
     assert any(word and word in run.stdout for word in words)
 
@@ -151,11 +153,11 @@ def test_cards_have_fields_of_the_language(place):
 
 def test_the_tradeoff_page_has_the_language(known):
     from quizgen.tradeoff.page import whole_page
-    from quizgen.tradeoff.report import measure
+    from quizgen.tradeoff.report import measure_tradeoff
 
     few = SimpleNamespace(paths=["photon-energy-and-band", "dynamic-range-of-sensor"],
-                          template=builtin().template)  # fmt: skip
-    page = whole_page(measure(few), "quizgen tradeoff")
+                          template=builtin_bank().template)  # fmt: skip
+    page = whole_page(measure_tradeoff(few), "quizgen tradeoff")
     assert accented("What accuracy costs") in page
     assert f'<label for="{LANG}" lang="{LANG}">Áccénts</label>' in page
 
@@ -167,14 +169,14 @@ def strings(path):
 
 
 def test_no_python_file_names_a_language_but_english():
-    others = set(languages()) - {"en"}
+    others = set(list_languages()) - {"en"}
     for path in (ROOT / "quizgen").rglob("*.py"):
         assert not strings(path) & others, path
     for path in (*(ROOT / "quizgen").rglob("*.css"), *(ROOT / "quizgen").rglob("*.j2")):
         assert not re.findall(rf"\b(?:{'|'.join(others)})\b", path.read_text("utf-8")), path
 
 
-@pytest.mark.parametrize("lang", [lang for lang in languages() if lang != "en"])
+@pytest.mark.parametrize("lang", [lang for lang in list_languages() if lang != "en"])
 def test_every_language_has_every_file_and_every_word(lang):
     def keys(table, path=""):
         for key, value in table.items():
@@ -183,7 +185,7 @@ def test_every_language_has_every_file_and_every_word(lang):
     for path in (ROOT / "quizgen" / "locale" / "en").glob("*.toml"):
         open_tables = ("letters.", "greek.", "names.")  # speech: what is not called as written
         english, other = (
-            {key for key in keys(table(one, path.stem)) if not key.startswith(open_tables)}
+            {key for key in keys(load_words(one, path.stem)) if not key.startswith(open_tables)}
             for one in ("en", lang)
         )
         assert english ^ other <= {"line_height", "decimal"}, path.name

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.cards.deck import build
-from quizgen.errors import BankError
-from quizgen.locale import table, word
-from quizgen.maths.notation import parse
-from quizgen.typeset import layout, quantity, spoken
+from quizgen.cards.deck import build_deck
+from quizgen.core.errors import BankError
+from quizgen.locale import load_words, translate
+from quizgen.maths.notation import parse_formula
+from quizgen.typeset import lay_out, quantity, to_speech
 
 
 @pytest.mark.parametrize(("formula", "said"), [
@@ -19,7 +19,7 @@ from quizgen.typeset import layout, quantity, spoken
     ("sin(x)", "Sinus von x"),
 ])  # fmt: skip
 def test_formulas_are_read_aloud(formula, said):
-    assert spoken(layout(parse(formula)), "de") == said
+    assert to_speech(lay_out(parse_formula(formula)), "de") == said
 
 
 @pytest.mark.parametrize(("unit", "said"), [
@@ -27,12 +27,12 @@ def test_formulas_are_read_aloud(formula, said):
     ("um/px", "5 Mikrometer pro Pixel"),
 ])  # fmt: skip
 def test_units_are_nouns_that_prefixes_continue(unit, said):
-    assert spoken(quantity("5", unit), "de") == said
+    assert to_speech(quantity("5", unit), "de") == said
 
 
 def test_learners_are_addressed_formally():
     texts = [str(value) for name in ("interface", "messages", "web", "cards")
-             for section in table("de", name).values()
+             for section in load_words("de", name).values()
              for value in (section.values() if isinstance(section, dict) else [section])]  # fmt: skip
     words = {token.strip(".,;:!?()") for text in texts for token in text.split()}
     assert not words & {"du", "Du", "dein", "deine", "Deine", "dir", "dich", "euch"}
@@ -40,8 +40,8 @@ def test_learners_are_addressed_formally():
 
 
 def test_a_bank_without_german_says_so(bank):
-    assert word("de", "paper.exam") == "Probeklausur"
+    assert translate("de", "paper.exam") == "Probeklausur"
     with pytest.raises(
         BankError, match=r"nothing in 'Image Acquisition' .* 'de' \(only in en, bn\)"
     ):
-        build("de", bank=bank)
+        build_deck("de", bank=bank)

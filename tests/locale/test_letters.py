@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from quizgen import locale
-from quizgen.marking.mark import show
+from quizgen.grading.mark import show_key
 
 TERM = {"kind": "gap", "accept": [["ছবি", "picture", "εικόνα", "CCD এর ছবি"]]}
 
@@ -24,7 +24,7 @@ def greek(tmp_path, monkeypatch):
     ("lang", "word"), [("en", "picture"), ("bn", "ছবি"), ("el", "εικόνα"), ("??", "picture")]
 )
 def test_a_gap_shows_the_word_in_the_letters_of_the_language(lang, word):
-    assert show(TERM, lang) == word
+    assert show_key(TERM, lang) == word
 
 
 @pytest.mark.parametrize(
@@ -40,4 +40,4 @@ def test_a_gap_shows_the_word_in_the_letters_of_the_language(lang, word):
     ],
 )
 def test_latin_terms_and_symbols_stand_in_every_text(lang, text, own):
-    assert locale.in_letters_of(lang, text) is own
+    assert locale.is_written_in(lang, text) is own

@@ -9,11 +9,11 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 
-from quizgen.errors import BankError
-from quizgen.maths.from_sympy import convert
-from quizgen.maths.notation import parse
-from quizgen.maths.systems import evaluate, floats
-from quizgen.maths.tree import Call, Num, names
+from quizgen.core.errors import BankError
+from quizgen.maths.from_sympy import from_sympy
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.number_systems import evaluate, float64_system
+from quizgen.maths.tree import Call, Num, names_in
 
 f, X, Z, x, p, c, t = sp.symbols("f X Z x p c t")
 mu, sigma, N, q, z = sp.symbols("mu sigma N q z")
@@ -101,7 +101,7 @@ def _plain(tree):
     ("written", "text"), [pair for pair in WRITTEN if pair[1]], ids=[t for _, t in WRITTEN if t]
 )
 def test_order_is_kept(written, text):
-    assert _same(convert(written), parse(text))
+    assert _same(from_sympy(written), parse_formula(text))
 
 
 VALUES = {
@@ -119,27 +119,32 @@ def test_value_is_what_sympy_computes(written):
     with sp.evaluate(True):
         point = {symbol: VALUES[symbol.name] for symbol in written.free_symbols}
         expected = float(written.subs(point).doit().evalf())
-    tree = convert(written)
-    assert names(tree) == {symbol.name for symbol in written.free_symbols}
-    assert evaluate(tree, VALUES, floats()) == pytest.approx(expected, rel=1e-12)
+    tree = from_sympy(written)
+    assert names_in(tree) == {symbol.name for symbol in written.free_symbols}
+    assert evaluate(tree, VALUES, float64_system()) == pytest.approx(expected, rel=1e-12)
 
 
 def test_decimals_are_the_typed_ones():
-    assert convert(sp.Float(2.2)) == Num(Fraction(11, 5), decimal=True)
-    assert convert(sp.Float("0.1")) == Num(Fraction(1, 10), decimal=True)
-    assert convert(sp.Float("0.12345678901234567890")) == Num(
+    assert from_sympy(sp.Float(2.2)) == Num(Fraction(11, 5), decimal=True)
+    assert from_sympy(sp.Float("0.1")) == Num(Fraction(1, 10), decimal=True)
+    assert from_sympy(sp.Float("0.12345678901234567890")) == Num(
         Fraction("0.12345678901234567890"), decimal=True
     )
-    assert convert(1e-9) == Num(Fraction(1, 10**9), decimal=True)
-    assert convert(3) == Num(Fraction(3))
-    assert convert(sp.Rational(20, 3)) == Num(Fraction(20, 3))
+    assert from_sympy(1e-9) == Num(Fraction(1, 10**9), decimal=True)
+    assert from_sympy(3) == Num(Fraction(3))
+    assert from_sympy(sp.Rational(20, 3)) == Num(Fraction(20, 3))
 
 
 def test_conditions():
     with sp.evaluate(False):
-        tree = convert(sp.Piecewise((0, x < 0), (1, sp.And(x >= 0, x < 2)), (2, True)))
+        tree = from_sympy(sp.Piecewise((0, x < 0), (1, sp.And(x >= 0, x < 2)), (2, True)))
     assert tree.op == "piecewise"
-    assert [evaluate(tree, {"x": at}, floats()) for at in (-1.0, 0.0, 1.9, 2.0)] == [0, 1, 1, 2]
+    assert [evaluate(tree, {"x": at}, float64_system()) for at in (-1.0, 0.0, 1.9, 2.0)] == [
+        0,
+        1,
+        1,
+        2,
+    ]
 
 
 @pytest.mark.parametrize(
@@ -166,7 +171,7 @@ def test_conditions():
 )
 def test_everything_else_is_refused(bad):
     with pytest.raises(BankError):
-        convert(bad)
+        from_sympy(bad)
 
 
 def test_printing_does_not_load_sympy():

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from quizgen.maths.notation import FUNCTIONS, ReadError, parse, to_text
+from quizgen.maths.notation import FUNCTIONS, FormulaReadError, format_tree, parse_formula
 from quizgen.maths.tree import Call, Num, Sym
 
 a, b, c = Sym("a"), Sym("b"), Sym("c")
@@ -50,7 +50,7 @@ TREES = {
 
 @pytest.mark.parametrize("text", TREES)
 def test_author_notation(text):
-    assert parse(text) == TREES[text]
+    assert parse_formula(text) == TREES[text]
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_author_notation(text):
 )
 def test_juxtaposition_of_declared_names(text, same):
     declared = {"f", "X", "Z", "r", "k_1"}
-    assert parse(text, symbols=declared) == parse(same, symbols=declared)
+    assert parse_formula(text, symbols=declared) == parse_formula(same, symbols=declared)
 
 
 @pytest.mark.parametrize(
@@ -89,10 +89,10 @@ def test_juxtaposition_of_declared_names(text, same):
 )
 def test_errors_carry_reason_and_column(text, code, column):
     if code is None:
-        assert parse(text, symbols="abc") == a
+        assert parse_formula(text, symbols="abc") == a
         return
-    with pytest.raises(ReadError) as caught:
-        parse(text, symbols="abc")
+    with pytest.raises(FormulaReadError) as caught:
+        parse_formula(text, symbols="abc")
     assert (caught.value.code, caught.value.column) == (code, column)
 
 
@@ -118,8 +118,8 @@ TERM = ["CONSTANT", "FUNCTION", "LBAR", "LPAR", "NAME", "NUMBER", "ROOT"]
     ],
 )
 def test_errors_name_what_could_have_stood_there(text, expected):
-    with pytest.raises(ReadError) as caught:
-        parse(text)
+    with pytest.raises(FormulaReadError) as caught:
+        parse_formula(text)
     assert list(caught.value.expected) == sorted(expected)
 
 
@@ -137,14 +137,14 @@ def test_errors_name_what_could_have_stood_there(text, expected):
     ],
 )
 def test_what_binds_tighter(text, same):
-    assert parse(text) == parse(same)
+    assert parse_formula(text) == parse_formula(same)
 
 
 def test_without_declared_names_nothing_is_guessed():
-    assert parse("foo + 1") == Call("add", (Sym("foo"), one))
+    assert parse_formula("foo + 1") == Call("add", (Sym("foo"), one))
     for text in ("foo(1)", "a b"):
-        with pytest.raises(ReadError):
-            parse(text)
+        with pytest.raises(FormulaReadError):
+            parse_formula(text)
 
 
 NUMBERS = st.fractions(max_denominator=10**6).flatmap(
@@ -182,4 +182,4 @@ def _calls(inner):
 @settings(max_examples=600, deadline=None)
 @given(st.recursive(LEAVES, _calls, max_leaves=12))
 def test_written_text_reads_as_the_same_tree(tree):
-    assert parse(to_text(tree)) == tree
+    assert parse_formula(format_tree(tree)) == tree

@@ -9,18 +9,18 @@ import sys
 import pytest
 import sympy
 
-from quizgen.maths import systems
-from quizgen.maths.from_sympy import convert
-from quizgen.maths.notation import parse, to_text
+from quizgen.maths import number_systems
+from quizgen.maths.from_sympy import from_sympy
+from quizgen.maths.notation import format_tree, parse_formula
 from quizgen.maths.operators import CONDITIONS, OPERATORS, SYSTEMS
-from quizgen.maths.tree import Call, Sym, number
-from quizgen.typeset import latex, layout, mathml, spoken, typst
+from quizgen.maths.tree import Call, Sym, make_number
+from quizgen.typeset import lay_out, to_latex, to_mathml, to_speech, to_typst
 
 BUILT = {
-    "exact": systems.exact(),
-    "floats": systems.floats(),
-    "arrays": systems.arrays(64),
-    "sympy": systems.symbolic(),
+    "exact": number_systems.exact_system(),
+    "floats": number_systems.float64_system(),
+    "arrays": number_systems.array_system(64),
+    "sympy": number_systems.sympy_system(),
 }
 
 X, Y = 0.75, 0.375  # exact in binary
@@ -42,7 +42,7 @@ def example(name: str) -> Call:
     x, y = Sym("x"), Sym("y")
     more, less = Call("gt", (x, y)), Call("lt", (x, y))
     special = {
-        "pow": (x, number(3)),
+        "pow": (x, make_number(3)),
         "piecewise": (x, more, y),
         "and": (more, more),
         "or": (less, more),
@@ -80,34 +80,42 @@ def test_a_system_knows_what_the_table_says(system):
 )
 def test_every_system_finds_the_same_value(name, system):
     built = BUILT[system]
-    env = {"x": built.constant(number("0.75").value), "y": built.constant(number("0.375").value)}
-    assert close(systems.compile_expr(example(name), built)(env), VALUES[name])
+    env = {
+        "x": built.constant(make_number("0.75").value),
+        "y": built.constant(make_number("0.375").value),
+    }
+    assert close(number_systems.compile_expr(example(name), built)(env), VALUES[name])
 
 
 @pytest.mark.parametrize("name", ["add", "mul", "min", "max"])
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_operators_of_many_arguments_fold(name, system):
     built = BUILT[system]
-    args = tuple(number(text) for text in ("3", "-2", "0.5"))
+    args = tuple(make_number(text) for text in ("3", "-2", "0.5"))
     expected = {"add": 1.5, "mul": -3.0, "min": -2.0, "max": 3.0}[name]
-    assert close(systems.compile_expr(Call(name, args), built)({}), expected)
+    assert close(number_systems.compile_expr(Call(name, args), built)({}), expected)
 
 
 @pytest.mark.parametrize("name", ["min", "max"])
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_the_least_of_one_is_itself(name, system):
-    assert close(systems.compile_expr(Call(name, (number("0.5"),)), BUILT[system])({}), 0.5)
+    assert close(
+        number_systems.compile_expr(Call(name, (make_number("0.5"),)), BUILT[system])({}), 0.5
+    )
 
 
 @pytest.mark.parametrize("system", SYSTEMS)
 @pytest.mark.parametrize(("text", "expected"), [("-2.5", -3), ("2.5", 3), ("-0.4", 0)])
 def test_rounding_is_half_away_from_zero_everywhere(system, text, expected):
-    assert close(systems.compile_expr(Call("round", (number(text),)), BUILT[system])({}), expected)
+    assert close(
+        number_systems.compile_expr(Call("round", (make_number(text),)), BUILT[system])({}),
+        expected,
+    )
 
 
 @pytest.mark.parametrize("name", OPERATORS)
 def test_what_is_written_reads_as_the_same_tree(name):
-    assert parse(to_text(example(name)), symbols=("x", "y")) == example(name)
+    assert parse_formula(format_tree(example(name)), symbols=("x", "y")) == example(name)
 
 
 @pytest.mark.parametrize(
@@ -118,15 +126,15 @@ def test_every_sign_is_read(name, sign):
     text = {0: sign, 1: f"{sign} x"}.get(row.most, f"x {sign} y")
     if row.name == "not":
         text = "not x > y"
-    read = parse("x > y " + sign + " x > y" if row.name in {"and", "or"} else text)
+    read = parse_formula("x > y " + sign + " x > y" if row.name in {"and", "or"} else text)
     assert read.op == name
 
 
 @pytest.mark.parametrize("name", OPERATORS)
 def test_every_printer_writes_it(name):
-    laid_out = layout(example(name))
-    printed = [latex(laid_out), mathml(laid_out), typst(laid_out)]
-    spoken_both = [spoken(laid_out, lang) for lang in ("en", "bn")]
+    laid_out = lay_out(example(name))
+    printed = [to_latex(laid_out), to_mathml(laid_out), to_typst(laid_out)]
+    spoken_both = [to_speech(laid_out, lang) for lang in ("en", "bn")]
     assert all(printed)
     assert all(spoken_both)
     assert spoken_both[0] != spoken_both[1] or name in {"log2", "log10"}
@@ -140,8 +148,10 @@ def test_sympy_reads_back_what_it_was_given(name):
     else:
         env = {n: sympy.Symbol(n, real=True) for n in ("x", "y")}
         with sympy.evaluate(False):
-            built = systems.compile_expr(example(name), systems.symbolic())(env)
-    again = systems.compile_expr(convert(built), systems.floats())({"x": X, "y": Y})
+            built = number_systems.compile_expr(example(name), number_systems.sympy_system())(env)
+    again = number_systems.compile_expr(from_sympy(built), number_systems.float64_system())(
+        {"x": X, "y": Y}
+    )
     assert close(again, VALUES[name])
 
 
@@ -151,8 +161,8 @@ def test_conditions_give_true_or_false():
 
 @pytest.mark.parametrize(("use", "without"), [
     ("import quizgen.maths.operators", {"flint", "numpy", "sympy", "mpmath"}),
-    ("from quizgen.maths.systems import floats; floats()", {"numpy", "sympy", "mpmath"}),
-    ("from quizgen.maths.systems import exact; exact()", {"numpy", "sympy", "mpmath"}),
+    ("from quizgen.maths.number_systems import floats; floats()", {"numpy", "sympy", "mpmath"}),
+    ("from quizgen.maths.number_systems import exact; exact()", {"numpy", "sympy", "mpmath"}),
 ])  # fmt: skip
 def test_a_number_system_loads_only_its_own_library(use, without):
     run = subprocess.run(

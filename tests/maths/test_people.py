@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.maths.notation import parse, people, to_text
+from quizgen.maths.notation import format_tree, parse_formula, pretty
 
 GAP = "\N{NARROW NO-BREAK SPACE}"
 
@@ -36,8 +36,8 @@ GAP = "\N{NARROW NO-BREAK SPACE}"
     ],
 )
 def test_a_number(machine, person):
-    assert people.number(machine) == person
-    assert people.number(person.replace(GAP, "")) == person
+    assert pretty.format_number(machine) == person
+    assert pretty.format_number(person.replace(GAP, "")) == person
 
 
 @pytest.mark.parametrize(
@@ -67,7 +67,7 @@ def test_a_number(machine, person):
     ],
 )
 def test_a_name(symbol, person):
-    assert people.name(symbol) == person
+    assert pretty.format_name(symbol) == person
 
 
 @pytest.mark.parametrize(
@@ -84,12 +84,15 @@ def test_a_name(symbol, person):
     ],
 )
 def test_a_formula(typed, person):
-    assert people.formula(typed) == person
-    assert people.formula(person) == person
+    assert pretty.format_formula(typed) == person
+    assert pretty.format_formula(person) == person
 
 
 def test_constants_that_need_braces_get_brackets():
-    assert people.formula(to_text(parse("x*{-1/3} + {-2/1} + x^{-2/1}"))) == "x·(−1/3) + (−2) + x⁻²"
+    assert (
+        pretty.format_formula(format_tree(parse_formula("x*{-1/3} + {-2/1} + x^{-2/1}")))
+        == "x·(−1/3) + (−2) + x⁻²"
+    )
 
 
 @pytest.mark.parametrize(
@@ -104,4 +107,4 @@ def test_constants_that_need_braces_get_brackets():
     ],
 )
 def test_a_sentence(text, person):
-    assert people.prose(text) == person
+    assert pretty.format_numbers_in_prose(text) == person

@@ -8,7 +8,7 @@ import msgspec
 import pytest
 from flint import arb, fmpq
 
-from quizgen.maths.tolerance import AngleTolerance, Tolerance, tolerance_of
+from quizgen.maths.tolerance import AngleTolerance, Tolerance, parse_tolerance
 
 WIDTHS = [
     ({}, "200", "1"),
@@ -30,8 +30,8 @@ def test_the_bounds_are_closed(rule, key, width):
     tolerance, value, half = Tolerance(**rule), Fraction(key), Fraction(width)
     least = Fraction(1, 10**12)
     for sign in (1, -1):
-        assert tolerance.near(rational(value + sign * half), rational(value))
-        assert not tolerance.near(rational(value + sign * (half + least)), rational(value))
+        assert tolerance.is_within(rational(value + sign * half), rational(value))
+        assert not tolerance.is_within(rational(value + sign * (half + least)), rational(value))
     assert tolerance.half_width(rational(value)) == rational(half)
 
 
@@ -60,9 +60,9 @@ def test_an_exact_answer_may_be_meant_by_two_decimals(key, width):
 
 
 def test_a_ball_on_the_bound_is_near():
-    assert Tolerance(abs=1).near(arb(2, "1e-9"), fmpq(1))
-    assert Tolerance(abs=1).near(arb(2), fmpq(1))
-    assert not Tolerance(abs=1).near(arb("2.1", "1e-9"), fmpq(1))
+    assert Tolerance(abs=1).is_within(arb(2, "1e-9"), fmpq(1))
+    assert Tolerance(abs=1).is_within(arb(2), fmpq(1))
+    assert not Tolerance(abs=1).is_within(arb("2.1", "1e-9"), fmpq(1))
 
 
 @pytest.mark.parametrize(
@@ -119,15 +119,15 @@ def test_what_can_be_meant_is_not(rule):
     ],
 )
 def test_the_tolerance_of_an_authored_answer(answer, tolerance):
-    assert tolerance_of(answer) == tolerance
+    assert parse_tolerance(answer) == tolerance
 
 
 def test_an_angle_without_a_rule_has_half_a_degree():
-    assert tolerance_of({"kind": "angle"}).half_width(fmpq(140)) == fmpq(1, 2)
-    assert tolerance_of({"kind": "number"}).half_width(fmpq(140)) == fmpq(7, 10)
+    assert parse_tolerance({"kind": "angle"}).half_width(fmpq(140)) == fmpq(1, 2)
+    assert parse_tolerance({"kind": "number"}).half_width(fmpq(140)) == fmpq(7, 10)
 
 
 @pytest.mark.parametrize("answer", [{"decimals": "2"}, {"decimals": 1, "sigfigs": 1}])
 def test_a_wrong_rule_of_an_authored_answer_is_refused(answer):
     with pytest.raises((msgspec.ValidationError, ValueError)):
-        tolerance_of(answer)
+        parse_tolerance(answer)

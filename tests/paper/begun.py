@@ -10,13 +10,15 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 
 import quizgen
-from quizgen.paper.blueprint import of_topic
+from quizgen.paper.blueprint import topic_blueprint
 
 
 def made(output: str) -> bytes:
     """A page of a short paper."""
-    bank = quizgen.builtin()
-    return quizgen.render_paper(quizgen.build(bank, of_topic(bank, "eye", 5), 3), "exam", output)
+    bank = quizgen.builtin_bank()
+    return quizgen.render_paper(
+        quizgen.build_paper(bank, topic_blueprint(bank, "eye", 5), 3), "exam", output
+    )
 
 
 if __name__ == "__main__":

@@ -16,12 +16,12 @@ from pathlib import Path
 
 from click.testing import CliRunner
 
-from quizgen.bank.folder import Bank
+from quizgen.bank.bank import Bank
 from quizgen.cli.check import check
+from quizgen.paper.answer_form import write_blank_form
+from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import Blueprint, SlotRule
-from quizgen.paper.form import form_bytes
-from quizgen.paper.key import key_bytes
-from quizgen.paper.paper import Paper, build
+from quizgen.paper.paper import Paper, build_paper
 
 NAMED = re.compile(r"\s*(.+?) = (.+)", re.DOTALL)
 
@@ -40,11 +40,11 @@ class Printed:
 
 def all_templates(bank: Bank, seed: int, lang: str = "both", level: str = "exam") -> Paper:
     """A paper in which every template of the bank stands once; one draw serves all languages."""
-    slots = tuple(SlotRule(templates=(name,)) for name in bank.paths)
+    slots = tuple(SlotRule(templates=(name,)) for name in bank.template_paths)
     blueprint = Blueprint(
         {"en": "Everything"}, slots, name="everything", source="everything", level=level
     )
-    return build(bank, blueprint, seed, lang, figures=False)
+    return build_paper(bank, blueprint, seed, lang, figures=False)
 
 
 def fields(paper: Paper, lang: str) -> Iterator[Printed]:
@@ -99,9 +99,9 @@ class Desk:
     def __init__(self, folder: Path, paper: Paper) -> None:
         self.folder, self.paper = folder, paper
         self.key = folder / "key.json"
-        self.key.write_bytes(key_bytes(paper))
-        self.blank = form_bytes(paper).decode()
-        self.sheet = form_bytes(paper, "csv").decode("utf-8-sig")
+        self.key.write_bytes(write_answer_key(paper))
+        self.blank = write_blank_form(paper).decode()
+        self.sheet = write_blank_form(paper, "csv").decode("utf-8-sig")
         self.forms: list[Path] = []
 
     def toml(self, answers: dict[str, str]) -> None:

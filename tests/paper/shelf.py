@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 
 DEFAULT = {"tier": "A", "topic": "optics", "pool": None, "minutes": 5, "apart": (), "beyond": False,
            "points": 5, "figure": ""}  # fmt: skip
@@ -17,7 +17,7 @@ class Shelf:
         self.table = dict(table, **named)
         self.paths = dict.fromkeys(self.table)
         self.parts = (self,)
-        self.about = builtin().about
+        self.about = builtin_bank().metadata
 
     def rules(self, name):
         given = {**DEFAULT, **self.table[name]}

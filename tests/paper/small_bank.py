@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from quizgen.bank.folder import Bank, builtin
+from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.paper.blueprint import Blueprint, SlotRule
 
 NAME = "point-to-image-plane"
@@ -14,15 +14,15 @@ ONE = Blueprint({"en": "One"}, (SlotRule(templates=(NAME,)),), name="one")
 
 def copied(root: Path) -> Path:
     """Copy the template and its solver below a root; return the template's folder."""
-    source = builtin().paths[NAME]
+    source = builtin_bank().template_paths[NAME]
     folder = root / "templates" / source.parent.name / NAME
     shutil.copytree(source, folder)
-    solver = f"{builtin().rules(NAME).solver}.py"
+    solver = f"{builtin_bank().rules(NAME).solver}.py"
     target = root / "solvers" / solver
     target.parent.mkdir(parents=True)
     (root / "solvers" / "__init__.py").touch()
     (target.parent / "__init__.py").touch()
-    shutil.copy(builtin().root / "solvers" / solver, target)
+    shutil.copy(builtin_bank().root / "solvers" / solver, target)
     return folder
 
 

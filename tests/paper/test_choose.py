@@ -8,10 +8,10 @@ from itertools import combinations
 import pytest
 from shelf import Shelf
 
-from quizgen.bank.folder import builtin
-from quizgen.errors import BlueprintError
+from quizgen.bank.bank import builtin_bank
+from quizgen.core.errors import BlueprintError
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
-from quizgen.paper.choose import choose, variety, weights
+from quizgen.paper.selection import count_papers, select_templates, slot_points
 
 
 def timed(topic, minutes=0):
@@ -25,42 +25,45 @@ def plan(*slots):
 def test_the_place_and_the_seed_rank_the_templates():
     shelf = Shelf({name: {} for name in "abcdef"})
     for seed in range(5):
-        found = choose(shelf, plan(SlotRule(count=1)), seed)
+        found = select_templates(shelf, plan(SlotRule(count=1)), seed)
         ranks = {n: hashlib.sha256(f"choose/{seed}/1/0/{n}".encode()).digest() for n in "abcdef"}
         assert found == [min(ranks, key=ranks.get)]
 
 
 def test_every_template_is_used_before_one_returns():
     shelf = Shelf({name: {} for name in "abc"})
-    found = choose(shelf, plan(SlotRule(count=7)), 3)
+    found = select_templates(shelf, plan(SlotRule(count=7)), 3)
     assert sorted(found[:3]) == sorted(found[3:6]) == list("abc")
 
 
 def test_a_template_never_stands_beside_one_that_gives_it_away():
     shelf = Shelf({"a": {"apart": ("b",)}, "b": {}, "c": {}})
     for seed in range(20):
-        assert set(choose(shelf, plan(SlotRule(count=2)), seed)) != {"a", "b"}
-        assert len(set(choose(shelf, plan(SlotRule(templates=("a", "b"), count=2)), seed))) == 1
+        assert set(select_templates(shelf, plan(SlotRule(count=2)), seed)) != {"a", "b"}
+        assert (
+            len(set(select_templates(shelf, plan(SlotRule(templates=("a", "b"), count=2)), seed)))
+            == 1
+        )
 
 
 def test_a_slot_keeps_to_tier_topic_and_list():
     shelf = Shelf({"a": {"tier": "B"}, "b": {"topic": "noise"}, "c": {}, "d": {}})
-    assert choose(shelf, plan(SlotRule(tier="B")), 0) == ["a"]
-    assert choose(shelf, plan(SlotRule(topic="noise")), 0) == ["b"]
-    assert choose(shelf, plan(SlotRule(templates=("d",))), 0) == ["d"]
+    assert select_templates(shelf, plan(SlotRule(tier="B")), 0) == ["a"]
+    assert select_templates(shelf, plan(SlotRule(topic="noise")), 0) == ["b"]
+    assert select_templates(shelf, plan(SlotRule(templates=("d",))), 0) == ["d"]
     with pytest.raises(BlueprintError, match="slot 2: no template has tier C and topic any"):
-        choose(shelf, plan(SlotRule(), SlotRule(tier="C")), 0)
+        select_templates(shelf, plan(SlotRule(), SlotRule(tier="C")), 0)
 
 
 def test_a_time_is_filled_and_never_exceeded():
     shelf = Shelf({f"{t}{n}": {"tier": t, "minutes": 7} for t in "AB" for n in range(4)})
-    found = choose(shelf, timed("optics", 31), 1)
+    found = select_templates(shelf, timed("optics", 31), 1)
     assert [name[0] for name in found] == ["A", "A", "B", "B"]
     assert len(set(found)) == 4
-    assert len(choose(shelf, timed("optics", 30), 1)) == 3, "four take 28 min and a tenth"
-    assert len(choose(shelf, timed("all"), 1)) == 8
+    assert len(select_templates(shelf, timed("optics", 30), 1)) == 3, "four take 28 min and a tenth"
+    assert len(select_templates(shelf, timed("all"), 1)) == 8
     with pytest.raises(BlueprintError, match="fits the time"):
-        choose(shelf, timed("optics", 6), 1)
+        select_templates(shelf, timed("optics", 6), 1)
 
 
 @pytest.mark.parametrize(
@@ -76,7 +79,7 @@ def test_papers_are_counted_as_sets_of_questions(pools, count):
         if all(least <= sum(n == name for n, _ in chosen) <= most for name in range(len(pools)))
     ]  # fmt: skip
     shelf = Shelf({f"t{n}": {"pool": pool} for n, pool in enumerate(pools)})
-    assert variety(shelf, plan(SlotRule(count=count))) == len(even)
+    assert count_papers(shelf, plan(SlotRule(count=count))) == len(even)
 
 
 def test_slots_multiply_and_a_template_without_numbers_is_one_question():
@@ -84,13 +87,13 @@ def test_slots_multiply_and_a_template_without_numbers_is_one_question():
         {"a": {"pool": 6, "tier": "A"}, "b": {"tier": "B"}, "c": {"pool": 5, "tier": "C"}}
     )
     slots = [SlotRule(tier=tier) for tier in "ABC"]
-    assert variety(shelf, plan(*slots)) == 30
-    assert variety(shelf, plan(slots[1])) == 1
-    assert variety(shelf, timed("optics")) == 0
+    assert count_papers(shelf, plan(*slots)) == 30
+    assert count_papers(shelf, plan(slots[1])) == 1
+    assert count_papers(shelf, timed("optics")) == 0
 
 
 def test_the_marks_of_slots_go_to_their_questions():
-    found = weights(plan(SlotRule(count=2, points=4), SlotRule(), SlotRule(points=1.5)))
+    found = slot_points(plan(SlotRule(count=2, points=4), SlotRule(), SlotRule(points=1.5)))
     assert [next(found) for _ in range(5)] == [4, 4, None, 1.5, None]
 
 
@@ -105,7 +108,7 @@ def test_a_slot_that_cannot_be_filled_is_located(tmp_path, slot, said):
     file = tmp_path / "week.toml"
     file.write_text(f'[title]\nen = "x"\n[[slot]]\ntier = "B"\n[[slot]]\n{slot}\n')
     with pytest.raises(BlueprintError) as caught:
-        choose(builtin(), load_blueprint(str(file)), 1)
+        select_templates(builtin_bank(), load_blueprint(str(file)), 1)
     assert str(caught.value).startswith(f"{file}: slot 2: {said}")
 
 
@@ -118,4 +121,4 @@ def test_a_slot_that_cannot_be_filled_is_located(tmp_path, slot, said):
 )  # fmt: skip
 def test_a_question_without_numbers_stands_in_a_paper_once(table, slots):
     for seed in range(60):
-        assert choose(Shelf(table), plan(*slots), seed).count("limits") <= 1
+        assert select_templates(Shelf(table), plan(*slots), seed).count("limits") <= 1

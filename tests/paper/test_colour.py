@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.bank.folder import Bank
-from quizgen.errors import BlueprintError
+from quizgen.bank.bank import Bank
+from quizgen.core.errors import BlueprintError
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.paper import build, rebuild
+from quizgen.paper.paper import build_paper, rebuild_paper
 from quizgen.render import html, pdf
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "bank"))
@@ -47,7 +47,7 @@ def plan(root: Path, colour: bool = True, count: int = 2):
 
 
 def paper_of(root: Path, bank: Bank, seed: int = 1, **wish):
-    return build(bank, load_blueprint(str(plan(root, **wish)), bank), seed)
+    return build_paper(bank, load_blueprint(str(plan(root, **wish)), bank), seed)
 
 
 def asked(paper) -> list[str]:
@@ -58,9 +58,9 @@ def test_the_cover_names_the_question_whose_page_needs_colour(tmp_path):
     paper = paper_of(tmp_path, bank_of(tmp_path, "\nCOLOUR = True\n"))
     number = asked(paper).index("push") + 1
     said = f"Print the page with question {number} in colour."
-    assert html.render(paper, "exam").decode().count(said) == 1
-    assert pdf.source(paper, "exam")["main.typ"].decode().count(said) == 1
-    assert said not in html.render(paper, "solutions").decode()
+    assert html.render_paper_html(paper, "exam").decode().count(said) == 1
+    assert pdf.typst_sources(paper, "exam")["main.typ"].decode().count(said) == 1
+    assert said not in html.render_paper_html(paper, "solutions").decode()
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_several_questions_are_named_in_every_language(tmp_path, lang, said):
 def test_a_paper_that_needs_no_colour_says_nothing_of_it(tmp_path):
     paper = paper_of(tmp_path, bank_of(tmp_path, ""))
     assert paper.printing("en") == ""
-    assert "in colour" not in html.render(paper, "exam").decode()
+    assert "in colour" not in html.render_paper_html(paper, "exam").decode()
 
 
 def test_without_colour_no_template_is_asked_that_needs_it(tmp_path):
@@ -96,7 +96,7 @@ def test_without_colour_no_template_is_asked_that_may_need_it(tmp_path):
 
 
 def test_numbers_that_seldom_need_colour_are_drawn_again(tmp_path, monkeypatch):
-    monkeypatch.setattr("quizgen.paper.choose.DRAWN", 0)  # as if no sample had met them
+    monkeypatch.setattr("quizgen.paper.selection.DRAWN", 0)  # as if no sample had met them
     bank = bank_of(tmp_path, LIGHT, LIGHT)
     for seed in range(5):
         paper = paper_of(tmp_path, bank, seed, colour=False)
@@ -122,7 +122,7 @@ def test_a_slot_that_only_coloured_figures_fit_is_named(tmp_path):
 def test_the_code_of_a_paper_without_colour_makes_it_again(tmp_path):
     bank = bank_of(tmp_path, LIGHT)
     paper = paper_of(tmp_path, bank, colour=False)
-    again = rebuild(bank, paper.code, load_blueprint(str(plan(tmp_path, colour=False)), bank))
+    again = rebuild_paper(bank, paper.code, load_blueprint(str(plan(tmp_path, colour=False)), bank))
     assert [one.keys[0].identity for one in again.items] == [
         one.keys[0].identity for one in paper.items
     ]

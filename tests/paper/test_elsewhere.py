@@ -6,21 +6,23 @@ import pickle
 
 import pytest
 
-from quizgen.bank.folder import Bank, builtin
-from quizgen.marking.mark import mark
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.grading.mark import mark
+from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.key import key_bytes
-from quizgen.paper.paper import build
+from quizgen.paper.paper import build_paper
 from quizgen.render import render_paper
 
 
 @pytest.fixture(scope="module")
 def paper():
-    return build(builtin(), load_blueprint("trial", builtin()), 3, "both")
+    return build_paper(builtin_bank(), load_blueprint("trial", builtin_bank()), 3, "both")
 
 
 def pages(paper):
-    return [render_paper(paper, kind, "html") for kind in ("exam", "solutions")], key_bytes(paper)
+    return [render_paper(paper, kind, "html") for kind in ("exam", "solutions")], write_answer_key(
+        paper
+    )
 
 
 def test_a_paper_is_the_same_after_its_journey(paper):
@@ -33,22 +35,22 @@ def test_a_paper_is_the_same_after_its_journey(paper):
 
 
 def test_a_template_and_a_draw_go_with_their_numbers():
-    from quizgen.bank.draw import draw
+    from quizgen.bank.variant import draw_variant
 
-    template = builtin().template("point-to-image-plane")
-    drawn = draw(template, 5)
+    template = builtin_bank().template("point-to-image-plane")
+    drawn = draw_variant(template, 5)
     again = pickle.loads(pickle.dumps(drawn))
     assert again.template == template
     assert (again.shown, again.values) == (drawn.shown, drawn.values)
-    assert draw(again.template, 5).values == drawn.values
+    assert draw_variant(again.template, 5).values == drawn.values
 
 
 def test_the_banks_own_is_the_one_there_is():
-    assert pickle.loads(pickle.dumps(builtin())) is builtin()
+    assert pickle.loads(pickle.dumps(builtin_bank())) is builtin_bank()
 
 
 def test_another_bank_is_opened_anew_and_trusted_as_before():
     for trusted in (True, False):
-        again = pickle.loads(pickle.dumps(Bank(builtin().root, trusted=trusted)))
-        assert (again.root, again.trusted) == (builtin().root, trusted)
-        assert len(again) == len(builtin())
+        again = pickle.loads(pickle.dumps(Bank(builtin_bank().root, trusted=trusted)))
+        assert (again.root, again.trusted) == (builtin_bank().root, trusted)
+        assert len(again) == len(builtin_bank())

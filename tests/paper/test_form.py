@@ -8,14 +8,14 @@ import io
 import pytest
 from small_bank import ONE
 
-from quizgen.errors import KeyFileError
-from quizgen.paper.form import form_bytes, holds_answers, read_answers
-from quizgen.paper.paper import build
+from quizgen.core.errors import KeyFileError
+from quizgen.paper.answer_form import has_answers, read_filled_form, write_blank_form
+from quizgen.paper.paper import build_paper
 
 
 def printed(bank, tmp_path, kind):
     path = tmp_path / f"answers.{kind}"
-    path.write_bytes(form_bytes(build(bank, ONE, 1, figures=False), kind))
+    path.write_bytes(write_blank_form(build_paper(bank, ONE, 1, figures=False), kind))
     return path
 
 
@@ -30,8 +30,8 @@ def sheet(bank, tmp_path):
 
 
 def test_a_blank_form_and_no_form_hold_nothing(form):
-    assert not holds_answers(form)
-    assert not holds_answers(form.with_name("none.toml"))
+    assert not has_answers(form)
+    assert not has_answers(form.with_name("none.toml"))
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_an_answer_a_name_a_note_or_what_cannot_be_read_is_kept(form, old, new):
     text = form.read_text("utf-8")
     assert old in text
     form.write_text(text.replace(old, new, 1), "utf-8")
-    assert holds_answers(form)
+    assert has_answers(form)
 
 
 @pytest.mark.parametrize("kind", ["toml", "csv"])
@@ -54,24 +54,24 @@ def test_what_an_editor_or_a_spreadsheet_changes_by_itself_is_no_note(bank, tmp_
     text = path.read_text("utf-8-sig")
     for again in (text.replace("\n", "\r\n"), "\ufeff" + text, text + "\n\n"):
         path.write_text(again, "utf-8", newline="")
-        assert not holds_answers(path)
+        assert not has_answers(path)
     path.write_text(text, "utf-16")
-    assert not holds_answers(path)
+    assert not has_answers(path)
     rows = list(csv.reader(io.StringIO(text)))
     if kind == "csv":
         with path.open("w", encoding="utf-8", newline="") as stream:
             csv.writer(stream, delimiter=";", quoting=csv.QUOTE_ALL).writerows(rows)
-        assert not holds_answers(path)
+        assert not has_answers(path)
 
 
 def test_the_form_of_a_spreadsheet_keeps_code_paper_and_name(sheet, form):
     filled(sheet, **{"name": "Ayesha", "matriculation": "0815", "1": "(4; 6)"})
-    found, model = read_answers(sheet), read_answers(form)
+    found, model = read_filled_form(sheet), read_filled_form(form)
     assert (found.code, found.paper) == (model.code, model.paper)
     assert found.student.lang == model.student.lang == "en"
     assert (found.student.name, found.student.matriculation) == ("Ayesha", "0815")
     assert found.typed() == {"1": "(4; 6)"}
-    assert holds_answers(sheet)
+    assert has_answers(sheet)
 
 
 def filled(sheet, **cells):
@@ -99,13 +99,13 @@ def filled(sheet, **cells):
 def test_what_spreadsheets_write_is_read(tmp_path, data):
     path = tmp_path / "class.CSV"
     path.write_bytes(data)
-    assert read_answers(path).typed() == {"1a": "0,2", "2": "yes"}
+    assert read_filled_form(path).typed() == {"1a": "0,2", "2": "yes"}
 
 
 def test_a_cell_may_hold_lines_and_quotes(tmp_path):
     path = tmp_path / "a.csv"
     path.write_bytes(b'part,answer\n1,"print(""x"")\nprint(2)"\n')
-    assert read_answers(path).typed() == {"1": 'print("x")\nprint(2)'}
+    assert read_filled_form(path).typed() == {"1": 'print("x")\nprint(2)'}
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_a_sheet_that_cannot_be_read_is_one_located_line(tmp_path, text, message
     path = tmp_path / "a.csv"
     path.write_text(text, "utf-8")
     with pytest.raises(KeyFileError) as caught:
-        read_answers(path)
+        read_filled_form(path)
     assert str(caught.value).startswith(f"{path}: ")
     assert message in str(caught.value)
 
@@ -137,14 +137,14 @@ def test_a_form_is_known_by_what_it_holds(form, tmp_path, name):
     renamed = tmp_path / name
     text = form.read_text("utf-8").replace('"1" = ""', '"1" = "4"')
     renamed.write_text(text, "utf-8")
-    assert read_answers(renamed).typed() == {"1": "4"}
+    assert read_filled_form(renamed).typed() == {"1": "4"}
 
 
 def test_blanks_are_no_answer_and_a_form_reads_back(form):
     text = form.read_text("utf-8").replace('"1" = ""', '"1" = "  "')
     form.write_text(text, "utf-8")
-    assert not holds_answers(form)
-    assert read_answers(form).typed() == {"1": "  "}
+    assert not has_answers(form)
+    assert read_filled_form(form).typed() == {"1": "  "}
 
 
 @pytest.mark.parametrize(
@@ -166,7 +166,7 @@ def test_latex_between_quotes_is_read_as_typed(tmp_path, line, meant):
     path = tmp_path / "a.toml"
     path.write_text(f"[answers]\n{line}\n", "utf-8")
     if meant is not None:
-        assert read_answers(path).typed() == {"1": meant}
+        assert read_filled_form(path).typed() == {"1": meant}
         return
     with pytest.raises(KeyFileError, match=r"line 2.*between straight quotes"):
-        read_answers(path)
+        read_filled_form(path)

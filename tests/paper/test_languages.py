@@ -13,13 +13,13 @@ import pytest
 from small_bank import ONE, copied, fresh
 
 from quizgen import locale
-from quizgen.locale import choices, chosen, languages
-from quizgen.paper.blueprint import of_topic
+from quizgen.locale import list_language_choices, list_languages, resolve_language_choice
+from quizgen.paper.answer_form import read_filled_form, write_blank_form
+from quizgen.paper.answer_key import read_answer_key, write_answer_key
+from quizgen.paper.blueprint import topic_blueprint
 from quizgen.paper.code import parse_code
-from quizgen.paper.form import form_bytes, read_answers
-from quizgen.paper.key import key_bytes, read_key
-from quizgen.paper.marking import mark_paper
-from quizgen.paper.paper import build, rebuild
+from quizgen.paper.grading import grade_paper
+from quizgen.paper.paper import build_paper, rebuild_paper
 from quizgen.render import KINDS, RENDERERS, render_paper
 
 SHIPPED = Path(locale.__file__).parent
@@ -48,31 +48,31 @@ def pig(tmp_path, monkeypatch):
 
 
 def test_a_language_is_found_and_can_be_chosen(pig):
-    assert languages() == ("en", "bn", "de", "pig")
-    assert choices() == ("en", "bn", "de", "pig", "both")
-    assert chosen("pig", ("en",)) == ("pig",)
-    assert chosen("both", fresh(pig).languages) == ("en", "bn", "pig")
-    assert of_topic(fresh(pig), "projection").title["pig"].startswith("Ockmay examay")
+    assert list_languages() == ("en", "bn", "de", "pig")
+    assert list_language_choices() == ("en", "bn", "de", "pig", "both")
+    assert resolve_language_choice("pig", ("en",)) == ("pig",)
+    assert resolve_language_choice("both", fresh(pig).languages) == ("en", "bn", "pig")
+    assert topic_blueprint(fresh(pig), "projection").title["pig"].startswith("Ockmay examay")
 
 
 @pytest.mark.parametrize("choice", ["pig", "both"])
 def test_a_paper_is_made_printed_kept_and_marked_in_it(pig, tmp_path, choice):
-    paper = build(fresh(pig), ONE, 3, choice)
+    paper = build_paper(fresh(pig), ONE, 3, choice)
     assert parse_code(paper.code).choice == choice
-    assert rebuild(fresh(pig), paper.code, ONE).code == paper.code
+    assert rebuild_paper(fresh(pig), paper.code, ONE).code == paper.code
     printed = {name: render_paper(paper, kind, name) for name in RENDERERS for kind in KINDS}
     assert "A inholepay" in printed["html"].decode()
     assert printed["pdf"].startswith(b"%PDF")
     key, form = tmp_path / "key.json", tmp_path / "answers.toml"
-    key.write_bytes(key_bytes(paper))
-    form.write_bytes(form_bytes(paper))
+    key.write_bytes(write_answer_key(paper))
+    form.write_bytes(write_blank_form(paper))
     assert json.loads(key.read_text())["langs"] == list(paper.langs)
     assert tomllib.loads(form.read_text())["student"]["lang"] == paper.langs[0]
-    result = mark_paper(read_key(key), {"1": "((("}, "pig")
-    assert result.parts[0].verdict.message == mark_paper(
-        read_key(key), {"1": "((("}, "en"
+    result = grade_paper(read_answer_key(key), {"1": "((("}, "pig")
+    assert result.parts[0].verdict.message == grade_paper(
+        read_answer_key(key), {"1": "((("}, "en"
     ).parts[0].verdict.message  # fmt: skip
-    assert read_answers(form).blank
+    assert read_filled_form(form).is_blank
 
 
 COMMAND = """

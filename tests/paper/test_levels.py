@@ -9,14 +9,14 @@ import pytest
 from road import Desk, all_templates, fields, typed
 from sweep import draws
 
-from quizgen.audit.leaks import leaks
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 from quizgen.bank.levels import CHOICES, EXAM
-from quizgen.errors import CodeError
+from quizgen.core.errors import PaperCodeError
+from quizgen.lint.leaks import find_paper_leaks
+from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.code import parse_code
-from quizgen.paper.key import key_bytes
-from quizgen.paper.paper import build, rebuild
+from quizgen.paper.paper import build_paper, rebuild_paper
 
 LEVELS = [level for level in CHOICES if level != EXAM]
 BLUEPRINTS = ("mock", "trial")
@@ -53,23 +53,23 @@ def test_what_is_printed_is_marked_right_from_files(bank, tmp_path, level, seed)
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_a_code_holds_its_level_and_makes_the_paper_again(level):
-    paper = build(builtin(), at(level), 5, "both", figures=False)
+    paper = build_paper(builtin_bank(), at(level), 5, "both", figures=False)
     assert f"-both-{level}-" in paper.code
     assert parse_code(paper.code).level == level
-    again = rebuild(builtin(), paper.code, figures=False)
-    assert key_bytes(again) == key_bytes(paper)
-    exam = build(builtin(), at(EXAM), 5, "both", figures=False)
+    again = rebuild_paper(builtin_bank(), paper.code, figures=False)
+    assert write_answer_key(again) == write_answer_key(paper)
+    exam = build_paper(builtin_bank(), at(EXAM), 5, "both", figures=False)
     assert exam.points == paper.points
     if any(item.keys[0].level != EXAM for item in paper.items):
-        with pytest.raises(CodeError):
-            rebuild(builtin(), paper.code.replace(f"-{level}", ""), figures=False)
+        with pytest.raises(PaperCodeError):
+            rebuild_paper(builtin_bank(), paper.code.replace(f"-{level}", ""), figures=False)
 
 
 @pytest.mark.parametrize("level", LEVELS)
 @pytest.mark.parametrize(("name", "seed"), PAPERS)
 def test_no_question_of_a_paper_tells_what_another_one_asks(level, name, seed):
-    paper = build(builtin(), at(level, name), seed, "both", figures=False)
-    assert leaks(paper) == []
+    paper = build_paper(builtin_bank(), at(level, name), seed, "both", figures=False)
+    assert find_paper_leaks(paper) == []
 
 
 @pytest.mark.parametrize("level", ["guided", "transfer"])
@@ -77,7 +77,12 @@ def test_formulas_that_two_questions_ask_are_printed_by_neither(level):
     pair = ("image-height-and-fill-distance", "point-to-image-plane", "image-scaling-laws")
     slots = tuple(SlotRule(templates=(name,), level=level) for name in pair)
     for seed in range(8):
-        assert leaks(build(builtin(), Blueprint({"en": "x"}, slots, name="x"), seed)) == []
+        assert (
+            find_paper_leaks(
+                build_paper(builtin_bank(), Blueprint({"en": "x"}, slots, name="x"), seed)
+            )
+            == []
+        )
 
 
 def test_a_slot_may_have_a_level_of_its_own():
@@ -85,7 +90,7 @@ def test_a_slot_may_have_a_level_of_its_own():
         SlotRule(templates=("rgb-to-hsv",), level="guided"),
         SlotRule(templates=("hsv-to-rgb",)),
     )
-    paper = build(builtin(), Blueprint({"en": "x"}, slots, name="x"), 1, figures=False)
+    paper = build_paper(builtin_bank(), Blueprint({"en": "x"}, slots, name="x"), 1, figures=False)
     assert [item.keys[0].level for item in paper.items] == ["guided", EXAM]
     assert all(item.points == Fraction(6) for item in paper.items)
 
@@ -93,5 +98,5 @@ def test_a_slot_may_have_a_level_of_its_own():
 def test_a_question_without_a_calculation_stays_as_it_is():
     slots = (SlotRule(templates=("why-pinhole-model",)),)
     plan = Blueprint({"en": "x"}, slots, name="x", level="guided")
-    (item,) = build(builtin(), plan, 1, figures=False).items
+    (item,) = build_paper(builtin_bank(), plan, 1, figures=False).items
     assert item.keys[0].level == EXAM

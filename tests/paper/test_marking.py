@@ -12,12 +12,12 @@ from click.testing import CliRunner
 
 from quizgen.cli.check import check as check_command
 from quizgen.cli.mark import mark as mark_command
-from quizgen.errors import ChoiceError, KeyFileError
-from quizgen.marking.batch import marked
-from quizgen.paper import marking
-from quizgen.paper.form import read_answers
-from quizgen.paper.key import read_key
-from quizgen.paper.marking import in_quarters, mark_paper
+from quizgen.core.errors import InvalidChoiceError, KeyFileError
+from quizgen.grading.batch import marked
+from quizgen.paper import grading
+from quizgen.paper.answer_form import read_filled_form
+from quizgen.paper.answer_key import read_answer_key
+from quizgen.paper.grading import grade_paper, round_to_quarters
 
 CHAIN = {
     "given": {
@@ -83,7 +83,7 @@ KEY = {
 
 
 def marks(answers, **options):
-    result = mark_paper(KEY, answers, **options)
+    result = grade_paper(KEY, answers, **options)
     return {part.id: part.marks for part in result.parts}, result
 
 
@@ -91,7 +91,7 @@ def test_right_wrong_blank_and_text():
     found, result = marks({"1a": "2,5 mm", "1b": "499", "2a": "a grid", "2b": "A1 B3 C2"})
     assert found == {"1a": 3, "1b": 0, "2a": None, "2b": Fraction(3, 4)}  # a third of 2 is 0.67
     assert (result.marks, result.points, result.to_decide) == (Fraction(15, 4), 8, 1)
-    blank = mark_paper(KEY, {})
+    blank = grade_paper(KEY, {})
     assert {part.status for part in blank.parts} == {"blank"}
     assert (blank.marks, blank.asked_back) == (0, 0)
 
@@ -102,7 +102,7 @@ def test_the_students_own_value_is_carried_to_the_next_part():
     assert found["1b"] == 2
     assert [part.verdict.note for part in result.parts[:2]] == ["trap:no-f", "carried-forward"]
     assert result.parts[0].verdict.message == "You left out f."
-    bangla = mark_paper(KEY, {"1a": "50 mm"}, "bn")
+    bangla = grade_paper(KEY, {"1a": "50 mm"}, "bn")
     assert bangla.parts[0].verdict.message == "f বাদ।"
 
 
@@ -115,11 +115,11 @@ def test_an_unreadable_answer_is_asked_back_and_not_carried():
 
 def test_quarters_of_a_point():
     for exact, rounded in ((Fraction(1, 3), "1/4"), (Fraction(3, 8), "1/2"), (Fraction(2), "2")):
-        assert in_quarters(exact) == Fraction(rounded)
+        assert round_to_quarters(exact) == Fraction(rounded)
 
 
 def test_answers_to_unknown_parts_are_named():
-    assert mark_paper(KEY, {"9z": "1", "8": ""}).unknown == ("9z",)
+    assert grade_paper(KEY, {"9z": "1", "8": ""}).unknown == ("9z",)
 
 
 @pytest.fixture
@@ -189,10 +189,10 @@ def test_bad_files_are_one_located_line(files, key_text, form_text, message):
 
 def test_missing_and_binary_files(tmp_path):
     with pytest.raises(KeyFileError, match="No such file"):
-        read_key(tmp_path / "none.json")
+        read_answer_key(tmp_path / "none.json")
     (tmp_path / "a.json").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(KeyFileError, match="not UTF-8"):
-        read_answers(tmp_path / "a.json")
+        read_filled_form(tmp_path / "a.json")
 
 
 @pytest.mark.parametrize(
@@ -215,7 +215,7 @@ def test_missing_and_binary_files(tmp_path):
 )
 def test_a_wrong_spec_names_its_field(spec, message):
     with pytest.raises(KeyFileError) as caught:
-        mark_paper(
+        grade_paper(
             {
                 **KEY,
                 "questions": [
@@ -264,7 +264,7 @@ def test_batch_reads_no_further_than_it_has_written():
 
 
 def test_a_marked_paper_as_plain_values():
-    table = mark_paper(KEY, {"1a": "50 mm", "1b": "?", "2a": "a grid", "9z": "1"}).as_json()
+    table = grade_paper(KEY, {"1a": "50 mm", "1b": "?", "2a": "a grid", "9z": "1"}).as_json()
     assert {name: table[name] for name in table if name != "parts"} == {
         "code": "mock-1",
         "marks": 0.0,
@@ -288,7 +288,7 @@ def test_a_paper_is_read_with_the_students_decimal_sign(decimal, status):
     spec = {"kind": "number", "value": "123456", "exact": True}
     part = {"id": "1", "points": "1", "spec": spec}
     key = {"format": "quizgen-key/2", "questions": [{"number": "1", "parts": [part]}]}
-    assert mark_paper(key, {"1": "123.456"}, decimal=decimal).parts[0].status == status
+    assert grade_paper(key, {"1": "123.456"}, decimal=decimal).parts[0].status == status
 
 
 @pytest.mark.parametrize(
@@ -296,17 +296,17 @@ def test_a_paper_is_read_with_the_students_decimal_sign(decimal, status):
 )
 def test_an_unknown_language_or_sign_of_a_paper_is_named(options):
     with pytest.raises(
-        ChoiceError, match=next(iter({"lang": "language"}.get(n, n) for n in options))
+        InvalidChoiceError, match=next(iter({"lang": "language"}.get(n, n) for n in options))
     ):
-        mark_paper(KEY, {}, **options)
+        grade_paper(KEY, {}, **options)
 
 
 @pytest.mark.parametrize("settle", [False, True])
 def test_a_paper_settles_formulas_only_when_asked(monkeypatch, settle):
     seen = []
-    plain = marking.judge
-    monkeypatch.setattr(marking, "judge", lambda *a: seen.append(a[2].settle) or plain(*a))
-    mark_paper(KEY, {"1b": "500"}, **({"settle": True} if settle else {}))
+    plain = grading.judge_answer
+    monkeypatch.setattr(grading, "judge_answer", lambda *a: seen.append(a[2].settle) or plain(*a))
+    grade_paper(KEY, {"1b": "500"}, **({"settle": True} if settle else {}))
     assert set(seen) == {settle}
 
 
@@ -320,7 +320,7 @@ def test_a_wrong_chain_of_a_key_is_located():
     first = KEY["questions"][0]
     broken = {**first, "chain": {**CHAIN, "steps": [["h", "f*", "mm"]]}}
     with pytest.raises(KeyFileError, match=r"^key: question '1': chain: "):
-        mark_paper({**KEY, "questions": [broken]}, {"1a": "1 mm"})
+        grade_paper({**KEY, "questions": [broken]}, {"1a": "1 mm"})
 
 
 def test_an_own_value_without_a_unit_is_carried_in_that_of_the_chain():
@@ -328,4 +328,4 @@ def test_an_own_value_without_a_unit_is_carried_in_that_of_the_chain():
     first = KEY["questions"][0]
     bare = {"id": "1a", "points": "3", "spec": {"kind": "number", "value": "5/2", "of": ["h"]}}
     key = {**KEY, "questions": [{**first, "parts": [bare, first["parts"][1]]}]}
-    assert [part.marks for part in mark_paper(key, {"1a": "3.5", "1b": "700"}).parts] == [0, 2]
+    assert [part.marks for part in grade_paper(key, {"1a": "3.5", "1b": "700"}).parts] == [0, 2]

@@ -13,21 +13,26 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.bank.folder import builtin
-from quizgen.errors import BlueprintError, CodeError
+from quizgen.bank.bank import builtin_bank
+from quizgen.core.errors import BlueprintError, PaperCodeError
+from quizgen.paper.answer_form import write_blank_form
+from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.code import parse_code
-from quizgen.paper.form import form_bytes
-from quizgen.paper.key import key_bytes
-from quizgen.paper.paper import build, rebuild, reference_paper, single
+from quizgen.paper.paper import (
+    build_paper,
+    build_reference_paper,
+    rebuild_paper,
+    single_question_paper,
+)
 from quizgen.render import KINDS, RENDERERS, render_paper
 
 ROOT = Path(__file__).parents[2]
 SMALL = """
 import hashlib
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.key import key_bytes
+from quizgen.paper.answer_key import key_bytes
 from quizgen.paper.paper import build
 from quizgen.render import render_paper, KINDS, RENDERERS
 paper = build(builtin(), load_blueprint("trial"), 5, "both")
@@ -47,8 +52,8 @@ def fresh_process(seed: str) -> str:
 
 
 def test_same_code_same_bytes_in_every_format_across_processes(bank):
-    paper = build(bank, load_blueprint("trial"), 5, "both")
-    here = [paper.code, hashlib.sha256(key_bytes(paper)).hexdigest()]
+    paper = build_paper(bank, load_blueprint("trial"), 5, "both")
+    here = [paper.code, hashlib.sha256(write_answer_key(paper)).hexdigest()]
     here += [
         f"{output} {kind} {hashlib.sha256(render_paper(paper, kind, output)).hexdigest()}"
         for output in RENDERERS
@@ -59,23 +64,24 @@ def test_same_code_same_bytes_in_every_format_across_processes(bank):
 
 
 def test_a_code_rebuilds_its_paper(bank):
-    paper = build(bank, load_blueprint("mock"), 12, "bn", figures=False)
-    again = rebuild(bank, paper.code, figures=False)
-    assert key_bytes(again) == key_bytes(paper)
+    paper = build_paper(bank, load_blueprint("mock"), 12, "bn", figures=False)
+    again = rebuild_paper(bank, paper.code, figures=False)
+    assert write_answer_key(again) == write_answer_key(paper)
     code = parse_code(paper.code)
     assert (code.blueprint, code.seed, code.choice) == ("mock", "12", "bn")
 
 
 def test_a_code_of_other_templates_is_refused(bank):
-    with pytest.raises(CodeError, match="other templates"):
-        rebuild(bank, "trial-5-en-000000", figures=False)
-    with pytest.raises(CodeError, match="not a paper's code"):
-        rebuild(bank, "hello")
+    with pytest.raises(PaperCodeError, match="other templates"):
+        rebuild_paper(bank, "trial-5-en-000000", figures=False)
+    with pytest.raises(PaperCodeError, match="not a paper's code"):
+        rebuild_paper(bank, "hello")
 
 
 def test_languages_and_figures_change_no_number(bank):
     papers = [
-        build(bank, load_blueprint("mock"), 3, lang, figures=False) for lang in ("en", "bn", "both")
+        build_paper(bank, load_blueprint("mock"), 3, lang, figures=False)
+        for lang in ("en", "bn", "both")
     ]
     drawn = [[item.keys[0].draw.shown for item in paper.items] for paper in papers]
     assert drawn[0] == drawn[1] == drawn[2]
@@ -83,7 +89,7 @@ def test_languages_and_figures_change_no_number(bank):
 
 def test_a_mock_has_all_tiers_and_no_twins(bank):
     for seed in range(5):
-        paper = build(bank, load_blueprint("mock"), seed, figures=False)
+        paper = build_paper(bank, load_blueprint("mock"), seed, figures=False)
         tiers = [item.questions[0].tier for item in paper.items]
         assert (tiers[0], tiers[-1]) == ("A", "D")
         assert all(2 <= tiers.count(tier) <= 9 for tier in "ABCD")
@@ -93,7 +99,7 @@ def test_a_mock_has_all_tiers_and_no_twins(bank):
 
 def test_questions_alone_do_not_hold_the_answer(bank):
     """Every rendered value of a key's solution must come from the key, not from the question."""
-    paper = build(bank, load_blueprint("mock"), 8, figures=False)
+    paper = build_paper(bank, load_blueprint("mock"), 8, figures=False)
     for item in paper.items:
         question = item.questions[0]
         assert "Solution" not in repr(question)
@@ -101,7 +107,9 @@ def test_questions_alone_do_not_hold_the_answer(bank):
 
 
 def test_the_key_is_plain_json_with_exact_values(bank):
-    table = json.loads(key_bytes(build(bank, load_blueprint("trial"), 5, figures=False)))
+    table = json.loads(
+        write_answer_key(build_paper(bank, load_blueprint("trial"), 5, figures=False))
+    )
     assert table["format"] == "quizgen-key/2"
     for question in table["questions"]:
         for part in question["parts"]:
@@ -110,8 +118,8 @@ def test_the_key_is_plain_json_with_exact_values(bank):
 
 
 def test_the_blank_form_asks_every_part(bank):
-    paper = build(bank, load_blueprint("mock"), 5, "both", figures=False)
-    form = tomllib.loads(form_bytes(paper).decode())
+    paper = build_paper(bank, load_blueprint("mock"), 5, "both", figures=False)
+    form = tomllib.loads(write_blank_form(paper).decode())
     fields = [part.field.id for item in paper.items for part in item.questions[0].parts]
     assert list(form["answers"]) == fields
     assert set(form["answers"].values()) == {""}
@@ -120,7 +128,7 @@ def test_the_blank_form_asks_every_part(bank):
 def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     import shutil
 
-    from quizgen.bank.folder import Bank, builtin_root
+    from quizgen.bank.bank import Bank, builtin_root
 
     shutil.copytree(builtin_root() / "templates", tmp_path / "templates")
     source = bank.paths["point-to-image-plane"]
@@ -129,25 +137,25 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     blueprint = Blueprint(
         {"en": "x"}, (SlotRule(templates=("point-to-image-plane-fractions",), count=4),), name="x"
     )
-    small = build(bank, blueprint, 9, figures=False)
-    big = build(larger, blueprint, 9, figures=False)
+    small = build_paper(bank, blueprint, 9, figures=False)
+    big = build_paper(larger, blueprint, 9, figures=False)
     assert [i.keys[0].draw.shown for i in small.items] == [i.keys[0].draw.shown for i in big.items]
 
 
 @pytest.mark.parametrize("name", ["mock", "trial", "all", "code", "colour", "noise"])
 def test_no_question_gives_the_answer_of_another(bank, name):
     for seed in range(6):
-        paper = build(bank, load_blueprint(name), seed, figures=False)
+        paper = build_paper(bank, load_blueprint(name), seed, figures=False)
         chosen = {item.keys[0].template for item in paper.items}
         for one in chosen:
             assert not chosen & set(bank.rules(one).apart), (seed, one)
 
 
 def test_a_topic_and_a_time_choose_the_questions(bank):
-    paper = build(bank, load_blueprint("optics.45"), 1, figures=False)
+    paper = build_paper(bank, load_blueprint("optics.45"), 1, figures=False)
     assert 20 <= paper.minutes <= 45
     assert {item.questions[0].topic for item in paper.items} == {"optics"}
-    whole = build(bank, load_blueprint("all.90"), 1, figures=False)
+    whole = build_paper(bank, load_blueprint("all.90"), 1, figures=False)
     tiers = [item.questions[0].tier for item in whole.items]
     assert tiers == sorted(tiers)
     assert max(map(tiers.count, "ABCD")) - min(map(tiers.count, "ABCD")) <= 2
@@ -163,13 +171,13 @@ def test_the_number_of_possible_papers(bank):
         (SlotRule(templates=("point-to-image-plane", "point-to-image-plane-fractions")),),
         name="x",
     )
-    assert build(bank, one, 0, figures=False).variety == 3760
-    assert build(bank, two, 0, figures=False).variety == 3760 * 3759 // 2
-    assert build(bank, either, 0, figures=False).variety == 3760 + 33976
+    assert build_paper(bank, one, 0, figures=False).variety == 3760
+    assert build_paper(bank, two, 0, figures=False).variety == 3760 * 3759 // 2
+    assert build_paper(bank, either, 0, figures=False).variety == 3760 + 33976
 
 
 def test_the_trial_exam_is_the_chapters_ten_points(bank):
-    paper = build(bank, load_blueprint("trial"), 2, figures=False)
+    paper = build_paper(bank, load_blueprint("trial"), 2, figures=False)
     assert [item.keys[0].template for item in paper.items][1:] == [
         "mixing-kind-and-primaries",
         "stopping-down-or-opening-effects",
@@ -177,20 +185,20 @@ def test_the_trial_exam_is_the_chapters_ten_points(bank):
         "point-to-image-plane-fractions",
     ]
     assert paper.points == 10
-    key = json.loads(key_bytes(paper))
+    key = json.loads(write_answer_key(paper))
     assert sum(Fraction(p["points"]) for q in key["questions"] for p in q["parts"]) == 10
 
 
 def test_the_reference_paper_is_the_notes_own(bank):
-    paper = reference_paper(bank, load_blueprint("mock"), "en")
+    paper = build_reference_paper(bank, load_blueprint("mock"), "en")
     answers = {item.keys[0].template: item.keys[0].solution.parts for item in paper.items}
     assert answers["point-to-image-plane"][0].answer == "(4; 6)"
     assert answers["thin-lens-image-distance"][0].answer.startswith("200/3 mm")
     assert answers["point-to-pixel"][0].answer.startswith("(440; 160)")
-    assert rebuild(bank, paper.code).code == paper.code
+    assert rebuild_paper(bank, paper.code).code == paper.code
 
 
-@pytest.mark.parametrize("name", list(builtin().blueprints))
+@pytest.mark.parametrize("name", list(builtin_bank().blueprints))
 def test_shipped_blueprints_load(name):
     assert load_blueprint(name).name == name
 
@@ -223,10 +231,10 @@ def test_mistakes_in_a_blueprint_are_located(tmp_path, text, message):
 def test_a_slot_that_nothing_fits_is_named(bank):
     blueprint = Blueprint({"en": "x"}, (SlotRule(topic="cooking"),), name="x")
     with pytest.raises(BlueprintError, match="cooking"):
-        build(bank, blueprint, 0)
+        build_paper(bank, blueprint, 0)
 
 
 @pytest.mark.parametrize("name", ["thin-lens-image-distance", "uint8-sum"])
 def test_a_template_looked_at_alone_takes_the_minutes_that_it_says(bank, name):
     said = bank.template(name).minutes
-    assert single(bank.template(name), 1, "en", figures=False).minutes == said
+    assert single_question_paper(bank.template(name), 1, "en", figures=False).minutes == said

@@ -11,7 +11,7 @@ import pytest
 from road import Desk, Printed, all_templates, fields, typed
 from sweep import draws
 
-from quizgen.paper.key import key_bytes
+from quizgen.paper.answer_key import write_answer_key
 
 LANGS = ("en", "bn")
 NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e-?\d+)?")
@@ -63,7 +63,7 @@ def test_what_is_printed_is_marked_as_it_was_meant(desk, seed):
 def test_a_paper_in_one_language_has_the_key_of_all(desk, bank, seed):
     of_all = json.loads(desk.key.read_text())["questions"]
     for lang in LANGS:
-        alone = json.loads(key_bytes(all_templates(bank, seed, lang)))["questions"]
+        alone = json.loads(write_answer_key(all_templates(bank, seed, lang)))["questions"]
         assert [q["parts"] for q in alone] == [q["parts"] for q in of_all]
 
 

@@ -11,14 +11,14 @@ from functools import cache
 
 import pytest
 
-from quizgen.bank.folder import builtin
-from quizgen.marking.kinds import quantity
-from quizgen.marking.options import Options
-from quizgen.maths.units import shown
-from quizgen.paper.key import key_question
-from quizgen.paper.marking import Marker
-from quizgen.paper.paper import Item
-from quizgen.question.compose import compose
+from quizgen.bank.bank import builtin_bank
+from quizgen.grading.kinds import quantity
+from quizgen.grading.options import GradingOptions
+from quizgen.maths.units import format_unit
+from quizgen.paper.answer_key import make_key_question
+from quizgen.paper.grading import QuestionGrader
+from quizgen.paper.paper import PaperItem
+from quizgen.question.compose import compose_question
 
 FULL = {
     ("stored-values-and-bytes", "b"): "6220800|6220800 B|6220800 bytes|6.2208 MB|6,220,800 Byte|6.2208 megabytes"
@@ -101,23 +101,23 @@ SHAPES = ("number", "quantity", "point", "table")
 
 MEASURED = sorted(
     name
-    for name in builtin().paths
-    if any(part.answer["kind"] in SHAPES for part in builtin().rules(name).part)
+    for name in builtin_bank().template_paths
+    if any(part.answer["kind"] in SHAPES for part in builtin_bank().rules(name).part)
 )
 
 
 @cache
 def keyed(name: str, lang: str = "en"):
-    template = builtin().template(name)
+    template = builtin_bank().template(name)
     seed = "reference" if template.rules.reference else 1
-    question, key = compose(template, seed, lang, figures=False)
-    return question, key, key_question(Item("1", (question,), (key,)))
+    question, key = compose_question(template, seed, lang, figures=False)
+    return question, key, make_key_question(PaperItem("1", (question,), (key,)))
 
 
 def marked(name: str, part: str, typed: str, lang: str = "en"):
     _, _, table_of_key = keyed(name, lang)
     (one,) = [p for p in table_of_key.parts if p.id == f"1{part}"]
-    return Marker(table_of_key, Options(lang)).mark(one, typed)
+    return QuestionGrader(table_of_key, GradingOptions(lang)).grade_part(one, typed)
 
 
 @pytest.mark.parametrize("lang", ["en", "bn"])
@@ -166,7 +166,10 @@ def test_where_the_question_names_the_unit_a_bare_number_has_full_marks(name, la
             sentence = _asks(question, part.label, lang)
             named = bool(known and re.search(known, sentence))
             named |= bool(
-                re.search(rf"\bin {re.escape(shown(spec.unit))}\b|{shown(spec.unit)}-এ", sentence)
+                re.search(
+                    rf"\bin {re.escape(format_unit(spec.unit))}\b|{format_unit(spec.unit)}-এ",
+                    sentence,
+                )
             )
             assert named == spec.bare, (part.label, sentence)
 
@@ -189,14 +192,14 @@ def _answers(printed: str) -> list[str]:
 @pytest.mark.parametrize("name", MEASURED)
 def test_every_printed_number_with_its_unit_without_and_in_words(name, lang):
     _, key, question_key = keyed(name, lang)
-    marker = Marker(question_key, Options(lang))
+    marker = QuestionGrader(question_key, GradingOptions(lang))
     parts = zip(question_key.parts, key.specs, key.solution.parts, strict=True)
     for part, spec, solved in parts:
         if spec.kind not in SHAPES:
             continue
         *with_unit, bare = _answers(solved.answer)
         for typed in with_unit:
-            assert marker.mark(part, typed).verdict.verdict == "correct", (part.id, typed)
-        lost = part.worth() - marker.mark(part, bare).marks
+            assert marker.grade_part(part, typed).verdict.verdict == "correct", (part.id, typed)
+        lost = part.worth() - marker.grade_part(part, bare).marks
         most = Fraction(1, 2) if isinstance(spec, quantity.Spec) and not spec.bare else 0
         assert lost <= most, (part.id, bare)

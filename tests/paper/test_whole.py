@@ -9,13 +9,13 @@ from itertools import combinations, product
 import pytest
 from shelf import Shelf
 
-from quizgen.bank.rules import minutes_of
-from quizgen.bank.traps import answer_names
-from quizgen.errors import BlueprintError
+from quizgen.bank.misconceptions import answer_names
+from quizgen.bank.rules import suggested_minutes
+from quizgen.core.errors import BlueprintError
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
-from quizgen.paper.choose import choose
-from quizgen.paper.paper import build
-from quizgen.paper.whole import working_time
+from quizgen.paper.constraints import paper_minutes
+from quizgen.paper.paper import build_paper
+from quizgen.paper.selection import select_templates
 
 
 def plan(*slots, **demands):
@@ -24,7 +24,7 @@ def plan(*slots, **demands):
 
 @pytest.mark.parametrize(("minutes", "whole"), [(100, 110), (10, 11), (109, 120), (3, 4), (0, 0)])
 def test_a_paper_takes_a_tenth_more_than_its_questions(minutes, whole):
-    assert working_time(minutes) == whole
+    assert paper_minutes(minutes) == whole
 
 
 def test_the_total_is_met_by_every_seed_and_every_way_comes_up():
@@ -34,7 +34,7 @@ def test_the_total_is_met_by_every_seed_and_every_way_comes_up():
     worth = {name: shelf.rules(name).part[0].points for slot in slots for name in slot}
     fitting = {way for way in product(*slots) if sum(worth[name] for name in way) == 6.5}
     assert len(fitting) == 6
-    found = {tuple(choose(shelf, plan(*slots, total=6.5), seed)) for seed in range(80)}
+    found = {tuple(select_templates(shelf, plan(*slots, total=6.5), seed)) for seed in range(80)}
     assert found == fitting
 
 
@@ -46,16 +46,16 @@ def test_minutes_figures_kinds_and_photographs_are_met_together():
     )  # fmt: skip
     slots = [("a", "b"), ("c", "d"), ("e", "f")]
     asked = {"minutes": (30, 40), "figures": 2}
-    found = {tuple(choose(shelf, plan(*slots, **asked), seed)) for seed in range(40)}
+    found = {tuple(select_templates(shelf, plan(*slots, **asked), seed)) for seed in range(40)}
     assert found == {("b", "c", "e"), ("b", "d", "e")}, "22 + 11 + 5.5; with f it takes 55 or more"
-    assert choose(shelf, plan(*slots, **asked, figure_kinds=2), 0) == ["b", "c", "e"]
-    assert choose(shelf, plan(*slots, **asked, photographs=2), 0) == ["b", "d", "e"]
+    assert select_templates(shelf, plan(*slots, **asked, figure_kinds=2), 0) == ["b", "c", "e"]
+    assert select_templates(shelf, plan(*slots, **asked, photographs=2), 0) == ["b", "d", "e"]
 
 
 def test_neighbours_that_tell_an_answer_stay_apart_and_none_comes_twice():
     shelf = Shelf(a={"apart": ("c",)}, b={}, c={}, d={})
     slots = [("a", "b"), ("c", "d"), ("a", "b")]
-    found = {tuple(choose(shelf, plan(*slots, total=15), seed)) for seed in range(40)}
+    found = {tuple(select_templates(shelf, plan(*slots, total=15), seed)) for seed in range(40)}
     assert found == {("a", "d", "b"), ("b", "d", "a")}
 
 
@@ -64,13 +64,15 @@ def test_the_points_of_a_slot_carry_its_time_along():
     shelf = Shelf(long={"points": 8, "minutes": 8}, short={"points": 4, "minutes": 16})
     slot = SlotRule(templates=("long", "short"), points=2)
     asked = Blueprint({"en": "x"}, (slot, SlotRule(templates=("long",))), minutes=(11, 11))
-    assert choose(shelf, asked, 1) == ["long", "long"]
+    assert select_templates(shelf, asked, 1) == ["long", "long"]
 
 
 def test_who_is_past_the_syllabus_must_be_listed():
     shelf = Shelf(a={"beyond": True}, b={})
-    assert {choose(shelf, Blueprint({"en": "x"}, (SlotRule(),)), s)[0] for s in range(20)} == {"b"}
-    assert {choose(shelf, plan(("a", "b")), s)[0] for s in range(20)} == {"a", "b"}
+    assert {
+        select_templates(shelf, Blueprint({"en": "x"}, (SlotRule(),)), s)[0] for s in range(20)
+    } == {"b"}
+    assert {select_templates(shelf, plan(("a", "b")), s)[0] for s in range(20)} == {"a", "b"}
 
 
 @pytest.mark.parametrize(
@@ -88,7 +90,7 @@ def test_who_is_past_the_syllabus_must_be_listed():
 def test_a_demand_that_cannot_be_met_is_told(demands, said):
     shelf = Shelf(a={"points": 1, "figure": "pinhole"}, b={"points": 5}, c={"points": 2})
     with pytest.raises(BlueprintError, match=said):
-        choose(shelf, plan(("a", "b"), ("c",), **demands), 1)
+        select_templates(shelf, plan(("a", "b"), ("c",), **demands), 1)
 
 
 @pytest.mark.parametrize(
@@ -119,10 +121,10 @@ def test_every_mock_is_balanced(bank):
     """A hundred points, two hours, all topics, six figures of four kinds, two photographs."""
     mock, used = load_blueprint("mock"), Counter()
     for seed in range(300):
-        names = choose(bank, mock, seed)
+        names = select_templates(bank, mock, seed)
         rules, points, shown = facts(bank, names)
         assert points == 100
-        assert 110 <= working_time(sum(map(minutes_of, rules))) <= 120
+        assert 110 <= paper_minutes(sum(map(suggested_minutes, rules))) <= 120
         assert {one.topic for one in rules} == set(bank.topics)
         assert max(Counter(one.topic for one in rules).values()) <= 3
         assert len(shown) >= 6
@@ -136,7 +138,7 @@ def test_every_mock_is_balanced(bank):
 
 def test_a_trial_is_ten_points_in_eleven_minutes(bank):
     for seed in range(20):
-        paper = build(bank, load_blueprint("trial"), seed, figures=False)
+        paper = build_paper(bank, load_blueprint("trial"), seed, figures=False)
         assert paper.points == 10
         assert 10 <= paper.minutes <= 12
 
@@ -151,6 +153,6 @@ def asked(draw):
 def test_no_two_questions_of_a_mock_have_the_same_answer_by_accident(bank):
     """A redraw helps: without it, 122 of 300 mocks ask some number twice."""
     for seed in range(40):
-        paper = build(bank, load_blueprint("mock"), seed, figures=False)
+        paper = build_paper(bank, load_blueprint("mock"), seed, figures=False)
         numbers = [asked(item.keys[0].draw) for item in paper.items]
         assert not any(one & other for one, other in combinations(numbers, 2)), seed

@@ -23,17 +23,19 @@ def begun() -> None:
 def made(seed: int) -> str:
     """Digest of a paper, its pages, its key and the marks of its own printed answers."""
     import quizgen
-    from quizgen.marking.mark import mark, show
-    from quizgen.paper.key import key_bytes
+    from quizgen.grading.mark import mark, show_key
+    from quizgen.paper.answer_key import write_answer_key
 
-    bank = quizgen.builtin()
-    paper = quizgen.build(bank, quizgen.load_blueprint("trial", bank), seed)
+    bank = quizgen.builtin_bank()
+    paper = quizgen.build_paper(bank, quizgen.load_blueprint("trial", bank), seed)
     pages = [
         quizgen.render_paper(paper, kind, to) for to in FORMATS for kind in ("exam", "solutions")
     ]
     specs = [spec for item in paper.items for spec in item.keys[0].specs]
-    marks = [repr(mark(spec, typed)) for spec in specs for typed in (show(spec, "en"), "1/3")]
-    return hashlib.sha256(b"".join([key_bytes(paper), *pages, *map(str.encode, marks)])).hexdigest()
+    marks = [repr(mark(spec, typed)) for spec in specs for typed in (show_key(spec, "en"), "1/3")]
+    return hashlib.sha256(
+        b"".join([write_answer_key(paper), *pages, *map(str.encode, marks)])
+    ).hexdigest()
 
 
 sys.setswitchinterval(INTERVAL)

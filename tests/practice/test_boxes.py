@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.practice.boxes import filled, joined, located
+from quizgen.practice.input_fields import is_complete, join_fields, locate_in_fields
 from quizgen.question.contract import LINE, Box, Control
 
 TWO = Control("line", boxes=(Box(""), Box("")))
@@ -28,7 +28,7 @@ TWO = Control("line", boxes=(Box(""), Box("")))
     ],
 )
 def test_filled(control, values, marks, right):
-    assert filled(control, values, marks) is right
+    assert is_complete(control, values, marks) is right
 
 
 NAMED = Control("line", boxes=(Box("V"), Box("S"), Box("H")), named=True)
@@ -46,12 +46,12 @@ NAMED = Control("line", boxes=(Box("V"), Box("S"), Box("H")), named=True)
     ],
 )
 def test_a_column_of_the_joined_line_is_found_in_its_field(control, values, marked):
-    line = joined(control, values)
-    assert located(control, values, line.index("?") + 1) == marked
+    line = join_fields(control, values)
+    assert locate_in_fields(control, values, line.index("?") + 1) == marked
 
 
 def test_what_is_before_or_behind_a_value_belongs_to_it():
-    line = joined(NAMED, ["1", "2", "3"])
+    line = join_fields(NAMED, ["1", "2", "3"])
     assert line == "V = 1; S = 2; H = 3"
-    assert located(NAMED, ["1", "2", "3"], line.index("S") + 1) == (1, 1)
-    assert located(NAMED, ["1", "2", "3"], len(line) + 1) == (2, 2)
+    assert locate_in_fields(NAMED, ["1", "2", "3"], line.index("S") + 1) == (1, 1)
+    assert locate_in_fields(NAMED, ["1", "2", "3"], len(line) + 1) == (2, 2)

@@ -8,16 +8,25 @@ import fsrs
 import pytest
 
 from quizgen.practice.agenda import Agenda
-from quizgen.practice.schedule import DAY, Asked, Grade, after, days_left, due, graded, reviewed
-from quizgen.practice.state import Outcome
+from quizgen.practice.scheduler import (
+    DAY,
+    ReviewEvent,
+    ReviewRating,
+    apply_review,
+    days_left,
+    due_time,
+    rate_outcomes,
+    review_card,
+)
+from quizgen.practice.session_state import PartOutcome
 
 NOON = datetime(2026, 11, 22, 12, tzinfo=UTC)
 NOW = NOON.timestamp()
 NAME = ("template", "A3")
-RIGHT = Outcome("projection", right=True, first=True)
-LATER = Outcome("projection", right=True, first=False)
-WRONG = Outcome("projection", right=False, first=False)
-SKIPPED = Outcome("projection", right=False, first=False, skipped=True)
+RIGHT = PartOutcome("projection", right=True, first=True)
+LATER = PartOutcome("projection", right=True, first=False)
+WRONG = PartOutcome("projection", right=False, first=False)
+SKIPPED = PartOutcome("projection", right=False, first=False, skipped=True)
 
 
 def theirs(reviews, most=36500):
@@ -34,7 +43,7 @@ def test_a_card_goes_the_way_of_fsrs(grades):
     reviews = [(3 * place, int(grade)) for place, grade in enumerate(grades)]
     card = None
     for days, grade in reviews:
-        card = reviewed(card, NAME, Grade(grade), NOW + days * DAY)
+        card = review_card(card, NAME, ReviewRating(grade), NOW + days * DAY)
     expected = theirs([(days, fsrs.Rating(grade)) for days, grade in reviews])
     assert (card.stability, card.difficulty) == (expected.stability, expected.difficulty)
     assert card.due == expected.due.timestamp()
@@ -43,30 +52,30 @@ def test_a_card_goes_the_way_of_fsrs(grades):
 
 def test_the_first_times_by_hand():
     """The weights of FSRS-6: 2.3065 days after a first right answer, 0.212 after a wrong one."""
-    good = reviewed(None, NAME, Grade.GOOD, NOW)
-    wrong = reviewed(None, NAME, Grade.AGAIN, NOW)
+    good = review_card(None, NAME, ReviewRating.GOOD, NOW)
+    wrong = review_card(None, NAME, ReviewRating.AGAIN, NOW)
     assert (good.stability, good.due - NOW) == (2.3065, 600)
     assert (wrong.stability, wrong.due - NOW) == (0.212, 60)
-    second = reviewed(good, NAME, Grade.GOOD, NOW + 600)
+    second = review_card(good, NAME, ReviewRating.GOOD, NOW + 600)
     assert second.due - second.last == 2 * DAY
 
 
 def test_an_exam_caps_the_intervals():
     card = None
     for day in (0, 1, 4, 12):
-        card = reviewed(card, NAME, Grade.GOOD, NOW + day * DAY)
+        card = review_card(card, NAME, ReviewRating.GOOD, NOW + day * DAY)
     now = NOW + 40 * DAY
-    assert reviewed(card, NAME, Grade.GOOD, now).due > now + 30 * DAY
-    assert reviewed(card, NAME, Grade.GOOD, now, 9).due == now + 9 * DAY
+    assert review_card(card, NAME, ReviewRating.GOOD, now).due > now + 30 * DAY
+    assert review_card(card, NAME, ReviewRating.GOOD, now, 9).due == now + 9 * DAY
 
 
 def test_a_date_that_is_set_later_brings_cards_forward():
     card = None
     for day in (0, 1, 4, 12):
-        card = reviewed(card, NAME, Grade.GOOD, NOW + day * DAY)
-    assert due(card, NOW + 13 * DAY, None) == card.due > NOW + 20 * DAY
-    assert due(card, NOW + 13 * DAY, 3) == NOW + 15 * DAY
-    assert due(card, NOW + 12.5 * DAY, 1) == card.last + DAY
+        card = review_card(card, NAME, ReviewRating.GOOD, NOW + day * DAY)
+    assert due_time(card, NOW + 13 * DAY, None) == card.due > NOW + 20 * DAY
+    assert due_time(card, NOW + 13 * DAY, 3) == NOW + 15 * DAY
+    assert due_time(card, NOW + 12.5 * DAY, 1) == card.last + DAY
 
 
 def test_days_left():
@@ -80,33 +89,33 @@ def test_days_left():
 @pytest.mark.parametrize(
     ("outcomes", "grade"),
     [
-        ([RIGHT, RIGHT], Grade.GOOD), ([RIGHT, LATER], Grade.HARD), ([RIGHT, WRONG], Grade.AGAIN),
-        ([RIGHT, SKIPPED], Grade.GOOD), ([SKIPPED], None), ([], None),
+        ([RIGHT, RIGHT], ReviewRating.GOOD), ([RIGHT, LATER], ReviewRating.HARD), ([RIGHT, WRONG], ReviewRating.AGAIN),
+        ([RIGHT, SKIPPED], ReviewRating.GOOD), ([SKIPPED], None), ([], None),
     ],
 )  # fmt: skip
 def test_the_grade_of_a_question(outcomes, grade):
-    assert graded(outcomes) is grade
+    assert rate_outcomes(outcomes) is grade
 
 
 def told(cards, asked, now):
-    for card in list(after(cards, asked, now)):
+    for card in list(apply_review(cards, asked, now)):
         cards[card.kind, card.name] = card
 
 
 def test_a_mistake_has_a_card_of_its_own():
     cards = {}
-    told(cards, Asked("A3", Grade.AGAIN, ("trap:swapped", "brackets", "")), NOW)
+    told(cards, ReviewEvent("A3", ReviewRating.AGAIN, ("trap:swapped", "brackets", "")), NOW)
     assert set(cards) == {("template", "A3"), ("mistake", "A3/trap:swapped")}
     mistake = cards["mistake", "A3/trap:swapped"]
     assert (mistake.template, mistake.note) == ("A3", "trap:swapped")
     assert mistake.due == NOW + 60
-    told(cards, Asked("B1", Grade.GOOD), NOW + DAY)
+    told(cards, ReviewEvent("B1", ReviewRating.GOOD), NOW + DAY)
     assert cards["mistake", "A3/trap:swapped"] is mistake
-    told(cards, Asked("A3", Grade.AGAIN), NOW + DAY)
+    told(cards, ReviewEvent("A3", ReviewRating.AGAIN), NOW + DAY)
     assert cards["mistake", "A3/trap:swapped"] is mistake, (
         "a question that went wrong proves nothing"
     )
-    told(cards, Asked("A3", Grade.GOOD), NOW + 2 * DAY)
+    told(cards, ReviewEvent("A3", ReviewRating.GOOD), NOW + 2 * DAY)
     assert cards["mistake", "A3/trap:swapped"].last == NOW + 2 * DAY
 
 
@@ -120,44 +129,44 @@ def agenda(bank, cards, now=NOW, exam=None):
 
 
 def card(bank, name, grade, now):
-    return {("template", bank.origin(name)): reviewed(
+    return {("template", bank.origin(name)): review_card(
         None, ("template", bank.origin(name)), grade, now)}  # fmt: skip
 
 
 def test_what_is_due_comes_first_the_longest_due_before(bank, names):
-    early = card(bank, names[3], Grade.AGAIN, NOW - 2 * DAY)
-    late = card(bank, names[5], Grade.AGAIN, NOW - DAY)
+    early = card(bank, names[3], ReviewRating.AGAIN, NOW - 2 * DAY)
+    late = card(bank, names[5], ReviewRating.AGAIN, NOW - DAY)
     todo = agenda(bank, late | early)
     assert todo.ready(names) == [names[3], names[5]]
-    assert todo.next(names, [], {}) == names[3]
-    assert todo.next(names, [], {}, latest=names[3]) == names[5], "not twice in a row"
+    assert todo.choose_next(names, [], {}) == names[3]
+    assert todo.choose_next(names, [], {}, latest=names[3]) == names[5], "not twice in a row"
 
 
 def test_a_mistake_that_is_due_brings_its_template(bank, names):
     origin = bank.origin(names[4])
     name = ("mistake", f"{origin}/trap:any")
-    cards = {name: reviewed(None, name, Grade.AGAIN, NOW - DAY)}
-    assert agenda(bank, cards).next(names, [], {}) == names[4]
+    cards = {name: review_card(None, name, ReviewRating.AGAIN, NOW - DAY)}
+    assert agenda(bank, cards).choose_next(names, [], {}) == names[4]
 
 
 def test_then_weak_topics_then_what_was_never_asked(bank, names):
-    noise = Outcome("noise", right=False, first=False)
+    noise = PartOutcome("noise", right=False, first=False)
     todo = agenda(bank, {})
-    assert bank.rules(todo.next(names, [noise], {})).topic == "noise"
+    assert bank.rules(todo.choose_next(names, [noise], {})).topic == "noise"
     begun = {name: 1 for name in names if name != names[2]}
-    assert todo.next(names, [RIGHT], begun) == names[2]
+    assert todo.choose_next(names, [RIGHT], begun) == names[2]
 
 
 def test_in_the_end_what_is_due_soonest(bank, names):
     cards = {}
     for place, name in enumerate(names):
-        cards |= card(bank, name, Grade.GOOD, NOW - 60 + (place != 6))
-    assert agenda(bank, cards).next(names, [], {}) == names[6]
+        cards |= card(bank, name, ReviewRating.GOOD, NOW - 60 + (place != 6))
+    assert agenda(bank, cards).choose_next(names, [], {}) == names[6]
 
 
 def test_new_templates_of_a_day(bank, names):
     assert agenda(bank, {}).fresh(names) == 5
-    begun = card(bank, names[0], Grade.GOOD, NOW - 60)
+    begun = card(bank, names[0], ReviewRating.GOOD, NOW - 60)
     assert agenda(bank, begun).fresh(names) == 4
     left = -(-len(names) // 4)
     assert agenda(bank, {}, exam=date(2026, 11, 26)).fresh(names) == left
@@ -165,7 +174,9 @@ def test_new_templates_of_a_day(bank, names):
 
 
 def test_how_far_a_topic_is_known(bank, names):
-    cards = card(bank, names[0], Grade.GOOD, NOW - 5) | card(bank, names[1], Grade.AGAIN, NOW - 90)
+    cards = card(bank, names[0], ReviewRating.GOOD, NOW - 5) | card(
+        bank, names[1], ReviewRating.AGAIN, NOW - 90
+    )
     standing = agenda(bank, cards).standing(names)
     assert (standing.count, standing.seen) == (len(names), 2)
     assert (standing.last, standing.stability) == (NOW - 5, 0.212)

@@ -9,29 +9,29 @@ from fractions import Fraction
 import msgspec
 import pytest
 
-from quizgen.bank.folder import builtin
-from quizgen.errors import ChoiceError
-from quizgen.marking.mark import show
-from quizgen.practice.choosing import fitting, nth, seed_of
-from quizgen.practice.results import TopicResult, by_topic, to_practise
+from quizgen.bank.bank import builtin_bank
+from quizgen.core.errors import InvalidChoiceError
+from quizgen.grading.mark import show_key
+from quizgen.practice.part_attempt import TRIES, NextStep
+from quizgen.practice.selection import matching_templates, question_seed, template_at
 from quizgen.practice.session import Session
-from quizgen.practice.shelf import Shelf
-from quizgen.practice.state import Outcome, State, Wish, new
-from quizgen.practice.task import TRIES, Next
-from quizgen.question.compose import compose
-from quizgen.question.sheet import cited
-from quizgen.render.text import inline
+from quizgen.practice.session_state import PartOutcome, PracticeRequest, SessionState, new_session
+from quizgen.practice.session_store import SessionStore
+from quizgen.practice.topic_results import TopicResult, summarise_by_topic, weak_topics
+from quizgen.question.compose import compose_question
+from quizgen.question.formula_sheet import cite_formula
+from quizgen.render.text import inlines_to_plain_text
 
-WISH = Wish(count=2, topic="projection", tier="A")
+WISH = PracticeRequest(count=2, topic="projection", tier="A")
 
 
 def key_of(turn, state):
-    template = builtin().template(turn.question.template)
-    return compose(template, seed_of(state.seed, turn.number), state.wish.lang)[1]
+    template = builtin_bank().template(turn.question.template)
+    return compose_question(template, question_seed(state.seed, turn.number), state.wish.lang)[1]
 
 
 def session(wish=WISH, seed="s"):
-    return Session(builtin(), new(msgspec.structs.replace(wish, seed=seed)))
+    return Session(builtin_bank(), new_session(msgspec.structs.replace(wish, seed=seed)))
 
 
 def kind_of(task):
@@ -46,7 +46,7 @@ def wrong(spec):
 
 def numeric_task():
     """The first task that a number or a point answers, and its spec."""
-    held = session(Wish(count=50, topic="projection", tier="A"))
+    held = session(PracticeRequest(count=50, topic="projection", tier="A"))
     while not held.finished:
         turn = held.turn()
         for task, spec in zip(turn.tasks, key_of(turn, held.state).specs, strict=True):
@@ -58,15 +58,15 @@ def numeric_task():
 
 def test_a_right_answer_ends_the_task_at_once():
     task, spec = numeric_task()
-    feedback = task.answer(show(spec))
-    assert (feedback.then, feedback.left) == (Next.RIGHT, TRIES - 1)
-    assert task.outcome == Outcome("projection", right=True, first=True)
+    feedback = task.answer(show_key(spec))
+    assert (feedback.then, feedback.left) == (NextStep.RIGHT, TRIES - 1)
+    assert task.outcome == PartOutcome("projection", right=True, first=True)
 
 
 def test_what_cannot_be_read_costs_no_try():
     task, _ = numeric_task()
     feedback = task.answer("???")
-    assert (feedback.then, feedback.left, task.outcome) == (Next.ASK_BACK, TRIES, None)
+    assert (feedback.then, feedback.left, task.outcome) == (NextStep.ASK_BACK, TRIES, None)
     assert feedback.verdict.message
 
 
@@ -74,9 +74,9 @@ def test_three_wrong_answers_end_the_task():
     task, spec = numeric_task()
     found = [task.answer(wrong(spec)) for _ in range(3)]
     assert [(f.then, f.left) for f in found] == [
-        (Next.AGAIN, 2), (Next.AGAIN, 1), (Next.OUT_OF_TRIES, 0),
+        (NextStep.AGAIN, 2), (NextStep.AGAIN, 1), (NextStep.OUT_OF_TRIES, 0),
     ]  # fmt: skip
-    assert task.outcome == Outcome("projection", right=False, first=False)
+    assert task.outcome == PartOutcome("projection", right=False, first=False)
 
 
 @pytest.mark.parametrize("help_with", ["another try", "a hint"])
@@ -86,8 +86,8 @@ def test_right_after_help_is_not_right_at_once(help_with):
         assert task.hint().why == task.solved.lines[0].why
     else:
         task.answer(wrong(spec))
-    task.answer(show(spec))
-    assert task.outcome == Outcome("projection", right=True, first=False)
+    task.answer(show_key(spec))
+    assert task.outcome == PartOutcome("projection", right=True, first=False)
 
 
 def test_hints_climb_each_step_of_the_solution_in_turn_and_then_there_are_none():
@@ -103,9 +103,9 @@ def test_hints_climb_each_step_of_the_solution_in_turn_and_then_there_are_none()
 
 def test_what_the_rungs_of_a_thin_lens_say():
     """By hand, for f = 60 mm and z = 150 mm: 1/60 - 1/150 = 0.01, of which the inverse is 100."""
-    task = lens(new(Wish(topic="optics", seed="h"))).turn().tasks[0]
+    task = lens(new_session(PracticeRequest(topic="optics", seed="h"))).turn().tasks[0]
     hints = [task.hint() for _ in range(8)]
-    assert [inline(hint.shown).replace("\u00a0", " ") for hint in hints] == [
+    assert [inlines_to_plain_text(hint.shown).replace("\u00a0", " ") for hint in hints] == [
         "the reciprocal of the image distance (q)",
         "q = 1/f − 1/z",
         "q = 1/(60 mm) − 1/(150 mm)",
@@ -116,7 +116,7 @@ def test_what_the_rungs_of_a_thin_lens_say():
         "z′ = 100 mm",
     ]
     assert [hint.formula for hint in hints[:4]] == ["", "F42", "", ""]
-    sheet = inline(cited(builtin(), "F42", "en"))
+    sheet = inlines_to_plain_text(cite_formula(builtin_bank(), "F42", "en"))
     assert sheet.startswith("F42, Thin lens")
     assert "1/f = 1/z + 1/z′" in sheet
 
@@ -124,23 +124,23 @@ def test_what_the_rungs_of_a_thin_lens_say():
 def test_giving_up_is_not_right():
     task, _ = numeric_task()
     task.give_up()
-    assert task.outcome == Outcome("projection", right=False, first=False)
+    assert task.outcome == PartOutcome("projection", right=False, first=False)
 
 
 @pytest.mark.parametrize("right", [True, False])
 def test_the_learner_judges_a_free_text(right):
-    wish = Wish(count=200)
+    wish = PracticeRequest(count=200)
     held = session(wish)
     texts = (
         name for name in held.templates
-        if any(part.answer["kind"] == "text" for part in builtin().rules(name).part)
+        if any(part.answer["kind"] == "text" for part in builtin_bank().rules(name).part)
     )  # fmt: skip
     held.templates = (next(texts),)
     tasks = held.turn().tasks
     task = next(t for t in tasks if kind_of(t) == "text")
-    assert task.answer("something written").then is Next.SELF_MARK
+    assert task.answer("something written").then is NextStep.SELF_MARK
     assert task.outcome is None
-    task.mark_yourself(right=right)
+    task.self_mark(right=right)
     assert (task.outcome.right, task.outcome.first) == (right, right)
 
 
@@ -150,18 +150,20 @@ def test_a_question_goes_on_where_it_was_left():
     assert len(turn.tasks) > 1
     turn.tasks[0].give_up()
     turn.tasks[1].hint()
-    again = Session(builtin(), msgspec.json.decode(msgspec.json.encode(held.state), type=State))
-    later = again.turn()
+    again = Session(
+        builtin_bank(), msgspec.json.decode(msgspec.json.encode(held.state), type=SessionState)
+    )
+    later = again.current_question()
     assert later.question == turn.question
     assert [task.outcome for task in later.tasks] == [turn.tasks[0].outcome] + [None] * (
         len(turn.tasks) - 1
     )
-    assert later.tasks[1].hint() == turn.tasks[1].hint()
+    assert later.tasks[1].next_hint() == turn.tasks[1].hint()
 
 
 def lens(state=None):
     """A question about a thin lens: image distance z', then the magnification that follows."""
-    held = Session(builtin(), state or new(Wish(topic="optics", seed="s")))
+    held = Session(builtin_bank(), state or new_session(PracticeRequest(topic="optics", seed="s")))
     held.templates = ("thin-lens-image-distance",)
     return held
 
@@ -169,8 +171,8 @@ def lens(state=None):
 def test_tries_survive_a_break():
     held = lens()
     for _ in range(TRIES - 1):
-        assert held.turn().tasks[0].answer("987654 mm").then is Next.AGAIN
-    assert lens(held.state).turn().tasks[0].answer("987654 mm").then is Next.OUT_OF_TRIES
+        assert held.turn().tasks[0].answer("987654 mm").then is NextStep.AGAIN
+    assert lens(held.state).turn().tasks[0].answer("987654 mm").then is NextStep.OUT_OF_TRIES
 
 
 def test_a_wrong_value_is_carried_forward_over_a_break():
@@ -195,78 +197,78 @@ def test_a_skipped_part_is_neither_right_nor_wrong():
     held = session()
     task = held.turn().tasks[0]
     task.skip()
-    assert task.outcome == Outcome("projection", right=False, first=False, skipped=True)
-    assert by_topic([task.outcome]) == (TopicResult("projection", 0, 0, 0, 1),)
+    assert task.outcome == PartOutcome("projection", right=False, first=False, skipped=True)
+    assert summarise_by_topic([task.outcome]) == (TopicResult("projection", 0, 0, 0, 1),)
 
 
 def test_a_kept_session_goes_on_where_it_stopped(tmp_path):
-    shelf, held = Shelf(tmp_path / "deep"), session()
+    shelf, held = SessionStore(tmp_path / "deep"), session()
     turn = held.turn()
     for task in turn.tasks:
         task.give_up()
     assert turn.finished
     held.finish(turn)
-    shelf.keep(held.state)
-    state = shelf.kept(held.state.wish)
+    shelf.save(held.state)
+    state = shelf.load(held.state.wish)
     assert state == held.state
     assert [p.name for p in shelf.folder.iterdir()] == [shelf.path(state.wish).name]
-    later = Session(builtin(), state).turn()
+    later = Session(builtin_bank(), state).current_question()
     assert later.number == 2
     assert later.question == held.turn().question
 
 
 WISHES = [
-    Wish(), Wish(lang="bn"), Wish(count=3), Wish(topic="noise"), Wish(tier="B"), Wish(bank="x"),
-    Wish(seed="a"), Wish(topic="noise", tier="B"),
+    PracticeRequest(), PracticeRequest(lang="bn"), PracticeRequest(count=3), PracticeRequest(topic="noise"), PracticeRequest(tier="B"), PracticeRequest(bank="x"),
+    PracticeRequest(seed="a"), PracticeRequest(topic="noise", tier="B"),
 ]  # fmt: skip
 
 
 def test_every_wish_has_a_session_of_its_own(tmp_path):
-    shelf = Shelf(tmp_path)
-    states = [new(wish) for wish in WISHES]
+    shelf = SessionStore(tmp_path)
+    states = [new_session(wish) for wish in WISHES]
     for number, state in enumerate(states):
         state.done = number
-        shelf.keep(state)
-    assert [shelf.kept(wish) for wish in WISHES] == states
-    shelf.forget(WISHES[0])
-    assert [shelf.kept(wish) for wish in WISHES] == [None, *states[1:]]
+        shelf.save(state)
+    assert [shelf.load(wish) for wish in WISHES] == states
+    shelf.delete(WISHES[0])
+    assert [shelf.load(wish) for wish in WISHES] == [None, *states[1:]]
 
 
 def test_a_session_of_another_wish_or_a_broken_one_is_not_taken_up(tmp_path):
-    shelf = Shelf(tmp_path)
-    assert shelf.kept(WISH) is None
-    shelf.keep(new(Wish(count=3)))
-    shelf.path(Wish(count=3)).rename(shelf.path(WISH))
-    assert shelf.kept(WISH) is None
+    shelf = SessionStore(tmp_path)
+    assert shelf.load(WISH) is None
+    shelf.save(new_session(PracticeRequest(count=3)))
+    shelf.path(PracticeRequest(count=3)).rename(shelf.path(WISH))
+    assert shelf.load(WISH) is None
     for text in ("{not json", "[]", '{"wish": {}, "seed": 3}', "[" * 5000):
         shelf.path(WISH).write_text(text)
-        assert shelf.kept(WISH) is None
+        assert shelf.load(WISH) is None
 
 
 def outcomes(topic, *, right, wrong):
-    return [Outcome(topic, right=True, first=True)] * right + [
-        Outcome(topic, right=False, first=False)
+    return [PartOutcome(topic, right=True, first=True)] * right + [
+        PartOutcome(topic, right=False, first=False)
     ] * wrong
 
 
 def test_what_to_practise_is_what_goes_worst():
-    results = by_topic(
+    results = summarise_by_topic(
         outcomes("a", right=3, wrong=1) + outcomes("b", right=5, wrong=0)
         + outcomes("c", right=0, wrong=2) + outcomes("d", right=1, wrong=2)
         + outcomes("e", right=8, wrong=1)
     )  # fmt: skip
-    assert to_practise(results) == ("c", "d", "a")
-    assert to_practise(by_topic(outcomes("b", right=5, wrong=0))) == ()
+    assert weak_topics(results) == ("c", "d", "a")
+    assert weak_topics(summarise_by_topic(outcomes("b", right=5, wrong=0))) == ()
 
 
 def test_only_the_latest_parts_of_a_topic_say_how_well_it_is_known():
     past = outcomes("a", right=0, wrong=30) + outcomes("a", right=30, wrong=0)
-    assert by_topic(past, 30) == (TopicResult("a", 30, 30, 0),)
+    assert summarise_by_topic(past, 30) == (TopicResult("a", 30, 30, 0),)
 
 
 def test_new_sessions_differ_and_a_seed_is_kept():
-    assert new(WISH).seed != new(WISH).seed
-    assert new(Wish(seed="abc")).seed == "abc"
+    assert new_session(WISH).seed != new_session(WISH).seed
+    assert new_session(PracticeRequest(seed="abc")).seed == "abc"
 
 
 def test_somebody_else_may_choose_and_what_is_due_stays_due(tmp_path):
@@ -276,49 +278,52 @@ def test_somebody_else_may_choose_and_what_is_due_stays_due(tmp_path):
         asked.append(len(names))
         return "thin-lens-image-distance", "0a1b2c3d"
 
-    wish = Wish(topic="optics")
-    held = Session(builtin(), new(wish), choose)
+    wish = PracticeRequest(topic="optics")
+    held = Session(builtin_bank(), new_session(wish), choose)
     turn = held.turn()
     assert (turn.question.template, turn.seed) == ("thin-lens-image-distance", "0a1b2c3d")
-    Shelf(tmp_path).keep(held.state)
-    again = Session(builtin(), Shelf(tmp_path).kept(wish), choose)
-    assert again.turn().question == turn.question
+    SessionStore(tmp_path).save(held.state)
+    again = Session(builtin_bank(), SessionStore(tmp_path).load(wish), choose)
+    assert again.current_question().question == turn.question
     assert len(asked) == 1
     for task in turn.tasks:
         task.give_up()
     held.finish(turn)
-    held.turn()
+    held.current_question()
     assert len(asked) == 2
 
 
 def test_the_summary_counts_by_topic():
     outcomes = [
-        Outcome("optics", right=True, first=True),
-        Outcome("colour", right=True, first=False),
-        Outcome("optics", right=False, first=False),
+        PartOutcome("optics", right=True, first=True),
+        PartOutcome("colour", right=True, first=False),
+        PartOutcome("optics", right=False, first=False),
     ]
-    held = Session(builtin(), State(WISH, "s", 2, outcomes))
+    held = Session(builtin_bank(), SessionState(WISH, "s", 2, outcomes))
     assert held.finished
     found = [(row.topic, row.count, row.right, row.later) for row in held.summary()]
     assert found == [("colour", 1, 0, 1), ("optics", 2, 1, 0)]
 
 
 def test_a_wish_that_nothing_fits_is_finished_at_once():
-    held = session(Wish(topic="cooking"))
+    held = session(PracticeRequest(topic="cooking"))
     assert held.finished
     assert held.summary() == ()
 
 
 def test_an_unknown_language_is_named():
-    with pytest.raises(ChoiceError, match=r"'fr'.*en, bn"):
-        session(Wish(lang="fr"))
+    with pytest.raises(InvalidChoiceError, match=r"'fr'.*en, bn"):
+        session(PracticeRequest(lang="fr"))
 
 
 def test_all_templates_of_a_wish_come_before_one_returns():
-    names = fitting(builtin(), Wish(topic="projection"))
-    assert {builtin().rules(name).topic for name in names} == {"projection"}
+    names = matching_templates(builtin_bank(), PracticeRequest(topic="projection"))
+    assert {builtin_bank().rules(name).topic for name in names} == {"projection"}
     first, second = (
-        [nth(builtin(), names, "x", turn * len(names) + n + 1) for n in range(len(names))]
+        [
+            template_at(builtin_bank(), names, "x", turn * len(names) + n + 1)
+            for n in range(len(names))
+        ]
         for turn in range(2)
     )
     assert sorted(first) == sorted(second) == sorted(names)

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import sympy
 
-from quizgen.bank.folder import builtin
-from quizgen.maths.numbers import key_text
-from quizgen.maths.units import factor
+from quizgen.bank.bank import builtin_bank
+from quizgen.maths.numbers import format_for_key
+from quizgen.maths.units import unit_factor
 
 DIGITS = 30
 
 
 def model(template):
-    return builtin().solver(template.rules.solver).MODEL
+    return builtin_bank().solver(template.rules.solver).MODEL
 
 
 def given(drawn, **scaled):
     """Given quantities in base units, as SymPy has them."""
     return {
-        symbol: sympy.Rational(key_text(drawn.shown[symbol.name] * factor(drawn.template.units[symbol.name])))
+        symbol: sympy.Rational(format_for_key(drawn.shown[symbol.name] * unit_factor(drawn.template.units[symbol.name])))
         * sympy.Rational(str(scaled.get(symbol.name, 1)))
         for symbol in model(drawn.template).given
     }  # fmt: skip

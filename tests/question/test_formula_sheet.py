@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.audit.decks import card_problems
-from quizgen.bank.folder import Bank
-from quizgen.bank.prose import Words
-from quizgen.errors import BankError
-from quizgen.question.sheet import sheet
+from quizgen.bank.bank import Bank
+from quizgen.bank.markdown import PlainText
+from quizgen.cards.checks import check_cards
+from quizgen.core.errors import BankError
+from quizgen.question.formula_sheet import compose_sheet
 
 
 def lines(made):
@@ -16,26 +16,28 @@ def lines(made):
 
 
 def test_every_formula_stands_on_the_sheet_once_in_both_languages(bank):
-    found = lines(sheet(bank, "both"))
+    found = lines(compose_sheet(bank, "both"))
     assert sorted(line.id for line in found) == [f"F{n:02}" for n in range(1, 47)]
     assert {tuple(said.lang for said in line.said) for line in found} == {("en", "bn")}
 
 
 def test_topics_stand_in_the_order_in_which_they_are_learnt(bank):
-    made = sheet(bank, "en")
+    made = compose_sheet(bank, "en")
     assert [group.topic for group in made.groups[:3]] == ["projection", "normalisation", "aperture"]
     assert made.groups[0].titles == {"en": "Projection"}
 
 
 def test_a_topic_alone_has_its_own_formulas(bank):
-    made = sheet(bank, "bn", ["distortion"])
+    made = compose_sheet(bank, "bn", ["distortion"])
     assert [line.id for line in lines(made)] == ["F20", "F21", "F22"]
     assert made.langs == ("bn",)
 
 
 def test_units_questions_and_section_are_told(bank):
-    (line,) = (line for line in lines(sheet(bank, "both", ["projection"])) if line.id == "F05")
-    told = [part.text if isinstance(part, Words) else part.typed for part in line.units]
+    (line,) = (
+        line for line in lines(compose_sheet(bank, "both", ["projection"])) if line.id == "F05"
+    )
+    told = [part.text if isinstance(part, PlainText) else part.typed for part in line.units]
     assert "".join(told).replace("\u00a0", " ") == "p_x, p_y, p_z [m]; f, p'_x, p'_y [mm]"
     assert line.section == "4.1"
     english, bangla = (dict(said.questions) for said in line.said)
@@ -49,17 +51,19 @@ def test_units_questions_and_section_are_told(bank):
 def test_nothing_to_show_is_said_with_the_place(bank, tmp_path):
     (tmp_path / "templates").mkdir()
     with pytest.raises(BankError, match=r"no formulas here .*templates/cards/formulas\.toml"):
-        sheet(Bank(tmp_path), "en")
+        compose_sheet(Bank(tmp_path), "en")
     with pytest.raises(BankError, match="no formulas of the topic camera here"):
-        sheet(bank, "en", ["camera"])
+        compose_sheet(bank, "en", ["camera"])
 
 
 def test_a_formula_has_a_sketch_described_in_each_language(bank):
-    (lens,) = (line for line in lines(sheet(bank, "both", ["optics"])) if line.id == "F42")
+    (lens,) = (line for line in lines(compose_sheet(bank, "both", ["optics"])) if line.id == "F42")
     english, bangla = lens.figures
     assert english.alt == "A thin lens with an object at z and its upside-down image at z′."
     assert bangla.alt.startswith("পাতলা লেন্স")
-    (scaled,) = (line for line in lines(sheet(bank, "en", ["projection"])) if line.id == "F07")
+    (scaled,) = (
+        line for line in lines(compose_sheet(bank, "en", ["projection"])) if line.id == "F07"
+    )
     assert scaled.figures == ()
 
 
@@ -86,5 +90,5 @@ def test_a_sketch_that_there_is_not_is_named_with_its_formula_by_sheet_and_lint(
     )
     waves = Bank(tmp_path)
     with pytest.raises(BankError, match=r"formulas\.toml: entry 'G1': unknown figure 'ripples'"):
-        sheet(waves, "en")
-    assert [said for said in card_problems(waves) if "entry 'G1': unknown figure 'ripples'" in said]
+        compose_sheet(waves, "en")
+    assert [said for said in check_cards(waves) if "entry 'G1': unknown figure 'ripples'" in said]

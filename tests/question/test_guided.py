@@ -6,47 +6,49 @@ from fractions import Fraction
 
 import pytest
 
-from quizgen.bank.draw import draw, reference
-from quizgen.bank.folder import builtin
-from quizgen.bank.prose import Paragraph, Styled
-from quizgen.marking.options import Options
-from quizgen.paper.key import key_question
-from quizgen.paper.marking import Marker
-from quizgen.paper.paper import Item
-from quizgen.question.compose import put_into_words
-from quizgen.question.levels.asking import shared_out
-from quizgen.question.levels.guided import stages
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.markdown import Emphasis, Paragraph
+from quizgen.bank.variant import draw_variant, reference_variant
+from quizgen.grading.options import GradingOptions
+from quizgen.paper.answer_key import make_key_question
+from quizgen.paper.grading import QuestionGrader
+from quizgen.paper.paper import PaperItem
+from quizgen.question.compose import compose_variant
+from quizgen.question.levels.contract import share_points
+from quizgen.question.levels.guided import guided_stages
 
 CALCULATING = [
-    name for name in builtin().paths
-    if builtin().rules(name).solver and "guided" in builtin().rules(name).levels
+    name for name in builtin_bank().template_paths
+    if builtin_bank().rules(name).solver and "guided" in builtin_bank().rules(name).levels
 ]  # fmt: skip
 SEEDS = [1, pytest.param(0, marks=pytest.mark.slow)]
 
 
 @pytest.fixture(scope="module", params=CALCULATING)
 def template(request):
-    return builtin().template(request.param)
+    return builtin_bank().template(request.param)
 
 
 @pytest.fixture(scope="module", params=SEEDS)
 def drawn(request, template):
     """Drawn once, used by all tests of a template."""
-    return draw(template, request.param)
+    return draw_variant(template, request.param)
 
 
 def guided(drawn, lang="en"):
-    return put_into_words(drawn, lang, level="guided", figures=False)
+    return compose_variant(drawn, lang, level="guided", figures=False)
 
 
 def marker_of(question, key):
-    keyed = key_question(Item("1", (question,), (key,)))
-    return Marker(keyed, Options(question.lang)), {part.id: part for part in keyed.parts}
+    keyed = make_key_question(PaperItem("1", (question,), (key,)))
+    return QuestionGrader(keyed, GradingOptions(question.lang)), {
+        part.id: part for part in keyed.parts
+    }
 
 
 def lens():
     """f = 50 mm, z = 550 mm in the notes."""
-    return reference(builtin().template("thin-lens-image-distance"))
+    return reference_variant(builtin_bank().template("thin-lens-image-distance"))
 
 
 def test_the_steps_of_a_lens_come_in_their_order_with_the_values_of_the_notes():
@@ -61,7 +63,9 @@ def test_the_steps_of_a_lens_come_in_their_order_with_the_values_of_the_notes():
 
 
 def test_a_mistake_is_named_at_the_step_where_it_happens_and_only_there():
-    drawn = draw(builtin().template("blur-disc-diameter"), 0)  # f = 50 mm, N_1 = 8, image at 50 mm
+    drawn = draw_variant(
+        builtin_bank().template("blur-disc-diameter"), 0
+    )  # f = 50 mm, N_1 = 8, image at 50 mm
     marker, parts = marker_of(*guided(drawn))
     assert marker.mark(parts["1a1"], "12.5 mm").verdict.verdict == "wrong"  # twice the diameter
     carried = marker.mark(parts["1a3"], "500 um").verdict
@@ -69,7 +73,7 @@ def test_a_mistake_is_named_at_the_step_where_it_happens_and_only_there():
 
 
 def test_a_known_mistake_of_an_intermediate_step_is_told_with_its_sentence():
-    drawn = reference(builtin().template("rgb-to-hsv"))
+    drawn = reference_variant(builtin_bank().template("rgb-to-hsv"))
     question, key = guided(drawn)
     marker, parts = marker_of(question, key)
     red, green, blue = (Fraction(str(drawn.shown[name])) for name in "RGB")
@@ -89,7 +93,7 @@ def test_a_wrong_formula_is_answered_with_the_sentence_of_its_mistake():
     for reason in key.solution.parts[place].reasons:
         verdict = marker.mark(parts[question.parts[place].field.id], reason.value).verdict
         told = (
-            builtin()
+            builtin_bank()
             .template("thin-lens-image-distance")
             .texts["en"]
             .sentence("traps", reason.name)
@@ -107,7 +111,7 @@ def test_what_the_solution_prints_gets_the_marks_of_the_exam(drawn, lang):
         result = marker.mark(parts[part.field.id], solved.answer)
         # sentences have no answer to copy: a person marks them
         marks += (result.marks or 0) if solved.answer else part.points
-    exam, _ = put_into_words(drawn, lang, figures=False)
+    exam, _ = compose_variant(drawn, lang, figures=False)
     assert marks == question.points == exam.points
 
 
@@ -127,7 +131,7 @@ def test_both_languages_are_marked_alike(drawn):
 )
 def test_a_formula_that_the_text_gives_is_no_question(name, told):
     for seed in range(5):
-        asked = {stage.formula.name for stage in stages(draw(builtin().template(name), seed)) if stage.formula}  # fmt: skip
+        asked = {stage.formula.name for stage in guided_stages(draw_variant(builtin_bank().template(name), seed)) if stage.formula}  # fmt: skip
         assert asked
         assert not asked & told
 
@@ -135,12 +139,12 @@ def test_a_formula_that_the_text_gives_is_no_question(name, told):
 def bold(blocks):
     """Questions in bold."""
     shown = (part for block in blocks if isinstance(block, Paragraph) for part in block.children)
-    return [part for part in shown if isinstance(part, Styled) and part.style == "strong"]
+    return [part for part in shown if isinstance(part, Emphasis) and part.style == "strong"]
 
 
 def test_one_question_is_asked_at_a_time(drawn):
     question, _ = guided(drawn)
-    authored = {part.label: part for part in put_into_words(drawn, "en", figures=False)[0].parts}
+    authored = {part.label: part for part in compose_variant(drawn, "en", figures=False)[0].parts}
     for part in question.parts:
         usual = authored.get(part.label)
         assert len(bold(part.body)) <= 1 or (usual and bold(part.body) == bold(usual.body))
@@ -150,7 +154,7 @@ def test_one_question_is_asked_at_a_time(drawn):
 
 @pytest.mark.parametrize("level", ["guided", "transfer"])
 def test_letters_of_parts_are_not_those_of_the_fields_of_a_table(drawn, level):
-    question, key = put_into_words(drawn, "en", level=level, figures=False)
+    question, key = compose_variant(drawn, "en", level=level, figures=False)
     cells = {
         cell for spec in key.specs for cell in getattr(spec, "values", {}) if spec.kind == "table"
     }
@@ -161,7 +165,7 @@ def test_letters_of_parts_are_not_those_of_the_fields_of_a_table(drawn, level):
 def test_a_time_that_the_text_gives_is_no_step():
     """The exposure time was 1/250 s."""
     for name in ("blur-and-light-factors", "best-pinhole-diameter", "exposure-equivalence"):
-        _, key = guided(draw(builtin().template(name), 1))
+        _, key = guided(draw_variant(builtin_bank().template(name), 1))
         assert ["t_1"] not in [spec.of for spec in key.specs]
         assert ["t_2"] in [spec.of for spec in key.specs]
 
@@ -171,7 +175,7 @@ def test_a_sum_has_no_brackets_within():
     found = set()
     for name in ("luma-before-and-after-turn", "rgb-to-hsv"):
         for seed in range(8):
-            _, key = guided(draw(builtin().template(name), seed))
+            _, key = guided(draw_variant(builtin_bank().template(name), seed))
             found |= {option for spec in key.specs if spec.kind == "choice" for option in spec.options}  # fmt: skip
     assert {f"{name} = {text}" for name, text in steps.items()} <= found
     assert not any("(R + G)" in text for text in found)
@@ -188,5 +192,5 @@ def test_a_sum_has_no_brackets_within():
     ],
 )
 def test_marks_are_shared_out_in_quarters(total, weights, shares):
-    found = shared_out(Fraction(total), [Fraction(weight) for weight in weights])
+    found = share_points(Fraction(total), [Fraction(weight) for weight in weights])
     assert found == tuple(map(Fraction, shares))

@@ -7,19 +7,19 @@ import sympy
 from models import mistaken, near, solved
 from sweep import draws
 
-from quizgen.bank.draw import draw
-from quizgen.bank.folder import builtin
-from quizgen.maths.constants import exact_value
-from quizgen.maths.numbers import key_text
-from quizgen.maths.units import factor
-from quizgen.question.compose import put_into_words
-from quizgen.question.levels import level
-from quizgen.question.levels.guided import stages
-from quizgen.question.levels.steps import wrong_ways
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.variant import draw_variant
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.numbers import format_for_key
+from quizgen.maths.units import unit_factor
+from quizgen.question.compose import compose_variant
+from quizgen.question.levels import load_level
+from quizgen.question.levels.guided import guided_stages
+from quizgen.question.levels.steps import wrong_options
 
 CALCULATING = [
-    name for name in builtin().paths
-    if builtin().rules(name).solver and "guided" in builtin().rules(name).levels
+    name for name in builtin_bank().template_paths
+    if builtin_bank().rules(name).solver and "guided" in builtin_bank().rules(name).levels
 ]  # fmt: skip
 SEEDS = [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, draws(3) + 1))]
 UNITS_ALONE = [1, 180 / sympy.pi]
@@ -28,14 +28,14 @@ UNITS_ALONE = [1, 180 / sympy.pi]
 
 @pytest.fixture(scope="module", params=CALCULATING)
 def template(request):
-    return builtin().template(request.param)
+    return builtin_bank().template(request.param)
 
 
 @pytest.fixture(scope="module", params=SEEDS)
 def drawn(request, template):
     """One of a template that promises steps to ask for, and so has some in every draw."""
-    found = draw(template, request.param)
-    assert level("guided").fits(found)
+    found = draw_variant(template, request.param)
+    assert load_level("guided").is_applicable(found)
     return found
 
 
@@ -45,7 +45,7 @@ def size(spec, label):
         return 1
     units = getattr(spec, "units", {})
     unit = units.get(label, "") if units else getattr(spec, "unit", "")
-    return sympy.Rational(key_text(factor(unit)))
+    return sympy.Rational(format_for_key(unit_factor(unit)))
 
 
 def asked_values(spec):
@@ -59,12 +59,12 @@ def asked_values(spec):
 
 
 def exactly(text):
-    return sympy.Rational(key_text(exact_value(text)))
+    return sympy.Rational(format_for_key(parse_exact(text)))
 
 
 def test_every_number_that_is_asked_is_that_of_the_model(drawn):
     values = solved(drawn)
-    _, key = put_into_words(drawn, "en", level="guided", figures=False)
+    _, key = compose_variant(drawn, "en", level="guided", figures=False)
     for spec in key.specs:
         for of, value, unit in asked_values(spec):
             assert near(value * unit, values[of]), (spec.kind, of)
@@ -72,8 +72,8 @@ def test_every_number_that_is_asked_is_that_of_the_model(drawn):
 
 def test_a_mistake_of_a_step_gives_what_the_model_makes_of_it(drawn):
     values = solved(drawn)
-    before = {step.name for stage in stages(drawn) for step in stage.before}
-    _, key = put_into_words(drawn, "en", level="guided", figures=False)
+    before = {step.name for stage in guided_stages(drawn) for step in stage.before}
+    _, key = compose_variant(drawn, "en", level="guided", figures=False)
     for spec in key.specs:
         if not hasattr(spec, "value") or spec.of[0] not in before:
             continue
@@ -85,11 +85,11 @@ def test_a_mistake_of_a_step_gives_what_the_model_makes_of_it(drawn):
 def test_a_wrong_formula_is_wrong_in_every_unit(drawn):
     """2·atan(W/(2·f)) is an angle; that it is one in radians makes it no wrong formula."""
     values = solved(drawn)
-    for stage in stages(drawn):
+    for stage in guided_stages(drawn):
         if stage.formula is None:
             continue
         right = values[stage.formula.name]
-        for way in wrong_ways(drawn, stage.formula, stage.known):
+        for way in wrong_options(drawn, stage.formula, stage.known):
             value = mistaken(drawn, values, way.trap, stage.formula.name)
             alike = [
                 unit

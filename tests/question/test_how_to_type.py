@@ -11,10 +11,10 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "marking"))
 
 from test_specifications import FULL
 
-from quizgen.marking.mark import load_spec
+from quizgen.grading.mark import load_spec
+from quizgen.question.inlines import to_inlines
 from quizgen.question.kinds import KINDS
-from quizgen.question.shown import pieces
-from quizgen.render.text import inline
+from quizgen.render.text import inlines_to_plain_text
 
 TOLD = {
     ("set", "en"): "Give all values in any order, separated by semicolons.",
@@ -28,7 +28,9 @@ TOLD = {
 @pytest.mark.parametrize("table", FULL, ids=lambda table: table["kind"])
 def test_every_kind_says_how_it_is_answered(table, lang):
     kind = table["kind"]
-    told = [inline(pieces(one)) for one in KINDS[kind].hints(load_spec(table), lang)]
+    told = [
+        inlines_to_plain_text(to_inlines(one)) for one in KINDS[kind].hints(load_spec(table), lang)
+    ]
     assert told or kind == "number"  # a number alone is typed as one
     assert all(map(str.strip, told))
     assert TOLD.get((kind, lang), told[:1]) in (told[:1], *told[:1])

@@ -7,19 +7,19 @@ from collections import Counter, defaultdict
 import pytest
 from sweep import draws
 
-from quizgen.bank.draw import draw
-from quizgen.bank.folder import builtin
-from quizgen.question.filling import plain
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.variant import draw_variant
+from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import guided
-from quizgen.question.levels.changes import Changes
-from quizgen.question.levels.comparing import compared
-from quizgen.question.levels.effects import DIRECTIONS, effect
-from quizgen.question.levels.mistaken import found_mistake
-from quizgen.question.levels.slips import offered
+from quizgen.question.levels.comparison import choose_comparison
+from quizgen.question.levels.consequence import DIRECTIONS, choose_consequence
+from quizgen.question.levels.distractors import offer_formulas
+from quizgen.question.levels.error_spotting import choose_faulty_solution
+from quizgen.question.levels.perturbations import Perturbations
 
 CALCULATING = [
-    name for name in builtin().paths
-    if builtin().rules(name).solver and builtin().rules(name).levels
+    name for name in builtin_bank().template_paths
+    if builtin_bank().rules(name).solver and builtin_bank().rules(name).levels
 ]  # fmt: skip
 MOST = 0.9
 """Share of the draws in which one answer may be right."""
@@ -30,16 +30,16 @@ FEWEST = 20
 def choices(name, seeds):
     """The formulas to choose from, of every draw that asks for one."""
     for seed in range(seeds):
-        drawn = draw(builtin().template(name), seed)
-        if guided.fits(drawn):
-            for stage in guided.stages(drawn):
+        drawn = draw_variant(builtin_bank().template(name), seed)
+        if guided.is_applicable(drawn):
+            for stage in guided.guided_stages(drawn):
                 if stage.formula is not None:
-                    yield offered(drawn, stage.formula, stage.known)
+                    yield offer_formulas(drawn, stage.formula, stage.known)
 
 
 def longest(ways):
     """Whether the right formula is longer than all others."""
-    lengths = [(way.right, len(plain((way.shown,)))) for way in ways]
+    lengths = [(way.right, len(inlines_to_text((way.shown,)))) for way in ways]
     right = next(length for is_right, length in lengths if is_right)
     return all(right > length for is_right, length in lengths if not is_right)
 
@@ -77,18 +77,20 @@ def test_a_slip_is_a_formula_of_its_own_with_another_value(name, step):
 def test_bits_as_bytes_are_no_formula_to_choose():
     """M = Q holds in whatever units, and tells nothing of the 8."""
     for seed in range(12):
-        drawn = draw(builtin().template("stored-values-and-bytes"), seed)
-        assert "M" not in {stage.formula.name for stage in guided.stages(drawn) if stage.formula}
+        drawn = draw_variant(builtin_bank().template("stored-values-and-bytes"), seed)
+        assert "M" not in {
+            stage.formula.name for stage in guided.guided_stages(drawn) if stage.formula
+        }
 
 
 def answers(name, seeds):
     """What is asked of a template turned round, to its answers."""
     found = defaultdict(Counter)
     for seed in range(seeds):
-        drawn = draw(builtin().template(name), seed)
-        changes = Changes(drawn)
-        asked, mistake = effect(changes), found_mistake(drawn)
-        pair = compared(changes, asked)
+        drawn = draw_variant(builtin_bank().template(name), seed)
+        changes = Perturbations(drawn)
+        asked, mistake = choose_consequence(changes), choose_faulty_solution(drawn)
+        pair = choose_comparison(changes, asked)
         if asked is not None and asked.way == "factor":
             found["factor"][asked.change.factor] += 1
         if asked is not None and asked.way == "direction":

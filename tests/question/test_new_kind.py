@@ -12,25 +12,25 @@ from textwrap import dedent
 import pytest
 from msgspec import to_builtins
 
-import quizgen.marking.kinds
+import quizgen.grading.kinds
 import quizgen.question.kinds
-from quizgen.bank.draw import draw
-from quizgen.bank.pages import parse_text
+from quizgen.bank.language_file import parse_language_file
 from quizgen.bank.rules import DrawRule, PartRule, Rules
 from quizgen.bank.template import Template
+from quizgen.bank.variant import draw_variant
 from quizgen.maths.chain import Chain
-from quizgen.paper.key import key_bytes, load_key
-from quizgen.paper.marking import mark_paper
-from quizgen.paper.paper import single
+from quizgen.paper.answer_key import parse_answer_key, write_answer_key
+from quizgen.paper.grading import grade_paper
+from quizgen.paper.paper import single_question_paper
 from quizgen.question.contract import Control, QuestionKind
 from quizgen.render import render_paper as render
 
 MARKING = '''
 """Kind ``compass``: one of the four directions, in words or by its letter."""
 
-from quizgen.errors import FormulaError
-from quizgen.marking.specs import Worded
-from quizgen.marking.verdict import correct, wrong
+from quizgen.core.errors import FormulaError
+from quizgen.grading.spec import Worded
+from quizgen.grading.verdict import correct, wrong
 
 
 class Spec(Worded, kw_only=True, frozen=True):
@@ -82,7 +82,7 @@ def compass(monkeypatch, tmp_path):
     marking = module(tmp_path, "compass_marking", MARKING)
     monkeypatch.setitem(sys.modules, "compass_marking", marking)
     asking: QuestionKind = module(tmp_path, "compass_asking", ASKING)
-    monkeypatch.setitem(quizgen.marking.kinds.KINDS, "compass", marking.Spec)
+    monkeypatch.setitem(quizgen.grading.kinds.KINDS, "compass", marking.Spec)
     monkeypatch.setitem(quizgen.question.kinds.KINDS, "compass", asking)
 
 
@@ -102,16 +102,18 @@ def template():
         part=(PartRule(answer={"kind": "compass"}, points=2),),
         draw={"way": DrawRule(words=("north", "west"))},
     )
-    return Template("needle", rules, Chain({}, ()), {"en": parse_text(TEXT)}, "needle-1", Path())
+    return Template(
+        "needle", rules, Chain({}, ()), {"en": parse_language_file(TEXT)}, "needle-1", Path()
+    )
 
 
 @pytest.mark.usefixtures("compass")
 def test_a_paper_with_an_invented_kind_is_made_printed_and_marked(template):
-    paper = single(template, 1, "en")
+    paper = single_question_paper(template, 1, "en")
     (field,) = [part.field for part in paper.items[0].questions[0].parts]
     assert field.control == Control("lines", lines=2)
     assert field.hints == ("One of the four directions.",)
-    way = draw(template, 1).words["way"]
+    way = draw_variant(template, 1).words["way"]
     assert to_builtins(paper.items[0].keys[0].specs[0]) == {"kind": "compass", "toward": way}
 
     page = render(paper, "exam", "html").decode()
@@ -120,6 +122,6 @@ def test_a_paper_with_an_invented_kind_is_made_printed_and_marked(template):
     assert f"toward the {way}" in render(paper, "solutions", "html").decode()
     assert render(paper, "solutions", "pdf").startswith(b"%PDF")
 
-    key = load_key(json.loads(key_bytes(paper)))
+    key = parse_answer_key(json.loads(write_answer_key(paper)))
     for typed, points in ((way[0], 2), ("south", 0)):
-        assert mark_paper(key, {"1": typed}).marks == points
+        assert grade_paper(key, {"1": typed}).marks == points

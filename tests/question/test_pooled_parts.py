@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.bank.folder import Bank
-from quizgen.marking.mark import mark
-from quizgen.question.compose import compose
-from quizgen.question.filling import plain
+from quizgen.bank.bank import Bank
+from quizgen.grading.mark import mark
+from quizgen.question.compose import compose_question
+from quizgen.question.interpolation import inlines_to_text
 
 RULES = """
 topic = "light"
@@ -81,7 +81,7 @@ def asked(tmp_path):
     (folder / "template.toml").write_text(RULES, "utf-8")
     (folder / "en.md").write_text(PROSE, "utf-8")
     template = Bank(tmp_path).template("eyes")
-    return [compose(template, seed, "en", figures=False) for seed in range(20)]
+    return [compose_question(template, seed, "en", figures=False) for seed in range(20)]
 
 
 def opening(key):
@@ -89,7 +89,7 @@ def opening(key):
 
 
 def words_of(blocks):
-    return [plain(block.children) for block in blocks]
+    return [inlines_to_text(block.children) for block in blocks]
 
 
 def test_the_claim_stands_where_its_blank_is(asked):
@@ -103,7 +103,7 @@ def test_the_reason_of_a_claim_fits_the_draw_and_names_its_source(asked):
         other = ("true", "false")[opening(key)]
         assert mark(key.specs[0], other).message == said[opening(key)]
         assert mark(key.specs[0], right).message == ""
-        assert plain(key.solution.parts[0].options[0]) == said[opening(key)]
+        assert inlines_to_text(key.solution.parts[0].options[0]) == said[opening(key)]
     assert {opening(key) for _, key in asked} == {0, 1}
 
 
@@ -111,7 +111,7 @@ def test_a_gap_of_a_pool_brings_its_sentence(asked):
     seen = set()
     for question, key in asked:
         body = question.parts[1].body
-        (sentence,) = (plain(item[0].children) for item in body[1].items)
+        (sentence,) = (inlines_to_text(item[0].children) for item in body[1].items)
         seen.add(sentence)
         assert key.specs[1].accept == [["555", "five five five"] if "day" in sentence else ["507"]]
     assert seen == {"By day the peak lies at ____ nm.", "By night the peak lies at ____ nm."}
@@ -126,18 +126,18 @@ def test_a_wrong_word_gets_its_own_reason_else_that_of_the_gap(asked):
     assert mark(night, "five five five").message.endswith("You took the day.")
     assert mark(night, "600").message.endswith("Night is blue-green.")
     solved = keys["555"].solution.parts[1]
-    assert [plain(text) for text in solved.options] == ["Day is green."]
-    told = [(wrong.value, plain(wrong.sentence)) for wrong in solved.reasons]
+    assert [inlines_to_text(text) for text in solved.options] == ["Day is green."]
+    told = [(wrong.value, inlines_to_text(wrong.sentence)) for wrong in solved.reasons]
     assert told == [("(1) 507", "You took the night."), ("(1) 600", "That is red.")]
 
 
 def test_a_matching_may_follow_from_the_draw_and_keep_its_order(asked):
     for question, key in asked:
         field = question.parts[2].field
-        assert [(mark, plain(text)) for mark, text in field.options] == [
+        assert [(mark, inlines_to_text(text)) for mark, text in field.options] == [
             ("A", "picture 1"), ("B", "picture 2")
         ]  # fmt: skip
-        targets = {plain(text): mark for mark, text in field.targets}
+        targets = {inlines_to_text(text): mark for mark, text in field.targets}
         noisy, clean = targets["noise"], targets["no noise"]
         right = {"A": noisy, "B": clean} if opening(key) == 0 else {"A": clean, "B": noisy}
         assert key.specs[2].pairs == right
@@ -145,14 +145,14 @@ def test_a_matching_may_follow_from_the_draw_and_keep_its_order(asked):
 
 def test_options_in_order_are_never_shuffled(asked):
     for question, key in asked:
-        shown = [plain(text) for _, text in question.parts[3].field.options]
+        shown = [inlines_to_text(text) for _, text in question.parts[3].field.options]
         assert shown == ["picture 1", "picture 2"]
         assert key.specs[3].correct == [1 + opening(key)]
 
 
 def test_an_explanation_by_label_stands_under_its_part(asked):
     for _, key in asked:
-        whys = [plain(part.why) for part in key.solution.parts]
+        whys = [inlines_to_text(part.why) for part in key.solution.parts]
         last = ("First, for closing.", "Second, for opening.")[opening(key)]
         first = ("Look at grains.", "Look at flatness.")[opening(key)]
         assert whys == ["", "", first, last]

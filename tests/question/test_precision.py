@@ -8,8 +8,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from quizgen.bank.draw import draw
-from quizgen.question.precision import precision_table
+from quizgen.bank.variant import draw_variant
+from quizgen.question.precision_table import precision_table
 
 
 def shown(text: str) -> float:
@@ -20,7 +20,7 @@ def shown(text: str) -> float:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_the_far_tail_in_three_number_systems(bank, seed):
-    one = draw(bank.template("gaussian-far-tail-in-float64"), seed)
+    one = draw_variant(bank.template("gaussian-far-tail-in-float64"), seed)
     k = int(one.shown["k"].p) / int(one.shown["k"].q)
     (table,) = precision_table(one, "en")
     single, double, exact = (shown(row[1][0].text) for row in table.rows)
@@ -42,7 +42,7 @@ def given(one, name):
 
 @pytest.mark.parametrize("seed", range(12))
 def test_a_source_next_to_the_focal_plane(bank, seed):
-    one = draw(bank.template("source-near-focus-in-float32"), seed)
+    one = draw_variant(bank.template("source-near-focus-in-float32"), seed)
     f, d = given(one, "f"), given(one, "d")
     single, double, exact = rows(one)
     f32 = np.float32(f)
@@ -57,7 +57,7 @@ def test_a_source_next_to_the_focal_plane(bank, seed):
 
 @pytest.mark.parametrize("seed", range(12))
 def test_the_hue_next_to_gray(bank, seed):
-    one = draw(bank.template("hue-near-grey-in-float32"), seed)
+    one = draw_variant(bank.template("hue-near-grey-in-float32"), seed)
     u, v = given(one, "u"), given(one, "v")
     single, double, exact = rows(one)
     gray = np.float32(given(one, "B"))
@@ -71,4 +71,6 @@ def test_the_hue_next_to_gray(bank, seed):
 
 
 def test_other_questions_show_no_such_table(bank):
-    assert precision_table(draw(bank.template("gaussian-peak-and-tail-shares"), 0), "en") == ()
+    assert (
+        precision_table(draw_variant(bank.template("gaussian-peak-and-tail-shares"), 0), "en") == ()
+    )

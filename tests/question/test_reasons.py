@@ -7,10 +7,10 @@ import json
 import msgspec
 import pytest
 
-from quizgen.bank.folder import Bank
-from quizgen.errors import BankError
-from quizgen.marking.mark import mark
-from quizgen.question.compose import compose
+from quizgen.bank.bank import Bank
+from quizgen.core.errors import BankError
+from quizgen.grading.mark import mark
+from quizgen.question.compose import compose_question
 
 RULES = """
 topic = "light"
@@ -79,7 +79,9 @@ def parts(tmp_path):
     (folder / "template.toml").write_text(RULES, "utf-8")
     for lang in ("en", "bn"):
         (folder / f"{lang}.md").write_text(PROSE.replace("{0}", lang), "utf-8")
-    question, key = compose(Bank(tmp_path, trusted=True).template("eyes"), 1, "en", figures=False)
+    question, key = compose_question(
+        Bank(tmp_path, trusted=True).template("eyes"), 1, "en", figures=False
+    )
     specs = [json.loads(json.dumps(msgspec.to_builtins(spec))) for spec in key.specs]
     marks = [{n: m for m, n in names_of(part.field)} for part in question.parts]
     return specs, marks, key.solution.parts
@@ -160,4 +162,4 @@ def test_a_wrong_order_is_one_of_the_steps(tmp_path, order, said):
     (folder / "template.toml").write_text(rules, "utf-8")
     (folder / "en.md").write_text(PROSE, "utf-8")
     with pytest.raises(BankError, match=f"part 3: answer: traps.backwards: step {said}"):
-        compose(Bank(tmp_path).template("eyes"), 1, figures=False)
+        compose_question(Bank(tmp_path).template("eyes"), 1, figures=False)

@@ -5,27 +5,30 @@ from __future__ import annotations
 import pytest
 
 from quizgen import typeset
-from quizgen.bank.prose import Words
-from quizgen.maths.notation import parse
-from quizgen.question.filling import plain, tied
-from quizgen.question.shown import Maths
+from quizgen.bank.markdown import PlainText
+from quizgen.maths.notation import parse_formula
+from quizgen.question.inlines import TypesetMaths
+from quizgen.question.interpolation import inlines_to_text, unbreakable_groups
 
 
 def maths(text):
-    return Maths(typeset.layout(parse(text)), text)
+    return TypesetMaths(typeset.lay_out(parse_formula(text)), text)
 
 
 @pytest.mark.parametrize(
     ("parts", "pieces"),
     [
-        ((maths("f"), Words(" = "), Words("6\u00a0mm"), Words(" and")), ["f = 6\u00a0mm", " and"]),
-        ((Words("at "), maths("z"), Words(", the")), ["at ", "z,", " the"]),
-        ((maths("u"), Words(" = "), maths("v"), Words(". So")), ["u = v.", " So"]),
+        (
+            (maths("f"), PlainText(" = "), PlainText("6\u00a0mm"), PlainText(" and")),
+            ["f = 6\u00a0mm", " and"],
+        ),
+        ((PlainText("at "), maths("z"), PlainText(", the")), ["at ", "z,", " the"]),
+        ((maths("u"), PlainText(" = "), maths("v"), PlainText(". So")), ["u = v.", " So"]),
         ((maths("u"), maths("v")), ["u", "v"]),
-        ((maths("u"), Words(" and "), maths("v")), ["u", " and ", "v"]),
-        ((maths("x^2 + y^2 + z^2 + w^2"), Words(" = 3")), ["x² + y² + z² + w²", " = 3"]),
+        ((maths("u"), PlainText(" and "), maths("v")), ["u", " and ", "v"]),
+        ((maths("x^2 + y^2 + z^2 + w^2"), PlainText(" = 3")), ["x² + y² + z² + w²", " = 3"]),
         ((), []),
     ],
 )
 def test_a_formula_keeps_what_belongs_to_it(parts, pieces):
-    assert [plain(group) for group in tied(parts)] == pieces
+    assert [inlines_to_text(group) for group in unbreakable_groups(parts)] == pieces

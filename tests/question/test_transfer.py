@@ -8,39 +8,39 @@ import pytest
 import sympy
 from models import DIGITS, model, near, solved, symbols
 
-from quizgen.bank.draw import draw
-from quizgen.bank.folder import builtin
-from quizgen.bank.prose import Items, Paragraph
-from quizgen.marking.mark import mark
-from quizgen.maths.constants import exact_value
-from quizgen.maths.notation import parse
-from quizgen.maths.numbers import key_text
-from quizgen.maths.scaling import power_of
-from quizgen.maths.units import factor
-from quizgen.question.compose import put_into_words
-from quizgen.question.filling import plain
-from quizgen.question.levels import level
-from quizgen.question.levels.changes import Changes, targets
-from quizgen.question.levels.comparing import compared
-from quizgen.question.levels.effects import effect
-from quizgen.question.levels.mistaken import found_mistake
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.markdown import ListBlock, Paragraph
+from quizgen.bank.variant import draw_variant
+from quizgen.grading.mark import mark
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.numbers import format_for_key
+from quizgen.maths.scaling import scaling_exponent
+from quizgen.maths.units import unit_factor
+from quizgen.question.compose import compose_variant
+from quizgen.question.interpolation import inlines_to_text
+from quizgen.question.levels import load_level
+from quizgen.question.levels.comparison import choose_comparison
+from quizgen.question.levels.consequence import choose_consequence
+from quizgen.question.levels.error_spotting import choose_faulty_solution
+from quizgen.question.levels.perturbations import Perturbations, askable_results
 
 CALCULATING = [
-    name for name in builtin().paths
-    if builtin().rules(name).solver and "transfer" in builtin().rules(name).levels
+    name for name in builtin_bank().template_paths
+    if builtin_bank().rules(name).solver and "transfer" in builtin_bank().rules(name).levels
 ]  # fmt: skip
 SEEDS = [range(2), pytest.param(range(2, 4), marks=pytest.mark.slow)]
 
 
 @pytest.fixture(scope="module", params=CALCULATING)
 def template(request):
-    return builtin().template(request.param)
+    return builtin_bank().template(request.param)
 
 
 @pytest.fixture(scope="module", params=SEEDS)
 def draws(request, template):
     """Drawn once, used by all tests of a template."""
-    return [draw(template, seed) for seed in request.param]
+    return [draw_variant(template, seed) for seed in request.param]
 
 
 def moved(change):
@@ -51,15 +51,17 @@ def moved(change):
 
 def test_the_effect_of_a_change_is_that_of_the_model(draws):
     for drawn in draws:
-        asked = effect(Changes(drawn))
+        asked = choose_consequence(Perturbations(drawn))
         if asked is None:
             continue
         spec, (before, after) = asked("en").spec, moved(asked.change)
         if asked.way == "factor":
             assert near(after / before, sympy.Rational(str(spec.value)))
         elif asked.way == "value":
-            size = factor(getattr(spec, "unit", "") or drawn.template.units[asked.change.target])
-            assert near(after, sympy.Rational(key_text(exact_value(spec.value) * size)))
+            size = unit_factor(
+                getattr(spec, "unit", "") or drawn.template.units[asked.change.target]
+            )
+            assert near(after, sympy.Rational(format_for_key(parse_exact(spec.value) * size)))
         else:
             places = {1: after > before, 2: after < before, 3: near(after, before)}
             assert [place for place, holds in places.items() if holds] == spec.correct
@@ -67,8 +69,8 @@ def test_the_effect_of_a_change_is_that_of_the_model(draws):
 
 def test_of_two_changes_the_model_moves_the_same_one_further(draws):
     for drawn in draws:
-        changes = Changes(drawn)
-        pair = compared(changes, effect(changes))
+        changes = Perturbations(drawn)
+        pair = choose_comparison(changes, choose_consequence(changes))
         if pair is None:
             continue
         moves = [abs(after - before) for before, after in map(moved, (pair.first, pair.second))]
@@ -80,7 +82,7 @@ def test_of_two_changes_the_model_moves_the_same_one_further(draws):
 
 def test_the_first_wrong_step_is_the_first_that_the_model_does_not_take(draws):
     for drawn in draws:
-        found = found_mistake(drawn)
+        found = choose_faulty_solution(drawn)
         if found is None:
             continue
         own = model(drawn.template)
@@ -103,9 +105,9 @@ def test_the_first_wrong_step_is_the_first_that_the_model_does_not_take(draws):
 @pytest.mark.parametrize("lang", ["en", "bn"])
 def test_every_option_is_answered_and_every_mistake_named(draws, lang):
     for drawn in draws:
-        if not level("transfer").fits(drawn):
+        if not load_level("transfer").is_applicable(drawn):
             continue
-        question, key = put_into_words(drawn, lang, level="transfer", figures=False)
+        question, key = compose_variant(drawn, lang, level="transfer", figures=False)
         for part, solution, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):
             assert mark(spec, solution.answer, lang=lang, decimal="point").credit == 1
             for letter, _ in part.field.options:
@@ -118,19 +120,22 @@ def test_every_option_is_answered_and_every_mistake_named(draws, lang):
 
 @pytest.mark.parametrize("lang", ["en", "bn"])
 def test_a_worked_solution_and_two_changes_are_introduced(lang):
-    drawn = draw(builtin().template("diameter-stops-and-exposure-time"), 3)
-    for part in (found_mistake(drawn)(lang), compared(Changes(drawn), None)(lang)):
-        assert [type(block) for block in part.body] == [Paragraph, Items, Paragraph]
-        assert plain(part.body[0].children).endswith(":")
-        assert all(len(plain(text)) < 40 for _, text in part.options)
+    drawn = draw_variant(builtin_bank().template("diameter-stops-and-exposure-time"), 3)
+    for part in (
+        choose_faulty_solution(drawn)(lang),
+        choose_comparison(Perturbations(drawn), None)(lang),
+    ):
+        assert [type(block) for block in part.body] == [Paragraph, ListBlock, Paragraph]
+        assert inlines_to_text(part.body[0].children).endswith(":")
+        assert all(len(inlines_to_text(text)) < 40 for _, text in part.options)
 
 
 def test_no_step_with_a_wrong_formula_is_called_right():
     """Rounding gives the same as cutting off in about half of the four numbers."""
     places = set()
     for seed in range(40):
-        drawn = draw(builtin().template("flat-field-correction-output"), seed)
-        found = found_mistake(drawn)
+        drawn = draw_variant(builtin_bank().template("flat-field-correction-output"), seed)
+        found = choose_faulty_solution(drawn)
         if found is None or not found.trap:
             continue
         wrong = {step.name for step in drawn.template.chain.traps[found.trap]}
@@ -147,9 +152,9 @@ def test_no_step_with_a_wrong_formula_is_called_right():
 def test_a_mistake_whose_value_cannot_be_written_is_left_out():
     """1 - (1/sqrt(a))^2*a is nought, but no number of digits shows it."""
     for seed in (18, 23, 34):
-        drawn = draw(builtin().template("fold-over-radius"), seed)
-        assert found_mistake(drawn)("en").spec.correct
-        assert found_mistake(drawn).trap != "factor-zero"
+        drawn = draw_variant(builtin_bank().template("fold-over-radius"), seed)
+        assert choose_faulty_solution(drawn)("en").spec.correct
+        assert choose_faulty_solution(drawn).trap != "factor-zero"
 
 
 POWERS = [
@@ -170,35 +175,39 @@ POWERS = [
 
 @pytest.mark.parametrize(("target", "formula", "before", "expected"), POWERS)
 def test_a_power_is_what_the_formulas_prove(target, formula, before, expected):
-    steps = {name: parse(text) for name, text in {**before, target: formula}.items()}
+    steps = {name: parse_formula(text) for name, text in {**before, target: formula}.items()}
     for quantity, power in expected.items():
         wanted = None if power is None else Fraction(power)
-        assert power_of(target, quantity, steps) == wanted
+        assert scaling_exponent(target, quantity, steps) == wanted
 
 
 def test_what_nobody_can_change_stays():
     """The wavelength of a laser fixes the height of the curve; nobody doubles that alone."""
-    drawn = draw(builtin().template("two-lasers-flux-ratio"), 0)
-    changed = {change.given for change in Changes(drawn).of(0, "r")}
+    drawn = draw_variant(builtin_bank().template("two-lasers-flux-ratio"), 0)
+    changed = {change.given for change in Perturbations(drawn).of(0, "r")}
     assert changed == {"P_1", "P_2"}
 
 
 @pytest.mark.parametrize("name", ["opencv-stored-hue", "opencv-hue-shift", "uint8-sum"])
 def test_a_program_prints_a_whole_number_after_a_change_too(name):
     for seed in range(12):
-        changes = Changes(draw(builtin().template(name), seed))
+        changes = Perturbations(draw_variant(builtin_bank().template(name), seed))
         after = [change.after for change in changes.of(0, "c")]
         assert all(value.q == 1 for value in after)
 
 
 def test_every_letter_that_a_question_names_has_a_name(template):
-    drawn = draw(template, 0)
+    drawn = draw_variant(template, 0)
     known = drawn.template.quantities
     changed = {
-        change.given for _, target in targets(drawn) for change in Changes(drawn).of(0, target)
+        change.given
+        for _, target in askable_results(drawn)
+        for change in Perturbations(drawn).of(0, target)
     }
     steps = {
-        step.name for place in range(len(drawn.template.labels)) for step in drawn.steps(place)
+        step.name
+        for place in range(len(drawn.template.labels))
+        for step in drawn.steps_of_part(place)
     }
     assert not [
         one for one in changed | steps for lang in ("en", "bn") if not known.name(one, lang)
@@ -207,24 +216,24 @@ def test_every_letter_that_a_question_names_has_a_name(template):
 
 def test_what_follows_from_a_quantity_cannot_stay_when_it_changes():
     """In the turned pixel red is the old blue: nobody can change only one of them."""
-    drawn = draw(builtin().template("luma-before-and-after-turn"), 0)
-    assert {change.given for change in Changes(drawn).of(1, "Y_t")} == set()
-    assert {change.given for change in Changes(drawn).of(0, "Y_601")} <= {"R", "G", "B"}
+    drawn = draw_variant(builtin_bank().template("luma-before-and-after-turn"), 0)
+    assert {change.given for change in Perturbations(drawn).of(1, "Y_t")} == set()
+    assert {change.given for change in Perturbations(drawn).of(0, "Y_601")} <= {"R", "G", "B"}
 
 
 def test_the_largest_of_two_depths_stays_the_largest():
-    template = builtin().template("weak-perspective-scale-error")
+    template = builtin_bank().template("weak-perspective-scale-error")
     for seed in range(20):
-        for change in Changes(draw(template, seed)).of(0, "s_2"):
+        for change in Perturbations(draw_variant(template, seed)).of(0, "s_2"):
             assert change.changed.shown["z_1"] < change.changed.shown["z_2"]
 
 
 def test_answers_vary_over_the_seeds():
-    template = builtin().template("diameter-stops-and-exposure-time")
-    drawn = [draw(template, seed) for seed in range(40)]
-    places = [found_mistake(one)("en").spec.correct[0] for one in drawn]
-    factors = {str(effect(Changes(one)).change.factor) for one in drawn}
-    pairs = {compared(Changes(one), None).answer for one in drawn}
+    template = builtin_bank().template("diameter-stops-and-exposure-time")
+    drawn = [draw_variant(template, seed) for seed in range(40)]
+    places = [choose_faulty_solution(one)("en").spec.correct[0] for one in drawn]
+    factors = {str(choose_consequence(Perturbations(one)).change.factor) for one in drawn}
+    pairs = {choose_comparison(Perturbations(one), None).answer for one in drawn}
     assert len(set(places)) >= 3
     assert len(factors) >= 3
     assert len(pairs) >= 2

@@ -12,17 +12,17 @@ import flint
 import mpmath
 import pytest
 
-from quizgen.bank.draw import draw
-from quizgen.bank.folder import Bank, builtin
-from quizgen.marking.options import Context
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.bank.variant import draw_variant
+from quizgen.grading.options import QuestionContext
 from quizgen.maths.precision import working_precision
+from quizgen.paper.answer_key import parse_answer_key, write_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.key import key_bytes, load_key
-from quizgen.paper.marking import mark_paper
-from quizgen.paper.paper import build, single
+from quizgen.paper.grading import grade_paper
+from quizgen.paper.paper import build_paper, single_question_paper
 
 SEEDS = range(3)
-BANK = builtin()
+BANK = builtin_bank()
 
 
 @cache
@@ -30,8 +30,10 @@ def irrational():
     """Templates with values that no fraction is."""
     found = [
         name
-        for name in BANK.paths
-        if any(isinstance(v, flint.arb) for v in draw(BANK.template(name), 0).values.values())
+        for name in BANK.template_paths
+        if any(
+            isinstance(v, flint.arb) for v in draw_variant(BANK.template(name), 0).values.values()
+        )
     ]
     assert len(found) >= 5
     return found
@@ -49,7 +51,7 @@ def disturbed(bits):
 
 
 def key(name, seed):
-    return key_bytes(single(BANK.template(name), seed, "en", figures=False))
+    return write_answer_key(single_question_paper(BANK.template(name), seed, "en", figures=False))
 
 
 @pytest.fixture(scope="module")
@@ -78,21 +80,25 @@ def test_keys_are_the_same_from_any_number_of_threads(expected, threads):
 def test_a_paper_is_the_same_at_any_precision_and_in_threads():
     def paper(bits):
         with disturbed(bits):
-            return key_bytes(build(BANK, load_blueprint("mock"), 11, "en", figures=False))
+            return write_answer_key(
+                build_paper(BANK, load_blueprint("mock"), 11, "en", figures=False)
+            )
 
     found = paper(53)
     assert paper(20) == found
     assert paper(1000) == found
     with ThreadPoolExecutor(3) as pool:
-        assert set(pool.map(lambda _: key_bytes(
-            build(BANK, load_blueprint("mock"), 11, "en", figures=False)), range(3))) == {found}  # fmt: skip
+        assert set(pool.map(lambda _: write_answer_key(
+            build_paper(BANK, load_blueprint("mock"), 11, "en", figures=False)), range(3))) == {found}  # fmt: skip
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_decibels_hold_forty_certified_digits(seed):
     """N photons have a ratio of sqrt N to one, 20 log10 of which is in decibels."""
-    one = draw(BANK.template("photon-snr-and-decibels"), seed)
-    made = single(BANK.template("photon-snr-and-decibels"), seed, "en", figures=False)
+    one = draw_variant(BANK.template("photon-snr-and-decibels"), seed)
+    made = single_question_paper(
+        BANK.template("photon-snr-and-decibels"), seed, "en", figures=False
+    )
     with mpmath.workdps(60):
         level = 20 * mpmath.log10(mpmath.sqrt(int(one.shown["N_2"].p)))
         digits(made.items[0].keys[0].specs[1].value, level)
@@ -102,7 +108,10 @@ def test_decibels_hold_forty_certified_digits(seed):
 def test_tails_hold_forty_certified_digits(seed):
     """Outside k standard deviations lies erfc(k / sqrt 2); megapixels times it is a count."""
     template = BANK.template("gaussian-peak-and-tail-shares")
-    one, made = draw(template, seed), single(template, seed, "en", figures=False)
+    one, made = (
+        draw_variant(template, seed),
+        single_question_paper(template, seed, "en", figures=False),
+    )
     _, share, count = made.items[0].keys[0].specs
     with mpmath.workdps(60):
         shown = {name: mpmath.mpf(int(v.p)) / int(v.q) for name, v in one.shown.items()}
@@ -117,13 +126,13 @@ def digits(text, value):
 
 
 def test_a_shown_value_is_computed_once(monkeypatch):
-    one = draw(BANK.template("gaussian-peak-and-tail-shares"), 0)
+    one = draw_variant(BANK.template("gaussian-peak-and-tail-shares"), 0)
     first = one.shown_values
-    monkeypatch.setattr(type(one.plan), "shown_env", None)
+    monkeypatch.setattr(type(one.sampler), "shown_env", None)
     assert one.shown_values is first
-    text = one.text("N")
+    text = one.format_value("N")
     monkeypatch.setitem(first, "N", None)
-    assert one.text("N") == text
+    assert one.format_value("N") == text
 
 
 def test_no_cached_property_states_a_precision(monkeypatch):
@@ -143,14 +152,18 @@ def test_no_cached_property_states_a_precision(monkeypatch):
     monkeypatch.setattr(working_precision, "__enter__", watched)
     bank = Bank(BANK.root, trusted=True)
     for name in irrational():
-        key = load_key(json.loads(key_bytes(single(bank.template(name), 7, "en", figures=False))))
-        mark_paper(key, {part.id: "1.25" for q in key.questions for part in q.parts})
+        key = parse_answer_key(
+            json.loads(
+                write_answer_key(single_question_paper(bank.template(name), 7, "en", figures=False))
+            )
+        )
+        grade_paper(key, {part.id: "1.25" for q in key.questions for part in q.parts})
     assert not faults
 
 
 def test_every_number_of_a_question_is_solved_once(monkeypatch):
     template = BANK.template("gaussian-peak-and-tail-shares")
-    context = Context(template.chain, dict(draw(template, 0).shown))
-    first = context.solved
+    context = QuestionContext(template.chain, dict(draw_variant(template, 0).shown))
+    first = context.solved_values
     monkeypatch.setattr(type(template.chain), "solve", None)
-    assert context.solved is first
+    assert context.solved_values is first

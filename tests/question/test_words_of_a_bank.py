@@ -7,30 +7,32 @@ from pathlib import Path
 
 import pytest
 
-import quizgen.marking
-from quizgen.bank.about import About
-from quizgen.bank.draw import draw
-from quizgen.bank.pages import parse_text
+import quizgen.grading
+from quizgen.bank.language_file import parse_language_file
+from quizgen.bank.metadata import BankMetadata
 from quizgen.bank.rules import PartRule, Rules
 from quizgen.bank.template import Template
-from quizgen.errors import BankError
+from quizgen.bank.variant import draw_variant
+from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
-from quizgen.maths.notation import parse
+from quizgen.maths.notation import parse_formula
 from quizgen.question.kinds import build
 
-ABOUT = About(terms=("proton", "phonon", "zebra"), counted={"sheep": ("sheep", "ভেড়া")})
+ABOUT = BankMetadata(terms=("proton", "phonon", "zebra"), counted={"sheep": ("sheep", "ভেড়া")})
 TEXT = "# Words\nFill in.\n\n## gaps\n- light: photon\n"
 
 
 def template(answer: dict[str, object]) -> Template:
     rules = Rules(topic="t", tier="A", part=(PartRule(answer=answer),))
-    chain = Chain({}, (ChainStep("n", parse("3*4"), ""), ChainStep("p", parse("2*4"), "px")))
-    texts = {"en": parse_text(TEXT)}
+    chain = Chain(
+        {}, (ChainStep("n", parse_formula("3*4"), ""), ChainStep("p", parse_formula("2*4"), "px"))
+    )
+    texts = {"en": parse_language_file(TEXT)}
     return Template(f"words-{answer}", rules, chain, texts, f"{answer}", Path("bank"), ABOUT)
 
 
 def spec(answer: dict[str, object]):
-    return build(draw(template(answer), 1), 0).spec
+    return build(draw_variant(template(answer), 1), 0).spec
 
 
 def test_a_gap_takes_the_terms_that_could_be_its_own_misspelt():
@@ -66,7 +68,7 @@ GENERAL = {"constant", "electron", "interval", "inverse", "negative", "photon", 
 def test_the_engine_holds_no_term_of_the_bank(bank):
     terms = {*bank.about.terms} - GENERAL
     assert len(terms) > 90
-    for file in Path(quizgen.marking.__path__[0]).rglob("*.py"):
+    for file in Path(quizgen.grading.__path__[0]).rglob("*.py"):
         nodes = ast.walk(ast.parse(file.read_text("utf-8")))
         texts = {node.value for node in nodes if isinstance(node, ast.Constant)}
         assert not texts & terms, file

@@ -7,19 +7,19 @@ from pathlib import Path
 import pytest
 
 from quizgen import typeset
-from quizgen.bank.draw import Draw
-from quizgen.bank.pages import parse_text
-from quizgen.bank.plan import plan_of
+from quizgen.bank.language_file import parse_language_file
 from quizgen.bank.rules import DrawRule, PartRule, Rules
+from quizgen.bank.sampler import sampler_for
 from quizgen.bank.template import Template
-from quizgen.errors import BankError
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
-from quizgen.maths.notation import parse
-from quizgen.maths.numbers import rational
-from quizgen.question.compose import put_into_words
-from quizgen.question.filling import Filler, plain
-from quizgen.question.shown import Maths
-from quizgen.question.worked import worked
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.numbers import to_rational
+from quizgen.question.compose import compose_variant
+from quizgen.question.inlines import TypesetMaths
+from quizgen.question.interpolation import Interpolator, inlines_to_text
+from quizgen.question.worked_steps import typeset_step
 
 BLANK = "\u00a0"
 TEXT = """# Title
@@ -36,22 +36,26 @@ def drawn(given, steps, stem="Stem", *, words="", said=None):
     """A draw of a template made by hand: quantity to (unit, value), and name, formula, unit."""
     units = {name: unit for name, (unit, _) in given.items()}
     names = (*given, *(name for name, _, _ in steps))
-    chain = Chain(units, tuple(ChainStep(n, parse(f, symbols=names), unit) for n, f, unit in steps))
+    chain = Chain(
+        units, tuple(ChainStep(n, parse_formula(f, symbols=names), unit) for n, f, unit in steps)
+    )
     rules = Rules(
         topic="noise",
         tier="A",
         part=(PartRule(answer={"kind": "number", "of": steps[-1][0]}),),
         draw={name: DrawRule(unit=unit, pick=(value,)) for name, (unit, value) in given.items()},
     )
-    text = parse_text(TEXT.replace("{stem}", stem) + words)
+    text = parse_language_file(TEXT.replace("{stem}", stem) + words)
     template = Template("by-hand", rules, chain, {"en": text}, f"{given}{steps}{stem}", Path())
-    shown = {name: rational(value) for name, (_, value) in given.items()}
-    return Draw(template, "0", "0", 1, shown, said or {}, plan_of(template).solve(shown), ((),))
+    shown = {name: to_rational(value) for name, (_, value) in given.items()}
+    return Variant(
+        template, "0", "0", 1, shown, said or {}, sampler_for(template).solve(shown), ((),)
+    )
 
 
 def typed(one, name):
-    line = worked(one, one.template.chain.by_name[name])
-    return line.typed.replace(BLANK, " "), typeset.latex(line.node)
+    line = typeset_step(one, one.template.chain.by_name[name])
+    return line.typed.replace(BLANK, " "), typeset.to_latex(line.node)
 
 
 LENS = {"f": ("mm", "50"), "X": ("m", "30"), "Z": ("m", "600")}
@@ -99,25 +103,25 @@ def test_numbers_stand_where_the_tree_has_the_name():
 
 
 def test_a_stem_shows_what_is_drawn():
-    question, _ = put_into_words(drawn(LENS, [("u", "f*X/Z", "mm")], "A lens of {{ f }}."), "en")
-    assert plain(question.stem[0].children).replace(BLANK, " ") == "A lens of 50 mm."
+    question, _ = compose_variant(drawn(LENS, [("u", "f*X/Z", "mm")], "A lens of {{ f }}."), "en")
+    assert inlines_to_text(question.stem[0].children).replace(BLANK, " ") == "A lens of 50 mm."
 
 
 def test_a_stem_cannot_show_a_solved_value():
     one = drawn(LENS, [("u", "f*X/Z", "mm")], "The image is {{ u }} wide.")
     with pytest.raises(BankError, match=r"\{\{ u \}\} is not a drawn quantity"):
-        put_into_words(one, "en")
+        compose_variant(one, "en")
 
 
 def test_a_program_in_a_stem_cannot_show_a_solved_value():
     one = drawn(LENS, [("u", "f*X/Z", "mm")], "Look:\n\n```\nprint({{ u }})\n```\n")
     with pytest.raises(BankError, match=r"\{\{ u \}\} cannot stand in a program"):
-        put_into_words(one, "en")
+        compose_variant(one, "en")
 
 
 def test_a_program_in_a_stem_has_the_minus_of_the_keyboard():
     one = drawn({"a": ("", "-3")}, [("u", "2*a", "")], "Look:\n\n```\nprint({{ a }})\n```\n")
-    question, _ = put_into_words(one, "en")
+    question, _ = compose_variant(one, "en")
     assert question.stem[1].text.strip() == "print(-3)"
 
 
@@ -125,8 +129,8 @@ def test_code_in_a_sentence_is_filled_as_a_program():
     words = "## words\n- call: It returns `f({{ a }}, {{ a }}.0)`.\n"
     steps = [("u", "2*a", "")]
     one = drawn({"a": ("", "-3")}, steps, "{{ what }}", words=words, said={"what": "call"})
-    question, _ = put_into_words(one, "en")
-    assert plain(question.stem[0].children) == "It returns f(-3, -3.0)."
+    question, _ = compose_variant(one, "en")
+    assert inlines_to_text(question.stem[0].children) == "It returns f(-3, -3.0)."
 
 
 def test_a_stem_shows_a_drawn_phrase():
@@ -134,8 +138,8 @@ def test_a_stem_shows_a_drawn_phrase():
     one = drawn(
         LENS, [("u", "f*X/Z", "mm")], "Take {{ lens }}.", words=words, said={"lens": "long"}
     )
-    question, _ = put_into_words(one, "en")
-    assert plain(question.stem[0].children) == "Take a long lens."
+    question, _ = compose_variant(one, "en")
+    assert inlines_to_text(question.stem[0].children) == "Take a long lens."
 
 
 @pytest.mark.parametrize(
@@ -148,8 +152,8 @@ def test_only_the_branch_that_applies_is_shown(a, line):
 
 def test_the_solution_may_show_it():
     one = drawn(LENS, [("u", "f*X/Z", "mm")])
-    shown = Filler(one, "en").blocks(parse_text("# T\nIt is {{ u }} wide.").stem)
-    assert plain(shown[0].children).replace(BLANK, " ") == "It is 2.5 mm wide."
+    shown = Interpolator(one, "en").blocks(parse_language_file("# T\nIt is {{ u }} wide.").stem)
+    assert inlines_to_text(shown[0].children).replace(BLANK, " ") == "It is 2.5 mm wide."
 
 
 def test_a_fraction_of_long_numbers_gives_way_to_its_decimal():
@@ -165,14 +169,16 @@ def test_a_fraction_of_long_numbers_gives_way_to_its_decimal():
 
 def test_a_rounded_value_is_never_said_to_be_equal():
     one = drawn({"a": ("", "70"), "b": ("", "11")}, [("u", "a/b", ""), ("w", "3/2", "")])
-    shown = Filler(one, "en").blocks(parse_text("# T\n$u$ = {{ u }}, $w$ = {{ w }}.").stem)
-    assert plain(shown[0].children).replace(BLANK, " ") == "u ≈ 6.364, w = 1.5."
+    shown = Interpolator(one, "en").blocks(
+        parse_language_file("# T\n$u$ = {{ u }}, $w$ = {{ w }}.").stem
+    )
+    assert inlines_to_text(shown[0].children).replace(BLANK, " ") == "u ≈ 6.364, w = 1.5."
 
 
 def test_long_and_small_numbers_of_a_sentence_are_typeset():
     one = drawn({"a": ("B", "1228800"), "b": ("", "1/4000000")}, [("u", "a*b", "B")])
-    (shown,) = Filler(one, "en").blocks(parse_text("# T\nOf {{ a }}, {{ b }}.").stem)
-    assert plain(shown.children) == "Of 1\u202f228\u202f800\u00a0B, 2.5·10⁻⁷."
-    assert [typeset.latex(part.node) for part in shown.children if isinstance(part, Maths)] == [
-        r"2.5 \cdot 10^{- 7}"
-    ]
+    (shown,) = Interpolator(one, "en").blocks(parse_language_file("# T\nOf {{ a }}, {{ b }}.").stem)
+    assert inlines_to_text(shown.children) == "Of 1\u202f228\u202f800\u00a0B, 2.5·10⁻⁷."
+    assert [
+        typeset.to_latex(part.node) for part in shown.children if isinstance(part, TypesetMaths)
+    ] == [r"2.5 \cdot 10^{- 7}"]

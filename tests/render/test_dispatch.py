@@ -6,14 +6,23 @@ from typing import get_args
 
 import pytest
 
-from quizgen.bank.prose import About, Block, CodeBlock, Inline, Printed, Slot, Unfilled, Words
-from quizgen.errors import RenderError
-from quizgen.question import markup
-from quizgen.question.shown import Maths, PlacedPicture
-from quizgen.render import text, typ
-from quizgen.typeset import latex, mathml, nodes, spoken, typst
+from quizgen.bank.markdown import (
+    Block,
+    CodeBlock,
+    Inline,
+    PlainText,
+    RoundedMarker,
+    Slot,
+    TypesetFormula,
+    Unfilled,
+)
+from quizgen.core.errors import RenderError
+from quizgen.question import html
+from quizgen.question.inlines import PlacedPicture, TypesetMaths
+from quizgen.render import text, typst_document
+from quizgen.typeset import nodes, to_latex, to_mathml, to_speech, to_typst
 
-PRINTERS = [latex, mathml, typst, spoken]
+PRINTERS = [to_latex, to_mathml, to_typst, to_speech]
 
 
 def emitter(printer):
@@ -29,28 +38,35 @@ def test_every_layout_node_has_a_rule_in_every_printer(printer):
 @pytest.mark.parametrize("printer", PRINTERS, ids=lambda p: p.__name__)
 def test_a_stranger_is_refused_by_name(printer):
     with pytest.raises(RenderError, match=r"no .* for Words"):
-        printer(Words("x"), "en")
+        printer(PlainText("x"), "en")
 
 
-ARGUMENTS = {text.inline: [], markup._piece: ["en", markup.OURS]}
+ARGUMENTS = {text.inlines_to_plain_text: [], html._render_piece: ["en", html.OURS]}
 
 
-@pytest.mark.parametrize("inline", [markup._piece, typ.inline, text.inline])
+@pytest.mark.parametrize(
+    "inline", [html._render_piece, typst_document.inlines_to_typst, text.inlines_to_plain_text]
+)
 def test_every_piece_of_a_filled_sentence_has_a_rule(inline):
-    unfilled = {*get_args(Unfilled), About, Printed}
-    filled = set(get_args(Inline)) - unfilled | {Maths, PlacedPicture, tuple}
+    unfilled = {*get_args(Unfilled), RoundedMarker, TypesetFormula}
+    filled = set(get_args(Inline)) - unfilled | {TypesetMaths, PlacedPicture, tuple}
     assert inline.registry.keys() - {object} == filled
     with pytest.raises(TypeError, match="Slot"):
         inline(Slot("f"), *ARGUMENTS.get(inline, ["en"]))
 
 
-@pytest.mark.parametrize("block", [markup._block, typ._block, text._lines])
+@pytest.mark.parametrize(
+    "block", [html._render_block, typst_document._reject_block, text._reject_block]
+)
 def test_every_block_has_a_rule(block):
     assert block.registry.keys() - {object} == set(get_args(Block))
 
 
 def test_program_text_keeps_its_spaces_in_every_format():
     code = CodeBlock("if a < b:\n    c")
-    assert markup.blocks([code], "en") == '<pre tabindex="0"><code>if a &lt; b:\n    c</code></pre>'
-    assert list(text.blocks([code])) == ["    if a < b:", "        c"]
-    assert typ.blocks([code], "en") == '#raw("if a < b:\\n    c", block: true);'
+    assert (
+        html.blocks_to_html([code], "en")
+        == '<pre tabindex="0"><code>if a &lt; b:\n    c</code></pre>'
+    )
+    assert list(text.blocks_to_plain_text([code])) == ["    if a < b:", "        c"]
+    assert typst_document.blocks_to_typst([code], "en") == '#raw("if a < b:\\n    c", block: true);'

@@ -7,12 +7,12 @@ import re
 
 import pytest
 
-from quizgen.bank.folder import builtin
-from quizgen.bank.prose import Code
-from quizgen.marking.mark import mark
-from quizgen.question.compose import compose
-from quizgen.question.markup import blocks, inline
-from quizgen.render.text import inline as in_terminal
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.markdown import InlineCode
+from quizgen.grading.mark import mark
+from quizgen.question.compose import compose_question
+from quizgen.question.html import blocks_to_html, inlines_to_html
+from quizgen.render.text import inlines_to_plain_text as in_terminal
 
 LANGS = ("en", "bn")
 SEEDS = (1, 2)
@@ -75,23 +75,23 @@ def unreadable(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize("lang", LANGS)
-@pytest.mark.parametrize("name", builtin().paths)
+@pytest.mark.parametrize("name", builtin_bank().template_paths)
 def test_a_page_is_written_for_people(name, lang):
     for seed in SEEDS:
-        question, key = compose(builtin().template(name), seed, lang, figures=False)
-        shown = [str(inline(run, lang)) for run in sentences(question, key)]
-        shown += [str(blocks(part, lang)) for part in sections(question, key)]
+        question, key = compose_question(builtin_bank().template(name), seed, lang, figures=False)
+        shown = [str(inlines_to_html(run, lang)) for run in sentences(question, key)]
+        shown += [str(blocks_to_html(part, lang)) for part in sections(question, key)]
         for text in map(words_of, shown):
             assert strange(text) + unreadable(text) == []
             assert NAME.findall(text) == []
 
 
 @pytest.mark.parametrize("lang", LANGS)
-@pytest.mark.parametrize("name", builtin().paths)
+@pytest.mark.parametrize("name", builtin_bank().template_paths)
 def test_a_terminal_is_written_for_people(name, lang):
-    template = builtin().template(name)
+    template = builtin_bank().template(name)
     for seed in SEEDS:
-        question, key = compose(template, seed, lang, figures=False)
+        question, key = compose_question(template, seed, lang, figures=False)
         runs = [without_code(run) for run in sentences(question, key)]
         worked = [in_terminal(line.maths) for part in key.solution.parts for line in part.lines]
         for text in (*map(in_terminal, runs), *worked):
@@ -99,14 +99,14 @@ def test_a_terminal_is_written_for_people(name, lang):
 
 
 def without_code(run):
-    return tuple(part for part in run if not isinstance(part, Code))
+    return tuple(part for part in run if not isinstance(part, InlineCode))
 
 
 @pytest.mark.parametrize("lang", LANGS)
-@pytest.mark.parametrize("name", builtin().paths)
+@pytest.mark.parametrize("name", builtin_bank().template_paths)
 def test_what_is_said_of_mistakes_is_written_for_people(name, lang):
     """Each mistake of a question typed back: what was read, and what is said."""
-    _, key = compose(builtin().template(name), 1, lang, figures=False)
+    _, key = compose_question(builtin_bank().template(name), 1, lang, figures=False)
     for spec, part in zip(key.specs, key.solution.parts, strict=True):
         if spec.kind != "code":
             for mistake in part.mistakes:
@@ -116,11 +116,11 @@ def test_what_is_said_of_mistakes_is_written_for_people(name, lang):
 
 @pytest.mark.parametrize("lang", LANGS)
 def test_the_example_of_how_to_type_a_formula_answers_no_question(lang):
-    for name in builtin().paths:
-        if any(part.answer["kind"] == "expression" for part in builtin().rules(name).part):
-            question, key = compose(builtin().template(name), 1, lang, figures=False)
+    for name in builtin_bank().template_paths:
+        if any(part.answer["kind"] == "expression" for part in builtin_bank().rules(name).part):
+            question, key = compose_question(builtin_bank().template(name), 1, lang, figures=False)
             for spec, part in zip(key.specs, question.parts, strict=True):
-                typed = [one.text for one in part.field.hint if isinstance(one, Code)]
+                typed = [one.text for one in part.field.hint if isinstance(one, InlineCode)]
                 assert not any(mark(spec, text).credit for text in typed)
                 if spec.kind == "expression":  # nor is it one with its letters changed
                     assert typed == ["(a+b)^2/2"]

@@ -10,9 +10,9 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.cli.check import check
+from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.key import key_bytes
-from quizgen.paper.paper import build
+from quizgen.paper.paper import build_paper
 from quizgen.render import KINDS, render_paper
 
 pytestmark = pytest.mark.browser
@@ -21,10 +21,10 @@ pytestmark = pytest.mark.browser
 @pytest.fixture(scope="module")
 def folder(bank, tmp_path_factory):
     made = tmp_path_factory.mktemp("keeping")
-    paper = build(bank, load_blueprint("mock"), 12, "en", figures=False)
+    paper = build_paper(bank, load_blueprint("mock"), 12, "en", figures=False)
     for kind in KINDS:
         (made / f"{kind}.html").write_bytes(render_paper(paper, kind, "html"))
-    (made / "key.json").write_bytes(key_bytes(paper))
+    (made / "key.json").write_bytes(write_answer_key(paper))
     return made
 
 
@@ -81,7 +81,7 @@ def test_another_paper_starts_empty(context, folder, bank):
     page = opened(context, folder)
     fill_everything(page)
     other = folder / "other.html"
-    paper = build(bank, load_blueprint("mock"), 13, "en", figures=False)
+    paper = build_paper(bank, load_blueprint("mock"), 13, "en", figures=False)
     other.write_bytes(render_paper(paper, "exam", "html"))
     page.on("dialog", lambda dialog: dialog.accept())
     page.goto(other.as_uri())
@@ -158,7 +158,7 @@ def test_the_page_says_at_its_start_what_paper_it_is_of(folder):
 
 
 def test_what_is_drawn_in_the_page_is_kept_as_its_text(bank, context, tmp_path, barriers):
-    paper = build(bank, load_blueprint("trial"), 3, "en", figures=False)
+    paper = build_paper(bank, load_blueprint("trial"), 3, "en", figures=False)
     (tmp_path / "exam.html").write_bytes(render_paper(paper, "exam", "html"))
     page = opened(context, tmp_path)
     svg, field = page.locator("svg.strokes"), page.locator("input.typing")

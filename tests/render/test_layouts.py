@@ -8,7 +8,7 @@ import sys
 import jinja2
 import pytest
 
-from quizgen import kept
+from quizgen.core import cache
 from quizgen.render import layouts
 
 
@@ -28,7 +28,11 @@ def page(empty_cache, tmp_path, monkeypatch):
 
 
 def filled():
-    return layouts.environment("quizgen_own_layouts").get_template("greeting.j2").render(name="<A>")
+    return (
+        layouts.jinja_environment("quizgen_own_layouts")
+        .get_template("greeting.j2")
+        .render(name="<A>")
+    )
 
 
 def test_a_layout_is_compiled_once(page, monkeypatch):
@@ -46,7 +50,7 @@ def test_what_is_no_bytecode_is_not_run(page, empty_cache, found):
     page.write_text("Dear {{ name }}")
     filled()
     (file,) = (empty_cache / "layouts").iterdir()
-    kept.write(empty_cache, "layouts", file.name, found)
+    cache.write_entry(empty_cache, "layouts", file.name, found)
     assert filled() == "Dear &lt;A&gt;"
 
 
@@ -65,6 +69,6 @@ def test_bytecode_says_nothing_of_the_folder_it_was_made_in(page, empty_cache, t
 
 
 def test_all_layouts_of_a_package_can_be_compiled_beforehand(empty_cache, monkeypatch):
-    layouts.compiled("quizgen.render")
+    layouts.precompile_layouts("quizgen.render")
     monkeypatch.setattr(jinja2.Environment, "compile", compiled_again)
-    assert layouts.environment("quizgen.render").get_template("paper.html.j2")
+    assert layouts.jinja_environment("quizgen.render").get_template("paper.html.j2")

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from quizgen import typeset
-from quizgen.bank.prose import Words
-from quizgen.maths.notation import parse
-from quizgen.question.markup import inline
-from quizgen.question.shown import Maths
+from quizgen.bank.markdown import PlainText
+from quizgen.maths.notation import parse_formula
+from quizgen.question.html import inlines_to_html
+from quizgen.question.inlines import TypesetMaths
 from quizgen.render import fonts
-from quizgen.render.html import _style
+from quizgen.render.html import _build_paper_css
 
 pytestmark = pytest.mark.browser
 
@@ -42,13 +42,13 @@ TALLEST = {  # ems from the highest to the lowest ink: no family stands out of i
 
 
 def formula(text):
-    return typeset.mathml(typeset.layout(parse(text), inline=True))
+    return typeset.to_mathml(typeset.lay_out(parse_formula(text), inline=True))
 
 
 def sheet(body):
     font = f'@font-face {{ font-family: "QuizMaths"; src: url("{fonts.maths_uri()}"); }}'
     plain = f"html {{ font-size: {SIZE / 1.06}px }} body {{ margin: 0; padding: 0; }}"
-    return f'<!DOCTYPE html><meta charset="utf-8"><style>{font}{_style()}{plain}</style>{body}'
+    return f'<!DOCTYPE html><meta charset="utf-8"><style>{font}{_build_paper_css()}{plain}</style>{body}'
 
 
 def rows(bodies):
@@ -147,9 +147,9 @@ def test_accents_neither_hover_nor_touch(inked, text):
 
 def test_a_short_formula_and_its_value_stay_on_one_line(camera):
     """A column that ends at each place in turn: nothing of ``f = 6 mm,`` begins a line."""
-    maths = Maths(typeset.layout(parse("f")), "f")
-    said = inline((maths, Words(" = "), Words("6\u00a0mm"), Words(",")), "en")
-    whole = typeset.mathml(typeset.layout(parse("f = 6"), inline=True))
+    maths = TypesetMaths(typeset.lay_out(parse_formula("f")), "f")
+    said = inlines_to_html((maths, PlainText(" = "), PlainText("6\u00a0mm"), PlainText(",")), "en")
+    whole = typeset.to_mathml(typeset.lay_out(parse_formula("f = 6"), inline=True))
     widths = range(60, 400, 20)
     style = "position:absolute;background:#fff;color:#000;font-size:20px;line-height:40px"
     page = "".join(
@@ -167,4 +167,4 @@ def test_a_short_formula_and_its_value_stay_on_one_line(camera):
 
 
 def test_the_style_is_the_one_of_papers():
-    assert re.search(r"math \{[^}]*QuizMaths", _style())
+    assert re.search(r"math \{[^}]*QuizMaths", _build_paper_css())

@@ -14,32 +14,32 @@ import typst
 from PIL import Image
 
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.paper import build, single
+from quizgen.paper.paper import build_paper, single_question_paper
 from quizgen.render import html, pdf
-from quizgen.render.room import squares
-from quizgen.render.text import question_text
-from quizgen.render.typ import _fonts, compiled
+from quizgen.render.room import answer_rows
+from quizgen.render.text import format_question
+from quizgen.render.typst_document import _load_font_collection, compile_pdf
 
 
 @pytest.fixture(scope="module")
 def mock(bank):
-    return build(bank, load_blueprint("mock"), 3, "en")
+    return build_paper(bank, load_blueprint("mock"), 3, "en")
 
 
 @pytest.fixture(scope="module")
 def trial(bank):
-    return build(bank, load_blueprint("trial"), 3, "bn")
+    return build_paper(bank, load_blueprint("trial"), 3, "bn")
 
 
 @pytest.fixture(scope="module")
 def body(mock):
-    source = pdf.source(mock, "exam")["main.typ"].decode()
+    source = pdf.typst_sources(mock, "exam")["main.typ"].decode()
     return source.partition("#show: paper.with")[2]
 
 
 @pytest.mark.parametrize(("points", "rows"), [("0.5", 3), (1, 4), (3, 8), (6, 14), (20, 14)])
 def test_room_grows_with_the_points_up_to_half_a_page(points, rows):
-    assert squares(Fraction(points)) == rows
+    assert answer_rows(Fraction(points)) == rows
 
 
 def test_the_cover_has_aids_points_minutes_and_a_table(mock, body):
@@ -53,11 +53,11 @@ def test_the_cover_has_aids_points_minutes_and_a_table(mock, body):
 
 
 def test_a_table_that_runs_over_the_cover_settles(mock):
-    source = pdf.source(mock, "exam")
+    source = pdf.typst_sources(mock, "exam")
     body = source["main.typ"].replace(b"#overview", b"#v(11cm)\n#overview", 1)
-    with pikepdf.open(io.BytesIO(compiled({**source, "main.typ": body}))) as made:
+    with pikepdf.open(io.BytesIO(compile_pdf({**source, "main.typ": body}))) as made:
         pages = len(made.pages)
-    with pikepdf.open(io.BytesIO(compiled(source))) as usual:
+    with pikepdf.open(io.BytesIO(compile_pdf(source))) as usual:
         assert pages == len(usual.pages) + 1
 
 
@@ -72,9 +72,9 @@ def test_each_calculation_has_room_and_each_statement_two_boxes(mock, body):
 
 def test_papers_of_a_language_share_their_rules_and_read_sentences_out_of_strings(bank, mock):
     """What Typst has laid out for one of them it need not lay out for another."""
-    other = build(bank, load_blueprint("mock"), 4, "en")
+    other = build_paper(bank, load_blueprint("mock"), 4, "en")
     kinds = [(mock, "exam"), (mock, "solutions"), (other, "exam")]
-    files = [pdf.source(paper, kind) for paper, kind in kinds]
+    files = [pdf.typst_sources(paper, kind) for paper, kind in kinds]
     texts = [file["main.typ"].decode() for file in files]
     assert len({re.search(r"^#show: .*$", text, re.MULTILINE)[0] for text in texts}) == 1
     assert mock.code in texts[0]
@@ -85,18 +85,20 @@ def test_papers_of_a_language_share_their_rules_and_read_sentences_out_of_string
 
 
 def test_a_trial_has_a_box_to_sketch_in(trial):
-    source = pdf.source(trial, "exam")["main.typ"].decode()
+    source = pdf.typst_sources(trial, "exam")["main.typ"].decode()
     number = next(item.number for item in trial.items if "sketch" in item.questions[0].template)
     assert source.count(f'#image("figure-{number}b.svg"') == 1
-    page = html.render(trial, "exam").decode()
+    page = html.render_paper_html(trial, "exam").decode()
     assert page.count('<path data-part="given"') >= 1
     assert '<path data-part="wanted"' not in page
-    assert html.render(trial, "solutions").decode().count('<path data-part="wanted"') >= 1
+    assert (
+        html.render_paper_html(trial, "solutions").decode().count('<path data-part="wanted"') >= 1
+    )
 
 
 def test_the_page_says_how_to_type_and_printed_how_to_write(browser, mock, tmp_path):
     file = tmp_path / "exam.html"
-    file.write_bytes(html.render(mock, "exam"))
+    file.write_bytes(html.render_paper_html(mock, "exam"))
     page = browser.new_page()
     page.goto(file.as_uri())
     seen = {}
@@ -110,7 +112,9 @@ def test_the_page_says_how_to_type_and_printed_how_to_write(browser, mock, tmp_p
 
 def white_below(paper, kind):
     """What share of each page is white at its end, the cover and the last page aside."""
-    pages = typst.compile(pdf.source(paper, kind), format="png", ppi=24, font_paths=_fonts())
+    pages = typst.compile(
+        pdf.typst_sources(paper, kind), format="png", ppi=24, font_paths=_load_font_collection()
+    )
     for page in pages[kind == "exam" : -1]:
         grey = np.asarray(Image.open(io.BytesIO(page)).convert("L"))
         mm = len(grey) / 297
@@ -123,7 +127,7 @@ def white_below(paper, kind):
     [("exam", 1, "en", 0.2), ("exam", 2, "bn", 0.2), ("solutions", 0, "en", 0.33)],
 )
 def test_no_page_ends_far_from_its_foot(bank, kind, seed, lang, most):
-    paper = build(bank, load_blueprint("mock"), seed, lang)
+    paper = build_paper(bank, load_blueprint("mock"), seed, lang)
     assert max(white_below(paper, kind)) <= most
 
 
@@ -134,18 +138,22 @@ def test_options_break_between_rows_and_none_stands_alone(body):
 
 
 def test_an_answer_told_in_words_alone_begins_with_them(bank):
-    paper = single(bank.template("define-image-pixel-channel"), 3, "en", figures=False)
-    said = re.findall(r"<strong>Answer:</strong>\s*(\S+)", html.render(paper, "solutions").decode())
+    paper = single_question_paper(
+        bank.template("define-image-pixel-channel"), 3, "en", figures=False
+    )
+    said = re.findall(
+        r"<strong>Answer:</strong>\s*(\S+)", html.render_paper_html(paper, "solutions").decode()
+    )
     assert said[1:] == ["one", "one", "false"]
-    typst_text = pdf.source(paper, "solutions")["main.typ"].decode()
+    typst_text = pdf.typst_sources(paper, "solutions")["main.typ"].decode()
     assert r"#strong(\"Answer:\"); #\" - \"" not in typst_text
 
 
 def test_of_a_drawn_mistake_only_the_sentence_is_told(bank):
     """Its points would be three lines of numbers, and no picture of it."""
-    paper = single(bank.template("draw-image-through-a-pinhole"), 1, "en")
+    paper = single_question_paper(bank.template("draw-image-through-a-pinhole"), 1, "en")
     said = "The image stands upright."
-    assert f"<li>{said}" in html.render(paper, "solutions").decode()
-    typst_text = pdf.source(paper, "solutions")["main.typ"].decode()
+    assert f"<li>{said}" in html.render_paper_html(paper, "solutions").decode()
+    typst_text = pdf.typst_sources(paper, "solutions")["main.typ"].decode()
     assert f'#mistake("(a) ", [], [#passage("#\\"{said}' in typst_text
-    assert f"! upright: {said}" in question_text(paper.items[0])
+    assert f"! upright: {said}" in format_question(paper.items[0])

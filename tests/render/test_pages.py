@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.paper import build
+from quizgen.paper.paper import build_paper
 from quizgen.render import KINDS, render_paper
 
 pytestmark = pytest.mark.browser
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.browser
 @pytest.fixture(scope="module", params=["trial", pytest.param("mock", marks=pytest.mark.slow)])
 def pages(bank, request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages")
-    paper = build(bank, load_blueprint(request.param), 11, "both")
+    paper = build_paper(bank, load_blueprint(request.param), 11, "both")
     for kind in KINDS:
         (folder / f"{kind}.html").write_bytes(render_paper(paper, kind, "html"))
     return folder, paper

@@ -8,13 +8,13 @@ import pikepdf
 import pytest
 
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.paper import build, single
+from quizgen.paper.paper import build_paper, single_question_paper
 from quizgen.render import KINDS, pdf, render_paper
 
 
 @pytest.fixture(scope="module")
 def files(bank):
-    paper = build(bank, load_blueprint("mock"), 11, "both")
+    paper = build_paper(bank, load_blueprint("mock"), 11, "both")
     return paper, {
         kind: pikepdf.open(io.BytesIO(render_paper(paper, kind, "pdf"))) for kind in KINDS
     }
@@ -74,12 +74,12 @@ def test_all_fonts_are_embedded_with_bangla_among_them(files, kind):
 
 def test_english_papers_carry_no_bangla_font(bank):
     pdf = pikepdf.open(
-        io.BytesIO(render_paper(build(bank, load_blueprint("trial"), 1, "en"), "exam", "pdf"))
+        io.BytesIO(render_paper(build_paper(bank, load_blueprint("trial"), 1, "en"), "exam", "pdf"))
     )
     assert not any("HindSiliguri" in str(f.get("/BaseFont")) for f in fonts_of(pdf))
 
 
 @pytest.mark.parametrize(("lang", "said"), [("en", "1 Question"), ("bn", "1 প্রশ্ন")])
 def test_one_question_is_counted_as_one(bank, lang, said):
-    paper = single(bank.template("point-to-image-plane"), 0, lang)
+    paper = single_question_paper(bank.template("point-to-image-plane"), 0, lang)
     assert f', {said}"' in pdf._Sheet(paper, "exam").source()

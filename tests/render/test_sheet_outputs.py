@@ -8,7 +8,7 @@ import html5lib
 import pikepdf
 import pytest
 
-from quizgen.question.sheet import sheet
+from quizgen.question.formula_sheet import compose_sheet
 from quizgen.render import RENDERERS, render_sheet
 
 INVENTORY = [f"F{n:02}" for n in range(1, 47)]
@@ -23,7 +23,7 @@ def choice(request):
 
 @pytest.fixture(scope="module")
 def made(bank, choice):
-    found = sheet(bank, choice)
+    found = compose_sheet(bank, choice)
     return found, {output: render_sheet(found, output) for output in RENDERERS}
 
 
@@ -72,7 +72,11 @@ def test_the_pdf_is_short_enough_to_be_printed(made, choice):
 
 
 def test_the_same_sheet_is_the_same_bytes(bank):
-    again = [render_sheet(sheet(bank, "bn", ["eye"]), name) for name in RENDERERS for _ in range(2)]
+    again = [
+        render_sheet(compose_sheet(bank, "bn", ["eye"]), name)
+        for name in RENDERERS
+        for _ in range(2)
+    ]
     assert again[0] == again[1]
     assert again[2] == again[3]
 
@@ -80,7 +84,7 @@ def test_the_same_sheet_is_the_same_bytes(bank):
 @pytest.fixture(scope="module")
 def address(bank, tmp_path_factory):
     path = tmp_path_factory.mktemp("sheet") / "formulas.html"
-    path.write_bytes(render_sheet(sheet(bank, "both"), "html"))
+    path.write_bytes(render_sheet(compose_sheet(bank, "both"), "html"))
     return path.as_uri()
 
 

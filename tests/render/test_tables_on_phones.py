@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.bank.folder import builtin
-from quizgen.bank.prose import Table
-from quizgen.paper.paper import single
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.markdown import TableBlock
+from quizgen.paper.paper import single_question_paper
 from quizgen.render import render_paper
 
 BROKEN = """[...document.querySelectorAll("th, td")].flatMap(cell => {
@@ -20,8 +20,8 @@ BROKEN = """[...document.querySelectorAll("th, td")].flatMap(cell => {
   return broken;
 })"""
 WITH_TABLES = [
-    name for name in builtin().paths
-    if any(isinstance(block, Table) for block in builtin().template(name).texts["bn"].stem)
+    name for name in builtin_bank().template_paths
+    if any(isinstance(block, TableBlock) for block in builtin_bank().template(name).texts["bn"].stem)
 ]  # fmt: skip
 
 
@@ -33,7 +33,9 @@ def test_there_are_some():
 @pytest.mark.parametrize("name", WITH_TABLES)
 def test_words_stay_whole(browser, tmp_path, name, lang):
     page_file = tmp_path / "exam.html"
-    page_file.write_bytes(render_paper(single(builtin().template(name), 0, lang), "exam", "html"))
+    page_file.write_bytes(
+        render_paper(single_question_paper(builtin_bank().template(name), 0, lang), "exam", "html")
+    )
     page = browser.new_page(viewport={"width": 360, "height": 800})
     page.goto(page_file.as_uri())
     assert page.evaluate(BROKEN) == []
@@ -44,7 +46,7 @@ def test_words_stay_whole(browser, tmp_path, name, lang):
 @pytest.mark.parametrize("lang", ["en", "bn"])
 def test_what_is_wider_than_the_screen_scrolls_by_itself(browser, tmp_path, lang):
     page_file = tmp_path / "exam.html"
-    paper = single(builtin().template("infrared-leak"), 0, lang)
+    paper = single_question_paper(builtin_bank().template("infrared-leak"), 0, lang)
     page_file.write_bytes(render_paper(paper, "exam", "html"))
     page = browser.new_page(viewport={"width": 280, "height": 800})
     page.goto(page_file.as_uri())

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 from fontTools.ttLib import TTFont
 
-from quizgen.audit.doctor import bangla_text
-from quizgen.bank.folder import builtin
-from quizgen.errors import RenderError
-from quizgen.paper.paper import single
+from quizgen.bank.bank import builtin_bank
+from quizgen.core.errors import RenderError
+from quizgen.lint.doctor import all_bangla_text
+from quizgen.paper.paper import single_question_paper
 from quizgen.render import fonts, render_paper
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
@@ -25,21 +25,21 @@ NAMES = [fonts.MATHS, *fonts.BANGLA.values()]
 
 
 def characters(name: str) -> set[str]:
-    with TTFont(BytesIO(fonts.web_font(name))) as font:
+    with TTFont(BytesIO(fonts.read_web_font(name))) as font:
         return set(map(chr, font.getBestCmap()))
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_packed_font_is_what_the_command_makes(name):
     """Packing takes up to 3 CPU s; that is why the fonts are kept."""
-    source, wanted = sources()[fonts.packed(name)]
-    assert fonts.web_font(name) == pack(source, wanted)
+    source, wanted = sources()[fonts.packed_font_path(name)]
+    assert fonts.read_web_font(name) == pack(source, wanted)
 
 
 @pytest.mark.parametrize("name", fonts.BANGLA.values())
 def test_bangla_of_templates_and_locale_has_its_letters(name):
     joiners = {"\u200c", "\u200d"}
-    used = {c for c in bangla_text() if "\u0980" <= c <= "\u09ff" or c in joiners or c in "।॥"}
+    used = {c for c in all_bangla_text() if "\u0980" <= c <= "\u09ff" or c in joiners or c in "।॥"}
     assert len(used) > 50
     assert used <= characters(name)
 
@@ -52,8 +52,8 @@ def mathematics(page: str) -> set[str]:
 
 def test_formulas_of_all_templates_have_their_letters():
     """Composes every template once, 7 CPU s: no smaller set holds all letters."""
-    pages = (render_paper(single(template, 1, template.languages[0], figures=False),
-                          "solutions", "html").decode() for template in builtin())  # fmt: skip
+    pages = (render_paper(single_question_paper(template, 1, template.languages[0], figures=False),
+                          "solutions", "html").decode() for template in builtin_bank())  # fmt: skip
     used = set().union(*map(mathematics, pages))
     assert len(used) > 80
     assert used <= characters(fonts.MATHS)
@@ -63,20 +63,20 @@ def test_formulas_of_all_templates_have_their_letters():
     "damage", [lambda d: d[:1000], lambda _: b"", lambda d: b"x" + d[1:], lambda d: d + b"x"]
 )
 def test_a_damaged_font_is_said_and_never_put_into_a_page(monkeypatch, tmp_path, damage):
-    data = fonts.web_font(fonts.MATHS)
+    data = fonts.read_web_font(fonts.MATHS)
     monkeypatch.setattr(fonts, "WEB", tmp_path)
     with pytest.raises(RenderError, match=r"stix-two-math\.woff2"):
-        fonts.web_font(fonts.MATHS)
-    fonts.packed(fonts.MATHS).write_bytes(damage(data))
+        fonts.read_web_font(fonts.MATHS)
+    fonts.packed_font_path(fonts.MATHS).write_bytes(damage(data))
     with pytest.raises(RenderError, match="damaged font; reinstall quizgen"):
-        fonts.web_font(fonts.MATHS)
+        fonts.read_web_font(fonts.MATHS)
 
 
 def test_the_licence_stands_beside_the_fonts_and_no_font_has_a_reserved_name():
     licence = (fonts.WEB / "OFL.txt").read_text("utf-8")
     for name in NAMES:
         assert f"{name}.woff2" in licence
-        with TTFont(BytesIO(fonts.web_font(name))) as font:
+        with TTFont(BytesIO(fonts.read_web_font(name))) as font:
             family = font["name"].getBestFamilyName()
         assert "TM Math" not in family
         assert family.removesuffix(" SemiBold").removesuffix(" Bold") in licence

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.errors import KeyFileError
+from quizgen.core.errors import KeyFileError
 from quizgen.responses.files import LARGEST, attempts
 from quizgen.responses.keys import FORMAT, read
 

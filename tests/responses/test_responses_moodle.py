@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.errors import KeyFileError
+from quizgen.core.errors import KeyFileError
 from quizgen.responses.files import attempts
 from quizgen.responses.keys import read
 from quizgen.responses.marks import marked

@@ -5,7 +5,7 @@ from __future__ import annotations
 import msgspec
 import pytest
 
-from quizgen.maths.notation import ReadError
+from quizgen.maths.notation import FormulaReadError
 from quizgen.responses.files import attempts
 from quizgen.responses.keys import Asked, Entry
 from quizgen.responses.qti import variables
@@ -92,4 +92,4 @@ ABC = {"A": ["a"], "B": ["b"], "C": ["c"]}
 def test_variables(ask, given, values):
     entry = Entry("", "", [msgspec.structs.replace(ask, name="RESPONSE_1")])
     (found,) = variables(entry, {"RESPONSE_1": given})
-    assert (found.code if isinstance(found, ReadError) else found) == values
+    assert (found.code if isinstance(found, FormulaReadError) else found) == values

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.maths.notation import ReadError
+from quizgen.maths.notation import FormulaReadError
 from quizgen.responses.keys import Asked, Entry
 from quizgen.responses.summaries import fields
 
@@ -19,7 +19,7 @@ STEPS = Asked("order", "1", options={"A": ["open the shutter"], "B": ["a; b. c"]
 
 def read(text, *asks, embedded=False):
     found = fields(Entry("", "", list(asks), embedded), text)
-    return [one.code if isinstance(one, ReadError) else one for one in found]
+    return [one.code if isinstance(one, FormulaReadError) else one for one in found]
 
 
 @pytest.mark.parametrize(

@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 import pytest
 
-from quizgen.bank.prose import CodeBlock
+from quizgen.bank.markdown import CodeBlock
 from quizgen.maths.numbers import to_float
-from quizgen.question.compose import compose
+from quizgen.question.compose import compose_question
 from quizgen.question.kinds import build
 
 SEEDS = ["reference", *range(8)]
@@ -19,7 +19,7 @@ SEEDS = ["reference", *range(8)]
 
 def asked(bank, name, seed=0, part=0):
     """Program of the stem, name to right or wrong, the draw and the composed part."""
-    question, key = compose(bank.template(name), seed, "en", figures=False)
+    question, key = compose_question(bank.template(name), seed, "en", figures=False)
     (source,) = [b.text for b in question.stem if isinstance(b, CodeBlock)] or [""]
     built = build(key.draw, part)
     right = {name for _, name in built.right}

@@ -14,18 +14,20 @@ from fractions import Fraction
 
 import pytest
 
-from quizgen.bank.folder import builtin
-from quizgen.bank.prose import CodeBlock
-from quizgen.marking.kinds.code import folded
-from quizgen.question.compose import compose
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.markdown import CodeBlock
+from quizgen.grading.kinds.code import folded
+from quizgen.question.compose import compose_question
 
 SEEDS = ["reference", *range(12)]
-CODE = [name for name in builtin().paths if builtin().rules(name).topic == "code"]
+CODE = [
+    name for name in builtin_bank().template_paths if builtin_bank().rules(name).topic == "code"
+]
 
 
 def programs(template, seed, lang="en"):
     """The programs in the stem, and the key."""
-    question, key = compose(template, seed, lang, figures=False)
+    question, key = compose_question(template, seed, lang, figures=False)
     return [block.text for block in question.stem if isinstance(block, CodeBlock)], key
 
 
@@ -51,7 +53,7 @@ def values(spec):
 PRINTING = [
     name
     for name in CODE
-    if builtin().rules(name).part[0].answer["kind"] in {"number", "point", "table", "code"}
+    if builtin_bank().rules(name).part[0].answer["kind"] in {"number", "point", "table", "code"}
 ]
 
 

@@ -15,9 +15,9 @@ import pytest
 from marking.hands import Line, drawings, waved
 from sweep import draws
 
-from quizgen.bank.folder import builtin
-from quizgen.marking.mark import mark, show
-from quizgen.question.compose import instance
+from quizgen.bank.bank import builtin_bank
+from quizgen.grading.mark import mark, show_key
+from quizgen.question.compose import draw_instance
 from quizgen.question.kinds import build
 
 Values = dict[str, float]
@@ -221,7 +221,7 @@ TASKS = {
 @cache
 def posed(name: str, seed: int):
     """The spec of the part that is drawn, its field and the numbers of the draw."""
-    drawn = instance(builtin().template(name), seed)
+    drawn = draw_instance(builtin_bank().template(name), seed)
     built = build(drawn, TASKS[name].part)
     values = {key: float(value) for key, value in drawn.shown_values.items()}
     return built.spec, built.control.board, values
@@ -281,4 +281,4 @@ def test_points_that_are_typed_earn_the_same(name):
         right = TASKS[name].right(values).values()
         typed = "\n".join(" ".join(f"({x:.2f}, {y:.2f})" for x, y in line) for line in right)
         assert mark(spec, typed).verdict == "correct"
-        assert mark(spec, show(spec)).verdict == "correct"
+        assert mark(spec, show_key(spec)).verdict == "correct"

@@ -8,17 +8,17 @@ import math
 import mpmath
 import pytest
 
-from quizgen.audit.lint import lint_template
-from quizgen.bank.draw import Draw, draw
-from quizgen.bank.folder import builtin
-from quizgen.bank.plan import admissible, candidates, plan_of
-from quizgen.bank.pools import variants
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.pools import count_pool_variants
+from quizgen.bank.sampler import list_candidates, sampler_for, test_candidate
+from quizgen.bank.variant import Variant, draw_variant
+from quizgen.lint.template_checks import lint_template
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Call, Expr, Num, Sym
-from quizgen.question.compose import identity
+from quizgen.question.compose import variant_identity
 from quizgen.question.kinds import build
 
-NAMES = list(builtin().paths)
+NAMES = list(builtin_bank().template_paths)
 SEEDS = [20, pytest.param(60, marks=pytest.mark.slow)]
 DRAWS = 300
 PLACED = [100, pytest.param(DRAWS, marks=pytest.mark.slow)]
@@ -70,12 +70,12 @@ def by_mpmath(expr: Expr, env):
     return MPMATH[expr.op](*(by_mpmath(arg, env) for arg in expr.args))
 
 
-@pytest.mark.parametrize("name", [n for n in NAMES if builtin().rules(n).solver])
+@pytest.mark.parametrize("name", [n for n in NAMES if builtin_bank().rules(n).solver])
 def test_values_agree_with_mpmath_at_sixty_digits(bank, name):
     template = bank.template(name)
     with mpmath.workdps(60):
         for seed in range(15):
-            one = draw(template, seed)
+            one = draw_variant(template, seed)
             env = {}
             for given in template.chain.given:
                 value = one.values[given]
@@ -88,21 +88,23 @@ def test_values_agree_with_mpmath_at_sixty_digits(bank, name):
 
 def tried(name):
     """How many candidates a template has before any condition."""
-    drawn = builtin().rules(name).draw.values()
-    return math.prod(max(len(candidates(r.pick, r.range, r.skip)), len(r.words), 1) for r in drawn)
+    drawn = builtin_bank().rules(name).draw.values()
+    return math.prod(
+        max(len(list_candidates(r.pick, r.range, r.skip)), len(r.words), 1) for r in drawn
+    )
 
 
 COUNTED = [
     pytest.param(name, marks=[pytest.mark.slow] * (tried(name) > QUICKLY_COUNTED))
     for name in NAMES
-    if builtin().rules(name).pool and tried(name) <= MOST_COUNTED
+    if builtin_bank().rules(name).pool and tried(name) <= MOST_COUNTED
 ]
 
 
 @pytest.mark.parametrize("name", COUNTED)
 def test_the_pool_is_as_large_as_stated(bank, name):
     template = bank.template(name)
-    plan = plan_of(template)
+    plan = sampler_for(template)
     free = [v for v in plan.variables if v.choices]
     count = 0
     for values in itertools.product(*(v.choices for v in free)):
@@ -110,22 +112,22 @@ def test_the_pool_is_as_large_as_stated(bank, name):
         for variable in plan.variables:
             if variable.formula is not None:
                 variable.derive(shown, words)
-        kept = admissible(plan, shown)
+        kept = test_candidate(plan, shown)
         if not isinstance(kept, str):
-            count += variants(Draw(template, "0", "0", 1, shown, words, *kept))
+            count += count_pool_variants(Variant(template, "0", "0", 1, shown, words, *kept))
     assert count == template.rules.pool
 
 
-@pytest.mark.parametrize("name", [n for n in NAMES if 1 < builtin().rules(n).pool < DRAWS])
+@pytest.mark.parametrize("name", [n for n in NAMES if 1 < builtin_bank().rules(n).pool < DRAWS])
 def test_no_more_draws_differ_than_the_pool_holds(bank, name):
     template = bank.template(name)
-    seen = {identity(draw(template, seed)) for seed in range(DRAWS)}
+    seen = {variant_identity(draw_variant(template, seed)) for seed in range(DRAWS)}
     assert len(seen) <= bank.rules(name).pool
 
 
 def choices():
     for name in NAMES:
-        for index, part in enumerate(builtin().rules(name).part):
+        for index, part in enumerate(builtin_bank().rules(name).part):
             if part.answer["kind"] == "choice" and not part.answer.get("in_order"):
                 yield name, index
 
@@ -135,7 +137,9 @@ def choices():
 def test_the_right_choice_stands_anywhere(bank, name, index, draws):
     """Position of the right option over seeds: no place more than five deviations off its share."""
     template = bank.template(name)
-    seen = [build(draw(template, seed, "place"), index).spec.correct[0] for seed in range(draws)]
+    seen = [
+        build(draw_variant(template, seed, "place"), index).spec.correct[0] for seed in range(draws)
+    ]
     answer = template.rules.part[index].answer
     places = answer.get("take") or len(answer["options"])
     share = draws / places

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.bank.draw import draw, reference
-from quizgen.bank.folder import Bank
-from quizgen.bank.plan import admissible, plan_of
-from quizgen.marking.mark import mark
-from quizgen.maths.numbers import rational
-from quizgen.question.compose import compose
-from quizgen.question.filling import plain
+from quizgen.bank.bank import Bank
+from quizgen.bank.sampler import sampler_for, test_candidate
+from quizgen.bank.variant import draw_variant, reference_variant
+from quizgen.grading.mark import mark
+from quizgen.maths.numbers import to_rational
+from quizgen.question.compose import compose_question
+from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.kinds import build
 
 SIZES = """
@@ -43,13 +43,15 @@ def sizes(tmp_path: Path):
 
 
 def test_a_phrase_follows_from_a_number(sizes):
-    drawn = [draw(sizes, seed) for seed in range(30)]
+    drawn = [draw_variant(sizes, seed) for seed in range(30)]
     found = {(str(one.shown["height"]), one.words["thing"]) for one in drawn}
     assert found == {("2", "person"), ("12", "tree")}
 
 
 def test_a_phrase_may_contain_a_drawn_value(sizes):
-    stems = {plain(compose(sizes, seed)[0].stem[0].children) for seed in range(30)}
+    stems = {
+        inlines_to_text(compose_question(sizes, seed)[0].stem[0].children) for seed in range(30)
+    }
     assert stems == {"Here is a person.", "Here is a tree of 12\u00a0m."}
 
 
@@ -63,14 +65,16 @@ def test_a_phrase_may_contain_a_drawn_value(sizes):
 def test_named_objects_have_plausible_sizes(bank, template, low, high):
     fitting = {"person", "statue"} if Fraction(high) < 5 else {"tower", "mast"}
     for seed in range(300):
-        one = draw(bank.template(template), seed)
+        one = draw_variant(bank.template(template), seed)
         if Fraction(low) <= Fraction(str(one.shown["p_y"])) <= Fraction(high):
             assert one.words["thing"] in fitting
 
 
 def verdict_of(template, value):
     shown = {"I": value, "I_min": "0", "I_max": "255", "N_min": "-1", "N_max": "1"}
-    return admissible(plan_of(template), {name: rational(text) for name, text in shown.items()})
+    return test_candidate(
+        sampler_for(template), {name: to_rational(text) for name, text in shown.items()}
+    )
 
 
 def test_dividing_by_256_is_told_apart_as_it_would_be_written(bank):
@@ -84,14 +88,14 @@ def test_dividing_by_256_is_told_apart_as_it_would_be_written(bank):
 
 
 def test_half_a_unit_is_accepted_in_one_step(bank):
-    spec = build(reference(bank.template("normalise-from-8-bit-range")), 0).spec
+    spec = build(reference_variant(bank.template("normalise-from-8-bit-range")), 0).spec
     assert mark(spec, "0.251").verdict == "correct"
     assert mark(spec, "64/255").verdict == "correct"
     assert mark(spec, "0.25").note == "trap:one-more"
 
 
 def test_percent_tolerances_are_in_percent(bank):
-    spec = build(reference(bank.template("radial-points-and-line-bow")), 3).spec
+    spec = build(reference_variant(bank.template("radial-points-and-line-bow")), 3).spec
     assert mark(spec, "56.25 %").verdict == "correct"
     assert mark(spec, "56.7 %").verdict == "correct"
     assert mark(spec, "57 %").verdict == "wrong"
@@ -106,14 +110,16 @@ def test_percent_tolerances_are_in_percent(bank):
     ],
 )
 def test_key_points_are_found_in_both_languages(bank, typed, found):
-    verdict = mark(build(draw(bank.template("why-bayer-green-and-demosaicing"), 0), 0).spec, typed)
+    verdict = mark(
+        build(draw_variant(bank.template("why-bayer-green-and-demosaicing"), 0), 0).spec, typed
+    )
     assert verdict.note == "self-mark"
     assert set(verdict.fields["found"]) == found
 
 
 def test_the_solution_of_a_text_question_shows_its_key_points(bank):
-    _, key = compose(bank.template("why-bayer-green-and-demosaicing"), 0, "bn")
-    assert [plain(point)[:3] for point in key.solution.parts[0].options] == ["চোখ", "lum"]
+    _, key = compose_question(bank.template("why-bayer-green-and-demosaicing"), 0, "bn")
+    assert [inlines_to_text(point)[:3] for point in key.solution.parts[0].options] == ["চোখ", "lum"]
 
 
 @pytest.mark.parametrize(
@@ -127,14 +133,14 @@ def test_the_solution_of_a_text_question_shows_its_key_points(bank):
     ],
 )
 def test_any_other_point_of_the_ray_in_front_of_the_camera_counts(bank, typed, verdict):
-    spec = build(reference(bank.template("points-on-one-ray")), 1).spec
+    spec = build(reference_variant(bank.template("points-on-one-ray")), 1).spec
     assert mark(spec, typed).verdict == verdict
 
 
 @pytest.mark.parametrize("seed", range(12))
 def test_the_numbers_asked_for_are_those_of_the_picture(bank, seed):
     """The figure's own table of permutations decides where each edit stands."""
-    one = draw(bank.template("hsv-edit-from-pictures"), seed)
+    one = draw_variant(bank.template("hsv-edit-from-pictures"), seed)
     order = bank.figure("hsv_edits").order_edits(float(int(one.shown["order"].p)))
     expected = [["1234"[order.index(edit)]] for edit in ("V", "S", "H")]
     assert [gap[:1] for gap in build(one, 0).spec.accept] == expected

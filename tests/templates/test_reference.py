@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from msgspec import to_builtins
 
-from quizgen.bank.draw import reference
+from quizgen.bank.variant import reference_variant
 from quizgen.question.kinds import build
 
 ROWS = [
@@ -31,7 +31,9 @@ def flat(spec):
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda r: f"{r['template']}-{r['part']}")
 def test_the_notes_are_reproduced(bank, row):
-    spec = to_builtins(build(reference(bank.template(row["template"])), row["part"] - 1).spec)
+    spec = to_builtins(
+        build(reference_variant(bank.template(row["template"])), row["part"] - 1).spec
+    )
     if "spec" in row:
         for name, value in row["spec"].items():
             assert spec[name] == value, row["source"]

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 
 SECTION = re.compile(r"^## steps\n(.*?)(?=^## |\Z)", re.MULTILINE | re.DOTALL)
 SENTENCE = re.compile(r"^- [^:]+: (.+)$", re.MULTILINE)
@@ -14,7 +14,7 @@ SENTENCE = re.compile(r"^- [^:]+: (.+)$", re.MULTILINE)
 
 @pytest.mark.parametrize("lang", ["en", "bn"])
 def test_every_sentence_of_a_step_is_whole(lang):
-    pages = {page.parent.name: page for page in builtin().folder.glob(f"*/*/{lang}.md")}
+    pages = {page.parent.name: page for page in builtin_bank().folder.glob(f"*/*/{lang}.md")}
     found = [
         (name, sentence)
         for name, page in pages.items()

@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 from sweep import draws
 
-from quizgen.audit.teach import examine
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
+from quizgen.lint.item_quality import review_template
 
-NAMES = list(builtin().paths)
+NAMES = list(builtin_bank().template_paths)
 
 
 def errors(template, seeds):
-    return [str(one) for one in examine(template, seeds) if one.level == "error"]
+    return [str(one) for one in review_template(template, seeds) if one.level == "error"]
 
 
 @pytest.mark.parametrize("name", NAMES[::3])

@@ -9,9 +9,9 @@ import pytest
 from msgspec import to_builtins
 from sweep import draws
 
-from quizgen.bank.folder import builtin
-from quizgen.marking.mark import load_spec, mark, show
-from quizgen.question.compose import instance
+from quizgen.bank.bank import builtin_bank
+from quizgen.grading.mark import load_spec, mark, show_key
+from quizgen.question.compose import draw_instance
 from quizgen.question.kinds import build
 
 EVERY_WAY = 20
@@ -19,7 +19,7 @@ EVERY_WAY = 20
 SEEDS = [8, pytest.param(draws(50), marks=pytest.mark.slow)]
 BANGLA = str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯")
 NOT_TYPED_BACK = {"text", "witness"}  # no single printed answer
-TEMPLATES = list(builtin().paths)
+TEMPLATES = list(builtin_bank().template_paths)
 
 
 @pytest.fixture(scope="module", params=SEEDS)
@@ -30,10 +30,10 @@ def seeds(request):
 @pytest.fixture(scope="module", params=TEMPLATES)
 def parts(request, seeds):
     """Specs of every part, one list per seed: drawn once, used by all tests of a template."""
-    template = builtin().template(request.param)
+    template = builtin_bank().template(request.param)
     return [
         [to_builtins(build(drawn, index).spec) for index in range(len(template.rules.part))]
-        for drawn in (instance(template, seed) for seed in range(seeds))
+        for drawn in (draw_instance(template, seed) for seed in range(seeds))
     ]
 
 
@@ -48,7 +48,7 @@ def test_printed_answer_typed_back_is_correct(parts):
             if table["kind"] in NOT_TYPED_BACK:
                 continue
             spec = load_spec(table)
-            ways = ways_to_type(table["kind"], show(spec))
+            ways = ways_to_type(table["kind"], show_key(spec))
             for decimal, text in ways if seed < EVERY_WAY else [ways[seed % len(ways)]]:
                 verdict = mark(spec, text, decimal=decimal)
                 assert verdict.verdict == "correct", (table, text, verdict)
@@ -66,7 +66,7 @@ def shaped(table, value):
     """The key's own notation for a wrong answer."""
     name = next(one for one in ("value", "lines", "values") if one in table)
     plain = {k: v for k, v in table.items() if k not in {"traps", "notes", "accept"}}
-    return show({**plain, name: value})
+    return show_key({**plain, name: value})
 
 
 def test_typed_traps_are_named_and_never_misnamed(parts):

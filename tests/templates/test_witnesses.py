@@ -8,14 +8,14 @@ from fractions import Fraction
 
 import pytest
 
-from quizgen.bank.draw import draw, reference
-from quizgen.marking.mark import mark
+from quizgen.bank.variant import draw_variant, reference_variant
+from quizgen.grading.mark import mark
 from quizgen.question.kinds import build
 
 
 def spec_of(bank, name, seed="reference", part=0):
     template = bank.template(name)
-    one = reference(template) if seed == "reference" else draw(template, seed)
+    one = reference_variant(template) if seed == "reference" else draw_variant(template, seed)
     return build(one, part).spec, one
 
 

@@ -6,13 +6,13 @@ from types import SimpleNamespace
 
 import pytest
 
-from quizgen.bank.folder import builtin
-from quizgen.tradeoff.report import measure
+from quizgen.bank.bank import builtin_bank
+from quizgen.tradeoff.report import measure_tradeoff
 
 FEW = ("compare-two-gaussian-noises", "dynamic-range-of-sensor", "photon-energy-and-band")
 
 
 @pytest.fixture(scope="session")
 def report():
-    bank = builtin()
-    return measure(SimpleNamespace(paths=FEW, template=bank.template))
+    bank = builtin_bank()
+    return measure_tradeoff(SimpleNamespace(paths=FEW, template=bank.template))

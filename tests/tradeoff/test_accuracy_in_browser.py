@@ -7,8 +7,8 @@ import re
 
 import pytest
 
-from quizgen.locale import languages
-from quizgen.tradeoff.page import write
+from quizgen.locale import list_languages
+from quizgen.tradeoff.page import write_page
 
 RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 SIDEWAYS = """() => [...document.querySelectorAll('.wide')].filter(
@@ -20,7 +20,7 @@ WIDTH = "document.documentElement.scrollWidth"
 @pytest.fixture(scope="module")
 def page_file(report, tmp_path_factory):
     folder = tmp_path_factory.mktemp("page")
-    write(report, folder, "quizgen tradeoff")
+    write_page(report, folder, "quizgen tradeoff")
     return folder / "tradeoff.html"
 
 
@@ -37,7 +37,7 @@ def opened(browser, page_file):
 @pytest.mark.parametrize(("width", "scheme"), [(390, "light"), (1280, "dark")])
 def test_axe_finds_no_violation(opened, barriers, width, scheme):
     page = opened(width, scheme=scheme)
-    for lang in languages():
+    for lang in list_languages():
         page.check(f"#{lang}")
         assert barriers(page) == []
     page.close()
@@ -46,7 +46,7 @@ def test_axe_finds_no_violation(opened, barriers, width, scheme):
 @pytest.mark.parametrize(("width", "height", "screens"), [(1280, 800, 3), (390, 844, 6)])
 def test_it_fills_few_screens_and_none_sideways(opened, width, height, screens):
     page = opened(width, height)
-    for lang in languages():
+    for lang in list_languages():
         page.check(f"#{lang}")
         assert page.evaluate(HEIGHT) <= screens * height
         assert page.evaluate(WIDTH) <= width

@@ -13,10 +13,17 @@ import pytest
 from click.testing import CliRunner
 
 from quizgen.cli.tradeoff import tradeoff
-from quizgen.locale import languages
+from quizgen.locale import list_languages
 from quizgen.tradeoff import page
 from quizgen.tradeoff.formulas import BY_NAME, FORMULAS
-from quizgen.tradeoff.page import fragment, pieces, short, time_text, whole_page, write
+from quizgen.tradeoff.page import (
+    pieces,
+    render_tradeoff_fragment,
+    short,
+    time_text,
+    whole_page,
+    write_page,
+)
 from quizgen.tradeoff.questions import recorded
 from quizgen.tradeoff.texts import words
 
@@ -25,7 +32,7 @@ SHOWN = [formula.name for formula in FORMULAS if formula.shown]
 
 @pytest.fixture(scope="module")
 def english(report):
-    return fragment(report, "quizgen tradeoff", "en")
+    return render_tradeoff_fragment(report, "quizgen tradeoff", "en")
 
 
 def rival(report, formula, name):
@@ -176,7 +183,7 @@ def test_numbers_are_written_for_people():
 
 
 def test_german_numbers_have_a_comma(report):
-    german = fragment(report, "quizgen tradeoff", "de")
+    german = render_tradeoff_fragment(report, "quizgen tradeoff", "de")
     assert "84,375 wird 84,37" in german
     assert re.findall(r">[^<]*\d\.\d+ (?:µs|ns)", german) == []
 
@@ -188,7 +195,7 @@ def shape(told):
 
 
 def test_words_are_complete_in_every_language():
-    shapes = [shape(words(lang)) for lang in languages()]
+    shapes = [shape(words(lang)) for lang in list_languages()]
     assert len(shapes) >= 3
     assert all(one == shapes[0] for one in shapes)
     assert {name for name, said in words("en")["formula"].items() if "lesson" in said} == set(SHOWN)
@@ -196,12 +203,12 @@ def test_words_are_complete_in_every_language():
 
 def test_the_page_is_one_file_that_asks_for_nothing(report):
     made = whole_page(report, "quizgen tradeoff")
-    assert made.count("<svg") == len(languages())
+    assert made.count("<svg") == len(list_languages())
     assert re.findall(r"(?:src|href)=\"|url\((?!data:)|@import", made) == []
 
 
 def test_page_plot_and_numbers_are_written(report, tmp_path):
-    write(report, tmp_path, "quizgen tradeoff")
+    write_page(report, tmp_path, "quizgen tradeoff")
     svg = ET.parse(tmp_path / "digits.svg").getroot()
     assert len(svg.findall("{http://www.w3.org/2000/svg}path")) > 14
     data = json.loads((tmp_path / "tradeoff.json").read_text("utf-8"))

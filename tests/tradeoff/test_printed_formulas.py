@@ -11,11 +11,11 @@ import numpy as np
 import printed_by_hand
 import pytest
 
-from quizgen.errors import MathError
+from quizgen.core.errors import MathError
 from quizgen.tradeoff import lines
-from quizgen.tradeoff.digits import digits
+from quizgen.tradeoff.digits import correct_digits
 from quizgen.tradeoff.formulas import BY_NAME, FORMULAS
-from quizgen.tradeoff.sweeps import EXAMS, SEED, sweep
+from quizgen.tradeoff.sweeps import EXAMS, SEED, sweep_formula
 from quizgen.tradeoff.truth import truths
 
 ITERATED, SAFE = "inverse-distortion", "hue"
@@ -28,7 +28,7 @@ def rows_of(columns):
 
 @pytest.fixture(scope="module")
 def sweeps():
-    return {formula.name: sweep(formula) for formula in FORMULAS}
+    return {formula.name: sweep_formula(formula) for formula in FORMULAS}
 
 
 def exam_of(name, count=EXAMS):
@@ -127,7 +127,7 @@ def test_plain_lines_keep_their_digits_on_hard_rows(name):
         args, right = [float.fromhex(arg) for arg in args.split()], float(mp.mpf(right))
         if row == name and ordinary(name, args, right):
             found = float(line(*(np.array([arg]) for arg in args))[0])
-            assert digits(found, right) >= wanted, args
+            assert correct_digits(found, right) >= wanted, args
             tried += 1
     assert tried >= 12
 
@@ -137,7 +137,7 @@ def test_vignetting_at_extremes():
         with mp.workdps(300):
             a, b = mp.mpf(r), mp.mpf(f)
             right = float(1 - (b * b / (a * a + b * b)) ** 2)
-        assert digits(float(lines.falloff(np.array([r]), np.array([f]))[0]), right) >= 15
+        assert correct_digits(float(lines.falloff(np.array([r]), np.array([f]))[0]), right) >= 15
 
 
 def test_the_textbook_hue_is_the_known_one():
@@ -160,13 +160,13 @@ def test_where_there_is_no_answer_the_truth_says_so():
      (math.nan, 1.0, 0), (math.inf, 1.0, 0), (math.inf, math.inf, 17)],
 )  # fmt: skip
 def test_correct_decimal_digits(value, right, count):
-    assert round(digits(value, right), 6) == count
+    assert round(correct_digits(value, right), 6) == count
 
 
 def test_a_double_beside_the_right_one_keeps_fifteen_digits():
-    assert 15 < digits(math.nextafter(1, 2), 1.0) < 16
+    assert 15 < correct_digits(math.nextafter(1, 2), 1.0) < 16
 
 
 def test_digits_of_an_angle_are_those_of_the_turn():
-    assert digits(359.64, 0.0, 360.0) == pytest.approx(3)  # 0.36 of 360
-    assert digits(360.0, 0.0, 360.0) == 17
+    assert correct_digits(359.64, 0.0, 360.0) == pytest.approx(3)  # 0.36 of 360
+    assert correct_digits(360.0, 0.0, 360.0) == 17

@@ -10,11 +10,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from quizgen.bank.draw import draw
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.variant import draw_variant
+from quizgen.maths.number_systems import exact_system, float64_system
 from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import exact, floats
 from quizgen.tradeoff.questions import Counted, measure_questions, recorded
 from quizgen.tradeoff.solving import ARITHMETICS
 from quizgen.tradeoff.timing import in_turns
@@ -28,7 +28,7 @@ THIRDS = "compare-two-gaussian-noises"
 
 
 def found(name, seed, system):
-    return faults(draw(builtin().template(name), seed), system)
+    return faults(draw_variant(builtin_bank().template(name), seed), system)
 
 
 def test_a_third_is_a_third_only_exactly():
@@ -48,7 +48,7 @@ def test_balls_cannot_tell_that_two_colours_are_equal():
 
 
 def test_nobody_marks_by_equality_with_doubles():
-    one = draw(builtin().template(THIRDS), 0)
+    one = draw_variant(builtin_bank().template(THIRDS), 0)
     assert "rejected" in faults(one, "float64")
     assert not is_wrong(one, "float64")
 
@@ -62,23 +62,23 @@ def test_a_careful_engine_gets_one_template_of_all_wrong():
 
 def test_no_template_of_a_sample_is_wrong_that_was_right_when_it_was_counted():
     """One question of each template; after a failure: ``uv run python tools/do.py counts``."""
-    counted, bank = recorded(), builtin()
-    assert counted.templates == len(bank.paths)
-    for name in bank.paths:
+    counted, bank = recorded(), builtin_bank()
+    assert counted.templates == len(bank.template_paths)
+    for name in bank.template_paths:
         template = bank.template(name)
         if template.chain.steps:
-            one = draw(template, 3)
+            one = draw_variant(template, 3)
             wrong = {system for system in ARITHMETICS if is_wrong(one, system)}
             assert wrong <= {system for system, hit in counted.wrong.items() if name in hit}, name
 
 
 @pytest.mark.slow
 def test_the_counts_are_those_of_today():
-    assert count_wrong(builtin()).wrong == recorded().wrong
+    assert count_wrong(builtin_bank()).wrong == recorded().wrong
 
 
 def test_counts_are_kept_by_template():
-    bank = builtin()
+    bank = builtin_bank()
     few = SimpleNamespace(paths=[THIRDS, "thin-lens-image-distance"], template=bank.template)
     counted = count_wrong(few, 2)
     assert (counted.templates, counted.drawn) == (2, 2)
@@ -97,7 +97,7 @@ def test_calls_are_timed_in_turns_after_a_round_that_warms_up():
 
 
 def test_every_arithmetic_is_timed_on_the_same_questions():
-    bank = builtin()
+    bank = builtin_bank()
     few = SimpleNamespace(
         paths=[THIRDS, "thin-lens-image-distance", "rgb-to-hsv"], template=bank.template
     )
@@ -125,14 +125,14 @@ def call_seconds(drawn, system, enter):
 @pytest.mark.slow
 def test_exact_takes_twice_as_long_as_float64_and_some_microseconds_more():
     """By another clock; the page's median ratio lies between the quartiles found here, widened."""
-    bank = builtin()
+    bank = builtin_bank()
     ratios, more = [], []
-    for name in list(bank.paths)[::2]:
+    for name in list(bank.template_paths)[::2]:
         if bank.template(name).chain.steps:
-            one = draw(bank.template(name), 0)
+            one = draw_variant(bank.template(name), 0)
             ours, doubles = (
-                call_seconds(one, exact, lambda x: x),
-                call_seconds(one, floats, to_float),
+                call_seconds(one, exact_system, lambda x: x),
+                call_seconds(one, float64_system, to_float),
             )
             ratios.append(ours / doubles)
             more.append(ours - doubles)

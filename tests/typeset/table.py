@@ -8,40 +8,40 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from quizgen.maths.notation import parse
+from quizgen.maths.notation import parse_formula
 from quizgen.typeset import (
-    bracketed,
+    add_brackets,
     comma_list,
-    fenced,
-    latex,
-    layout,
-    mathml,
-    name,
+    fence,
+    lay_out,
+    lay_out_name,
+    lay_out_power,
     negative,
     number,
-    power,
     quantity,
-    relation,
-    spoken,
-    typst,
+    relation_chain,
+    to_latex,
+    to_mathml,
+    to_speech,
+    to_typst,
 )
 from quizgen.typeset.nodes import (
     ATOM,
     PRODUCT,
     SUM,
-    Big,
     Cases,
+    Digits,
     Frac,
     Func,
     Ident,
+    LargeOperator,
+    MathRow,
     Matrix,
     Node,
-    Number,
-    Op,
+    OperatorSign,
+    ReaderWord,
     Root,
-    Row,
     Scripts,
-    Text,
     Under,
     Word,
 )
@@ -170,86 +170,101 @@ INLINE = {
 
 
 def _integral(*factors: Node) -> Node:
-    differential = Row((Op(" "), Ident("d"), Ident("λ")))
-    times: list[Node] = [Big("∫"), factors[0]]
+    differential = MathRow((OperatorSign(" "), Ident("d"), Ident("λ")))
+    times: list[Node] = [LargeOperator("∫"), factors[0]]
     for factor in factors[1:]:
-        times += [Op(""), factor]
-    return Row((*times, differential), PRODUCT)
+        times += [OperatorSign(""), factor]
+    return MathRow((*times, differential), PRODUCT)
 
 
 def _of(head: str, *args: Node) -> Node:
-    return Func(name(head), args)
+    return Func(lay_out_name(head), args)
 
 
 def _line() -> Node:
     """The worked line of a pinhole question."""
     values = {"f": quantity("50", "mm"), "X": quantity("30", "m"), "Z": quantity("600", "m")}
-    formula = parse("f*X/Z")
-    sides = [name("u"), layout(formula), layout(formula, leaves=values), quantity("2.5", "mm")]
-    return relation(["=", "=", "="], sides)
+    formula = parse_formula("f*X/Z")
+    sides = [
+        lay_out_name("u"),
+        lay_out(formula),
+        lay_out(formula, leaves=values),
+        quantity("2.5", "mm"),
+    ]
+    return relation_chain(["=", "=", "="], sides)
 
 
 def _with(text: str, **leaves: Node) -> Node:
-    return layout(parse(text), leaves=leaves)
+    return lay_out(parse_formula(text), leaves=leaves)
 
 
 def built() -> dict[str, Node]:
     """Entries that no formula tree expresses, or that print numbers in the place of symbols."""
-    lam, bold = name("lambda"), {letter: Ident(letter, bold=True) for letter in "abdpμ"}
-    off = bracketed(Row((bold["d"], Op("-"), bold["μ"]), SUM), ATOM)
-    inverse = Scripts(Ident("Σ"), None, negative(Number("1")))
-    quadratic = Row((power(off, Op("ᵀ")), Op(""), inverse, Op(""), off), PRODUCT)
-    half = Row((Frac(Number("1"), Number("2"), inline=True), Op("·"), quadratic), PRODUCT)
+    lam, bold = lay_out_name("lambda"), {letter: Ident(letter, bold=True) for letter in "abdpμ"}
+    off = add_brackets(MathRow((bold["d"], OperatorSign("-"), bold["μ"]), SUM), ATOM)
+    inverse = Scripts(Ident("Σ"), None, negative(Digits("1")))
+    quadratic = MathRow(
+        (lay_out_power(off, OperatorSign("ᵀ")), OperatorSign(""), inverse, OperatorSign(""), off),
+        PRODUCT,
+    )
+    half = MathRow(
+        (Frac(Digits("1"), Digits("2"), inline=True), OperatorSign("·"), quadratic), PRODUCT
+    )
     det = Root(Func(Word("det"), (Ident("Σ"),)))
     gauss = Frac(
         Scripts(Ident("e"), None, negative(half)),
-        Row((Number("2"), Op(""), name("pi"), Op(""), det), PRODUCT),
+        MathRow(
+            (Digits("2"), OperatorSign(""), lay_out_name("pi"), OperatorSign(""), det), PRODUCT
+        ),
     )
-    point = fenced([name("u"), name("v")])
+    point = fence([lay_out_name("u"), lay_out_name("v")])
     return {
-        "F02 brightness": relation(
+        "F02 brightness": relation_chain(
             ["="],
             [
-                name("B"),
-                Row(
+                lay_out_name("B"),
+                MathRow(
                     (
-                        name("K_m"),
-                        Op(""),
+                        lay_out_name("K_m"),
+                        OperatorSign(""),
                         _integral(_of("L", lam), _of("R", lam), _of("V", lam)),
                     ),
                     PRODUCT,
                 ),
             ],
         ),
-        "F04 metamers": relation(
+        "F04 metamers": relation_chain(
             ["="],
             [
-                _integral(name("s_i"), name("L"), name("R_1")),
-                _integral(name("s_i"), name("L"), name("R_2")),
+                _integral(lay_out_name("s_i"), lay_out_name("L"), lay_out_name("R_1")),
+                _integral(lay_out_name("s_i"), lay_out_name("L"), lay_out_name("R_2")),
             ],
         ),
-        "F06 same image": relation(
+        "F06 same image": relation_chain(
             ["="],
             [
-                _of("P", Row((name("s"), Op(""), bold["p"]), PRODUCT)),
+                _of("P", MathRow((lay_out_name("s"), OperatorSign(""), bold["p"]), PRODUCT)),
                 _of("P", bold["p"]),
             ],
         ),
-        "F26 sector zero": fenced([name("C"), name("X"), number(0)]),
-        "F27 not additive": relation(
+        "F26 sector zero": fence([lay_out_name("C"), lay_out_name("X"), number(0)]),
+        "F27 not additive": relation_chain(
             ["≠"],
             [
-                _of("V", Row((bold["a"], Op("+"), bold["b"]), SUM)),
-                Row((_of("V", bold["a"]), Op("+"), _of("V", bold["b"])), SUM),
+                _of("V", MathRow((bold["a"], OperatorSign("+"), bold["b"]), SUM)),
+                MathRow((_of("V", bold["a"]), OperatorSign("+"), _of("V", bold["b"])), SUM),
             ],
         ),
-        "F32 light": relation(
-            ["∝", "∝"], [name("E"), layout(parse("D^2")), layout(parse("1/N_f^2"))]
+        "F32 light": relation_chain(
+            ["∝", "∝"],
+            [lay_out_name("E"), lay_out(parse_formula("D^2")), lay_out(parse_formula("1/N_f^2"))],
         ),
         "F40 plane gauss": gauss,
         "worked line": _line(),
-        "pixel point": relation(["="], [point, fenced([number("440"), number("160")])]),
-        "exact and rounded": relation(["=", "≈"], [name("p'_x"), number("20/3"), number("6.667")]),
+        "pixel point": relation_chain(["="], [point, fence([number("440"), number("160")])]),
+        "exact and rounded": relation_chain(
+            ["=", "≈"], [lay_out_name("p'_x"), number("20/3"), number("6.667")]
+        ),
         "negative quantity added": _with("c + x", x=quantity("-2", "m"), c=quantity("5", "m")),
         "negative quantity first": _with("x*c", x=quantity("-2", "m"), c=quantity("5", "m")),
         "negative quantity last": _with("c*x", x=quantity("-2", "m"), c=quantity("5", "m")),
@@ -268,26 +283,37 @@ def built() -> dict[str, Node]:
         "rate": quantity("1", "e-/s"),
         "grouped": quantity("200 000", "px/m"),
         "scientific": number("-1.2e-5"),
-        "limit": Row(
-            (Under(Word("lim"), relation(["→"], [name("z"), name("f")])), Op(" "), name("z'")),
+        "limit": MathRow(
+            (
+                Under(Word("lim"), relation_chain(["→"], [lay_out_name("z"), lay_out_name("f")])),
+                OperatorSign(" "),
+                lay_out_name("z'"),
+            ),
             PRODUCT,
         ),
-        "sum": Row(
+        "sum": MathRow(
             (
-                Big("∑", relation(["="], [name("i"), number(1)]), name("n")),
-                name("x_i"),
+                LargeOperator(
+                    "∑", relation_chain(["="], [lay_out_name("i"), number(1)]), lay_out_name("n")
+                ),
+                lay_out_name("x_i"),
             ),
             PRODUCT,
         ),
         "matrix": Matrix(
-            ((name("f_x"), number(0), name("o_x")), (number(0), name("f_y"), name("o_y")))
+            (
+                (lay_out_name("f_x"), number(0), lay_out_name("o_x")),
+                (number(0), lay_out_name("f_y"), lay_out_name("o_y")),
+            )
         ),
-        "interval": relation(["∈"], [name("H"), fenced([number(0), number(360)], "[)")]),
-        "cube root": Root(name("x"), Number("3")),
-        "list": comma_list([name("R"), name("G"), name("B")]),
+        "interval": relation_chain(
+            ["∈"], [lay_out_name("H"), fence([number(0), number(360)], "[)")]
+        ),
+        "cube root": Root(lay_out_name("x"), Digits("3")),
+        "list": comma_list([lay_out_name("R"), lay_out_name("G"), lay_out_name("B")]),
         "words": Cases(
             (
-                (number(1), Row((name("a"), Text("and"), name("b")))),
+                (number(1), MathRow((lay_out_name("a"), ReaderWord("and"), lay_out_name("b")))),
                 (number(0), None),
             )
         ),
@@ -296,19 +322,19 @@ def built() -> dict[str, Node]:
 
 def nodes() -> dict[str, Node]:
     """Every entry of the table."""
-    plain = {key: layout(parse(text)) for key, text in FORMULAS.items()}
-    inline = {key: layout(parse(text), inline=True) for key, text in INLINE.items()}
+    plain = {key: lay_out(parse_formula(text)) for key, text in FORMULAS.items()}
+    inline = {key: lay_out(parse_formula(text), inline=True) for key, text in INLINE.items()}
     return plain | inline | built()
 
 
 def outputs(node: Node) -> dict[str, str]:
     """The outputs that the golden table keeps."""
     return {
-        "latex": latex(node),
-        "typst": typst(node),
-        "mathml": mathml(node),
-        "en": spoken(node, "en"),
-        "bn": spoken(node, "bn"),
+        "latex": to_latex(node),
+        "typst": to_typst(node),
+        "mathml": to_mathml(node),
+        "en": to_speech(node, "en"),
+        "bn": to_speech(node, "bn"),
     }
 
 

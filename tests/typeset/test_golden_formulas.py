@@ -10,7 +10,7 @@ import pytest
 from latex2mathml.converter import convert as latex_to_mathml
 from matplotlib.mathtext import MathTextParser
 
-from quizgen.typeset import latex, mathml, spoken, typst
+from quizgen.typeset import to_latex, to_mathml, to_speech, to_typst
 from tests.typeset.table import FORMULAS, GOLDEN, nodes, outputs
 
 TABLE = tomllib.loads(GOLDEN.read_text(encoding="utf-8"))
@@ -33,7 +33,7 @@ def test_outputs_are_the_reviewed_ones(key):
 @pytest.mark.parametrize("key", NODES)
 def test_latex_parses_and_never_closes_a_cloze(key):
     for lang in ("en", "bn"):
-        text = latex(NODES[key], lang)
+        text = to_latex(NODES[key], lang)
         assert "}}" not in text
         assert text.count("{") - text.count(r"\{") == text.count("}") - text.count(r"\}")
         latex_to_mathml(text)
@@ -52,7 +52,7 @@ def test_mathml_is_well_formed_core(key):
     arity = {"mfrac": 2, "mroot": 2, "msub": 2, "msup": 2, "msubsup": 3, "mover": 2}
     arity |= {"munder": 2, "munderover": 3}
     for lang in ("en", "bn"):
-        tree = ET.fromstring(mathml(NODES[key], lang, display=True))
+        tree = ET.fromstring(to_mathml(NODES[key], lang, display=True))
         for element in tree.iter():
             assert element.tag in core
             assert len(element) == arity.get(element.tag, len(element))
@@ -61,7 +61,7 @@ def test_mathml_is_well_formed_core(key):
 
 @pytest.mark.parametrize("key", NODES)
 def test_speech_holds_words_only(key):
-    english, bangla = (spoken(NODES[key], lang) for lang in ("en", "bn"))
+    english, bangla = (to_speech(NODES[key], lang) for lang in ("en", "bn"))
     assert re.fullmatch(r"[A-Za-z0-9 .,;:]+", english)
     # English words stand only where a quantity is named by one
     assert set(re.findall(r"[A-Za-z]+", bangla)) <= {"fold"}
@@ -78,8 +78,8 @@ def test_speech_tells_the_formulas_apart():
 
 def test_words_follow_the_language():
     node = NODES["F38 salt and pepper"]
-    assert "otherwise" in latex(node) + typst(node)
-    for write in (latex, typst, mathml):
+    assert "otherwise" in to_latex(node) + to_typst(node)
+    for write in (to_latex, to_typst, to_mathml):
         text = write(node, "bn")
         assert "অন্যথায়" in text
         assert "যদি" in text

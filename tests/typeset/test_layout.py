@@ -9,28 +9,28 @@ from flint import fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from quizgen.errors import MathError, RenderError
-from quizgen.maths.notation import parse
-from quizgen.maths.systems import evaluate
+from quizgen.core.errors import MathError, RenderError
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.number_systems import evaluate
 from quizgen.maths.tree import Call, Num, Sym
-from quizgen.maths.units import SIMPLE, shown
+from quizgen.maths.units import SIMPLE, format_unit
 from quizgen.typeset import (
     decimal,
-    latex,
-    layout,
-    mathml,
-    name,
+    lay_out,
+    lay_out_name,
     number,
     quantity,
-    relation,
-    spoken,
-    typst,
+    relation_chain,
+    to_latex,
+    to_mathml,
+    to_speech,
+    to_typst,
 )
 from quizgen.typeset import nodes as n
-from quizgen.typeset.mathml import bold
-from quizgen.typeset.spoken import unit_words
+from quizgen.typeset.mathml import bold_letter
+from quizgen.typeset.speech import say_unit
 
-WRITERS = (latex, mathml, typst, spoken)
+WRITERS = (to_latex, to_mathml, to_typst, to_speech)
 
 
 # A reader of layouts, kept apart from the writers: it trusts the printed brackets alone.
@@ -38,22 +38,23 @@ WRITERS = (latex, mathml, typst, spoken)
 
 def _typed(node):  # noqa: PLR0911 - one line a node
     match node:
-        case n.Number(text=text) | n.Ident(text=text):
+        case n.Digits(text=text) | n.Ident(text=text):
             return text
-        case n.Quantity(value=value):
+        case n.NumberWithUnit(value=value):
             return _typed(value)
-        case n.Row(items=items):
+        case n.MathRow(items=items):
             signs = {"": "*", "·": "*", "neg": "-", "+": "+", "-": "-"}
             return "".join(
-                signs[item.name] if isinstance(item, n.Op) else _typed(item) for item in items
+                signs[item.name] if isinstance(item, n.OperatorSign) else _typed(item)
+                for item in items
             )
         case n.Frac(top=top, bottom=bottom, inline=True):
             return f"{_typed(top)}/{_typed(bottom)}"
         case n.Frac(top=top, bottom=bottom):
             return f"(({_typed(top)})/({_typed(bottom)}))"
-        case n.Fence(kind="()", body=body):
+        case n.Fenced(kind="()", body=body):
             return f"({_typed(body)})"
-        case n.Fence(kind="||", body=body):
+        case n.Fenced(kind="||", body=body):
             return f"abs({_typed(body)})"
         case n.Root(body=body):
             return f"sqrt({_typed(body)})"
@@ -96,9 +97,9 @@ def test_printed_brackets_keep_the_value(tree, inline, numbers):
         expected = evaluate(tree, FLINT)
     except MathError:
         assume(False)
-    node = layout(tree, inline=inline, leaves=SHOWN if numbers else None)
+    node = lay_out(tree, inline=inline, leaves=SHOWN if numbers else None)
     typed = _typed(node)
-    assert evaluate(parse(typed), FLINT) == expected, typed
+    assert evaluate(parse_formula(typed), FLINT) == expected, typed
     for write in WRITERS:
         assert write(node)
 
@@ -131,7 +132,7 @@ def test_printed_brackets_keep_the_value(tree, inline, numbers):
     ],
 )
 def test_layout_rules(text, expected):
-    assert latex(layout(parse(text))) == expected
+    assert to_latex(lay_out(parse_formula(text))) == expected
 
 
 @pytest.mark.parametrize(
@@ -168,19 +169,19 @@ def test_layout_rules(text, expected):
     ],
 )
 def test_names(symbol, expected):
-    assert latex(name(symbol)) == expected
+    assert to_latex(lay_out_name(symbol)) == expected
 
 
 def test_subscript_words_are_upright_and_letters_are_not():
-    assert typst(name("I_max")) == 'I_("max")'
-    assert "<mi>max</mi>" in mathml(name("I_max"))
-    assert '<mi mathvariant="normal">Δ</mi>' in mathml(name("Delta"))
+    assert to_typst(lay_out_name("I_max")) == 'I_("max")'
+    assert "<mi>max</mi>" in to_mathml(lay_out_name("I_max"))
+    assert '<mi mathvariant="normal">Δ</mi>' in to_mathml(lay_out_name("Delta"))
 
 
 @pytest.mark.parametrize("bad", ["", "_x", "x__y!", "1x", "p x", "a-b", "x_$"])
 def test_names_that_cannot_be_written(bad):
     with pytest.raises(RenderError):
-        name(bad)
+        lay_out_name(bad)
 
 
 @pytest.mark.parametrize(
@@ -207,38 +208,38 @@ def test_texts_that_are_not_numbers(bad):
 
 
 def test_numbers_keep_their_digits():
-    assert latex(number("2.50")) == "2.50"
-    assert latex(number("−3")) == "- 3"
-    assert latex(number(Fraction(-20, 3))) == r"- \frac{20}{3}"
-    assert latex(number("200 000")) == r"200\,000"
-    assert latex(quantity("6.667", "")) == "6.667"
+    assert to_latex(number("2.50")) == "2.50"
+    assert to_latex(number("−3")) == "- 3"
+    assert to_latex(number(Fraction(-20, 3))) == r"- \frac{20}{3}"
+    assert to_latex(number("200 000")) == r"200\,000"
+    assert to_latex(quantity("6.667", "")) == "6.667"
 
 
 def test_relations_count_their_sides():
     with pytest.raises(RenderError):
-        relation(["="], [name("x")])
+        relation_chain(["="], [lay_out_name("x")])
     with pytest.raises(RenderError):
-        relation(["=="], [name("x"), name("y")])
+        relation_chain(["=="], [lay_out_name("x"), lay_out_name("y")])
 
 
 @pytest.mark.parametrize("unit", sorted(set(SIMPLE) - {"", "1"}))
 def test_every_unit_is_printed_and_said(unit):
-    for written in (unit, shown(unit), f"{unit}/s", f"{unit}^2"):
+    for written in (unit, format_unit(unit), f"{unit}/s", f"{unit}^2"):
         node = quantity("2", written)
         for write in WRITERS:
             assert write(node) == write(quantity("2", written.replace("µ", "u")))
-    assert unit_words(unit, "en").isascii()
-    assert not any(char.isascii() and char.isalpha() for char in unit_words(unit, "bn"))
+    assert say_unit(unit, "en").isascii()
+    assert not any(char.isascii() and char.isalpha() for char in say_unit(unit, "bn"))
 
 
 def test_units_as_said():
-    assert unit_words("um/px", "en") == "micrometres per pixel"
-    assert unit_words("um/px", "bn") == "মাইক্রোমিটার প্রতি পিক্সেল"
-    assert unit_words("mm^2", "en") == "square millimetres"
-    assert unit_words("lx*s", "en") == "lux seconds"
-    assert unit_words("s^-1", "en") == "per second"
-    assert spoken(quantity("1", "m")) == "1 metre"
-    assert spoken(quantity("1", "m/s")) == "1 metre per second"
+    assert say_unit("um/px", "en") == "micrometres per pixel"
+    assert say_unit("um/px", "bn") == "মাইক্রোমিটার প্রতি পিক্সেল"
+    assert say_unit("mm^2", "en") == "square millimetres"
+    assert say_unit("lx*s", "en") == "lux seconds"
+    assert say_unit("s^-1", "en") == "per second"
+    assert to_speech(quantity("1", "m")) == "1 metre"
+    assert to_speech(quantity("1", "m/s")) == "1 metre per second"
 
 
 @pytest.mark.parametrize("unit", ["mm^", "5", "<b>", "a_b"])
@@ -263,7 +264,7 @@ def test_what_cannot_be_a_unit_is_refused(unit):
 )
 def test_unknown_operators_raise(tree):
     with pytest.raises(RenderError):
-        layout(tree)
+        lay_out(tree)
 
 
 class Stranger:
@@ -275,11 +276,11 @@ class Stranger:
     "node",
     [
         Stranger(),
-        n.Op("§"),
-        n.Text("unless"),
+        n.OperatorSign("§"),
+        n.ReaderWord("unless"),
         n.Accent("dot", n.Ident("x")),
-        n.Fence("<>", n.Ident("x")),
-        n.Big("⋃"),
+        n.Fenced("<>", n.Ident("x")),
+        n.LargeOperator("⋃"),
     ],
 )
 def test_unknown_nodes_raise(write, node):
@@ -289,18 +290,18 @@ def test_unknown_nodes_raise(write, node):
 
 def test_markup_in_names_is_inert():
     nasty = n.Word('<b>"#$%&_\\')
-    assert "<b>" not in mathml(nasty)
-    assert typst(nasty) == r'"<b>\"#$%&_\\"'
-    assert r"\#" in latex(nasty)
-    assert r"\$" in latex(nasty)
+    assert "<b>" not in to_mathml(nasty)
+    assert to_typst(nasty) == r'"<b>\"#$%&_\\"'
+    assert r"\#" in to_latex(nasty)
+    assert r"\$" in to_latex(nasty)
 
 
 def test_bold_letters():
     import unicodedata
 
     for letter in "aAzZ":
-        assert unicodedata.normalize("NFKC", bold(letter)) == letter
-    assert unicodedata.name(bold("μ")) == "MATHEMATICAL BOLD SMALL MU"
-    assert unicodedata.name(bold("Σ")) == "MATHEMATICAL BOLD CAPITAL SIGMA"
+        assert unicodedata.normalize("NFKC", bold_letter(letter)) == letter
+    assert unicodedata.name(bold_letter("μ")) == "MATHEMATICAL BOLD SMALL MU"
+    assert unicodedata.name(bold_letter("Σ")) == "MATHEMATICAL BOLD CAPITAL SIGMA"
     with pytest.raises(RenderError):
-        bold("1")
+        bold_letter("1")

@@ -8,15 +8,15 @@ from pathlib import Path
 import pytest
 import typst as engine
 
-from quizgen.typeset import spoken, typst
-from quizgen.typeset.typst import quoted
+from quizgen.typeset import to_speech, to_typst
+from quizgen.typeset.typst import typst_string
 from tests.typeset.table import nodes
 
 
 def _document(lang):
     rows = [
-        f"[#{quoted(key)}], math.equation(block: true, alt: {quoted(spoken(node, lang))}, "
-        f"$ {typst(node, lang)} $),"
+        f"[#{typst_string(key)}], math.equation(block: true, alt: {typst_string(to_speech(node, lang))}, "
+        f"$ {to_typst(node, lang)} $),"
         for key, node in nodes().items()
     ]
     return "\n".join(

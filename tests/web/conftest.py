@@ -10,11 +10,11 @@ from served import Served
 from sqlalchemy import delete
 from starlette.testclient import TestClient
 
-from quizgen.web.app import application
-from quizgen.web.door import COOKIE, form_token
-from quizgen.web.settings import Settings
-from quizgen.web.store import Which
-from quizgen.web.store.tables import LEARNER
+from quizgen.store import QuestionRef
+from quizgen.store.schema import LEARNER
+from quizgen.web.app import create_app
+from quizgen.web.auth import COOKIE, csrf_token
+from quizgen.web.settings import ServerSettings
 
 ADDRESS = "http://127.0.0.1:8000"
 
@@ -51,13 +51,13 @@ def database(request, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def settings(database):
-    return Settings(database(), workers=1)
+    return ServerSettings(database(), workers=1)
 
 
 @pytest.fixture(scope="module")
 def app(settings):
     """The application, running."""
-    app = application(settings)
+    app = create_app(settings)
     with TestClient(app, ADDRESS):
         yield app
 
@@ -94,7 +94,7 @@ def client(visitor, app):
 
 @pytest.fixture
 def token(client):
-    return form_token(client.cookies[COOKIE])
+    return csrf_token(client.cookies[COOKIE])
 
 
 @pytest.fixture
@@ -103,7 +103,7 @@ def begin(app):
 
     def begun(template: str, seed: str = "3") -> str:
         store = app.state.site.store
-        return f"/q/{store.begin(store.learner().id, Which(template, seed), {}).id}"
+        return f"/q/{store.begin(store.learner().id, QuestionRef(template, seed), {}).id}"
 
     return begun
 

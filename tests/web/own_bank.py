@@ -5,16 +5,16 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 
 NAME = "point-to-image-plane"
 
 
 def own_bank(root: Path) -> None:
     """Copy the template, its solver and the formulas below a root."""
-    shutil.copytree(builtin().paths[NAME], root / "templates" / "projection" / NAME)
+    shutil.copytree(builtin_bank().template_paths[NAME], root / "templates" / "projection" / NAME)
     (root / "templates" / "cards").mkdir()
-    shutil.copy(builtin().cards["formulas"], root / "templates" / "cards")
+    shutil.copy(builtin_bank().cards["formulas"], root / "templates" / "cards")
     solver = "solvers/projection/perspective.py"
     (root / solver).parent.mkdir(parents=True)
-    shutil.copy(builtin().root / solver, root / solver)
+    shutil.copy(builtin_bank().root / solver, root / solver)

@@ -10,8 +10,8 @@ from people import PASSWORD
 from playwright.sync_api import expect
 from served import Served
 
-from quizgen.web.door import INVITED
-from quizgen.web.store import Store
+from quizgen.store import Store
+from quizgen.web.auth import INVITED
 
 pytestmark = [pytest.mark.browser, pytest.mark.both_databases]
 

@@ -6,10 +6,10 @@ import json
 
 import pytest
 
-from quizgen.errors import StoreError
-from quizgen.practice.schedule import Asked, Grade
-from quizgen.web.store import Seen, Store, Which
-from quizgen.web.store.archive import read_archive
+from quizgen.core.errors import StoreError
+from quizgen.practice.scheduler import ReviewEvent, ReviewRating
+from quizgen.store import OutcomeRecord, QuestionRef, Store
+from quizgen.store.archive import read_archive
 
 NOW = 1_795_000_000.0
 
@@ -34,17 +34,19 @@ def full(store):
     """A learner with a question, an exam, a card and a date."""
     mine = store()
     learner = mine.learner().id
-    attempt = mine.begin(learner, Which("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""})
+    attempt = mine.begin(learner, QuestionRef("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""})
     done = {"typed": "1", "tries": 1, "hints": 0, "wrong": "2", "note": "sign",
             "outcome": {"topic": "colour", "right": True, "first": False, "skipped": False}}  # fmt: skip
     attempt.state = {"parts": {"1a": {"state": done, "values": ["1"], "asked_back": ""}},
                      "ended": ["1a"]}  # fmt: skip
     attempt.ended = NOW
-    mine.keep(attempt, (Seen("rgb-to-hsv", "colour", "a", "", right=True, first=True, at=NOW),))
+    mine.keep(
+        attempt, (OutcomeRecord("rgb-to-hsv", "colour", "a", "", right=True, first=True, at=NOW),)
+    )
     sitting = mine.sittings.begin(learner, "mock-1-en-0a1b2c", 60.0, pauses=True)
     mine.sittings.save(sitting.learner, sitting.id, {"2a": ["x", "৩"]})
     mine.sittings.flag(sitting, "2")
-    mine.cards.review(learner, [Asked("A3", Grade.AGAIN, ("trap:swapped",))], NOW)
+    mine.cards.review(learner, [ReviewEvent("A3", ReviewRating.AGAIN, ("trap:swapped",))], NOW)
     mine.settle(learner, {"exam": "2027-02-12", "unknown": 1})
     return mine
 
@@ -57,10 +59,12 @@ def test_what_comes_out_goes_in_elsewhere_and_is_the_same(full, store):
     data = full.archives.write(full.learner().id)
     other = store()
     learner = other.learner().id
-    assert other.archives.take_in(learner, read_archive(data)) == 2
+    assert other.archives.import_archive(learner, read_archive(data)) == 2
     assert content(other) == content(full)
     assert other.seen(learner)[0].template == "rgb-to-hsv"
-    assert other.archives.take_in(learner, read_archive(data)) == 0, "a second time adds nothing"
+    assert other.archives.import_archive(learner, read_archive(data)) == 0, (
+        "a second time adds nothing"
+    )
     assert content(other) == content(full)
 
 
@@ -68,8 +72,8 @@ def test_somebody_else_on_the_same_server_gets_names_of_their_own(full):
     data = full.archives.write(full.learner().id)
     other = full.learner("other").id
     before = content(full)
-    assert full.archives.take_in(other, read_archive(data)) == 2
-    assert full.archives.take_in(other, read_archive(data)) == 0
+    assert full.archives.import_archive(other, read_archive(data)) == 2
+    assert full.archives.import_archive(other, read_archive(data)) == 0
     assert content(full) == before
     assert full.latest(other)[0].id != full.latest(full.learner().id)[0].id
 
@@ -77,9 +81,9 @@ def test_somebody_else_on_the_same_server_gets_names_of_their_own(full):
 def test_the_later_card_stays(full):
     learner = full.learner().id
     data = full.archives.write(learner)
-    full.cards.review(learner, [Asked("A3", Grade.GOOD)], NOW + 90)
+    full.cards.review(learner, [ReviewEvent("A3", ReviewRating.GOOD)], NOW + 90)
     after = full.cards.all(learner)
-    full.archives.take_in(learner, read_archive(data))
+    full.archives.import_archive(learner, read_archive(data))
     assert full.cards.all(learner) == after
 
 

@@ -10,18 +10,20 @@ import pytest
 from own_bank import NAME
 from starlette.testclient import TestClient
 
-from quizgen.bank.folder import Bank
-from quizgen.bank.mixed import opened
-from quizgen.cli.lint import problems_of
-from quizgen.web.app import application
-from quizgen.web.author import stamp_of
-from quizgen.web.settings import Settings
+from quizgen.bank.bank import Bank
+from quizgen.bank.combined import open_banks
+from quizgen.cli.lint import lint_while_writing
+from quizgen.web.app import create_app
+from quizgen.web.author import bank_stamp
+from quizgen.web.settings import ServerSettings
 
 
 @pytest.fixture(scope="module")
 def author(root, database):
-    settings = Settings(database(), Bank(root, trusted=True), workers=1, examine=problems_of)
-    app = application(settings)
+    settings = ServerSettings(
+        database(), Bank(root, trusted=True), workers=1, examine=lint_while_writing
+    )
+    app = create_app(settings)
     with TestClient(app, "http://127.0.0.1:8000") as client:
         client.get(f"/enter?key={app.state.site.settings.token}")
         yield client
@@ -175,12 +177,12 @@ def alt(values, lang, *, quiz):
 
 def test_a_figure_that_is_saved_is_drawn_anew_and_told_in_its_new_words(author, root):
     rules, folder = root / "templates" / "projection" / NAME / "template.toml", root / "templates"
-    before, told = rules.read_text("utf-8"), stamp_of(Bank(root))
+    before, told = rules.read_text("utf-8"), bank_stamp(Bank(root))
     figure, words = (folder / "figures" / name for name in ("own.py", "en.toml"))
     figure.parent.mkdir()
     try:
         figure.write_text(FIGURE, "utf-8")
-        assert stamp_of(Bank(root)) != told
+        assert bank_stamp(Bank(root)) != told
         words.write_text('[own]\nsaid = "A small seven."\n', "utf-8")
         rules.write_text(
             re.sub(
@@ -203,8 +205,8 @@ def test_a_figure_that_is_saved_is_drawn_anew_and_told_in_its_new_words(author, 
 
 
 def test_authors_of_one_bank_among_others(root, database):
-    mixed = opened([("", True), (str(root), True)])
-    app = application(Settings(database(), mixed, workers=1, examine=problems_of))
+    mixed = open_banks([("", True), (str(root), True)])
+    app = create_app(ServerSettings(database(), mixed, workers=1, examine=lint_while_writing))
     with TestClient(app, "http://127.0.0.1:8000") as client:
         client.get(f"/enter?key={app.state.site.settings.token}")
         name = f"{root.name}:{NAME}"

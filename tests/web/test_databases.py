@@ -20,10 +20,10 @@ from alembic.migration import MigrationContext
 from sqlalchemy import create_engine, insert, inspect, text
 from sqlalchemy.exc import IntegrityError
 
-from quizgen.errors import StoreError
-from quizgen.practice.schedule import Asked, Grade
-from quizgen.web.store import Seen, Store, Which, migrate
-from quizgen.web.store.tables import METADATA
+from quizgen.core.errors import StoreError
+from quizgen.practice.scheduler import ReviewEvent, ReviewRating
+from quizgen.store import OutcomeRecord, QuestionRef, Store, migrate
+from quizgen.store.schema import METADATA
 
 STEPS = Path(migrate.__file__).parent / "migrations"
 ROWS = {
@@ -105,21 +105,21 @@ def test_every_release_comes_up_with_what_it_keeps(database, release):
     learner = store.learner()
     assert (learner.id, learner.settings) == (7, {"lang": "bn"})
     assert store.latest(7)[0].state == {"ended": ["1"]}
-    assert store.seen(7)[0].note == "trap:হ্যাঁ"
+    assert store.list_outcomes(7)[0].note == "trap:হ্যাঁ"
     if release >= "0002":
         (sitting,) = store.sittings.latest(7)
         assert (sitting.limit, sitting.pauses) == (60.0, True)
         assert store.sittings.answers(sitting) == {"1a": ["৩", ""]}
         assert store.sittings.flags(sitting) == {"2"}
     if release >= "0003":
-        assert store.lasting("token", "other") == "secret"
+        assert store.shared_value("token", "other") == "secret"
     if release >= "0004":
         assert store.cards.all(7)["template", "C1"].stability == 2.5
     if release >= "0005":
-        assert store.accounts.known("ME7") == (7, "$argon2id$x")
+        assert store.accounts.password_hash_of("ME7") == (7, "$argon2id$x")
         assert store.accounts.signed_in("token").manages
         assert store.accounts.invited("link").learner is None
-    store.keep(store.begin(7, Which("rgb-to-hsv", "4"), {}))
+    store.save_attempt(store.start_attempt(7, QuestionRef("rgb-to-hsv", "4"), {}))
     store.close()
 
 
@@ -139,7 +139,7 @@ def test_servers_that_begin_at_once_make_the_tables_once(database):
     with ThreadPoolExecutor(4) as threads:
         stores = list(threads.map(Store, [address] * 4))
         assert len({store.learner().id for store in stores}) == 1
-        assert len(set(threads.map(lambda s: s.lasting("token", str(id(s))), stores))) == 1
+        assert len(set(threads.map(lambda s: s.shared_value("token", str(id(s))), stores))) == 1
     for store in stores:
         store.close()
 
@@ -161,12 +161,12 @@ def test_of_what_comes_at_once_from_two_servers_nothing_is_lost(database):
     stores = [Store(address) for _ in range(2)]
     me = stores[0].learner().id
     sitting = stores[0].sittings.begin(me, "trial-1-both-000000", None, pauses=True)
-    seen = Seen("rgb-to-hsv", "colour", "a", "", right=True, first=True, at=time.time())
+    seen = OutcomeRecord("rgb-to-hsv", "colour", "a", "", right=True, first=True, at=time.time())
 
     def write(place: int) -> bool:
         store = stores[place % 2]
-        store.settle(me, {f"s{place}": place})
-        store.cards.review(me, [Asked(f"T{place}", Grade.GOOD)], time.time())
+        store.update_settings(me, {f"s{place}": place})
+        store.cards.review(me, [ReviewEvent(f"T{place}", ReviewRating.GOOD)], time.time())
         store.sittings.save(sitting.learner, sitting.id, {"1": [str(place)], f"{place}a": ["x"]})
         return store.sittings.hand_in(sitting, (seen,)) if place > 7 else False
 
@@ -174,7 +174,7 @@ def test_of_what_comes_at_once_from_two_servers_nothing_is_lost(database):
         list(threads.map(write, range(8)))
         handed = list(threads.map(write, range(8, 16)))
     assert sum(handed) == 1
-    assert len(stores[1].seen(me)) == 1
+    assert len(stores[1].list_outcomes(me)) == 1
     assert len(stores[1].cards.all(me)) == 16
     assert stores[0].learner().settings.keys() == {f"s{place}" for place in range(16)}
     assert stores[0].sittings.answers(sitting).keys() >= {"1"} | {f"{n}a" for n in range(8)}
@@ -185,12 +185,14 @@ def test_of_what_comes_at_once_from_two_servers_nothing_is_lost(database):
 def test_what_fails_half_way_has_written_nothing(database):
     store = Store(database())
     me = store.learner().id
-    attempt = store.begin(me, Which("rgb-to-hsv", "4"), {})
+    attempt = store.start_attempt(me, QuestionRef("rgb-to-hsv", "4"), {})
     attempt.state = {"new": True}
     with pytest.raises(TypeError):
-        store.keep(attempt, (Seen("t", "c", "a", "", right=True, first=True, at=0.0), None))
+        store.save_attempt(
+            attempt, (OutcomeRecord("t", "c", "a", "", right=True, first=True, at=0.0), None)
+        )
     assert store.attempt(me, attempt.id).state == {}
-    assert store.seen(me) == []
+    assert store.list_outcomes(me) == []
     store.close()
 
 

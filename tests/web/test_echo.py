@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from quizgen.web.echo import _typeset
+from quizgen.web.live_preview import _typeset_values
 
 
 def plain(page: str) -> str:
@@ -34,7 +34,7 @@ def plain(page: str) -> str:
     ],
 )
 def test_values_are_typeset_with_their_units(read, shown):
-    page = str(_typeset(read, "en"))
+    page = str(_typeset_values(read, "en"))
     if shown is not None:
         assert plain(page) == shown
 
@@ -49,7 +49,7 @@ def test_values_are_typeset_with_their_units(read, shown):
     ],
 )
 def test_values_of_boxes_are_read_back_one_by_one(read, shown):
-    assert plain(str(_typeset(read, "en", boxes=True))) == shown
+    assert plain(str(_typeset_values(read, "en", boxes=True))) == shown
 
 
 @pytest.mark.parametrize(
@@ -62,4 +62,4 @@ def test_values_of_boxes_are_read_back_one_by_one(read, shown):
     ],
 )
 def test_a_german_page_reads_back_with_a_comma(read, shown):
-    assert plain(str(_typeset(read, "de"))) == shown
+    assert plain(str(_typeset_values(read, "de"))) == shown

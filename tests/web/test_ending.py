@@ -12,15 +12,15 @@ import time
 import pytest
 from served import ran
 
-from quizgen.errors import BankError
-from quizgen.web.made import Wanted
-from quizgen.web.settings import Settings
-from quizgen.web.workers import Workers
+from quizgen.core.errors import BankError
+from quizgen.web.job_cache import WorkerPool
+from quizgen.web.question_view import QuestionRequest
+from quizgen.web.settings import ServerSettings
 
 
 @pytest.fixture
 def workers():
-    found = Workers(Settings("sqlite://", workers=1))
+    found = WorkerPool(ServerSettings("sqlite://", workers=1))
     found.warm()
     yield found
     found.close()
@@ -28,10 +28,12 @@ def workers():
 
 def test_a_process_that_dies_is_followed_by_another(workers):
     async def run() -> list[str]:
-        first = await workers.question(Wanted("point-to-image-plane", "1", "en"))
+        first = await workers.question(QuestionRequest("point-to-image-plane", "1", "en"))
         workers.makers[0].process.kill()
-        second = await workers.question(Wanted("point-to-image-plane", "2", "en"))
-        due = asyncio.ensure_future(workers.question(Wanted("point-to-image-plane", "3", "en")))
+        second = await workers.question(QuestionRequest("point-to-image-plane", "2", "en"))
+        due = asyncio.ensure_future(
+            workers.question(QuestionRequest("point-to-image-plane", "3", "en"))
+        )
         await asyncio.sleep(0)
         workers.makers[0].process.kill()
         return [first.stem, second.stem, (await due).stem]
@@ -42,21 +44,23 @@ def test_a_process_that_dies_is_followed_by_another(workers):
 def test_a_template_that_is_not_there_is_said_and_the_process_lives(workers):
     before = workers.makers[0].process.pid
     with pytest.raises(BankError):
-        ran(workers.question(Wanted("nothing", "1", "en")))
-    assert ran(workers.question(Wanted("point-to-image-plane", "1", "en"))).stem
+        ran(workers.question(QuestionRequest("nothing", "1", "en")))
+    assert ran(workers.question(QuestionRequest("point-to-image-plane", "1", "en"))).stem
     assert workers.makers[0].process.pid == before
 
 
 def test_ctrl_c_is_left_to_the_server(workers):
     before = workers.makers[0].process
     os.kill(before.pid, signal.SIGINT)
-    assert ran(workers.question(Wanted("point-to-image-plane", "1", "en"))).stem
+    assert ran(workers.question(QuestionRequest("point-to-image-plane", "1", "en"))).stem
     assert workers.makers[0].process is before
 
 
 def test_a_server_that_ends_leaves_nobody_waiting(workers):
     async def run() -> None:
-        due = asyncio.ensure_future(workers.question(Wanted("point-to-image-plane", "1", "en")))
+        due = asyncio.ensure_future(
+            workers.question(QuestionRequest("point-to-image-plane", "1", "en"))
+        )
         await asyncio.sleep(0.05)
         workers.close()
         with pytest.raises(BankError):

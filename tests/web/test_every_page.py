@@ -13,19 +13,19 @@ import pytest
 from sweep import draws
 from typed import Fields, typed
 
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 from quizgen.bank.levels import EXAM, GUIDED
-from quizgen.question.compose import instance, put_into_words
-from quizgen.question.levels import level_of
-from quizgen.web.made import made
-from quizgen.web.store import Which
+from quizgen.question.compose import compose_variant, draw_instance
+from quizgen.question.levels import effective_level
+from quizgen.store import QuestionRef
+from quizgen.web.question_view import question_view
 
-NAMES = sorted(builtin().paths)
+NAMES = sorted(builtin_bank().template_paths)
 
 
 @cache
 def numbers(template: str, seed: str):
-    return instance(builtin().template(template), seed)
+    return draw_instance(builtin_bank().template(template), seed)
 
 
 @pytest.fixture(scope="module")
@@ -36,9 +36,9 @@ def at_once(app):
     async def question(wanted):
         if wanted not in kept:
             drawn = numbers(wanted.template, wanted.seed)
-            pair = put_into_words(drawn, wanted.lang, level=wanted.level, figures=False)
+            pair = compose_variant(drawn, wanted.lang, level=wanted.level, figures=False)
             kept.clear()
-            kept[wanted] = (*pair, made(wanted, *pair))
+            kept[wanted] = (*pair, question_view(wanted, *pair))
         return kept[wanted][2]
 
     before, workers.question = workers.question, question
@@ -69,7 +69,7 @@ def wrong(client, token, app, at_once):
 
     def asked(template: str, seed: str, lang: str, level: str) -> list[str]:
         store.settle(learner, {"lang": lang})
-        at = f"/q/{store.begin(learner, Which(template, seed, level), {}).id}"
+        at = f"/q/{store.begin(learner, QuestionRef(template, seed, level), {}).id}"
         page = client.get(at).text
         ((question, key, _),) = at_once.values()
         answers = typed(question, key)
@@ -87,7 +87,7 @@ def wrong(client, token, app, at_once):
 
 def levels(template: str, seed: str) -> list[str]:
     drawn = numbers(template, seed)
-    return [level for level in (EXAM, GUIDED) if level_of(drawn, level) == level]
+    return [level for level in (EXAM, GUIDED) if effective_level(drawn, level) == level]
 
 
 @pytest.mark.parametrize("template", NAMES)

@@ -9,8 +9,8 @@ from keys import Keys
 from playwright.sync_api import expect
 from sqlalchemy import update
 
-from quizgen.web.store import Store
-from quizgen.web.store.tables import SITTING
+from quizgen.store import Store
+from quizgen.store.schema import SITTING
 
 pytestmark = pytest.mark.browser
 

@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from quizgen.question.sheet import sheet
+from quizgen.question.formula_sheet import compose_sheet
 from quizgen.render import render_sheet
 
 
@@ -59,7 +59,7 @@ def test_a_worked_solution_leads_to_its_formulas(client, token, begin):
 def test_its_style_is_that_of_the_sheet_as_a_file(client, bank):
     answer = client.get("/static/sheet.css")
     assert answer.headers["content-type"].startswith("text/css")
-    assert answer.text in render_sheet(sheet(bank, "en"), "html").decode()
+    assert answer.text in render_sheet(compose_sheet(bank, "en"), "html").decode()
     assert '<link rel="stylesheet" href="/static/sheet.css">' in client.get("/formulas").text
 
 

@@ -9,8 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 import httpx2
 import pytest
 
-from quizgen.web.made import WantedPaper
-from quizgen.web.store import Store, Which
+from quizgen.store import QuestionRef, Store
+from quizgen.web.question_view import PaperRequest
 
 EXAM_ROUTES = ("", "/flag/1", "/read/1", "/judge/1")
 TURN_ROUTES = ("/again", "/variant", "/guided", "/next", "/1", "/1/read")
@@ -21,7 +21,7 @@ def theirs(app):
     """A question and an exam of somebody else, both begun."""
     store = app.state.site.store
     other = store.learner("other").id
-    attempt = store.begin(other, Which("point-to-image-plane", "3"), {})
+    attempt = store.begin(other, QuestionRef("point-to-image-plane", "3"), {})
     sitting = store.sittings.begin(other, "trial-1-both-000000", None, pauses=False)
     return other, attempt, sitting
 
@@ -136,7 +136,7 @@ def test_nothing_of_a_key_is_sent_before_it_is_handed_in(client, token, app):
     at = client.post("/exam", data={"token": token, "blueprint": "mock"}).url.path
     store = app.state.site.store
     sitting = store.sittings.find(store.learner().id, at.rsplit("/", 1)[1])
-    kept = app.state.site.workers._kept.get(WantedPaper("en", code=sitting.code))
+    kept = app.state.site.workers._kept.get(PaperRequest("en", code=sitting.code))
     parts = [part for item in kept.items for part in item.parts]
     json = {"accept": "application/json"}
     sent = [client.get(at).text, client.post(f"{at}/flag/1", data={"token": token}).text]
@@ -186,14 +186,14 @@ def test_many_answers_at_once_count_once(outside, served):
         answers = list(threads.map(lambda _: browser.post(f"{at}/1", data=sent), range(16)))
     assert {answer.status_code for answer in answers} == {200}
     store = Store(served.database)
-    assert len(store.seen(store.learner().id)) == 1
+    assert len(store.list_outcomes(store.learner().id)) == 1
     store.close()
 
 
 def test_many_hands_hand_in_once(outside, served):
     browser, token = outside
     store = Store(served.database)
-    before = len(store.seen(store.learner().id))
+    before = len(store.list_outcomes(store.learner().id))
     page = browser.post("/exam", data={"token": token, "blueprint": "trial"})
     parts = set(re.findall(r'<fieldset data-part="(\w+)"', page.text))
     sent = {"token": token, "do": "hand-in"} | {f"on-{p}": "" for p in parts}
@@ -202,7 +202,7 @@ def test_many_hands_hand_in_once(outside, served):
         answers = list(threads.map(lambda _: browser.post(page.url.path, data=sent), range(16)))
     assert {answer.status_code for answer in answers} == {200}
     learner = store.learner().id
-    after = len(store.seen(learner)) - before
+    after = len(store.list_outcomes(learner)) - before
     sitting = store.sittings.latest(learner, 1)[0]
     assert store.sittings.answers(sitting).keys() == parts
     store.close()

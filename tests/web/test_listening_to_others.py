@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 from served import Served
 
-from quizgen.cli.main import group
+from quizgen.cli.main import root_group
 
 PASSWORDS = ("drei gelbe Bohnen", "geheimes Wort")
 TYPED = ("98765.4321", "abweichend")
@@ -103,7 +103,7 @@ def test_a_server_that_has_a_manager_invites_when_it_is_told_to(started):
 )
 def test_what_cannot_be_is_said_in_a_line(tmp_path, options, said):
     database = () if "--database" in options else ("--database", f"sqlite:///{tmp_path / 'x'}")
-    found = CliRunner().invoke(group, ["serve", "--no-open", *database, *options])
+    found = CliRunner().invoke(root_group, ["serve", "--no-open", *database, *options])
     assert found.exit_code != 0
     told = found.output + str(found.exception)
     assert said in told

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 from starlette.testclient import TestClient
 
-from quizgen.errors import BankError
-from quizgen.web.app import application
-from quizgen.web.door import COOKIE, form_token
-from quizgen.web.made import Wanted
-from quizgen.web.settings import Settings
-from quizgen.web.workers import Kept
+from quizgen.core.errors import BankError
+from quizgen.web.app import create_app
+from quizgen.web.auth import COOKIE, csrf_token
+from quizgen.web.job_cache import ResultCache
+from quizgen.web.question_view import QuestionRequest
+from quizgen.web.settings import ServerSettings
 
 QUESTION = "point-to-image-plane"
 
@@ -19,7 +19,7 @@ QUESTION = "point-to-image-plane"
 def client(tmp_path_factory):
     """A browser that was let in, at a server with two processes that make questions."""
     file = tmp_path_factory.mktemp("data") / "x.sqlite3"
-    app = application(Settings(f"sqlite:///{file}", workers=2))
+    app = create_app(ServerSettings(f"sqlite:///{file}", workers=2))
     with TestClient(app, "http://127.0.0.1:8000") as browser:
         browser.get(f"/enter?key={app.state.site.settings.token}")
         yield browser
@@ -33,14 +33,14 @@ def site(client):
 @pytest.fixture
 def asked(site, monkeypatch):
     """What the processes are asked, in turn."""
-    found, ask = [], site.workers._asked
+    found, ask = [], site.workers._make_in_free_process
     monkeypatch.setattr(site.workers, "_asked", lambda one: found.append(one) or ask(one))
     return found
 
 
 @pytest.fixture
 def token(client):
-    return {"token": form_token(client.cookies[COOKIE])}
+    return {"token": csrf_token(client.cookies[COOKIE])}
 
 
 def posted(client, at: str, **fields: str) -> str:
@@ -64,7 +64,7 @@ def test_what_is_asked_after_a_question_was_made_while_it_was_shown(
     following = posted(client, f"{at}/{action}", **token)
     assert which(site, following) == made[{"next": 1, "variant": 2}[action]]
     client.get(following)
-    assert asked.count(Wanted(*which(site, following), "en")) == 1
+    assert asked.count(QuestionRequest(*which(site, following), "en")) == 1
 
 
 def test_the_same_wish_twice_gives_other_numbers(client, site, token):
@@ -77,24 +77,24 @@ def test_nothing_is_made_ahead_where_that_would_take_the_last_process(
     client, site, asked, token, monkeypatch
 ):
     at = posted(client, "/practice", **token, template=QUESTION)
-    monkeypatch.setitem(site.workers._due, Wanted("another", "1", "en"), None)
+    monkeypatch.setitem(site.workers._due, QuestionRequest("another", "1", "en"), None)
     client.get(at)
     assert [(one.template, one.seed) for one in asked] == [which(site, at)]
 
 
 def test_what_cannot_be_made_ahead_is_said_to_who_asks(client, site):
-    nothing = Wanted("nothing", "1", "en")
+    nothing = QuestionRequest("nothing", "1", "en")
     client.portal.call(site.workers.prepare, nothing)
     with pytest.raises(BankError):
         client.portal.call(site.workers.question, nothing)
 
 
-def keys(kept: Kept) -> list[str]:
+def keys(kept: ResultCache) -> list[str]:
     return [one for one in "abcd" if kept.get(one) is not None]
 
 
 def test_the_latest_are_kept_as_far_as_there_is_room():
-    kept = Kept(10)
+    kept = ResultCache(10)
     kept.put("a", b"1", 4)
     kept.put("b", b"2", 4)
     assert keys(kept) == ["a", "b"]

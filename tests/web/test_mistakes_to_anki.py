@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from quizgen.bank.levels import GUIDED
-from quizgen.question.compose import compose
-from quizgen.web.store import Which
+from quizgen.question.compose import compose_question
+from quizgen.store import QuestionRef
 
 QUESTION = "point-to-image-plane"
 GIVEN_UP = {"topic": "colour", "right": False, "first": False}
@@ -37,7 +37,7 @@ def notes(collection, tmp_path):
 @pytest.fixture
 def swapped(bank):
     """Both coordinates exchanged, as they are typed into two boxes."""
-    _, key = compose(bank.template(QUESTION), "3", "en", figures=False)
+    _, key = compose_question(bank.template(QUESTION), "3", "en", figures=False)
     return key.solution.parts[0].answer.strip("()").split("; ")[::-1]
 
 
@@ -87,7 +87,7 @@ def test_an_exam_in_bangla(client, token, notes):
 def test_steps_are_cards_and_what_is_no_longer_in_the_bank_is_left_out(client, token, app, notes):
     store = app.state.site.store
     learner = store.learner().id
-    for which in (Which("rgb-to-hsv", "3", GUIDED), Which("taken-out", "3")):
+    for which in (QuestionRef("rgb-to-hsv", "3", GUIDED), QuestionRef("taken-out", "3")):
         attempt = store.begin(learner, which, {})
         attempt.state = {"parts": {"1a1": {"state": {"outcome": GIVEN_UP}}}}
         store.keep(attempt)

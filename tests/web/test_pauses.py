@@ -7,10 +7,10 @@ import re
 import pytest
 from own_bank import NAME
 
-from quizgen.bank.folder import Bank
-from quizgen.errors import BlueprintError
+from quizgen.bank.bank import Bank
+from quizgen.core.errors import BlueprintError
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.web.settings import Settings
+from quizgen.web.settings import ServerSettings
 
 BLUEPRINT = """{rule}
 [title]
@@ -30,7 +30,7 @@ def settings(database, root):
     for name, rule in RULES.items():
         text = BLUEPRINT.format(rule=rule, name=name.title(), template=NAME)
         (folder / f"{name}.toml").write_text(text)
-    return Settings(database(), Bank(root, trusted=True), workers=1)
+    return ServerSettings(database(), Bank(root, trusted=True), workers=1)
 
 
 @pytest.mark.parametrize(

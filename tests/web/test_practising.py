@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from quizgen.question.compose import compose
+from quizgen.question.compose import compose_question
 
 pytestmark = pytest.mark.both_databases
 
@@ -38,7 +38,7 @@ def test_a_topic_that_nobody_knows_has_no_question(client, token):
 
 def test_right_wrong_and_unreadable_answers(client, token, begin, bank):
     at = begin("point-to-image-plane")
-    _, key = compose(bank.template("point-to-image-plane"), "3", "en")
+    _, key = compose_question(bank.template("point-to-image-plane"), "3", "en")
     x, y = key.solution.parts[0].answer.strip("()").split("; ")
     unread = client.post(f"{at}/1", data={"token": token, "a": [x, "?"]})
     assert verdicts(unread.text) == ["asked"]

@@ -8,8 +8,8 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from quizgen.question.compose import compose
-from quizgen.web.store import Which
+from quizgen.question.compose import compose_question
+from quizgen.store import QuestionRef
 
 QUESTION = "point-to-image-plane"
 
@@ -27,7 +27,7 @@ def cards(app):
 
 @pytest.fixture
 def answers(bank):
-    _, key = compose(bank.template(QUESTION), "3", "en")
+    _, key = compose_question(bank.template(QUESTION), "3", "en")
     return key.solution.parts[0].answer.strip("()").split("; ")
 
 
@@ -100,7 +100,7 @@ def test_a_mistake_is_remembered_and_named_in_both_languages(
 
 
 def test_a_trap_gets_a_row_of_its_own_and_a_way_to_practise_it(client, token, begin, app, bank):
-    _, key = compose(bank.template(QUESTION), "3", "en")
+    _, key = compose_question(bank.template(QUESTION), "3", "en")
     trap = key.solution.parts[0].mistakes[0]
     at = begin(QUESTION)
     client.post(f"{at}/1", data={"token": token, "a": trap.value.strip("()").split("; ")})
@@ -124,11 +124,11 @@ def test_the_same_numbers_again_and_steps_do_not_count_as_known(client, token, b
 def test_the_next_question_is_the_one_that_is_due(client, token, app):
     site = app.state.site
     learner = site.store.learner().id
-    site.store.begin(learner, Which("rgb-to-hsv", "1"), {})
-    from quizgen.practice.schedule import Asked, Grade
+    site.store.begin(learner, QuestionRef("rgb-to-hsv", "1"), {})
+    from quizgen.practice.scheduler import ReviewEvent, ReviewRating
 
     long_ago = datetime.now(UTC) - timedelta(days=30)
-    site.store.cards.review(learner, [Asked("A3", Grade.AGAIN)], long_ago.timestamp())
+    site.store.cards.review(learner, [ReviewEvent("A3", ReviewRating.AGAIN)], long_ago.timestamp())
     client.post("/practice", data={"token": token})
     latest = site.store.latest(learner, 1)[0]
     assert latest.template == QUESTION

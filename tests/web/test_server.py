@@ -16,26 +16,26 @@ import uvicorn
 from served import ran
 from starlette.testclient import TestClient
 
+from quizgen.store import Store
 from quizgen.web import limits
-from quizgen.web.app import application
-from quizgen.web.server import _as_before, _listening, _opened
-from quizgen.web.settings import Settings
-from quizgen.web.store import Store
+from quizgen.web.app import create_app
+from quizgen.web.server import _as_before, _build_browser_url, _open_listening_socket
+from quizgen.web.settings import ServerSettings
 
 ADDRESS = "http://127.0.0.1:8000"
 
 
 def test_a_server_lets_in_whom_the_one_before_it_let_in_and_knows_its_key_no_more(tmp_path):
     address = f"sqlite:///{tmp_path / 'learning.sqlite3'}"
-    first = application(Settings(address, workers=1))
+    first = create_app(ServerSettings(address, workers=1))
     with TestClient(first, ADDRESS) as browser:
         key = first.state.site.settings.token
         assert browser.get(f"/enter?key={key}").status_code == 200
-    second = application(Settings(address, workers=1))
+    second = create_app(ServerSettings(address, workers=1))
     with TestClient(second, ADDRESS, cookies=browser.cookies) as again:
         assert again.get("/progress").status_code == 200
         assert TestClient(second, ADDRESS).get(f"/enter?key={key}").status_code == 403
-    other = application(Settings(f"sqlite:///{tmp_path / 'other.sqlite3'}", workers=1))
+    other = create_app(ServerSettings(f"sqlite:///{tmp_path / 'other.sqlite3'}", workers=1))
     with TestClient(other, ADDRESS, cookies=browser.cookies) as elsewhere:
         assert elsewhere.get("/progress").status_code == 403
 
@@ -43,11 +43,11 @@ def test_a_server_lets_in_whom_the_one_before_it_let_in_and_knows_its_key_no_mor
 def test_the_browser_is_started_with_a_file_whose_key_lets_in_once(tmp_path, monkeypatch):
     """What a program is started with is read by everybody on the machine (``ps``)."""
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
-    app = application(Settings(f"sqlite:///{tmp_path / 'l.sqlite3'}", workers=1))
+    app = create_app(ServerSettings(f"sqlite:///{tmp_path / 'l.sqlite3'}", workers=1))
     with TestClient(app, ADDRESS):
         site = app.state.site
         before = os.umask(0)
-        started = _opened(site, f"{ADDRESS}/enter?key={site.settings.token}")
+        started = _build_browser_url(site, f"{ADDRESS}/enter?key={site.settings.token}")
         os.umask(before)
         assert started.startswith("file://")
         assert "key" not in started
@@ -58,7 +58,7 @@ def test_the_browser_is_started_with_a_file_whose_key_lets_in_once(tmp_path, mon
         assert TestClient(app, ADDRESS).get(there).status_code == 200
         assert not page.exists()
         assert TestClient(app, ADDRESS).get(there).status_code == 403
-        unused = Path(_opened(site, f"{ADDRESS}/enter").removeprefix("file://"))
+        unused = Path(_build_browser_url(site, f"{ADDRESS}/enter").removeprefix("file://"))
     assert not unused.exists(), "nobody has used it while the server ran"
 
 
@@ -101,7 +101,7 @@ def test_an_answer_is_sent_before_what_went_before_it_is_acknowledged():
         there.close()
 
     async def ask() -> None:
-        listening = _listening("127.0.0.1", 0)
+        listening = _open_listening_socket("127.0.0.1", 0)
         async with await asyncio.start_server(answer, sock=listening):
             reader, writer = await asyncio.open_connection(*listening.getsockname())
             await reader.read()
@@ -140,7 +140,7 @@ def test_a_request_that_never_comes_whole_is_given_up(monkeypatch, sent):
         )
         config.load()
         server = uvicorn.Server(config)
-        listening = _listening("127.0.0.1", 0)
+        listening = _open_listening_socket("127.0.0.1", 0)
         loop = asyncio.get_running_loop()
 
         def protocol():

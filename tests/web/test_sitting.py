@@ -11,12 +11,12 @@ import pytest
 from sqlalchemy import update
 from typed import typed as typed_in
 
-from quizgen.bank.folder import builtin
+from quizgen.bank.bank import builtin_bank
 from quizgen.locale import BOTH
-from quizgen.paper.blueprint import named_blueprint
-from quizgen.paper.key import key_of
-from quizgen.paper.paper import build, rebuild
-from quizgen.web.store.tables import SITTING
+from quizgen.paper.answer_key import make_answer_key
+from quizgen.paper.blueprint import find_blueprint
+from quizgen.paper.paper import build_paper, rebuild_paper
+from quizgen.store.schema import SITTING
 
 pytestmark = pytest.mark.both_databases
 
@@ -31,7 +31,7 @@ def paper_of():
 
     def of(page: str):
         code = re.search(r"<code>([\w.-]+-both-[0-9a-f]{6})</code>", page)[1]
-        return made.setdefault(code, rebuild(builtin(), code, figures=False))
+        return made.setdefault(code, rebuild_paper(builtin_bank(), code, figures=False))
 
     return of
 
@@ -39,7 +39,7 @@ def paper_of():
 @pytest.fixture(scope="module")
 def code(bank):
     """A paper that is the same on every day."""
-    return build(bank, named_blueprint("trial", bank), 7, BOTH, figures=False).code
+    return build_paper(bank, find_blueprint("trial", bank), 7, BOTH, figures=False).code
 
 
 @pytest.fixture
@@ -75,7 +75,7 @@ def test_printed_answers_give_all_points_that_a_machine_gives(client, token, exa
     at, page = exam()
     paper = paper_of(page)
     done = client.post(at, data=body(token, typed(paper), do="hand-in"))
-    key = key_of(paper)
+    key = make_answer_key(paper)
     sentences = {p.id for q in key.questions for p in q.parts if p.spec["kind"] == "text"}
     wrong = re.findall(
         r'id="part-(\w+)">(?:(?!id="part-).)*?<div class="verdict (?!correct)(\w+)"',

@@ -9,19 +9,19 @@ from types import SimpleNamespace
 import msgspec
 import pytest
 
-from quizgen.bank.folder import builtin
-from quizgen.locale import languages
-from quizgen.tradeoff.page import fragment
-from quizgen.tradeoff.report import measure
-from quizgen.web.tradeoff import COMMAND, Measurement
+from quizgen.bank.bank import builtin_bank
+from quizgen.locale import list_languages
+from quizgen.tradeoff.page import render_tradeoff_fragment
+from quizgen.tradeoff.report import measure_tradeoff
+from quizgen.web.tradeoff import COMMAND, TradeoffJob
 
 FEW = ("compare-two-gaussian-noises", "dynamic-range-of-sensor", "photon-energy-and-band")
 
 
 @pytest.fixture(scope="module")
 def report():
-    bank = builtin()
-    return measure(SimpleNamespace(paths=FEW, template=bank.template))
+    bank = builtin_bank()
+    return measure_tradeoff(SimpleNamespace(paths=FEW, template=bank.template))
 
 
 @pytest.fixture
@@ -31,7 +31,9 @@ def measured(app, monkeypatch, report):
 
     async def done(job):
         asked.append(job)
-        return msgspec.json.encode({one: fragment(report, COMMAND, one) for one in languages()})
+        return msgspec.json.encode(
+            {one: render_tradeoff_fragment(report, COMMAND, one) for one in list_languages()}
+        )
 
     monkeypatch.setattr(app.state.site.workers, "done", done)
     return asked
@@ -39,12 +41,12 @@ def measured(app, monkeypatch, report):
 
 def test_the_page_of_the_command_stands_in_the_frame(client, token, measured, report):
     page = client.get("/tradeoff").text
-    assert measured == [Measurement()]
+    assert measured == [TradeoffJob()]
     assert '<nav aria-label="Menu">' in page
     assert '<a href="/tradeoff" aria-current="page">Accuracy</a>' in page
-    assert fragment(report, COMMAND, "en") in page
+    assert render_tradeoff_fragment(report, COMMAND, "en") in page
     client.post("/settings", data={"token": token, "lang": "bn", "back": "/"})
-    assert fragment(report, COMMAND, "bn") in client.get("/tradeoff").text
+    assert render_tradeoff_fragment(report, COMMAND, "bn") in client.get("/tradeoff").text
     client.post("/settings", data={"token": token, "lang": "en", "back": "/"})
 
 
@@ -75,7 +77,7 @@ def test_it_is_measured_once_for_all_languages(bank, monkeypatch, report):
         return report
 
     monkeypatch.setattr("quizgen.tradeoff.report.measure", once)
-    said = msgspec.json.decode(Measurement().run(bank))
+    said = msgspec.json.decode(TradeoffJob().run(bank))
     assert asked == [bank]
     assert set(said) >= {"en", "bn"}
     assert COMMAND in said["en"]

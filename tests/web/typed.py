@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from html.parser import HTMLParser
 
-from quizgen.question.compose import Key, Question
+from quizgen.question.compose import Question, QuestionKey
 
 
-def typed(question: Question, key: Key) -> dict[str, list[str]]:
+def typed(question: Question, key: QuestionKey) -> dict[str, list[str]]:
     """Part to a value for each of its fields."""
     parts = zip(question.parts, key.specs, key.solution.parts, strict=True)
     return {part.field.id: _values(part.field, spec, solved.answer) for part, spec, solved in parts}

@@ -9,8 +9,8 @@ from importlib.metadata import version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from quizgen.bank.schemas import SCHEMAS, schema
-from quizgen.locale import languages, sentences
+from quizgen.bank.json_schema import SCHEMAS, build_json_schema
+from quizgen.locale import list_languages, translatable_files
 
 KINDS = {
     "solver": "Something is computed (the usual kind).",
@@ -27,7 +27,7 @@ FIRST = ("example", "travel-time")
 """Topic and name of a new bank's first template."""
 
 
-def new_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
+def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
     """The files of a bank with one question, by their path in it.
 
     Parameters
@@ -39,35 +39,38 @@ def new_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
     """
     blanks = {"BANK": name, "VERSION": version("quizgen")}
     blanks["LANGUAGES"] = ", ".join(f'"{lang}"' for lang in langs)
-    blanks["TITLES"] = "\n".join(f'{lang} = "{_titled(name)}"' for lang in langs)
+    blanks["TITLES"] = "\n".join(f'{lang} = "{_make_title_from_name(name)}"' for lang in langs)
     blanks["EXAMPLES"] = ", ".join(f'{lang} = "Example"' for lang in langs)
     found = {
-        "templates/bank.toml": _filled(_HERE / "bank.toml", blanks),
-        **{f"schemas/{kind}.json": schema(kind) for kind in SCHEMAS},
-        **new_template(*FIRST, "solver", langs),
+        "templates/bank.toml": _fill_scaffold_file(_HERE / "bank.toml", blanks),
+        **{f"schemas/{kind}.json": build_json_schema(kind) for kind in SCHEMAS},
+        **scaffold_template(*FIRST, "solver", langs),
     }
     for lang in langs:
-        if lang not in languages():
-            found |= new_language(lang)
+        if lang not in list_languages():
+            found |= scaffold_language(lang)
     return found
 
 
-def new_language(lang: str) -> dict[str, bytes]:
+def scaffold_language(lang: str) -> dict[str, bytes]:
     """What a bank says of a language that quizgen has no words for, by path in the bank."""
-    said = _filled(_HERE / "language.toml", {"LANG": lang})
-    return {f"{_locale(lang)}/language.toml": said}
+    said = _fill_scaffold_file(_HERE / "language.toml", {"LANG": lang})
+    return {f"{_locate_locale_folder(lang)}/language.toml": said}
 
 
-def english_words(lang: str) -> dict[str, bytes]:
+def english_translation_files(lang: str) -> dict[str, bytes]:
     """All that quizgen says, to be translated, by path in the bank; what is left out stays."""
-    return {f"{_locale(lang)}/{file.name}": file.read_bytes() for file in sentences()}
+    return {
+        f"{_locate_locale_folder(lang)}/{file.name}": file.read_bytes()
+        for file in translatable_files()
+    }
 
 
-def _locale(lang: str) -> str:
+def _locate_locale_folder(lang: str) -> str:
     return f"templates/locale/{lang}"
 
 
-def new_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) -> dict[str, bytes]:
+def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) -> dict[str, bytes]:
     """The files of a question, by their path in the bank.
 
     Parameters
@@ -80,21 +83,25 @@ def new_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) -> di
         Languages of the bank; each gets the English words, to be translated.
     """
     solver, folder = f"{topic}/{name.replace('-', '_')}", _HERE / kind
-    blanks = {"TOPIC": topic, "SOLVER": solver, "TITLE": _titled(name)}
-    found = {f"templates/{topic}/{name}/template.toml": _filled(folder / "template.toml", blanks)}
+    blanks = {"TOPIC": topic, "SOLVER": solver, "TITLE": _make_title_from_name(name)}
+    found = {
+        f"templates/{topic}/{name}/template.toml": _fill_scaffold_file(
+            folder / "template.toml", blanks
+        )
+    }
     for lang in langs:
-        found[f"templates/{topic}/{name}/{lang}.md"] = _filled(folder / "en.md", blanks)
+        found[f"templates/{topic}/{name}/{lang}.md"] = _fill_scaffold_file(folder / "en.md", blanks)
     if kind == "solver":
-        found[f"solvers/{solver}.py"] = _filled(folder / "solver.py.txt", blanks)
+        found[f"solvers/{solver}.py"] = _fill_scaffold_file(folder / "solver.py.txt", blanks)
     return found
 
 
-def _filled(file: Traversable, blanks: dict[str, str]) -> bytes:
+def _fill_scaffold_file(file: Traversable, blanks: dict[str, str]) -> bytes:
     text = file.read_text("utf-8")
     for name, value in blanks.items():
         text = text.replace(f"@{name}@", value)
     return text.encode()
 
 
-def _titled(name: str) -> str:
+def _make_title_from_name(name: str) -> str:
     return name.replace("-", " ").replace("_", " ").capitalize()

@@ -13,13 +13,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.arrays.luminosity import efficiency
 from quizgen.camera.blocks import Tile, Work
 from quizgen.camera.effects.effect import Effect, PointByPoint
 from quizgen.camera.scene import Image
 from quizgen.camera.setup.settings import Setting, between
 from quizgen.camera.setup.values import number, truth
 from quizgen.camera.view import Signal, View
+from quizgen.numerics.luminosity import luminous_efficiency
 
 Curve = NDArray[np.float64]
 
@@ -63,7 +63,7 @@ def _dye(centre: float, width: float, opens: float) -> Curve:
 def spectrum(temperature: float) -> Curve:
     """Planck's law at `WAVELENGTHS`, of the luminous flux 1 (any unit)."""
     power = WAVELENGTHS**-5.0 / np.expm1(_PLANCK / (WAVELENGTHS * temperature))
-    return np.asarray(power / (power * efficiency(WAVELENGTHS)).sum())
+    return np.asarray(power / (power * luminous_efficiency(WAVELENGTHS)).sum())
 
 
 @lru_cache(maxsize=1)

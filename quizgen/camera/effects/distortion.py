@@ -10,7 +10,6 @@ from typing import TypeVar
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.arrays.distortion import fold_radius, inverse_radius
 from quizgen.camera.blocks import pieces
 from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
 from quizgen.camera.filters import sample, sample_nearest
@@ -27,6 +26,7 @@ from quizgen.camera.setup.body import NEEDS_LENS, aperture
 from quizgen.camera.setup.settings import Setting
 from quizgen.camera.setup.values import number
 from quizgen.camera.view import Signal, View
+from quizgen.numerics.distortion import fold_radius, inverse_radius
 
 K1 = Setting("k1", number, 0.0, (NEEDS_LENS,))
 """k1 < 0 is barrel."""

@@ -12,13 +12,13 @@ from itertools import groupby, starmap
 import msgspec
 import numpy as np
 
-from quizgen.arrays.kernel import settle_the_allocator
 from quizgen.camera.blocks import pieces
 from quizgen.camera.raster.cells import ALL, CELL, States, band, runs, states
 from quizgen.camera.raster.outlines import CLOSEST, SHAPES, TEXTURES, Plane
 from quizgen.camera.scene import Image, SceneError, Thing
 from quizgen.camera.setup.body import aperture
 from quizgen.camera.view import View
+from quizgen.numerics.ufunc import warm_allocator
 
 
 class Motion(msgspec.Struct, frozen=True):
@@ -321,7 +321,7 @@ def draw(view: View) -> Stack:
     """
     if view.scene.metric:
         raise SceneError("lengths in metres must be projected first")
-    settle_the_allocator(_SETTLED)
+    warm_allocator(_SETTLED)
     return tuple(_draw_sheet(sheet, view) for sheet in sheets(view))
 
 

@@ -9,11 +9,11 @@ import re
 from collections.abc import Callable
 from typing import TypeVar
 
-from quizgen.arrays.gamma import srgb_decode
 from quizgen.camera.scene import Colour, Length
-from quizgen.errors import FormulaError
-from quizgen.maths.numbers import written
-from quizgen.maths.units import Dimension, unit
+from quizgen.core.errors import FormulaError
+from quizgen.maths.numbers import parse_written_number
+from quizgen.maths.units import Dimension, get_unit
+from quizgen.numerics.gamma import srgb_decode
 
 T = TypeVar("T")
 Reader = Callable[[object], T]
@@ -42,8 +42,8 @@ def _measure(text: object) -> tuple[float, Dimension]:
     if match is None:
         raise ValueError(f"cannot read {text!r}; expected a number and a unit")
     try:
-        found = unit(match["unit"])
-        value = _meant(float(written(match["number"]) * found.factor))
+        found = get_unit(match["unit"])
+        value = _meant(float(parse_written_number(match["number"]) * found.factor))
     except (FormulaError, OverflowError) as error:
         raise ValueError(str(error)) from error
     turn = math.pi / 180.0 if ("deg", 1) in found.dimension else 1.0
@@ -52,10 +52,10 @@ def _measure(text: object) -> tuple[float, Dimension]:
 
 def quantity(name: str) -> Reader[float]:
     """Reader of a number with a unit of the same dimension as ``name``."""
-    expected = unit(name).dimension
+    expected = get_unit(name).dimension
 
     def read(text: object) -> float:
-        if text == "inf" and expected == unit("m").dimension:
+        if text == "inf" and expected == get_unit("m").dimension:
             return math.inf
         value, dimension = _measure(text)
         if dimension != expected:
@@ -71,7 +71,7 @@ def length(per: str = "") -> Reader[Length]:
     def read(text: object) -> Length:
         value, dimension = _measure(text)
         for metric in (True, False):
-            if dimension == unit(("m" if metric else "px") + per).dimension:
+            if dimension == get_unit(("m" if metric else "px") + per).dimension:
                 return Length(value, metric)
         raise ValueError(f"expected a length in px{per} or m{per}")
 

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from quizgen.cards.kinds import cheat, choice, figure, formulas, question, trap, truth, vocab
-from quizgen.cards.wish import CardKind
+from quizgen.cards.kinds import cheat_sheet, choice, figure, formula, question, trap, truth, vocab
+from quizgen.cards.request import CardKind
 
 QUESTION = "question"
 """The kind that draws and solves."""
 
 KINDS: Mapping[str, CardKind] = {
     "vocab": vocab.notes,
-    "formula": formulas.notes,
-    "cheat": cheat.notes,
+    "formula": formula.notes,
+    "cheat": cheat_sheet.notes,
     "trap": trap.notes,
     "figure": figure.notes,
     "truth": truth.notes,

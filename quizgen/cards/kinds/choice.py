@@ -5,62 +5,82 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Sequence
 
-from quizgen.bank.prose import Paragraph, Styled, Words
-from quizgen.cards.content import Term, entries, words
-from quizgen.cards.kinds._authored import noted
-from quizgen.cards.note import Blocks, Note
-from quizgen.cards.prose import Label
-from quizgen.cards.wish import Wish
+from quizgen.bank.markdown import Emphasis, Paragraph, PlainText
+from quizgen.cards.content import VocabularyEntry, load_card_words, read_card_entries
+from quizgen.cards.kinds._entry_note import entry_note
+from quizgen.cards.markup import CardLabel
+from quizgen.cards.note import CardBlocks, Note
+from quizgen.cards.request import DeckRequest
 from quizgen.locale import FIRST
-from quizgen.question.authored import passage, sentence
+from quizgen.question.entry_prose import entry_blocks, entry_inlines
 
 LETTERS = "ABCD"
 
 
-def notes(wish: Wish) -> Iterator[Note]:
+def notes(wish: DeckRequest) -> Iterator[Note]:
     """One note per term, its distractors in a fixed order; none if there are too few terms."""
-    terms = entries(wish.bank, Term)
+    terms = read_card_entries(wish.bank, VocabularyEntry)
     if len(terms) < len(LETTERS):
         return
     for entry in terms:
-        options = choices(entry, terms)
+        options = pick_distractors(entry, terms)
         sides = {
-            "Front": {lang: _front(entry, options, lang) for lang in wish.langs},
-            "Back": {lang: _back(entry, options, lang) for lang in wish.langs},
+            "Front": {lang: _build_front(entry, options, lang) for lang in wish.langs},
+            "Back": {lang: _build_back(entry, options, lang) for lang in wish.langs},
         }
-        yield noted(wish, entry, "choice", sides, (f"V{entry.number:02}",))
+        yield entry_note(wish, entry, "choice", sides, (f"V{entry.number:02}",))
 
 
-def choices(entry: Term, terms: Sequence[Term]) -> list[Term]:
+def pick_distractors(
+    entry: VocabularyEntry, terms: Sequence[VocabularyEntry]
+) -> list[VocabularyEntry]:
     """Four terms in a fixed order: this one, and three of its group, else its neighbours."""
-    others = sorted((t for t in terms if t.id != entry.id), key=lambda t: _nearness(entry, t))
-    return sorted([entry, *others[: len(LETTERS) - 1]], key=lambda term: _rank(entry, term))
+    others = sorted(
+        (t for t in terms if t.id != entry.id), key=lambda t: _rank_distractor(entry, t)
+    )
+    return sorted(
+        [entry, *others[: len(LETTERS) - 1]], key=lambda term: _hash_entry_pair(entry, term)
+    )
 
 
-def _nearness(entry: Term, other: Term) -> tuple[int, bytes]:
+def _rank_distractor(entry: VocabularyEntry, other: VocabularyEntry) -> tuple[int, bytes]:
     """How close a distractor is: any of the group comes first, then the nearest in the list."""
     far = 0 if other.group == entry.group else abs(other.number - entry.number)
-    return far, _rank(entry, other)
+    return far, _hash_entry_pair(entry, other)
 
 
-def _rank(entry: Term, other: Term) -> bytes:
+def _hash_entry_pair(entry: VocabularyEntry, other: VocabularyEntry) -> bytes:
     return hashlib.sha256(f"choice/{entry.id}/{other.id}".encode()).digest()
 
 
-def _front(entry: Term, options: list[Term], lang: str) -> Blocks:
+def _build_front(entry: VocabularyEntry, options: list[VocabularyEntry], lang: str) -> CardBlocks:
     lines = [
-        Paragraph((Styled("strong", (Words(f"{letter} "),)), *_name(option, lang)))
+        Paragraph(
+            (Emphasis("strong", (PlainText(f"{letter} "),)), *_build_term_blocks(option, lang))
+        )
         for letter, option in zip(LETTERS, options, strict=True)
     ]
-    return (Label(words(lang)["which"]), *passage(entry, "meaning", lang), *lines)
+    return (
+        CardLabel(load_card_words(lang)["which"]),
+        *entry_blocks(entry, "meaning", lang),
+        *lines,
+    )
 
 
-def _back(entry: Term, options: list[Term], lang: str) -> Blocks:
+def _build_back(entry: VocabularyEntry, options: list[VocabularyEntry], lang: str) -> CardBlocks:
     letter = LETTERS[options.index(entry)]
-    return (Paragraph((Styled("strong", (Words(f"{letter} "),)), *_name(entry, lang))),)
+    return (
+        Paragraph(
+            (Emphasis("strong", (PlainText(f"{letter} "),)), *_build_term_blocks(entry, lang))
+        ),
+    )
 
 
-def _name(entry: Term, lang: str) -> Blocks:
+def _build_term_blocks(entry: VocabularyEntry, lang: str) -> CardBlocks:
     if lang == FIRST:
-        return sentence(entry, "term", lang)
-    return (*sentence(entry, "term", FIRST), Words(" – "), *sentence(entry, "term", lang))
+        return entry_inlines(entry, "term", lang)
+    return (
+        *entry_inlines(entry, "term", FIRST),
+        PlainText(" – "),
+        *entry_inlines(entry, "term", lang),
+    )

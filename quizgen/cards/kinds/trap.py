@@ -4,22 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from quizgen.cards.content import Trap, entries, words
-from quizgen.cards.kinds._authored import noted
-from quizgen.cards.note import Note, Words
-from quizgen.cards.prose import Label
-from quizgen.cards.wish import Wish
-from quizgen.question.authored import passage
+from quizgen.cards.content import TrapEntry, load_card_words, read_card_entries
+from quizgen.cards.kinds._entry_note import entry_note
+from quizgen.cards.markup import CardLabel
+from quizgen.cards.note import CardWords, Note
+from quizgen.cards.request import DeckRequest
+from quizgen.question.entry_prose import entry_blocks
 
 
-def notes(wish: Wish) -> Iterator[Note]:
+def notes(wish: DeckRequest) -> Iterator[Note]:
     """One note per trap."""
-    for entry in entries(wish.bank, Trap):
-        sides: dict[str, Words] = {
+    for entry in read_card_entries(wish.bank, TrapEntry):
+        sides: dict[str, CardWords] = {
             "Front": {
-                lang: (Label(words(lang)["wrong"]), *passage(entry, "claim", lang))
+                lang: (
+                    CardLabel(load_card_words(lang)["wrong"]),
+                    *entry_blocks(entry, "claim", lang),
+                )
                 for lang in wish.langs
             },
-            "Back": {lang: passage(entry, "right", lang) for lang in wish.langs},
+            "Back": {lang: entry_blocks(entry, "right", lang) for lang in wish.langs},
         }
-        yield noted(wish, entry, "trap", sides, (entry.id, *entry.refs))
+        yield entry_note(wish, entry, "trap", sides, (entry.id, *entry.refs))

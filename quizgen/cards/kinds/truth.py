@@ -4,28 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from quizgen.bank.prose import Paragraph, Styled, Words
-from quizgen.cards.content import Statement, entries, words
-from quizgen.cards.kinds._authored import noted
-from quizgen.cards.note import Blocks, Note
-from quizgen.cards.prose import Label
-from quizgen.cards.wish import Wish
-from quizgen.question.authored import passage
+from quizgen.bank.markdown import Emphasis, Paragraph, PlainText
+from quizgen.cards.content import StatementEntry, load_card_words, read_card_entries
+from quizgen.cards.kinds._entry_note import entry_note
+from quizgen.cards.markup import CardLabel
+from quizgen.cards.note import CardBlocks, Note
+from quizgen.cards.request import DeckRequest
+from quizgen.question.entry_prose import entry_blocks
 
 
-def notes(wish: Wish) -> Iterator[Note]:
+def notes(wish: DeckRequest) -> Iterator[Note]:
     """One note per statement."""
-    for entry in entries(wish.bank, Statement):
+    for entry in read_card_entries(wish.bank, StatementEntry):
         sides = {
             "Front": {
-                lang: (Label(words(lang)["truth"]), *passage(entry, "text", lang))
+                lang: (
+                    CardLabel(load_card_words(lang)["truth"]),
+                    *entry_blocks(entry, "text", lang),
+                )
                 for lang in wish.langs
             },
-            "Back": {lang: _verdict(entry, lang) for lang in wish.langs},
+            "Back": {lang: _build_verdict_blocks(entry, lang) for lang in wish.langs},
         }
-        yield noted(wish, entry, "truth", sides, entry.refs)
+        yield entry_note(wish, entry, "truth", sides, entry.refs)
 
 
-def _verdict(entry: Statement, lang: str) -> Blocks:
-    verdict = Words(words(lang)["true" if entry.true else "false"])
-    return Paragraph((Styled("strong", (verdict,)),)), *passage(entry, "why", lang)
+def _build_verdict_blocks(entry: StatementEntry, lang: str) -> CardBlocks:
+    verdict = PlainText(load_card_words(lang)["true" if entry.true else "false"])
+    return Paragraph((Emphasis("strong", (verdict,)),)), *entry_blocks(entry, "why", lang)

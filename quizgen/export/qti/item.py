@@ -19,7 +19,7 @@ from quizgen.export.qti.place import Place
 from quizgen.export.qti.played import Played, played
 from quizgen.export.wording import body, inline, pictures_at, solution, stem
 from quizgen.figures import Figure
-from quizgen.locale import word
+from quizgen.locale import translate
 from quizgen.responses.keys import Entry
 
 SOLVED, WORKED = "SOLUTION", "worked"
@@ -156,7 +156,7 @@ def _feedback(item: Item, rows: list[Row], dialect: Dialect) -> Iterator[Markup]
     """What is said of each mistake, and the worked solution."""
     for one in (one for row in rows for one in row.played.feedback):
         yield _modal(dialect, one.outcome, one.value, inline(one.said, item.lang))
-    title = word(item.lang, "solution.steps")
+    title = translate(item.lang, "solution.steps")
     yield _modal(dialect, SOLVED, WORKED, solution(item, _source), title)
 
 

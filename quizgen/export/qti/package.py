@@ -9,12 +9,12 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
+from quizgen.core.files import build_zip
 from quizgen.export import pictures
 from quizgen.export.items import Item, by_slot
 from quizgen.export.qti.assessment import assessment
 from quizgen.export.qti.dialect import QTI3, QTI21, Dialect, element, file
 from quizgen.export.qti.item import item_file, name_of
-from quizgen.files import zipped
 from quizgen.locale import FIRST
 
 LOM = "http://ltsc.ieee.org/xsd/LOM"
@@ -33,12 +33,12 @@ class Resource(NamedTuple):
 
 def write_qti21(items: Iterable[Item]) -> bytes:
     """The questions as a package of QTI 2.1: the same bytes for the same questions."""
-    return zipped(contents(items, QTI21))
+    return build_zip(contents(items, QTI21))
 
 
 def write_qti3(items: Iterable[Item]) -> bytes:
     """The questions as a package of QTI 3.0: the same bytes for the same questions."""
-    return zipped(contents(items, QTI3))
+    return build_zip(contents(items, QTI3))
 
 
 def contents(items: Iterable[Item], dialect: Dialect) -> dict[str, bytes]:

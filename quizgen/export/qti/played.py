@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from markupsafe import Markup
 
-from quizgen.bank.prose import Words
+from quizgen.bank.markdown import PlainText
 from quizgen.export.asks import (
     Ask,
     Choose,
@@ -30,7 +30,7 @@ from quizgen.export.qti.dialect import Attributes, written
 from quizgen.export.qti.place import Place
 from quizgen.export.ranges import Range
 from quizgen.export.wording import beside, inline, marked
-from quizgen.locale import word
+from quizgen.locale import translate
 
 LENGTH = 20
 """Signs that a field for a number or a word has room for."""
@@ -113,7 +113,7 @@ def _compared(
 
 @played.register
 def _truth(ask: Truth, at: Place) -> Played:
-    rows = {name: Markup.escape(word(at.lang, f"ask.{name}")) for name in ("true", "false")}
+    rows = {name: Markup.escape(translate(at.lang, f"ask.{name}")) for name in ("true", "false")}
     right = "true" if ask.true else "false"
     said = {name: ask.said for name in rows if name != right}
     return _chosen(at, rows, [right], said, many=False)
@@ -184,7 +184,7 @@ def _side(rows: Sequence[tuple[str, Said]], most: int, at: Place) -> Markup:
         at.tag(
             "simpleAssociableChoice",
             {"identifier": at.choice(mark), "matchMax": most},
-            mark if words == (Words(mark),) else marked(mark, words, at.lang),
+            mark if words == (PlainText(mark),) else marked(mark, words, at.lang),
         )
         for mark, words in rows
     ]

@@ -5,17 +5,23 @@ the column. Must never know: how students spell, a language, how a formula is pr
 
 ``parse`` reads the strict notation of authors: decimal point, declared names, explicit products
 (or juxtaposition of declared names). ``to_text`` writes a tree in the same notation. Students'
-spelling is normalised first (``quizgen.marking.reading``) and ends in the same grammar.
+spelling is normalised first (``quizgen.grading.reading``) and ends in the same grammar.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from quizgen.maths.notation.grammar import build
-from quizgen.maths.notation.lexer import Piece, ReadError, double_reading, number_node, tokens
+from quizgen.maths.notation.lexer import (
+    FormulaReadError,
+    Token,
+    find_ambiguous_division,
+    parse_number_literal,
+    tokenize,
+)
 from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS
-from quizgen.maths.notation.writer import to_text
+from quizgen.maths.notation.parser import build_tree
+from quizgen.maths.notation.printer import format_tree
 from quizgen.maths.tree import Call, Expr
 
 LONGEST = 4000
@@ -25,7 +31,7 @@ DEEPEST = 100
 """Most levels of nesting in a formula."""
 
 
-def parse(text: str, *, symbols: Iterable[str] | None = None) -> Expr:
+def parse_formula(text: str, *, symbols: Iterable[str] | None = None) -> Expr:
     """Read an author's formula.
 
     Parameters
@@ -41,15 +47,15 @@ def parse(text: str, *, symbols: Iterable[str] | None = None) -> Expr:
         With the column and what was expected (a ``FormulaError``).
     """
     if len(text) > LONGEST:
-        raise ReadError("too-long", LONGEST + 1)
-    pieces = tokens(text, None if symbols is None else frozenset(symbols))
-    doubtful = double_reading(pieces)
+        raise FormulaReadError("too-long", LONGEST + 1)
+    pieces = tokenize(text, None if symbols is None else frozenset(symbols))
+    doubtful = find_ambiguous_division(pieces)
     if doubtful is not None:
-        raise ReadError("two-readings", doubtful.column, doubtful.text, ["/(…)", "*"])
-    return parse_pieces(pieces, len(text), tight=False)
+        raise FormulaReadError("two-readings", doubtful.column, doubtful.text, ["/(…)", "*"])
+    return parse_tokens(pieces, len(text), tight=False)
 
 
-def parse_pieces(pieces: list[Piece], length: int, *, tight: bool) -> Expr:
+def parse_tokens(pieces: list[Token], length: int, *, tight: bool) -> Expr:
     """Parse tokens; ``tight`` lets juxtaposition bind stronger than a division sign.
 
     Raises
@@ -58,18 +64,18 @@ def parse_pieces(pieces: list[Piece], length: int, *, tight: bool) -> Expr:
         With the column and what was expected.
     """
     if not pieces:
-        raise ReadError("empty", 1)
+        raise FormulaReadError("empty", 1)
     if not tight:
         pieces = [
-            Piece("TIMES", p.value, p.text, p.column) if p.kind == "JOIN" else p for p in pieces
+            Token("TIMES", p.value, p.text, p.column) if p.kind == "JOIN" else p for p in pieces
         ]
-    tree = build(pieces, length)
-    if depth(tree) > DEEPEST:
-        raise ReadError("too-deep", 1)
+    tree = build_tree(pieces, length)
+    if tree_depth(tree) > DEEPEST:
+        raise FormulaReadError("too-deep", 1)
     return tree
 
 
-def depth(expr: Expr) -> int:
+def tree_depth(expr: Expr) -> int:
     """Levels of nesting of a tree, found without recursion."""
     level, layer = 0, [expr]
     while layer:
@@ -81,12 +87,12 @@ def depth(expr: Expr) -> int:
 __all__ = [
     "CONSTANTS",
     "FUNCTIONS",
-    "ReadError",
-    "depth",
-    "double_reading",
-    "number_node",
-    "parse",
-    "parse_pieces",
-    "to_text",
-    "tokens",
+    "FormulaReadError",
+    "tree_depth",
+    "find_ambiguous_division",
+    "parse_number_literal",
+    "parse_formula",
+    "parse_tokens",
+    "format_tree",
+    "tokenize",
 ]

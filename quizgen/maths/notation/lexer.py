@@ -9,9 +9,16 @@ from itertools import pairwise
 
 import msgspec
 
-from quizgen.errors import FormulaError
-from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS, KEYWORDS, folded, spellings, split
-from quizgen.maths.operators import Typed, typed_as
+from quizgen.core.errors import FormulaError
+from quizgen.maths.notation.names import (
+    CONSTANTS,
+    FUNCTIONS,
+    KEYWORDS,
+    fold_name,
+    spellings,
+    split_product,
+)
+from quizgen.maths.operators import OperatorSyntax, operators_with_syntax
 from quizgen.maths.tree import Num
 
 LARGEST_EXPONENT = 250
@@ -23,7 +30,7 @@ LONGEST_NUMBER = 60
 """Most digits read in one number."""
 
 
-class ReadError(FormulaError):
+class FormulaReadError(FormulaError):
     """Typed mathematics cannot be read; says why in a form that can be put into any language.
 
     Parameters
@@ -61,7 +68,7 @@ def _in_words(expected: Iterable[str]) -> str:
     )
 
 
-class Piece(msgspec.Struct, frozen=True):
+class Token(msgspec.Struct, frozen=True):
     """One token: its kind in the grammar, its value, the text and the column it came from."""
 
     kind: str
@@ -73,7 +80,9 @@ class Piece(msgspec.Struct, frozen=True):
         return self.text
 
 
-OPERATORS = {sign: row.token for row in typed_as(Typed.SIGN) for sign in row.signs} | {
+OPERATORS = {
+    sign: row.token for row in operators_with_syntax(OperatorSyntax.SIGN) for sign in row.signs
+} | {
     "(": "LPAR",
     ")": "RPAR",
     ",": "COMMA",
@@ -82,7 +91,9 @@ OPERATORS = {sign: row.token for row in typed_as(Typed.SIGN) for sign in row.sig
 }
 """Spelling to the kind of token."""
 
-RELATIONS = {sign: row.name for row in typed_as(Typed.RELATION) for sign in row.signs}
+RELATIONS = {
+    sign: row.name for row in operators_with_syntax(OperatorSyntax.RELATION) for sign in row.signs
+}
 """Spelling of a relation to its name."""
 
 _SIGNS = "|".join(map(re.escape, sorted({*OPERATORS, *RELATIONS}, key=len, reverse=True)))
@@ -102,7 +113,7 @@ _STARTS = frozenset({"NUMBER", "NAME", "LPAR", "LBAR", "CONSTANT", "FUNCTION", "
 _BREAKS = frozenset({"PLUS", "MINUS", "TIMES", "RELATION", "COMMA", "AND", "OR", "NOT"})
 
 
-def tokens(text: str, symbols: frozenset[str] | None, *, loose: bool = False) -> list[Piece]:
+def tokenize(text: str, symbols: frozenset[str] | None, *, loose: bool = False) -> list[Token]:
     """Split a formula into tokens, with ``JOIN`` where a product is written by juxtaposition.
 
     Parameters
@@ -119,76 +130,80 @@ def tokens(text: str, symbols: frozenset[str] | None, *, loose: bool = False) ->
     ReadError
         If a character or a name is not part of the grammar.
     """
-    pieces = _pieces(text, symbols, loose=loose)
+    pieces = _split_tokens(text, symbols, loose=loose)
     if "|" in text:
-        pieces = _bars(pieces)
-    return _joined(pieces, named=symbols is not None)
+        pieces = _direct_bars(pieces)
+    return _insert_implied_products(pieces, named=symbols is not None)
 
 
-def _pieces(text: str, symbols: frozenset[str] | None, *, loose: bool) -> list[Piece]:
-    found: list[Piece] = []
+def _split_tokens(text: str, symbols: frozenset[str] | None, *, loose: bool) -> list[Token]:
+    found: list[Token] = []
     position = 0
     for match in TOKEN.finditer(text):
         if match.start() != position:
             break
         position = match.end()
         if match.lastgroup == "name":
-            found += _named(match, symbols, loose=loose)
+            found += _split_name_tokens(match, symbols, loose=loose)
         elif match.lastgroup == "quoted":
-            found.append(_quoted(match, symbols))
+            found.append(_make_quoted_name(match, symbols))
         elif match.lastgroup != "space":
-            found.append(_piece(match))
+            found.append(_make_token(match))
     if position < len(text):
-        raise ReadError("bad-character", position + 1, text[position])
+        raise FormulaReadError("bad-character", position + 1, text[position])
     return found
 
 
-def _piece(match: re.Match[str]) -> Piece:
+def _make_token(match: re.Match[str]) -> Token:
     word, column, kind = match[0], match.start() + 1, match.lastgroup
     if kind == "number":
-        return Piece("NUMBER", number_node(word, column), word, column)
+        return Token("NUMBER", parse_number_literal(word, column), word, column)
     if kind == "literal":
-        return Piece("NUMBER", _literal(word, column), word, column)
+        return Token("NUMBER", _parse_braced_literal(word, column), word, column)
     if word in RELATIONS:
-        return Piece("RELATION", RELATIONS[word], word, column)
-    return Piece(OPERATORS[word], word, word, column)
+        return Token("RELATION", RELATIONS[word], word, column)
+    return Token(OPERATORS[word], word, word, column)
 
 
-def _quoted(match: re.Match[str], symbols: frozenset[str] | None) -> Piece:
+def _make_quoted_name(match: re.Match[str], symbols: frozenset[str] | None) -> Token:
     word, column = match[0], match.start() + 1
     name = word[1:-1]
     if symbols is not None and name not in symbols:
-        raise ReadError("unknown-name", column, name, sorted(symbols))
-    return Piece("NAME", name, word, column)
+        raise FormulaReadError("unknown-name", column, name, sorted(symbols))
+    return Token("NAME", name, word, column)
 
 
-def _named(match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool) -> list[Piece]:
+def _split_name_tokens(
+    match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool
+) -> list[Token]:
     word, column = match[0], match.start() + 1
     if symbols is not None and word in symbols:
-        return [Piece("NAME", word, word, column)]
+        return [Token("NAME", word, word, column)]
     if word in KEYWORDS:
-        return [Piece(word.upper(), word, word, column)]
+        return [Token(word.upper(), word, word, column)]
     if word in CONSTANTS:
-        return [Piece("CONSTANT", CONSTANTS[word], word, column)]
+        return [Token("CONSTANT", CONSTANTS[word], word, column)]
     if word in FUNCTIONS and match.string[match.end() :].lstrip().startswith("("):
-        return [Piece("FUNCTION", word, word, column)]
+        return [Token("FUNCTION", word, word, column)]
     if symbols is None:
-        return [Piece("NAME", word, word, column)]
-    return _declared(word, column, symbols, loose=loose)
+        return [Token("NAME", word, word, column)]
+    return _split_declared_names(word, column, symbols, loose=loose)
 
 
-def _declared(word: str, column: int, symbols: frozenset[str], *, loose: bool) -> list[Piece]:
+def _split_declared_names(
+    word: str, column: int, symbols: frozenset[str], *, loose: bool
+) -> list[Token]:
     table = spellings(symbols)
-    single = table.get(word, table.get(folded(word))) if loose else None
-    ways = [[single]] if single else split(word, symbols)
+    single = table.get(word, table.get(fold_name(word))) if loose else None
+    ways = [[single]] if single else split_product(word, symbols)
     if not ways:
-        raise ReadError("unknown-name", column, word, sorted(symbols))
+        raise FormulaReadError("unknown-name", column, word, sorted(symbols))
     if len(ways) > 1:
-        raise ReadError("two-readings", column, word, ["·".join(way) for way in ways])
-    return [Piece("NAME", name, word, column) for name in ways[0]]
+        raise FormulaReadError("two-readings", column, word, ["·".join(way) for way in ways])
+    return [Token("NAME", name, word, column) for name in ways[0]]
 
 
-def number_node(word: str, column: int = 1) -> Num:
+def parse_number_literal(word: str, column: int = 1) -> Num:
     """Read an unsigned decimal literal such as ``2``, ``2.50`` or ``1e-3`` exactly.
 
     Raises
@@ -198,61 +213,61 @@ def number_node(word: str, column: int = 1) -> Num:
     """
     mantissa, _, exponent = word.lower().partition("e")
     if len(mantissa) > LONGEST_NUMBER or len(exponent) > 5:
-        raise ReadError("number-too-long", column, word)
+        raise FormulaReadError("number-too-long", column, word)
     if exponent and not SMALLEST_EXPONENT <= int(exponent) <= LARGEST_EXPONENT:
-        raise ReadError("number-too-large", column, word)
+        raise FormulaReadError("number-too-large", column, word)
     value = Fraction(f"{mantissa or 0}e{exponent or 0}")
     return Num(value, "." in mantissa or value.denominator != 1)
 
 
-def _literal(word: str, column: int) -> Num:
+def _parse_braced_literal(word: str, column: int) -> Num:
     match = _LITERAL.fullmatch(word)
     if match is None or len(word) > 2 * LONGEST_NUMBER or (match[4] and not int(match[4])):
-        raise ReadError("bad-number", column, word)
+        raise FormulaReadError("bad-number", column, word)
     sign, whole, decimals, below, flag = match.groups()
     value = Fraction(f"{sign}{whole}.{decimals or 0}") / int(below or 1)
     return Num(value, decimals is not None or bool(flag))
 
 
-def _bars(pieces: list[Piece]) -> list[Piece]:
+def _direct_bars(pieces: list[Token]) -> list[Token]:
     """Decide for each ``|`` whether it opens or closes an absolute value."""
-    result: list[Piece] = []
+    result: list[Token] = []
     for piece in pieces:
         if piece.kind == "BAR":
             closes = bool(result) and result[-1].kind in _ENDS
             kind = "RBAR" if closes else "LBAR"
-            result.append(Piece(kind, piece.value, piece.text, piece.column))
+            result.append(Token(kind, piece.value, piece.text, piece.column))
         else:
             result.append(piece)
     return result
 
 
-def _joined(pieces: list[Piece], *, named: bool) -> list[Piece]:
-    result: list[Piece] = []
+def _insert_implied_products(pieces: list[Token], *, named: bool) -> list[Token]:
+    result: list[Token] = []
     for piece in pieces:
         if result and result[-1].kind in _ENDS and piece.kind in _STARTS:
             _allow_join(result[-1], piece, named=named)
-            result.append(Piece("JOIN", "*", piece.text, piece.column))
+            result.append(Token("JOIN", "*", piece.text, piece.column))
         result.append(piece)
     return result
 
 
-def _allow_join(left: Piece, right: Piece, *, named: bool) -> None:
+def _allow_join(left: Token, right: Token, *, named: bool) -> None:
     """Two numbers side by side are a slip; undeclared names could be misspelt functions."""
     if right.kind == "NUMBER":
-        raise ReadError("unexpected", right.column, right.text, ["OPERATOR"])
+        raise FormulaReadError("unexpected", right.column, right.text, ["OPERATOR"])
     if not named and left.kind == "NAME":
         code = "unknown-function" if right.kind == "LPAR" else "unexpected"
-        raise ReadError(code, left.column, left.text, ["OPERATOR"])
+        raise FormulaReadError(code, left.column, left.text, ["OPERATOR"])
 
 
-def double_reading(pieces: list[Piece]) -> Piece | None:
+def find_ambiguous_division(pieces: list[Token]) -> Token | None:
     """Where ``a/b c`` could mean ``(a/b) c`` or ``a/(b c)``, else None.
 
     A denominator in brackets is complete: ``1/(2 b) c`` is a product.
     """
     after_slash = [False]
-    for piece, following in pairwise([*pieces, Piece("END", "", "", 0)]):
+    for piece, following in pairwise([*pieces, Token("END", "", "", 0)]):
         if piece.kind == "SLASH":
             after_slash[-1] = following.kind != "LPAR"
         elif piece.kind in _BREAKS:

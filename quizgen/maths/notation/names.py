@@ -5,15 +5,19 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from quizgen.maths.operators import Typed, typed_as
+from quizgen.maths.operators import OperatorSyntax, operators_with_syntax
 
-FUNCTIONS = {row.name: (row.least, row.most) for row in typed_as(Typed.FUNCTION)}
+FUNCTIONS = {
+    row.name: (row.least, row.most) for row in operators_with_syntax(OperatorSyntax.FUNCTION)
+}
 """Function name to the smallest and largest number of arguments."""
 
-CONSTANTS = {sign: row.name for row in typed_as(Typed.CONSTANT) for sign in row.signs}
+CONSTANTS = {
+    sign: row.name for row in operators_with_syntax(OperatorSyntax.CONSTANT) for sign in row.signs
+}
 """Spelling of a constant to its name."""
 
-KEYWORDS = frozenset(row.name for row in typed_as(Typed.WORD))
+KEYWORDS = frozenset(row.name for row in operators_with_syntax(OperatorSyntax.WORD))
 
 NAME = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
 """A letter, letters and digits, primes, then subscripts: ``f``, ``k_1``, ``p'_x``, ``Delta``."""
@@ -45,13 +49,13 @@ GREEK = {
 """Greek letters that students type or paste, and the names authors use."""
 
 
-def plain(name: str) -> bool:
+def is_plain_name(name: str) -> bool:
     """Whether a name can stand in a formula without back quotes."""
     reserved = name in CONSTANTS or name in KEYWORDS or name in FUNCTIONS
     return not reserved and NAME.fullmatch(name) is not None
 
 
-def folded(name: str) -> str:
+def fold_name(name: str) -> str:
     """Spelling without subscript marks and Greek letters: ``k_1`` and ``k1`` are one name."""
     if not name.isascii():
         for letter, word in GREEK.items():
@@ -68,7 +72,7 @@ def spellings(symbols: frozenset[str]) -> dict[str, str]:
     table: dict[str, str] = {}
     clash: set[str] = set()
     for name in sorted(symbols):
-        for spelling in {folded(name), *_greek(name)}:
+        for spelling in {fold_name(name), *_list_greek_spellings(name)}:
             clash |= {spelling} if table.get(spelling, name) != name else set()
             table[spelling] = name
     for spelling in clash:
@@ -76,7 +80,7 @@ def spellings(symbols: frozenset[str]) -> dict[str, str]:
     return table | {name: name for name in symbols}
 
 
-def _greek(name: str) -> set[str]:
+def _list_greek_spellings(name: str) -> set[str]:
     return {
         name.replace(word, letter).replace("_", cut)
         for letter, word in GREEK.items()
@@ -85,7 +89,7 @@ def _greek(name: str) -> set[str]:
     }
 
 
-def split(word: str, symbols: frozenset[str]) -> list[list[str]]:
+def split_product(word: str, symbols: frozenset[str]) -> list[list[str]]:
     """All ways to read an undeclared word as a product of declared names (at most two)."""
     table = spellings(symbols)
     ways: list[list[list[str]]] = [[] for _ in range(len(word) + 1)]
@@ -95,10 +99,10 @@ def split(word: str, symbols: frozenset[str]) -> list[list[str]]:
             name = table.get(word[start:end])
             if name is not None:
                 ways[end] += [[*way, name] for way in ways[start]]
-        ways[end] = _different(ways[end])[:2]
+        ways[end] = _deduplicate_products(ways[end])[:2]
     return ways[-1]
 
 
-def _different(ways: list[list[str]]) -> list[list[str]]:
+def _deduplicate_products(ways: list[list[str]]) -> list[list[str]]:
     """Products of the same factors are the same reading."""
     return list({tuple(sorted(way)): way for way in ways}.values())

@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any
 
-from quizgen.bank.draw import Draw
+from quizgen.bank.variant import Variant
 from quizgen.question.contract import Built, QuestionKind
 from quizgen.question.kinds import (
     angle,
@@ -31,7 +31,7 @@ from quizgen.question.kinds import (
     truth,
     witness,
 )
-from quizgen.question.specs import answer_of, complaint
+from quizgen.question.specs import authored_answer, part_error
 
 KINDS: dict[str, QuestionKind[Any]] = {
     "number": number,
@@ -57,7 +57,7 @@ KINDS: dict[str, QuestionKind[Any]] = {
 
 
 @lru_cache(maxsize=128)
-def build(drawn: Draw, index: int) -> Built[Any]:
+def build(drawn: Variant, index: int) -> Built[Any]:
     """One part of a draw as its kind makes it, the same for every language.
 
     Raises
@@ -65,13 +65,13 @@ def build(drawn: Draw, index: int) -> Built[Any]:
     BankError
         If its kind is unknown or its answer is not complete.
     """
-    name = str(answer_of(drawn, index).get("kind", ""))
+    name = str(authored_answer(drawn, index).get("kind", ""))
     if name not in KINDS:
         allowed = ", ".join(sorted(KINDS))
-        raise complaint(drawn, index, f"unknown kind {name!r} (allowed: {allowed})")
+        raise part_error(drawn, index, f"unknown kind {name!r} (allowed: {allowed})")
     try:
         return KINDS[name].build(drawn, index)
     except KeyError as error:
-        raise complaint(drawn, index, f"answer: {error} is missing") from error
+        raise part_error(drawn, index, f"answer: {error} is missing") from error
     except (TypeError, ValueError, AttributeError, ArithmeticError, IndexError) as error:
-        raise complaint(drawn, index, f"answer: not of kind {name!r}: {error}") from error
+        raise part_error(drawn, index, f"answer: not of kind {name!r}: {error}") from error

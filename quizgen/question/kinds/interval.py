@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from quizgen.bank.draw import Draw
-from quizgen.locale import word
-from quizgen.marking.kinds.interval import Spec
-from quizgen.marking.mark import show as printed
+from quizgen.bank.variant import Variant
+from quizgen.grading.kinds.interval import Spec
+from quizgen.grading.mark import show_key as printed
+from quizgen.locale import translate
 from quizgen.question.contract import Built
 from quizgen.question.hints import given, rounding
 from quizgen.question.specs import mistaken, specification
 
 
-def build(drawn: Draw, index: int) -> Built[Spec]:
+def build(drawn: Variant, index: int) -> Built[Spec]:
     """The interval as it is written."""
     spec = specification(Spec, drawn, index)
     return Built(spec, mistakes=mistaken(spec, "value"))
@@ -19,7 +19,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """How an interval is typed, and rounding."""
-    return given(word(lang, "ask.interval"), rounding(spec, spec.value, lang))
+    return given(translate(lang, "ask.interval"), rounding(spec, spec.value, lang))
 
 
-__all__ = ["build", "hints", "printed"]
+__all__ = ["build", "hints", "show_key"]

@@ -6,29 +6,29 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from quizgen.bank.draw import Draw
-from quizgen.bank.pools import taken
-from quizgen.locale import word
-from quizgen.marking.kinds.order import Spec
-from quizgen.marking.mark import show as printed
+from quizgen.bank.pools import select_from_pool
+from quizgen.bank.variant import Variant
+from quizgen.grading.kinds.order import Spec
+from quizgen.grading.mark import show_key as printed
+from quizgen.locale import translate
 from quizgen.question.contract import Built, Control
 from quizgen.question.specs import (
-    answer_of,
-    complaint,
+    authored_answer,
     lettered,
-    mixed,
-    notes,
-    reasoned,
+    misconception_notes,
+    part_error,
+    reasons,
+    shuffle_names,
     specification,
-    why,
+    with_reason,
 )
 
 
-def build(drawn: Draw, index: int) -> Built[Spec]:
+def build(drawn: Variant, index: int) -> Built[Spec]:
     """The steps and those that do not belong to them, in a drawn order."""
-    answer = answer_of(drawn, index)
-    shown = taken(drawn, index)
-    options = lettered(mixed(drawn, index, [*shown.names, *shown.extra]))
+    answer = authored_answer(drawn, index)
+    shown = select_from_pool(drawn, index)
+    options = lettered(shuffle_names(drawn, index, [*shown.names, *shown.extra]))
     marks = {name: mark for mark, name in options}
     _check_traps(drawn, index)
     traps = _wrong_orders(answer.get("traps", {}), shown.names, marks)
@@ -37,8 +37,8 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
         drawn,
         index,
         traps=traps,
-        notes=notes(drawn, traps) if traps else {},
-        why=why(drawn, options),
+        notes=misconception_notes(drawn, traps) if traps else {},
+        why=reasons(drawn, options),
         steps=[marks[name] for name in shown.names],
         before=[(marks[first], marks[second]) for first, second in answer.get("before", ())],
         distractors=[marks[name] for name in shown.extra],
@@ -47,7 +47,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
         spec,
         Control("order"),
         options=options,
-        reasons=reasoned(drawn, options),
+        reasons=with_reason(drawn, options),
         mistakes={
             trap: msgspec.structs.replace(
                 spec, steps=wrong, before=None, distractors=[], traps={}, notes={}
@@ -57,15 +57,15 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
     )
 
 
-def _check_traps(drawn: Draw, index: int) -> None:
+def _check_traps(drawn: Variant, index: int) -> None:
     """Refuse a wrong order of other steps, or of one step twice."""
-    answer = answer_of(drawn, index)
+    answer = authored_answer(drawn, index)
     known = {*answer["steps"], *answer.get("distractors", ())}
     for trap, order in answer.get("traps", {}).items():
         for step in order:
             if step not in known or order.count(step) > 1:
                 wrong = "twice" if step in known else "unknown"
-                raise complaint(drawn, index, f"answer: traps.{trap}: step {step!r} is {wrong}")
+                raise part_error(drawn, index, f"answer: traps.{trap}: step {step!r} is {wrong}")
 
 
 def _wrong_orders(
@@ -82,7 +82,7 @@ def _wrong_orders(
 
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """Whether all steps belong to the order."""
-    return (word(lang, "ask.order" if spec.distractors else "ask.order_all"),)
+    return (translate(lang, "ask.order" if spec.distractors else "ask.order_all"),)
 
 
-__all__ = ["build", "hints", "printed"]
+__all__ = ["build", "hints", "show_key"]

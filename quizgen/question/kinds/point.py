@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from quizgen.bank.draw import Draw
-from quizgen.locale import word
-from quizgen.marking.kinds.point import Spec
+from quizgen.bank.variant import Variant
+from quizgen.grading.kinds.point import Spec
+from quizgen.locale import translate
 from quizgen.maths.constants import Scalar
-from quizgen.maths.numbers import key_text
+from quizgen.maths.numbers import format_for_key
 from quizgen.maths.values import Value
 from quizgen.question.contract import Box, Built, Control
 from quizgen.question.hints import given, rounding, unit
@@ -17,10 +17,10 @@ from quizgen.question.specs import exact_first, numeric
 
 def each(values: tuple[Value, ...]) -> list[Scalar]:
     """The components of an answer in order, as a key holds them."""
-    return [key_text(value) for value in values]
+    return [format_for_key(value) for value in values]
 
 
-def build(drawn: Draw, index: int) -> Built[Spec]:
+def build(drawn: Variant, index: int) -> Built[Spec]:
     """The coordinates, and those that each mistake gives."""
     built = numeric(Spec, drawn, index, "values", each)
     boxes = tuple(Box("", built.spec.unit) for _ in built.spec.values)
@@ -30,7 +30,7 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
 def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """Shape, unit and rounding."""
     name = "ask.point3" if len(spec.values) > len(("x", "y")) else "ask.point"
-    return given(word(lang, name), unit(spec.unit, lang), rounding(spec, spec.values, lang))
+    return given(translate(lang, name), unit(spec.unit, lang), rounding(spec, spec.values, lang))
 
 
 def printed(spec: Spec, lang: str) -> str:

@@ -7,21 +7,27 @@ from functools import lru_cache
 from typing import Any
 
 from quizgen.bank.answers import Curve, Formulas, Line, Sketch
-from quizgen.bank.draw import Draw
-from quizgen.bank.prose import Code
+from quizgen.bank.markdown import InlineCode
+from quizgen.bank.variant import Variant
+from quizgen.core.decoding import convert
 from quizgen.figures import DrawingField
-from quizgen.marking.features.sheet import Feature
-from quizgen.marking.kinds.sketch import Spec
-from quizgen.marking.mark import show
-from quizgen.marking.reading.strokes import written
+from quizgen.grading.drawing.sheet import Feature
+from quizgen.grading.drawing.strokes import format_strokes
+from quizgen.grading.kinds.sketch import Spec
+from quizgen.grading.mark import show_key
 from quizgen.maths.constants import Scalar
-from quizgen.maths.notation import parse
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.number_systems import CompiledFormula, compile_expr, float64_system
 from quizgen.maths.numbers import to_float
-from quizgen.maths.systems import Compiled, compile_expr, floats
 from quizgen.question.contract import Built, Control
-from quizgen.question.shown import Shown, said
-from quizgen.question.specs import answer_of, mistaken, notes, specification, why
-from quizgen.shapes import converted
+from quizgen.question.inlines import TextOrInlines, translate_inlines
+from quizgen.question.specs import (
+    authored_answer,
+    misconception_notes,
+    mistaken,
+    reasons,
+    specification,
+)
 
 SAMPLES = 8
 """Pieces of a curve."""
@@ -33,9 +39,9 @@ COMMON = {"reads", *Feature.__struct_fields__}
 Point = tuple[float, float]
 
 
-def build(drawn: Draw, index: int) -> Built[Spec]:
+def build(drawn: Variant, index: int) -> Built[Spec]:
     """The wanted lines and those of each mistake, and the field that they are drawn in."""
-    answer = converted(answer_of(drawn, index), Sketch)
+    answer = convert(authored_answer(drawn, index), Sketch)
     right = _Place({name: to_float(value) for name, value in drawn.shown_values.items()})
     traps = {
         trap: _typed(right.but(changed).lines(answer.lines))
@@ -53,8 +59,8 @@ def build(drawn: Draw, index: int) -> Built[Spec]:
         lines=_typed(lines),
         features=features,
         traps=traps,
-        notes=notes(drawn, traps) if traps else {},
-        why=why(drawn, [(name, name) for name in features]),
+        notes=misconception_notes(drawn, traps) if traps else {},
+        why=reasons(drawn, [(name, name) for name in features]),
     )
     board = DrawingField(
         view=spec.field,
@@ -116,13 +122,13 @@ class _Place:
 
 
 @lru_cache(maxsize=512)
-def _formula(text: str, symbols: tuple[str, ...]) -> Compiled:
+def _formula(text: str, symbols: tuple[str, ...]) -> CompiledFormula:
     """A formula of a template over its symbols, the same for all of its draws."""
-    return compile_expr(parse(text, symbols=symbols), floats())
+    return compile_expr(parse_formula(text, symbols=symbols), float64_system())
 
 
 def _typed(lines: Mapping[str, list[Point]]) -> dict[str, str]:
-    return {name: written([line], DIGITS) for name, line in lines.items()}
+    return {name: format_strokes([line], DIGITS) for name, line in lines.items()}
 
 
 def _rounded(x: float, y: float) -> Point:
@@ -134,11 +140,11 @@ def _feature(place: _Place, authored: Mapping[str, Any]) -> dict[str, Any]:
     return {key: value if key in COMMON else place.filled(value) for key, value in authored.items()}
 
 
-def hints(_spec: Spec, lang: str) -> tuple[Shown, ...]:
+def hints(_spec: Spec, lang: str) -> tuple[TextOrInlines, ...]:
     """Draw, or write points."""
-    return (said(lang, "ask.sketch", example=(Code("0,0 1,0.4 2,0; 0,1 2,1"),)),)
+    return (translate_inlines(lang, "ask.sketch", example=(InlineCode("0,0 1,0.4 2,0; 0,1 2,1"),)),)
 
 
-def printed(spec: Spec, lang: str) -> Shown:
+def printed(spec: Spec, lang: str) -> TextOrInlines:
     """The wanted lines as they are typed."""
-    return (Code(show(spec, lang)),)
+    return (InlineCode(show_key(spec, lang)),)

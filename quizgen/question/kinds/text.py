@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from quizgen.bank.draw import Draw
-from quizgen.locale import word
-from quizgen.marking.kinds.text import Spec
+from quizgen.bank.variant import Variant
+from quizgen.grading.kinds.text import Spec
+from quizgen.locale import translate
 from quizgen.question.contract import Built, Control
-from quizgen.question.specs import answer_of, specification, synonyms
+from quizgen.question.specs import accepted_words, authored_answer, specification
 
 
-def build(drawn: Draw, index: int) -> Built[Spec]:
+def build(drawn: Variant, index: int) -> Built[Spec]:
     """The key points; a model sentence tells each."""
-    points = answer_of(drawn, index)["points"]
+    points = authored_answer(drawn, index)["points"]
     spec = specification(
-        Spec, drawn, index, points={name: synonyms(drawn, name) for name in points}
+        Spec, drawn, index, points={name: accepted_words(drawn, name) for name in points}
     )
     right = tuple(("points", name) for name in points)
     return Built(spec, Control("lines", lines=4), right=right)
@@ -27,7 +27,9 @@ def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     """In own words, as short as the key points allow."""
     count = len(spec.points)
     return (
-        word(lang, "ask.text") if count <= FEW else word(lang, "ask.text_many").format(n=count),
+        translate(lang, "ask.text")
+        if count <= FEW
+        else translate(lang, "ask.text_many").format(n=count),
     )
 
 

@@ -8,21 +8,21 @@ from __future__ import annotations
 
 from typing import get_args
 
-from quizgen.bank.draw import Draw
-from quizgen.bank.levels import CHOICES, EXAM, MIXED, Made
-from quizgen.bank.plan import pick
-from quizgen.errors import one_of
+from quizgen.bank.levels import CHOICES, EXAM, MIXED, DerivedLevel
+from quizgen.bank.sampler import pick_index
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import require_one_of
 from quizgen.question.levels import exam
-from quizgen.question.levels.asking import Level
-from quizgen.question.levels.steps import key_of
+from quizgen.question.levels.contract import Level
+from quizgen.question.levels.steps import level_seed
 
-LEVELS = (EXAM, *get_args(Made))
+LEVELS = (EXAM, *get_args(DerivedLevel))
 """The levels there are."""
 
 
-def level(name: str) -> Level:
+def load_level(name: str) -> Level:
     """What asks at a level; those of learners are loaded for who learns."""
-    match one_of("level", name, LEVELS):
+    match require_one_of("level", name, LEVELS):
         case "guided":
             from quizgen.question.levels import guided
 
@@ -35,7 +35,7 @@ def level(name: str) -> Level:
             return exam
 
 
-def level_of(drawn: Draw, wanted: str) -> str:
+def effective_level(drawn: Variant, wanted: str) -> str:
     """The level at which a draw is asked: the wanted one if it has such a form, else the exam's.
 
     Raises
@@ -43,8 +43,8 @@ def level_of(drawn: Draw, wanted: str) -> str:
     ChoiceError
         If there is no such level.
     """
-    one_of("level", wanted, CHOICES)
+    require_one_of("level", wanted, CHOICES)
     if wanted == MIXED:
-        found = [name for name in LEVELS if level(name).fits(drawn)]
-        return found[pick(f"{key_of(drawn)}/level", len(found))]
-    return wanted if level(wanted).fits(drawn) else EXAM
+        found = [name for name in LEVELS if load_level(name).is_applicable(drawn)]
+        return found[pick_index(f"{level_seed(drawn)}/level", len(found))]
+    return wanted if load_level(wanted).is_applicable(drawn) else EXAM

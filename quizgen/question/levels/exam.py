@@ -5,63 +5,69 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any
 
-from quizgen.bank.draw import Draw
-from quizgen.bank.prose import Block, Items, Paragraph, Styled, slots
-from quizgen.errors import BankError
-from quizgen.maths.numbers import written
+from quizgen.bank.markdown import Block, Emphasis, ListBlock, Paragraph, slot_names
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import BankError
+from quizgen.maths.numbers import parse_written_number
 from quizgen.question.contract import Built, Named
-from quizgen.question.filling import Filler
+from quizgen.question.interpolation import Interpolator
 from quizgen.question.kinds import build
-from quizgen.question.levels.asking import Asked, Asking, Choice
-from quizgen.question.solution import solve, solved_part
+from quizgen.question.levels.contract import Choice, LevelPart, LevelQuestion
+from quizgen.question.solution import build_solution, solve_part
 
 STATEMENT = "claim"
 """The blank in a part's section that its statement fills."""
 
 
-def fits(_drawn: Draw) -> bool:
+def is_applicable(_drawn: Variant) -> bool:
     """Every draw can be asked as it was written."""
     return True
 
 
 @lru_cache(maxsize=32)
-def asking(drawn: Draw, lang: str) -> Asking:
+def ask(drawn: Variant, lang: str) -> LevelQuestion:
     """Stem and parts as authored, with the whole worked solution."""
     built = [build(drawn, index) for index in range(len(drawn.template.rules.part))]
-    hidden, told = Filler(drawn, lang, hidden=True), Filler(drawn, lang)
-    parts = tuple(_part(hidden, told, index, part) for index, part in enumerate(built))
+    hidden, told = Interpolator(drawn, lang, hidden=True), Interpolator(drawn, lang)
+    parts = tuple(_build_asked_part(hidden, told, index, part) for index, part in enumerate(built))
     stem = hidden.blocks(hidden.text.stem)
-    return Asking(stem, parts, solve(drawn, lang, tuple(part.solved for part in parts)))
-
-
-def _part(hidden: Filler, told: Filler, index: int, built: Built[Any]) -> Asked:
-    template = hidden.drawn.template
-    label = template.labels[index]
-    body = _body(hidden, label, built.statements)
-    if label and not body:
-        raise BankError(f"{template.path / hidden.lang}.md: section {label!r} is missing")
-    return Asked(
-        written(template.rules.part[index].points),
-        body,
-        built.spec,
-        solved_part(told, index, built),
-        built.control,
-        _choices(hidden, built.options),
-        _choices(hidden, built.targets),
+    return LevelQuestion(
+        stem, parts, build_solution(drawn, lang, tuple(part.solved for part in parts))
     )
 
 
-def _body(filler: Filler, label: str, statements: tuple[Named, ...]) -> tuple[Block, ...]:
+def _build_asked_part(
+    hidden: Interpolator, told: Interpolator, index: int, built: Built[Any]
+) -> LevelPart:
+    template = hidden.drawn.template
+    label = template.labels[index]
+    body = _build_part_body(hidden, label, built.statements)
+    if label and not body:
+        raise BankError(f"{template.path / hidden.lang}.md: section {label!r} is missing")
+    return LevelPart(
+        parse_written_number(template.rules.part[index].points),
+        body,
+        built.spec,
+        solve_part(told, index, built),
+        built.control,
+        _label_choices(hidden, built.options),
+        _label_choices(hidden, built.targets),
+    )
+
+
+def _build_part_body(
+    filler: Interpolator, label: str, statements: tuple[Named, ...]
+) -> tuple[Block, ...]:
     """The section of a part, and what it asks: its statement, or several in a numbered list."""
     section = filler.text.sections.get(label, ()) if label else ()
     if len(statements) == 1 and statements[0][0] == "claims":
-        if STATEMENT in slots(section):
-            return filler.saying(STATEMENT, *statements[0]).blocks(section)
-        asked = Styled("strong", filler.sentence(*statements[0]))
+        if STATEMENT in slot_names(section):
+            return filler.with_sentence(STATEMENT, *statements[0]).blocks(section)
+        asked = Emphasis("strong", filler.sentence(*statements[0]))
         return (*filler.blocks(section), Paragraph((asked,)))
     listed = tuple((Paragraph(filler.sentence(*place)),) for place in statements)
-    return (*filler.blocks(section), *((Items(listed, ordered=True),) if listed else ()))
+    return (*filler.blocks(section), *((ListBlock(listed, ordered=True),) if listed else ()))
 
 
-def _choices(filler: Filler, names: tuple[Named, ...]) -> tuple[Choice, ...]:
+def _label_choices(filler: Interpolator, names: tuple[Named, ...]) -> tuple[Choice, ...]:
     return tuple((mark, filler.sentence("options", name)) for mark, name in names)

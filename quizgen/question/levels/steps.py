@@ -12,34 +12,34 @@ from typing import Any, NamedTuple
 from flint import fmpq
 
 from quizgen import typeset
-from quizgen.bank.draw import Draw
-from quizgen.bank.plan import shuffled
-from quizgen.bank.prose import (
+from quizgen.bank.markdown import (
     Block,
-    Code,
     CodeBlock,
-    Formula,
     Inline,
-    Words,
+    InlineCode,
+    InlineFormula,
+    PlainText,
     leaves,
-    slots,
+    slot_names,
 )
-from quizgen.bank.traps import APART, answer_names
-from quizgen.errors import MathError
-from quizgen.marking.kinds import angle, number, quantity
-from quizgen.marking.specs import OneNumber, decode
-from quizgen.maths.alike import forms
+from quizgen.bank.misconceptions import APART, answer_names
+from quizgen.bank.sampler import shuffle
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import MathError
+from quizgen.grading.kinds import angle, number, quantity
+from quizgen.grading.spec import ScalarSpec, decode_spec
+from quizgen.maths.canonical import canonical_forms
 from quizgen.maths.chain import ChainStep
-from quizgen.maths.notation import to_text
-from quizgen.maths.numbers import key_text, short_decimal, to_float
+from quizgen.maths.notation import format_tree
+from quizgen.maths.number_systems import compile_expr, exact_system, select_branch
+from quizgen.maths.numbers import format_for_key, is_short_decimal, to_float
 from quizgen.maths.precision import working_precision
-from quizgen.maths.systems import compile_expr, exact, taken_branch
 from quizgen.maths.tolerance import RULES
-from quizgen.maths.tree import Call, Expr, Num, Sym, names, walk
+from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, walk_tree
 from quizgen.maths.values import Value
-from quizgen.question.shown import Maths
-from quizgen.question.specs import answer_of, counts, notes
-from quizgen.question.worked import drawn_node, drawn_typed
+from quizgen.question.inlines import TypesetMaths
+from quizgen.question.specs import authored_answer, count_nouns, misconception_notes
+from quizgen.question.worked_steps import value_node, value_typed
 
 USUAL = {"rel": "0.005"}
 """What is accepted where the rule of the part does not fit the step."""
@@ -50,41 +50,41 @@ _DEGREES = Call("div", (Num(Fraction(180)), Call("pi", ())))
 """Radians to degrees."""
 
 
-class Way(NamedTuple):
+class FormulaOption(NamedTuple):
     """A formula that may be taken for a step: the right one, that of a mistake, or of a slip."""
 
     trap: str
-    shown: Maths
+    shown: TypesetMaths
     value: Value
     slip: str = ""
 
     @property
-    def right(self) -> bool:
+    def is_right(self) -> bool:
         """Whether it is the right one."""
         return not self.trap and not self.slip
 
 
-def has_name(drawn: Draw, name: str) -> bool:
+def has_name(drawn: Variant, name: str) -> bool:
     """Whether it is said in every language what a quantity is."""
     known = drawn.template.quantities
     return all(known.name(name, lang) for lang in drawn.template.languages)
 
 
-def told(drawn: Draw, section: str, name: str) -> bool:
+def has_sentence(drawn: Variant, section: str, name: str) -> bool:
     """Whether a sentence is written in every language."""
     return all(text.sentence(section, name) for text in drawn.template.texts.values())
 
 
 @lru_cache(maxsize=128)
-def introduced(drawn: Draw) -> frozenset[str]:
+def introduced_names(drawn: Variant) -> frozenset[str]:
     """Letters that the question itself uses: in formulas and programs, or as capitals."""
-    return frozenset(_letters(_text(drawn)))
+    return frozenset(_iter_mentioned_names(_iter_authored_text(drawn)))
 
 
 _WORD = re.compile(r"[A-Za-z]\w*")
 
 
-def _text(drawn: Draw) -> Iterator[Block | Inline]:
+def _iter_authored_text(drawn: Variant) -> Iterator[Block | Inline]:
     """Stem and parts in the first language."""
     text = drawn.template.texts[drawn.template.languages[0]]
     yield from text.stem
@@ -93,12 +93,12 @@ def _text(drawn: Draw) -> Iterator[Block | Inline]:
 
 
 @lru_cache(maxsize=128)
-def stated(drawn: Draw) -> frozenset[str]:
+def stated_quantities(drawn: Variant) -> frozenset[str]:
     """Quantities whose numbers text or figure give, or that follow from such numbers."""
     figure = drawn.template.rules.figure
-    found = {*slots(_text(drawn)), *(figure.reads if figure else ())}
+    found = {*slot_names(_iter_authored_text(drawn)), *(figure.reads if figure else ())}
     for name, rule in drawn.template.rules.draw.items():
-        if rule.formula and names(drawn.template.formula(rule.formula)) <= found:
+        if rule.formula and names_in(drawn.template.parse_formula(rule.formula)) <= found:
             found.add(name)
     chain = drawn.template.chain
     return frozenset(found | {step.name for step in chain.steps if _is_one_over(step, found)})
@@ -113,12 +113,12 @@ def _is_one_over(step: ChainStep, found: Collection[str]) -> bool:
 
 
 @lru_cache(maxsize=128)
-def defined(drawn: Draw) -> frozenset[str]:
+def defined_quantities(drawn: Variant) -> frozenset[str]:
     """Quantities whose formula the text writes down."""
     return frozenset(
         left.name
-        for part in leaves(_text(drawn))
-        if isinstance(part, Formula) and isinstance(part.expr, Call) and part.expr.op == "eq"
+        for part in leaves(_iter_authored_text(drawn))
+        if isinstance(part, InlineFormula) and isinstance(part.expr, Call) and part.expr.op == "eq"
         for left, right in [part.expr.args]
         if isinstance(left, Sym) and isinstance(right, Call)
     )
@@ -129,184 +129,211 @@ _CAPITAL = re.compile(r"(?<![\w'])[B-HJ-Z](?!\w)")
 """A letter that is no word of English."""
 
 
-def _letters(parts: Iterable[Block | Inline]) -> Iterator[str]:
+def _iter_mentioned_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
     for part in leaves(parts):
         match part:
-            case Formula(expr):
-                yield from names(expr)
-            case CodeBlock(text) | Code(text):
+            case InlineFormula(expr):
+                yield from names_in(expr)
+            case CodeBlock(text) | InlineCode(text):
                 yield from _WORD.findall(_BLANK.sub("", text))
-            case Words(text):
+            case PlainText(text):
                 yield from _CAPITAL.findall(text)
             case _:
                 pass
 
 
-def flat(expr: Expr) -> Expr:
+def flatten_sums(expr: Expr) -> Expr:
     """The same formula with sums of sums as one sum: no bracket in ((a + b) + c)/3."""
     if not isinstance(expr, Call):
         return expr
-    args = tuple(map(flat, expr.args))
+    args = tuple(map(flatten_sums, expr.args))
     if expr.op == "add":
         inner = [arg.args if isinstance(arg, Call) and arg.op == "add" else (arg,) for arg in args]
         args = tuple(arg for group in inner for arg in group)
     return Call(expr.op, args)
 
 
-def formula(drawn: Draw, step: ChainStep, expr: Expr, known: frozenset[str]) -> Maths:
+def step_formula(
+    drawn: Variant, step: ChainStep, expr: Expr, known: frozenset[str]
+) -> TypesetMaths:
     """A step's formula, with numbers in place of letters that nobody has introduced."""
-    expr, strangers = flat(expr), names(expr) - known
-    node = typeset.layout(expr, leaves={name: drawn_node(drawn, name) for name in strangers})
-    typed = to_text(expr, {name: drawn_typed(drawn, name) for name in strangers})
-    return Maths(typeset.relation(["="], [typeset.name(step.name), node]), f"{step.name} = {typed}")
+    expr, strangers = flatten_sums(expr), names_in(expr) - known
+    node = typeset.lay_out(expr, leaves={name: value_node(drawn, name) for name in strangers})
+    typed = format_tree(expr, {name: value_typed(drawn, name) for name in strangers})
+    return TypesetMaths(
+        typeset.relation_chain(["="], [typeset.lay_out_name(step.name), node]),
+        f"{step.name} = {typed}",
+    )
 
 
-def gives_away(drawn: Draw, step: ChainStep, known: frozenset[str]) -> bool:
+def gives_away(drawn: Variant, step: ChainStep, known: frozenset[str]) -> bool:
     """Whether the formula of a step would print its value, or anything else that is asked."""
-    formulas = [step.expr, *(expr for _, expr in _wrong(drawn, step))]
-    strangers = {name for expr in formulas for name in names(branch(drawn, expr)) - known}
-    right = branch(drawn, step.expr)
-    bare = not isinstance(right, Call) and not names(step.expr) & known
-    return bare or not strangers <= stated(drawn) or tells(drawn, step.name, right)
+    formulas = [step.expr, *(expr for _, expr in _iter_step_misconceptions(drawn, step))]
+    strangers = {
+        name for expr in formulas for name in names_in(applicable_branch(drawn, expr)) - known
+    }
+    right = applicable_branch(drawn, step.expr)
+    bare = not isinstance(right, Call) and not names_in(step.expr) & known
+    return (
+        bare or not strangers <= stated_quantities(drawn) or leaks_answer(drawn, step.name, right)
+    )
 
 
-def right_way(drawn: Draw, step: ChainStep, known: frozenset[str]) -> Way:
+def right_option(drawn: Variant, step: ChainStep, known: frozenset[str]) -> FormulaOption:
     """The right formula, in the branch that applies."""
-    return Way("", formula(drawn, step, branch(drawn, step.expr), known), drawn.values[step.name])
+    return FormulaOption(
+        "",
+        step_formula(drawn, step, applicable_branch(drawn, step.expr), known),
+        drawn.values[step.name],
+    )
 
 
-def tells(drawn: Draw, name: str, expr: Expr) -> bool:
+def leaks_answer(drawn: Variant, name: str, expr: Expr) -> bool:
     """Whether a formula in print tells what another question of the paper asks."""
     asked = drawn.elsewhere.formulas
-    return bool(asked) and not asked.isdisjoint(forms(Call("eq", (Sym(name), expr))))
+    return bool(asked) and not asked.isdisjoint(canonical_forms(Call("eq", (Sym(name), expr))))
 
 
-def branch(drawn: Draw, expr: Expr) -> Expr:
+def applicable_branch(drawn: Variant, expr: Expr) -> Expr:
     """A formula in the branch that applies to this draw."""
     with working_precision():
-        return taken_branch(expr, drawn.values, exact())
+        return select_branch(expr, drawn.values, exact_system())
 
 
 @lru_cache(maxsize=128)
-def wrong_ways(drawn: Draw, step: ChainStep, known: frozenset[str]) -> tuple[Way, ...]:
+def wrong_options(
+    drawn: Variant, step: ChainStep, known: frozenset[str]
+) -> tuple[FormulaOption, ...]:
     """The formulas of the step's mistakes that give another value, each once, in a drawn order."""
-    right = right_way(drawn, step, known)
+    right = right_option(drawn, step, known)
     found = {right.shown.typed: right}
-    for trap, expr in _wrong(drawn, step):
-        value, taken = value_of(drawn, expr), branch(drawn, expr)
-        if value is None or only_units(expr, step.expr) or same_value(value, right.value):
+    for trap, expr in _iter_step_misconceptions(drawn, step):
+        value, taken = evaluate_formula(drawn, expr), applicable_branch(drawn, expr)
+        if (
+            value is None
+            or differs_in_unit_only(expr, step.expr)
+            or is_same_value(value, right.value)
+        ):
             continue
-        if tells(drawn, step.name, taken):
+        if leaks_answer(drawn, step.name, taken):
             continue
-        shown = formula(drawn, step, taken, known)
-        found.setdefault(shown.typed, Way(trap, shown, value))
+        shown = step_formula(drawn, step, taken, known)
+        found.setdefault(shown.typed, FormulaOption(trap, shown, value))
     ways = [way for way in found.values() if way.trap]
-    return tuple(shuffled(f"{key_of(drawn)}/{step.name}/ways", ways))
+    return tuple(shuffle(f"{level_seed(drawn)}/{step.name}/ways", ways))
 
 
-def labels(drawn: Draw, count: int) -> list[str]:
+def part_labels(drawn: Variant, count: int) -> list[str]:
     """Labels of parts that a level makes: letters, unless the task itself tells things by them."""
     if count == 1:
         return [""]
-    task = {*_letters(_text(drawn)), *_cells(drawn)}
+    task = {*_iter_mentioned_names(_iter_authored_text(drawn)), *_iter_table_fields(drawn)}
     letters = list(ascii_lowercase[:count])
     return letters if task.isdisjoint(letters) else list(ROMAN[:count])
 
 
-def _cells(drawn: Draw) -> Iterator[str]:
+def _iter_table_fields(drawn: Variant) -> Iterator[str]:
     """What the authored parts call the fields of a table."""
     for part in drawn.template.rules.part:
         if isinstance(part.answer.get("of"), Mapping):
             yield from part.answer["of"]
 
 
-def key_of(drawn: Draw) -> str:
+def level_seed(drawn: Variant) -> str:
     """What the choices of a level are drawn from."""
     template = drawn.template
     return f"{template.origin}/{template.rules.version}/{drawn.seed}/{drawn.slot}/levels"
 
 
-def _wrong(drawn: Draw, step: ChainStep) -> Iterator[tuple[str, Expr]]:
+def _iter_step_misconceptions(drawn: Variant, step: ChainStep) -> Iterator[tuple[str, Expr]]:
     """The mistakes of a step that have a sentence in every language."""
     template = drawn.template
     for trap, steps in template.chain.traps.items():
         wrong = [one.expr for one in steps if one.name == step.name]
-        if wrong and trap not in template.rules.drop and told(drawn, "traps", trap):
+        if wrong and trap not in template.rules.drop and has_sentence(drawn, "traps", trap):
             yield from ((trap, expr) for expr in wrong)
 
 
-def only_units(wrong: Expr, right: Expr) -> bool:
+def differs_in_unit_only(wrong: Expr, right: Expr) -> bool:
     """Whether a wrong formula differs in its unit alone: a factor of 1000, or radians for degrees.
 
     Without numbers nobody can call 2·atan(W/(2·f)) a wrong formula of an angle.
     """
 
     def numbers(expr: Expr) -> set[object]:
-        return {node.value for node in walk(expr) if isinstance(node, Num)}
+        return {node.value for node in walk_tree(expr) if isinstance(node, Num)}
 
     odd = numbers(wrong) - numbers(right)
-    if _DEGREES in walk(right) and _DEGREES not in walk(wrong):
+    if _DEGREES in walk_tree(right) and _DEGREES not in walk_tree(wrong):
         return True
     return any(size in (value, 1 / value) for value in odd if value for size in _BANNED)  # type: ignore[operator]
 
 
-def value_of(drawn: Draw, expr: Expr) -> Value | None:
+def evaluate_formula(drawn: Variant, expr: Expr) -> Value | None:
     """What a formula gives with the right values before it; None if nothing."""
     with working_precision():
         try:
-            value: Value = compile_expr(expr, exact())(drawn.values)
+            value: Value = compile_expr(expr, exact_system())(drawn.values)
         except (MathError, ZeroDivisionError, OverflowError):
             return None
     return value
 
 
-def same_value(a: Value, b: Value) -> bool:
+def is_same_value(a: Value, b: Value) -> bool:
     """Whether two values are as good as equal."""
     with working_precision():
         return bool(abs(a - b) <= fmpq(1, 10**6) * abs(b))
 
 
-def value_spec(drawn: Draw, index: int, step: ChainStep) -> OneNumber:
+def step_value_spec(drawn: Variant, index: int, step: ChainStep) -> ScalarSpec:
     """What the value of a step is marked by: the rule of its part, and the step's own mistakes."""
     answer, about = _rule_of(drawn, index, step), drawn.template.about
     unit = str(answer.get("unit", step.unit))
-    table = _table(answer, unit, _counted(drawn, index, step))
+    table = _build_answer_table(answer, unit, _find_count_nouns(drawn, index, step))
     table |= {"define": about.units} if about.units else {}
     with working_precision():
-        value = drawn.values[step.name] / drawn.template.factor(unit)
-        table |= {"of": [step.name], "value": key_text(value), **_tolerance(answer, value)}
-        traps = dict(_usable(drawn, step, _spec(table), value, unit))
-    return _spec({**table, "traps": traps, "notes": notes(drawn, traps)} if traps else table)
+        value = drawn.values[step.name] / drawn.template.unit_factor(unit)
+        table |= {
+            "of": [step.name],
+            "value": format_for_key(value),
+            **_choose_tolerance(answer, value),
+        }
+        traps = dict(
+            _iter_telling_misconceptions(drawn, step, _decode_step_spec(table), value, unit)
+        )
+    return _decode_step_spec(
+        {**table, "traps": traps, "notes": misconception_notes(drawn, traps)} if traps else table
+    )
 
 
-def _spec(table: Mapping[str, object]) -> OneNumber:
-    return decode(_SHAPES[str(table["kind"])], table)
+def _decode_step_spec(table: Mapping[str, object]) -> ScalarSpec:
+    return decode_spec(_SHAPES[str(table["kind"])], table)
 
 
-_SHAPES: dict[str, type[OneNumber]] = {
+_SHAPES: dict[str, type[ScalarSpec]] = {
     "number": number.Spec, "quantity": quantity.Spec, "angle": angle.Spec
 }  # fmt: skip
 
 
-def _usable(
-    drawn: Draw, step: ChainStep, spec: OneNumber, value: Value, unit: str
+def _iter_telling_misconceptions(
+    drawn: Variant, step: ChainStep, spec: ScalarSpec, value: Value, unit: str
 ) -> Iterator[tuple[str, str]]:
     """Mistakes that can be told from the key and from each other, with what they give."""
     width = APART * spec.outer_width(to_float(value))
-    taken, factor = [to_float(value)], drawn.template.factor(unit)
-    for trap, expr in _wrong(drawn, step):
-        wrong = value_of(drawn, expr)
+    taken, factor = [to_float(value)], drawn.template.unit_factor(unit)
+    for trap, expr in _iter_step_misconceptions(drawn, step):
+        wrong = evaluate_formula(drawn, expr)
         if wrong is None:
             continue
         number = to_float(wrong / factor)
         if all(abs(number - other) > width for other in taken):
             taken.append(number)
-            yield trap, key_text(wrong / factor)
+            yield trap, format_for_key(wrong / factor)
 
 
-def _rule_of(drawn: Draw, index: int, step: ChainStep) -> Mapping[str, Any]:
+def _rule_of(drawn: Variant, index: int, step: ChainStep) -> Mapping[str, Any]:
     """The part's answer as far as it concerns a step: of its own quantities unit and rule."""
-    answer = dict(answer_of(drawn, index))
+    answer = dict(authored_answer(drawn, index))
     of = answer.get("of", ())
     labels = {name: label for label, name in of.items()} if isinstance(of, Mapping) else {}
     if step.name in answer_names(answer):
@@ -316,12 +343,12 @@ def _rule_of(drawn: Draw, index: int, step: ChainStep) -> Mapping[str, Any]:
     return {k: v for k, v in answer.items() if k in {*RULES, "kind", "bare", "within"}}
 
 
-def _counted(drawn: Draw, index: int, step: ChainStep) -> dict[str, list[str]]:
+def _find_count_nouns(drawn: Variant, index: int, step: ChainStep) -> dict[str, list[str]]:
     """The words for what an asked quantity counts."""
-    answer = answer_of(drawn, index)
+    answer = authored_answer(drawn, index)
     if step.name not in answer_names(answer):
         return {}
-    found = counts(drawn, index).get("counts", [])
+    found = count_nouns(drawn, index).get("counts", [])
     if isinstance(found, Mapping):
         of = answer["of"]
         labels = [
@@ -333,7 +360,9 @@ def _counted(drawn: Draw, index: int, step: ChainStep) -> dict[str, list[str]]:
     return {"counts": found} if found else {}
 
 
-def _table(answer: Mapping[str, Any], unit: str, counted: dict[str, list[str]]) -> dict[str, Any]:
+def _build_answer_table(
+    answer: Mapping[str, Any], unit: str, counted: dict[str, list[str]]
+) -> dict[str, Any]:
     """Kind and unit of the value."""
     if unit == "deg":
         return {"kind": "angle", "period": 0}
@@ -344,7 +373,7 @@ def _table(answer: Mapping[str, Any], unit: str, counted: dict[str, list[str]]) 
     return {"kind": "number", **percent, **counted}
 
 
-def _tolerance(answer: Mapping[str, Any], value: Value) -> Mapping[str, Any]:
+def _choose_tolerance(answer: Mapping[str, Any], value: Value) -> Mapping[str, Any]:
     """The part's rule where it fits: decimals and distances are meant for the asked quantity."""
     stated = {rule: answer[rule] for rule in (*RULES, "within") if rule in answer}
     if answer.get("own"):
@@ -352,5 +381,5 @@ def _tolerance(answer: Mapping[str, Any], value: Value) -> Mapping[str, Any]:
     if value == 0:
         return {"exact": True}
     if {"decimals", "abs", "exact"} & {*stated}:
-        return {"exact": True} if short_decimal(value) else USUAL
+        return {"exact": True} if is_short_decimal(value) else USUAL
     return stated or USUAL

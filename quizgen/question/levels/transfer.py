@@ -13,74 +13,82 @@ from functools import lru_cache
 
 from msgspec.structs import replace
 
-from quizgen.bank.draw import Draw
-from quizgen.bank.plan import shuffled
-from quizgen.bank.prose import Block, Items, Paragraph, Styled, Words
-from quizgen.locale import word
-from quizgen.question.filling import Filler
+from quizgen.bank.markdown import Block, Emphasis, ListBlock, Paragraph, PlainText
+from quizgen.bank.sampler import shuffle
+from quizgen.bank.variant import Variant
+from quizgen.locale import translate
+from quizgen.question.interpolation import Interpolator
 from quizgen.question.levels import exam
-from quizgen.question.levels.asking import Asked, Asking, quiet, shared_out
-from quizgen.question.levels.changes import Changes
-from quizgen.question.levels.comparing import compared
-from quizgen.question.levels.effects import effect
+from quizgen.question.levels.comparison import choose_comparison
+from quizgen.question.levels.consequence import choose_consequence
+from quizgen.question.levels.contract import (
+    LevelPart,
+    LevelQuestion,
+    share_points,
+    without_bold_questions,
+)
+from quizgen.question.levels.error_spotting import choose_faulty_solution
 from quizgen.question.levels.guided import NUMERIC
-from quizgen.question.levels.mistaken import found_mistake
-from quizgen.question.levels.steps import key_of, labels
+from quizgen.question.levels.perturbations import Perturbations
+from quizgen.question.levels.steps import level_seed, part_labels
 
 SMALL, MIDDLE = 1, 3
 """Points up to which one part is asked, and two."""
 
-Maker = Callable[[str], Asked]
+Maker = Callable[[str], LevelPart]
 """Puts one part into words of a language."""
 
 
-def fits(drawn: Draw) -> bool:
+def is_applicable(drawn: Variant) -> bool:
     """Whether something can be asked about changes or mistakes."""
     if "transfer" not in drawn.template.rules.levels or not drawn.template.chain.steps:
         return False
-    return bool(_makers(drawn))
+    return bool(_list_part_builders(drawn))
 
 
 @lru_cache(maxsize=128)
-def _makers(drawn: Draw) -> tuple[Maker, ...]:
+def _list_part_builders(drawn: Variant) -> tuple[Maker, ...]:
     """What can be asked in this draw, in the order in which it is asked."""
-    changes = Changes(drawn)
-    asked = effect(changes)
-    makers = (asked, compared(changes, asked), found_mistake(drawn))
+    changes = Perturbations(drawn)
+    asked = choose_consequence(changes)
+    makers = (asked, choose_comparison(changes, asked), choose_faulty_solution(drawn))
     return tuple(maker for maker in makers if maker is not None)
 
 
-def asking(drawn: Draw, lang: str) -> Asking:
+def ask(drawn: Variant, lang: str) -> LevelQuestion:
     """The task, and what is asked about it."""
-    usual = exam.asking(drawn, lang)
+    usual = exam.ask(drawn, lang)
     total = sum((part.points for part in usual.parts), Fraction(0))
-    makers = _makers(drawn)
+    makers = _list_part_builders(drawn)
     count = 1 if total <= SMALL else 2 if total <= MIDDLE else 3
-    kept = sorted(shuffled(f"{key_of(drawn)}/forms", range(len(makers)))[:count])
-    worth = shared_out(total, [Fraction(1)] * len(kept))
+    kept = sorted(shuffle(f"{level_seed(drawn)}/forms", range(len(makers)))[:count])
+    worth = share_points(total, [Fraction(1)] * len(kept))
     parts = tuple(
-        _placed(makers[place](lang), label, points)
-        for place, label, points in zip(kept, labels(drawn, len(kept)), worth, strict=True)
+        _relabel_part(makers[place](lang), label, points)
+        for place, label, points in zip(kept, part_labels(drawn, len(kept)), worth, strict=True)
     )
     solution = replace(
         usual.solution, parts=tuple(part.solved for part in parts),
         check=(), note=(), why=(), precision=(),
     )  # fmt: skip
-    return Asking((*_task(drawn, lang, usual),), parts, solution)
+    return LevelQuestion((*_iter_task_blocks(drawn, lang, usual),), parts, solution)
 
 
-def _placed(part: Asked, label: str, points: Fraction) -> Asked:
+def _relabel_part(part: LevelPart, label: str, points: Fraction) -> LevelPart:
     return replace(part, points=points, solved=replace(part.solved, label=label))
 
 
-def _task(drawn: Draw, lang: str, usual: Asking) -> Iterator[Block]:
+def _iter_task_blocks(drawn: Variant, lang: str, usual: LevelQuestion) -> Iterator[Block]:
     """The task as the exam asks it, with what its calculating parts say."""
-    yield Paragraph((Styled("em", (Words(word(lang, "transfer.about")),)),))
-    yield from map(quiet, Filler(drawn, lang, hidden=True).blocks(drawn.template.texts[lang].stem))
+    yield Paragraph((Emphasis("em", (PlainText(translate(lang, "transfer.about")),)),))
+    yield from map(
+        without_bold_questions,
+        Interpolator(drawn, lang, hidden=True).blocks(drawn.template.texts[lang].stem),
+    )
     kinds = [part.answer["kind"] for part in drawn.template.rules.part]
     bodies = [
-        tuple(map(quiet, part.body)) for part, kind in zip(usual.parts, kinds, strict=True)
+        tuple(map(without_bold_questions, part.body)) for part, kind in zip(usual.parts, kinds, strict=True)
         if kind in NUMERIC and part.body
     ]  # fmt: skip
     if bodies:
-        yield Items(tuple(bodies))
+        yield ListBlock(tuple(bodies))

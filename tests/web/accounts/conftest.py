@@ -7,15 +7,15 @@ import pytest
 from people import Somebody
 from sqlalchemy import delete
 
+from quizgen.store.schema import INVITATION, LEARNER
 from quizgen.web import passwords
-from quizgen.web.passwords import Patience
-from quizgen.web.settings import Settings
-from quizgen.web.store.tables import INVITATION, LEARNER
+from quizgen.web.passwords import RateLimiter
+from quizgen.web.settings import ServerSettings
 
 
 @pytest.fixture(scope="module")
 def settings(database):
-    return Settings(database(), host="0.0.0.0", workers=1)
+    return ServerSettings(database(), host="0.0.0.0", workers=1)
 
 
 @pytest.fixture(autouse=True)
@@ -23,8 +23,8 @@ def quick(monkeypatch):
     """Passwords that take no time; how long they take is Argon2's own matter."""
     cheap = argon2.PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
     other = cheap.hash(b"nobody's")
-    monkeypatch.setattr(passwords, "_hasher", lambda: cheap)
-    monkeypatch.setattr(passwords, "_other", lambda: other)
+    monkeypatch.setattr(passwords, "_make_hasher", lambda: cheap)
+    monkeypatch.setattr(passwords, "_make_dummy_hash", lambda: other)
 
 
 @pytest.fixture
@@ -34,7 +34,7 @@ def site(app):
     with site.store.database.writing() as connection:
         for table in (INVITATION, LEARNER):
             connection.execute(delete(table))
-    site.patience = Patience()
+    site.patience = RateLimiter()
     return site
 
 

@@ -9,8 +9,8 @@ from people import PASSWORD, Somebody
 from sqlalchemy import func, select
 from sqlalchemy.exc import OperationalError
 
+from quizgen.store.schema import ACCOUNT, ANSWER, ATTEMPT, INVITATION, LEARNER, SESSION
 from quizgen.web import accounts
-from quizgen.web.store.tables import ACCOUNT, ANSWER, ATTEMPT, INVITATION, LEARNER, SESSION
 
 pytestmark = pytest.mark.both_databases
 
@@ -48,7 +48,7 @@ def test_from_the_first_invitation_to_a_question(manager, site):
     assert 'href="/people"' in page
     asked = manager.post("/practice", template="point-to-image-plane")
     assert asked.url.path.startswith("/q/")
-    assert site.store.accounts.managed()
+    assert site.store.accounts.has_manager()
     manager.post("/sign-out")
     assert "Sign in" in manager.get("/").text
     assert manager.sign_in("farida").url.path == "/", "capitals do not count"

@@ -6,7 +6,7 @@ import pytest
 from people import ADDRESS
 from starlette.testclient import TestClient
 
-from quizgen.web.settings import Settings
+from quizgen.web.settings import ServerSettings
 
 
 @pytest.mark.parametrize(
@@ -19,11 +19,11 @@ def test_numbers_are_served_and_names_that_were_asked_for(app, host, status):
 
 
 def test_names_that_were_asked_for_are_served():
-    named = Settings("sqlite://", behind_proxy=True, names=("quiz.school.example",))
+    named = ServerSettings("sqlite://", behind_proxy=True, names=("quiz.school.example",))
     assert named.accounts
-    assert named.serves("quiz.school.example")
-    assert not named.serves("school.example")
-    assert named.place(8000) == "https://quiz.school.example"
-    alone = Settings("sqlite://")
+    assert named.is_own_name("quiz.school.example")
+    assert not named.is_own_name("school.example")
+    assert named.base_url(8000) == "https://quiz.school.example"
+    alone = ServerSettings("sqlite://")
     assert not alone.accounts
-    assert not alone.serves("192.168.1.5")
+    assert not alone.is_own_name("192.168.1.5")

@@ -11,7 +11,7 @@ import pytest
 from people import PASSWORD, Somebody
 from sqlalchemy import update
 
-from quizgen.web.store.tables import INVITATION
+from quizgen.store.schema import INVITATION
 
 pytestmark = pytest.mark.both_databases
 

@@ -11,8 +11,8 @@ from people import ADDRESS, PASSWORD, Somebody
 from sqlalchemy import select, update
 from starlette.testclient import TestClient
 
-from quizgen.web.passwords import Patience
-from quizgen.web.store.tables import SESSION
+from quizgen.store.schema import SESSION
+from quizgen.web.passwords import RateLimiter
 
 pytestmark = pytest.mark.both_databases
 
@@ -57,7 +57,7 @@ def test_where_a_session_has_ended_one_signs_in_and_is_back(app, manager, learne
 
 def test_wrong_passwords_have_to_wait_and_nobody_else_does(app, site, manager, learner):
     now = [100.0]
-    site.patience = Patience(lambda: now[0])
+    site.patience = RateLimiter(lambda: now[0])
     thief = Somebody(app)
     for _ in range(5):
         answer = thief.sign_in("Farida", "guess guess")

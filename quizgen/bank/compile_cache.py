@@ -1,0 +1,83 @@
+"""What a bank's files come to - chains, rules, prose - kept, so that each is worked out once.
+
+It follows from the files, from quizgen's code between them and what is kept, and from the package
+that this code asks. A wheel brings what its own bank comes to (``quizgen/_build_hook.py``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Generic, TypeVar
+
+import msgspec
+
+from quizgen.core import cache as cache_module
+from quizgen.core.decoding import prepare_type
+
+T = TypeVar("T")
+
+_VERSIONS = {"sympy": "release.py", "markdown_it": "__init__.py", "PIL": "_version.py"}
+"""A package's file that says which version it is: to import it would take longer."""
+_UNFIT = msgspec.MsgspecError, ValueError, OverflowError, RecursionError
+"""What is raised where a thing cannot be written, or what is found is none."""
+
+
+class CompileCache(Generic[T]):
+    """Things of one kind that are kept.
+
+    Parameters
+    ----------
+    kind : str
+        Names them in the cache.
+    shape : type
+        What they are.
+    package : str
+        What else has a say in them, if anything.
+    """
+
+    def __init__(self, kind: str, shape: type[T], package: str = "") -> None:
+        self.kind, self.package = kind, package
+        prepare_type(shape)
+        self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
+
+    def get(self, *sources: bytes) -> T | None:
+        """What sources came to, if it is kept."""
+        found = cache_module.read_cached(self.kind, self._compute_key(sources))
+        if found is None:
+            return None
+        with suppress(*_UNFIT):
+            return self._decoder.decode(found)
+        return None
+
+    def put(self, thing: T, *sources: bytes) -> T:
+        """Keep what sources came to, if it comes back the same."""
+        with suppress(*_UNFIT):
+            data = msgspec.msgpack.encode(thing, enc_hook=str)
+            if self._decoder.decode(data) == thing:
+                cache_module.write_cached(self.kind, self._compute_key(sources), data)
+        return thing
+
+    def _compute_key(self, sources: tuple[bytes, ...]) -> str:
+        return cache_module.compute_digest(_compute_code_digest(self.package), *sources)
+
+
+@cache
+def _compute_code_digest(package: str) -> bytes:
+    """Digest of the code that makes of sources what is kept."""
+    return cache_module.compute_digest(
+        *(file.read_bytes() for file in _iter_code_files(package))
+    ).encode()
+
+
+def _iter_code_files(package: str) -> Iterator[Path]:
+    own = Path(__file__).parent.parent
+    for folder in ("bank", "maths"):
+        yield from sorted((own / folder).rglob("*.py"))
+    yield own / "outside.py"
+    found = find_spec(package) if package else None
+    if found is not None and found.origin is not None:
+        yield Path(found.origin).with_name(_VERSIONS[package])

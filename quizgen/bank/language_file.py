@@ -1,0 +1,140 @@
+"""The language files of a template: sections of prose and lists of named sentences.
+
+A language file has a title, a stem, one section per part and lists of named sentences::
+
+    # Perspective projection
+    A pinhole camera has focal length {{ f }} ...
+    ## a
+    **Where does $p$ appear?**
+    ## steps          why each step is taken, by quantity
+    - x: Similar triangles ...
+    ## why            what makes the answer right, where nothing is computed
+    ## check          how to see that the result makes sense
+    ## traps          what went wrong, by mistake
+    ## options        wording of choices, pairs, ordered steps
+    ## claims         statements that are true or false, by name
+    ## reasons        why an option or a claim is wrong (or right), a pair does not fit, a step
+                      comes later, a gap takes its word
+    ## words          wording of drawn phrases
+    ## note           a remark shown with the solution (where the notes differ, and why)
+
+Sentences are written in the subset of ``prose``. A named sentence may be told by a condition,
+``- name [h < 60]: ...``; the first that holds is said, else the one without. In ``why``, sentences
+named by a part's label belong to that part.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from quizgen.bank.compile_cache import CompileCache
+from quizgen.bank.markdown import (
+    Block,
+    ConditionalSentence,
+    LanguageFile,
+    PictureLink,
+    leaves,
+    parse_blocks,
+    parse_inlines,
+)
+from quizgen.core import untrusted
+from quizgen.core.errors import BankError
+
+NAMED_SECTIONS = frozenset(
+    {"steps", "traps", "options", "words", "gaps", "points", "reasons", "claims"}
+)
+PROSE_SECTIONS = frozenset({"why", "check", "note"})
+_TEXTS = CompileCache("prose", LanguageFile, "markdown_it")
+
+
+def read_language_file(path: Path) -> LanguageFile:
+    """Read a language file.
+
+    Raises
+    ------
+    BankError
+        Naming the file and what is wrong in it.
+    """
+    source = untrusted.read_text(path, BankError)
+    if control := untrusted.CONTROLS.search(source):
+        line = source.count("\n", 0, control.start()) + 1
+        raise BankError(
+            f"{path}:{line}: {untrusted.escape_control_characters(control[0])} in a text"
+        )
+    try:
+        found = _TEXTS.get(source.encode())
+        return found or _TEXTS.put(parse_language_file(source), source.encode())
+    except BankError as error:
+        raise BankError(f"{path}: {error}") from error
+
+
+def parse_language_file(source: str) -> LanguageFile:
+    """Parse the content of a language file."""
+    title, body = _split_title(source)
+    pieces = re.split(r"^## +(\S.*)$", body, flags=re.MULTILINE)
+    sections: dict[str, tuple[Block, ...]] = {}
+    listed: dict[str, list[tuple[str, ConditionalSentence]]] = {}
+    for heading, whole in zip(pieces[1::2], pieces[2::2], strict=True):
+        name = heading.strip()
+        content, labelled = _by_label(whole) if name == "why" else (whole, "")
+        if labelled:
+            listed[name] = list(_iter_named_sentences(name, labelled))
+        if name in NAMED_SECTIONS:
+            listed[name] = list(_iter_named_sentences(name, content))
+        elif name in PROSE_SECTIONS or re.fullmatch(r"[a-j]", name):
+            sections[name] = parse_blocks(content)
+        else:
+            allowed = ", ".join(sorted(NAMED_SECTIONS | PROSE_SECTIONS))
+            raise BankError(f"section {name!r} is unknown (allowed: a, b, ..., {allowed})")
+    named = {section: {n: said for n, (_, said) in found} for section, found in listed.items()}
+    stem = parse_blocks(pieces[0])
+    told = [stem, *sections.values(), *(said for of in listed.values() for _, (_, said) in of)]
+    pictures = [leaf for parts in told for leaf in leaves(parts) if isinstance(leaf, PictureLink)]
+    return LanguageFile(
+        title, stem, sections, named, _index_conditional_sentences(listed), tuple(pictures)
+    )
+
+
+def _by_label(content: str) -> tuple[str, str]:
+    """The paragraphs of an explanation, and its list of sentences by part if it ends in one."""
+    found = re.search(r"^- [a-j](?: \[[^\]\n]*\])?:", content, flags=re.MULTILINE)
+    return (content[: found.start()], content[found.start() :]) if found else (content, "")
+
+
+def _index_conditional_sentences(
+    listed: Mapping[str, list[tuple[str, ConditionalSentence]]],
+) -> dict[tuple[str, str], tuple[ConditionalSentence, ...]]:
+    """Section and name of the sentences of which some are told by a condition."""
+    found: dict[tuple[str, str], list[ConditionalSentence]] = {}
+    for section, entries in listed.items():
+        for name, case in entries:
+            found.setdefault((section, name), []).append(case)
+    return {place: tuple(cases) for place, cases in found.items() if any(c for c, _ in cases)}
+
+
+def _split_title(source: str) -> tuple[str, str]:
+    head, _, body = source.lstrip("\ufeff\n").partition("\n")
+    if not head.startswith("# "):
+        raise BankError("the first line must be the title: '# ...'")
+    return head[2:].strip(), body
+
+
+_CASE = re.compile(r"(?P<name>[^\[]*?)(?:\s*\[(?P<condition>[^\]]*)\])?\s*")
+
+
+def _iter_named_sentences(section: str, content: str) -> Iterator[tuple[str, ConditionalSentence]]:
+    for entry in re.split(r"^- ", content, flags=re.MULTILINE):
+        if not entry.strip():
+            continue
+        name, colon, sentence = entry.partition(":")
+        if not colon:
+            raise BankError(f"section {section!r}: {entry.strip()!r} lacks 'name: sentence'")
+        found = _CASE.fullmatch(name)
+        if found is None:
+            raise BankError(f"section {section!r}: {name.strip()!r} is not 'name [condition]'")
+        yield (
+            found["name"].strip(),
+            (found["condition"] or "", parse_inlines(" ".join(sentence.split()))),
+        )

@@ -1,0 +1,152 @@
+"""What a bank says about itself: ``templates/bank.toml`` and ``templates/curriculum.toml``.
+
+Both may be missing: a bank needs nothing but its templates.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TypeVar
+
+import msgspec
+
+from quizgen.bank.complaints import explain_validation_error
+from quizgen.core.decoding import convert
+from quizgen.core.errors import BankError, FormulaError
+from quizgen.core.untrusted import parse_toml, read_text
+from quizgen.locale import FIRST
+from quizgen.locale.custom import is_language_tag
+from quizgen.maths.units import UnitRegistry, build_unit_registry
+
+S = TypeVar("S", bound=msgspec.Struct)
+
+_RANGE = re.compile(r"(\D+)(\d+)\.\.\1(\d+)")
+
+
+class BankMetadata(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """What ``bank.toml`` says.
+
+    ``languages`` are those it is written in, ``title`` is the chapter's by language, and
+    ``topics`` are its topics in order, each with its title by language. ``terms`` are words of the
+    subject, none of which is another one misspelt; ``counted`` has the words that may stand beside
+    a number, by the name that an answer gives as ``counts``; ``units`` are those besides the listed
+    ones, each as Pint defines units; ``photographs`` are the figures that are pictures of a camera,
+    of which a blueprint may ask for some. ``requires`` are the versions of quizgen that it works
+    with.
+    """
+
+    name: str = ""
+    version: str = ""
+    licence: str = ""
+    authors: tuple[str, ...] = ()
+    requires: str = ""
+    languages: tuple[str, ...] = ()
+    terms: tuple[str, ...] = ()
+    counted: dict[str, tuple[str, ...]] = {}
+    title: dict[str, str] = {}
+    topics: dict[str, dict[str, str]] = {}
+    units: tuple[str, ...] = ()
+    photographs: frozenset[str] = frozenset()
+
+    @property
+    def system(self) -> UnitRegistry:
+        """The listed units and its own."""
+        return build_unit_registry(self.units)
+
+
+class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """What there is to cover.
+
+    ``groups`` lists the items of each group, ``F01..F46`` being a row of numbers; ``figures``
+    says which item a figure covers; items past the curriculum are any of ``beyond`` and a number.
+    """
+
+    groups: dict[str, tuple[str, ...]] = {}
+    figures: dict[str, str] = {}
+    beyond: tuple[str, ...] = ()
+
+    @property
+    def inventory(self) -> Mapping[str, tuple[str, ...]]:
+        """Group to the names of its items, rows of numbers written out."""
+        return {
+            group: tuple(item for row in rows for item in _expand_range(row))
+            for group, rows in self.groups.items()
+        }
+
+
+def _expand_range(row: str) -> Iterator[str]:
+    match = _RANGE.fullmatch(row)
+    if match is None:
+        yield row
+        return
+    letters, first, last = match.groups()
+    for number in range(int(first), int(last) + 1):
+        yield f"{letters}{number:0{len(first)}d}"
+
+
+def read_optional(path: Path, kind: type[S]) -> S:
+    """Read one of a bank's files; a missing one is an empty one.
+
+    Raises
+    ------
+    BankError
+        Naming the file and the key.
+    """
+    if not path.exists():
+        return kind()
+    try:
+        return convert(parse_toml(read_text(path, BankError), path, BankError), kind)
+    except msgspec.ValidationError as error:
+        raise BankError(f"{path}: {explain_validation_error(error, kind)}") from error
+
+
+def read_metadata(path: Path) -> BankMetadata:
+    """Read ``bank.toml``; a missing one says nothing.
+
+    Raises
+    ------
+    BankError
+        Naming the file and the key, also where this version of quizgen is none it works with.
+    """
+    about = read_optional(path, BankMetadata)
+    for lang in about.languages:
+        if not is_language_tag(lang):
+            raise BankError(f'{path}: languages: {lang!r} is no language (write "fr", or "pt-BR")')
+    try:
+        build_unit_registry(about.units)
+    except FormulaError as error:
+        raise BankError(f"{path}: units: {error}") from error
+    if about.requires:
+        _check_version(path, about.requires)
+    return about
+
+
+def _check_version(path: Path, requires: str) -> None:
+    from importlib.metadata import version
+
+    from packaging.specifiers import InvalidSpecifier, SpecifierSet
+
+    here = version("quizgen")
+    try:
+        fits = SpecifierSet(requires).contains(here, prereleases=True)
+    except InvalidSpecifier as error:
+        raise BankError(f'{path}: requires: {requires!r} is not like ">=0.1"') from error
+    if not fits:
+        raise BankError(f"{path}: requires: quizgen {requires}, and this is {here}")
+
+
+def pick_language(texts: Mapping[str, str], lang: str, otherwise: str) -> str:
+    """A text in a language, else in English, else in the first that it has, else another text."""
+    return texts.get(lang) or texts.get(FIRST) or next(iter(texts.values()), "") or otherwise
+
+
+def grading_words(about: BankMetadata, answers: Sequence[Mapping[str, object]]) -> Iterator[bytes]:
+    """The words of ``bank.toml`` that a template's answers are marked with."""
+    if any("counts" in answer for answer in answers):
+        yield msgspec.json.encode(about.counted)
+    if any(answer.get("kind") == "gap" for answer in answers):
+        yield msgspec.json.encode(about.terms)
+    if about.units:
+        yield msgspec.json.encode(about.units)

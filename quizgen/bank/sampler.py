@@ -1,0 +1,266 @@
+"""The drawing plan of a template: its variables, conditions and parts, whatever the seed."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache, cached_property, partial
+from typing import Any, TypeVar
+
+import msgspec
+from flint import fmpq
+
+from quizgen.bank.misconceptions import PartChecker
+from quizgen.bank.rules import KeepRule, Scalar
+from quizgen.bank.template import Template
+from quizgen.core.errors import BankError, MathError
+from quizgen.maths.number_systems import CompiledFormula, compile_nested, exact_system
+from quizgen.maths.numbers import count_decimals, to_float, to_rational
+from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import names_in
+from quizgen.maths.values import Value, Values
+
+T = TypeVar("T")
+
+
+def pick_index(key: str, count: int) -> int:
+    """Index below ``count`` that belongs to a key, the same on every machine."""
+    return int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big") % count
+
+
+def shuffle(key: str, items: Sequence[T]) -> list[T]:
+    """Deterministic permutation that belongs to a key."""
+    ranked = sorted(range(len(items)), key=lambda i: hashlib.sha256(f"{key}/{i}".encode()).digest())
+    return [items[i] for i in ranked]
+
+
+class _Variable(msgspec.Struct, frozen=True):
+    """One drawn quantity: its candidates, or the formula that derives it (or its phrase)."""
+
+    place: str
+    name: str
+    choices: tuple[fmpq, ...]
+    words: tuple[str, ...]
+    formula: CompiledFormula | None
+
+    def derive(self, shown: dict[str, fmpq], words: dict[str, str]) -> None:
+        """Set the quantity, or the phrase at the place that the formula counts from 0."""
+        value = self._compute_value(shown)
+        if isinstance(value, bool):
+            raise BankError(f"{self.place}: a condition, where a number is needed")
+        if self.words:
+            if not isinstance(value, fmpq):
+                raise BankError(f"{self.place}: by: the place of a phrase is a rational number")
+            words[self.name] = self.words[int(value.floor()) % len(self.words)]
+        else:
+            shown[self.name] = value
+
+    def _compute_value(self, shown: dict[str, fmpq]) -> Value:
+        try:
+            return self.formula(shown) if self.formula else fmpq(0)
+        except (MathError, ZeroDivisionError, OverflowError) as error:
+            raise BankError(f"{self.place}: {error}") from error
+
+
+class _Condition(msgspec.Struct, frozen=True):
+    """A condition over shown values, and the quantities it needs."""
+
+    text: str
+    test: Callable[[Values], bool]
+    needs: frozenset[str]
+
+
+def _make_test_of_name(name: str, test: Callable[[Value], bool]) -> Callable[[Values], bool]:
+    return lambda env: test(env[name])
+
+
+class Sampler:
+    """Everything about drawing a template that does not depend on the seed."""
+
+    def __init__(self, template: Template) -> None:
+        self.template = template
+        self._compiled: dict[str, CompiledFormula] = {}
+        self._check_order()
+        self.variables = [self._build_variable(name) for name in template.rules.draw]
+        conditions = list(self._iter_conditions())
+        drawn = {v.name for v in self.variables}
+        self.early = [c for c in conditions if c.needs <= drawn]
+        self.late = [c for c in conditions if not c.needs <= drawn]
+        self.parts = [PartChecker(template, index) for index in range(len(template.rules.part))]
+
+    def _check_order(self) -> None:
+        known: set[str] = set()
+        for name, rule in self.template.rules.draw.items():
+            source = rule.formula or rule.by
+            unknown = names_in(self.template.parse_formula(source)) - known if source else set()
+            if unknown:
+                place = f"{self.template.file}: draw.{name}"
+                raise BankError(f"{place}: uses {sorted(unknown)}, not drawn before it")
+            known.add(name)
+
+    def compile_formula(self, formula: str) -> CompiledFormula:
+        """A formula of ``template.toml``, compiled once; the precision is stated around it."""
+        if formula not in self._compiled:
+            self._compiled[formula] = compile_nested(
+                self.template.parse_formula(formula), exact_system()
+            )
+        return self._compiled[formula]
+
+    def _build_variable(self, name: str) -> _Variable:
+        rule = self.template.rules.draw[name]
+        source = rule.formula or rule.by
+        formula = self.compile_formula(source) if source else None
+        listed = () if source else list_candidates(rule.pick, rule.range, rule.skip)
+        place = f"{self.template.file}: draw.{name}"
+        if not (source or listed or rule.words):
+            raise BankError(f"{place}: no value is left")
+        return _Variable(place, name, listed, rule.words, formula)
+
+    def _iter_conditions(self) -> Iterator[_Condition]:
+        for text in self.template.rules.where:
+            yield _Condition(
+                text, self.compile_formula(text), names_in(self.template.parse_formula(text))
+            )
+        for name, rule in self.template.rules.keep.items():
+            test = compile_keep_test(rule)
+            yield _Condition(f"keep.{name}", _make_test_of_name(name, test), frozenset({name}))
+
+    def propose(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
+        """Values of one try, before any condition; the precision is stated around it."""
+        shown: dict[str, fmpq] = {}
+        words: dict[str, str] = {}
+        for variable in self.variables:
+            if variable.formula is not None:
+                variable.derive(shown, words)
+            elif variable.words:
+                index = pick_index(f"{stem}/{variable.name}/{attempt}", len(variable.words))
+                words[variable.name] = variable.words[index]
+            else:
+                index = pick_index(f"{stem}/{variable.name}/{attempt}", len(variable.choices))
+                shown[variable.name] = variable.choices[index]
+        return shown, words
+
+    @cached_property
+    def base_factors(self) -> dict[str, fmpq]:
+        """Given quantity to the factor from its shown unit to base units."""
+        template = self.template
+        return {n: template.unit_factor(template.units.get(n, "")) for n in template.chain.given}
+
+    @cached_property
+    def step_factors(self) -> dict[str, fmpq]:
+        """Step to the factor from its shown unit to base units."""
+        return {
+            step.name: self.template.unit_factor(step.unit) for step in self.template.chain.steps
+        }
+
+    def solve(self, shown: Mapping[str, fmpq]) -> dict[str, Value]:
+        """Run the chain on shown values."""
+        return self.template.chain.solve({n: shown[n] * f for n, f in self.base_factors.items()})
+
+    def in_shown_units(self, shown: Mapping[str, fmpq], values: Values) -> dict[str, Value]:
+        """Drawn and solved quantities in shown units."""
+        return {**{name: values[name] / f for name, f in self.step_factors.items()}, **shown}
+
+
+@cache
+def list_candidates(
+    listed: tuple[Scalar, ...], span: tuple[Scalar, ...], skip: tuple[Scalar, ...]
+) -> tuple[fmpq, ...]:
+    """The values a rule allows, in order."""
+    if listed:
+        return tuple(to_rational(str(v)) for v in listed)
+    if not span:
+        return ()
+    first, last, step = (to_rational(str(v)) for v in span)
+    left_out = {to_rational(str(v)) for v in skip}
+    count = int(((last - first) / step).floor()) + 1
+    values = (first + place * step for place in range(count))
+    return tuple(value for value in values if value not in left_out)
+
+
+def compile_keep_test(rule: KeepRule) -> Callable[[Value], bool]:
+    """Compile a keep rule into a test of one value."""
+    tests = [
+        partial(KEEP_TESTS[name], _parse_limit(name, getattr(rule, name)))
+        for name in KEEP_TESTS
+        if getattr(rule, name) not in (None, ())
+    ]
+    return lambda value: all(test(value) for test in tests)
+
+
+def _parse_limit(name: str, written: Scalar | tuple[Scalar, ...]) -> object:
+    """A limit as written, made exact."""
+    if name == "skip":
+        return {to_rational(str(v)) for v in written}  # type: ignore[union-attr]
+    return written if name in {"decimals", "denominator"} else to_rational(str(written))
+
+
+KEEP_TESTS: dict[str, Callable[[Any, Any], bool]] = {
+    "min": lambda least, v: bool(v >= least),
+    "max": lambda most, v: bool(v <= most),
+    "multiple": lambda step, v: isinstance(v, fmpq) and (v / step).q == 1,
+    "decimals": lambda count, v: _has_short_decimals(v, count),
+    "denominator": lambda most, v: isinstance(v, fmpq) and v.q <= most,
+    "skip": lambda left_out, v: not (isinstance(v, fmpq) and v in left_out),
+}
+"""Field of a keep rule to the test of (limit, value)."""
+
+
+def _has_short_decimals(value: Value, decimals: int) -> bool:
+    count = count_decimals(value) if isinstance(value, fmpq) else None
+    return count is not None and count <= decimals
+
+
+_PLANS: dict[str, Sampler] = {}
+MOST_PLANS = 1000
+"""Plans that are kept: a process that reads templates as they are edited meets ever new ones."""
+
+
+def sampler_for(template: Template) -> Sampler:
+    """The drawing plan of a template, built once.
+
+    A template of the same content in another bank has a plan of its own: what the banks say about
+    themselves may differ.
+    """
+    key = f"{template.id}/{template.digest}"
+    found = _PLANS.get(key)
+    if found is None or found.template is not template:
+        found = _PLANS[key] = Sampler(template)
+        for oldest in [*_PLANS][:-MOST_PLANS]:
+            _PLANS.pop(oldest, None)
+    return found
+
+
+@working_precision()
+def test_candidate(
+    plan: Sampler, shown: Mapping[str, fmpq], *, lenient: bool = False
+) -> tuple[dict[str, Value], tuple[tuple[str, ...], ...]] | str:
+    """Solve a candidate; its values and traps per part, or the reason to reject it."""
+    try:
+        for condition in () if lenient else plan.early:
+            if not condition.test(shown):
+                return condition.text
+        values = plan.solve(shown)
+        if plan.late and not lenient:
+            env = plan.in_shown_units(shown, values)
+            for condition in plan.late:
+                if not condition.test(env):
+                    return condition.text
+        traps = _usable_traps(plan, shown, values, lenient=lenient)
+    except (MathError, ZeroDivisionError, OverflowError) as error:
+        return f"no value: {error}"
+    return traps if isinstance(traps, str) else (values, traps)
+
+
+def _usable_traps(
+    plan: Sampler, shown: Mapping[str, fmpq], values: Values, *, lenient: bool
+) -> tuple[tuple[str, ...], ...] | str:
+    """The usable traps of each part, or the reason to reject the candidate."""
+    approximate = {name: to_float(value) for name, value in values.items()}
+    traps = []
+    for part in plan.parts:
+        usable = part.check(approximate, shown, lenient=lenient)
+        if isinstance(usable, str):
+            return usable
+        traps.append(usable)
+    return tuple(traps)

@@ -1,0 +1,220 @@
+"""From a template and a seed to admissible numbers.
+
+Every value is a function of (template origin, version, paper seed, slot, variable, try) through
+SHA-256, so adding a template, a variable, a language or a format changes no other value. A draw is
+kept only if it meets every condition of the template *and* no known mistake would be accepted or
+could be taken for another one.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import msgspec
+from flint import fmpq
+
+from quizgen.bank.rules import Scalar
+from quizgen.bank.sampler import Sampler, sampler_for, test_candidate
+from quizgen.bank.template import Template
+from quizgen.core.errors import SamplingError
+from quizgen.core.untrusted import error_context
+from quizgen.maths.canonical import CanonicalForm
+from quizgen.maths.chain import ChainStep
+from quizgen.maths.numbers import (
+    format_exact,
+    format_rounded,
+    is_readable_exactly,
+    to_float,
+    to_rational,
+)
+from quizgen.maths.precision import working_precision
+from quizgen.maths.values import Value, Values
+
+SHOWN_FIGURES = 6
+"""Significant figures of a shown value that has no short exact form."""
+MAX_TRIES = 5000
+"""Tries before a template is called impossible."""
+
+
+def leading_digits(value: Value) -> str:
+    """A number by its first four digits: what somebody who copies it would take for the same."""
+    return f"{abs(to_float(value)):.4g}"
+
+
+class SiblingContent(msgspec.Struct, frozen=True):
+    """What the other questions of a paper ask: forms of formulas, and numbers by their digits."""
+
+    formulas: frozenset[CanonicalForm] = frozenset()
+    numbers: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """One admissible instance of a template; equal to itself alone, so that it can be a key.
+
+    Parameters
+    ----------
+    template : Template
+    seed, slot : str
+        What it was drawn for.
+    tries : int
+        Candidates looked at, the kept one included.
+    shown : mapping of str to flint.fmpq
+        Drawn quantities in the units they are shown in.
+    words : mapping of str to str
+        Drawn phrases, by their name in the language files.
+    values : mapping of str to flint.fmpq or flint.arb
+        Every quantity of the chain in base units.
+    traps : tuple of tuple of str
+        Per part, the mistakes that give a wrong and recognisable answer here.
+    elsewhere : Elsewhere
+        What this question must not tell, because others of its paper ask it.
+    shown_values : mapping of str to flint.fmpq or flint.arb
+        Every quantity, drawn or solved, in the unit it is shown in. Computed when the draw is made:
+        a property cached later would wait for the lock of the precision under a lock of its own.
+    """
+
+    template: Template
+    seed: str
+    slot: str
+    tries: int
+    shown: Mapping[str, fmpq]
+    words: Mapping[str, str]
+    values: Values
+    traps: tuple[tuple[str, ...], ...] = field(default=())
+    elsewhere: SiblingContent = field(default_factory=SiblingContent)
+    shown_values: Values = field(init=False, repr=False, compare=False)
+    _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
+    _computed: dict[str, Value] = field(init=False, repr=False, compare=False, default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"<Draw of {self.template.id}, seed {self.seed}, slot {self.slot}>"
+
+    def __post_init__(self) -> None:
+        with working_precision():
+            object.__setattr__(
+                self, "shown_values", self.sampler.in_shown_units(self.shown, self.values)
+            )
+
+    @property
+    def sampler(self) -> Sampler:
+        """What does not depend on the numbers."""
+        return sampler_for(self.template)
+
+    def format_value(self, name: str) -> str:
+        """A quantity's number as it is shown: exact if drawn or read at a glance, else rounded."""
+        if name not in self._texts:
+            value = self.shown_values[name]
+            exactly = None if self.is_rounded(name) else format_exact(value)
+            self._texts[name] = exactly or format_rounded(value, figures=SHOWN_FIGURES)
+        return self._texts[name]
+
+    def is_rounded(self, name: str) -> bool:
+        """Whether a quantity's text is not its exact value."""
+        value = self.shown_values[name]
+        return not is_readable_exactly(value) and (
+            name not in self.shown or format_exact(value) is None
+        )
+
+    def evaluate(self, formula: str) -> Value:
+        """Value of a formula of ``template.toml`` over the quantities in shown units."""
+        if formula not in self._computed:
+            with working_precision():
+                self._computed[formula] = self.sampler.compile_formula(formula)(self.shown_values)
+        return self._computed[formula]
+
+    def steps_of_part(self, index: int) -> tuple[ChainStep, ...]:
+        """The steps that lead to a part's answer, those that the template leaves out aside."""
+        shown = self.template.rules.part[index].show
+        steps = self.sampler.parts[index].steps
+        return tuple(step for step in steps if shown is None or step.name in shown)
+
+    def answer_of_part(self, index: int) -> tuple[Value, ...]:
+        """The components of a part's answer, each in the unit it is asked in."""
+        return self._answer_components(index, self.values)
+
+    def misconception_answers(self, index: int) -> dict[str, tuple[Value, ...]]:
+        """Each usable mistake of a part and the answer it gives, as ``answer``."""
+        chain = self.template.chain
+        return {
+            trap: self._answer_components(index, chain.solve_with_misconception(trap, self.values))
+            for trap in self.traps[index]
+        }
+
+    def _answer_components(self, index: int, values: Values) -> tuple[Value, ...]:
+        part = self.sampler.parts[index]
+        with working_precision():
+            factors = [self.template.unit_factor(part.unit_of(self.template, n)) for n in part.of]
+            return tuple(values[n] / size for n, size in zip(part.of, factors, strict=True))
+
+
+def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> Variant:
+    """Draw an admissible instance.
+
+    Parameters
+    ----------
+    template : Template
+    seed, slot : str or int
+        The paper's seed and the question's place in it.
+
+    Raises
+    ------
+    DrawError
+        If no try within ``MAX_TRIES`` is admissible; names the condition met most often.
+    """
+    with error_context(template.file):
+        return _find_admissible_variant(sampler_for(template), str(seed), str(slot))
+
+
+def _find_admissible_variant(plan: Sampler, seed: str, slot: str) -> Variant:
+    """The first admissible try; the lock of the precision is held for one try at a time."""
+    template = plan.template
+    stem = f"{template.origin}/{template.rules.version}/{seed}/{slot}"
+    reasons: Counter[str] = Counter()
+    for attempt in range(MAX_TRIES):
+        with working_precision():
+            shown, words = plan.propose(stem, attempt)
+            result = test_candidate(plan, shown)
+        if not isinstance(result, str):
+            values, traps = result
+            return Variant(template, seed, slot, attempt + 1, shown, words, values, traps)
+        reasons[result] += 1
+    worst, count = reasons.most_common(1)[0]
+    raise SamplingError(
+        f"no admissible draw in {MAX_TRIES} tries; {worst!r} rejected {count} of them"
+    )
+
+
+def reference_variant(template: Template) -> Variant:
+    """Instance with the numbers printed in the notes; mistakes that coincide there are left out.
+
+    Raises
+    ------
+    DrawError
+        If the template names no reference, or it has no solution.
+    """
+    given = template.rules.reference
+    if given is None:
+        raise SamplingError(f"template {template.id!r} has no reference instance")
+    with error_context(template.file):
+        return _build_reference_variant(sampler_for(template), given)
+
+
+@working_precision()
+def _build_reference_variant(plan: Sampler, given: Mapping[str, Scalar]) -> Variant:
+    template = plan.template
+    shown, words = plan.propose(f"{template.origin}/reference", 0)
+    for variable in plan.variables:
+        if variable.name in given and variable.words:
+            words[variable.name] = str(given[variable.name])
+        elif variable.name in given:
+            shown[variable.name] = to_rational(str(given[variable.name]))
+        elif variable.formula is not None:
+            variable.derive(shown, words)
+    result = test_candidate(plan, shown, lenient=True)
+    if isinstance(result, str):
+        raise SamplingError(f"reference instance: {result}")
+    values, traps = result
+    return Variant(template, "reference", "0", 1, shown, words, values, traps)

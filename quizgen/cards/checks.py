@@ -1,0 +1,70 @@
+"""Flashcards of a bank: whether its files can be read, and what is on them can be printed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from quizgen.bank.bank import Bank
+from quizgen.bank.entries import Entry
+from quizgen.bank.formulas import read_formulas
+from quizgen.cards.content import KINDS as FILES
+from quizgen.cards.content import read_card_entries
+from quizgen.cards.kinds import KINDS
+from quizgen.cards.request import DeckRequest
+from quizgen.cards.versions import FILE, read_versions
+from quizgen.core.errors import QuizgenError
+from quizgen.question.formula_sheet import draw_sketch
+
+DRAWN = "question"
+"""The kind that is made of templates, which are examined by themselves."""
+
+
+def check_cards(bank: Bank) -> Iterator[str]:
+    """What is wrong with the files of ``templates/cards``, with file and entry."""
+    if not bank.cards:
+        return
+    for name, file in bank.cards.items():
+        if name not in {*FILES, FILE}:
+            yield f"{file}: no cards are made of this file; there are {', '.join(FILES)}"
+    read = [problem for kind in FILES.values() for problem in _check_card_file(bank, kind)]
+    yield from read or _check_notes_and_sketches(bank)
+    try:
+        stale = [key for key in read_versions(bank) if _is_stale_key(bank, key)]
+    except QuizgenError as error:
+        yield str(error)
+        return
+    yield from (f"{bank.cards[FILE]}: {key!r} is of no template" for key in stale)
+
+
+def _check_card_file(bank: Bank, kind: type[Entry]) -> Iterator[str]:
+    """Why a file cannot be read, or which of its topics there are not."""
+    try:
+        found = read_card_entries(bank, kind)
+    except QuizgenError as error:
+        yield str(error)
+        return
+    known = ", ".join(bank.topics)
+    for entry in found:
+        if entry.topic not in bank.topics:
+            yield f"{entry.place}: topic {entry.topic!r} is not in bank.toml ({known})"
+
+
+def _check_notes_and_sketches(bank: Bank) -> Iterator[str]:
+    """Why the notes of a kind cannot be made, or the sketch of a formula cannot be drawn."""
+    wish = DeckRequest(bank.languages, bank=bank)
+    for name, notes in KINDS.items():
+        try:
+            for _ in notes(wish) if name != DRAWN else ():
+                pass
+        except QuizgenError as error:
+            yield str(error)
+    for entry in read_formulas(bank):
+        try:
+            draw_sketch(bank, entry, bank.languages)
+        except QuizgenError as error:
+            yield str(error)
+
+
+def _is_stale_key(bank: Bank, key: str) -> bool:
+    kind, _, name = key.partition("/")
+    return kind == DRAWN and name not in {bank.origin(one) for one in bank.template_paths}

@@ -1,0 +1,63 @@
+"""Formulas as cloze cards: the right-hand side is hidden, written once and printed for MathJax."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from quizgen import typeset
+from quizgen.bank.formulas import FormulaEntry, read_formulas
+from quizgen.bank.markdown import Paragraph
+from quizgen.cards.kinds._entry_note import entry_note
+from quizgen.cards.markup import ClozeHole
+from quizgen.cards.note import CardWords, Note
+from quizgen.cards.request import DeckRequest
+from quizgen.core.errors import BankError
+from quizgen.question.entry_prose import entry_blocks, entry_inlines
+from quizgen.question.formula_lines import parse_formula_line
+from quizgen.question.inlines import TypesetMaths
+from quizgen.typeset.nodes import MathRow
+
+
+def notes(wish: DeckRequest) -> Iterator[Note]:
+    """One note per formula; a formula of several lines hides them together or one by one."""
+    for entry in read_formulas(wish.bank):
+        said: dict[str, CardWords] = {
+            "Title": {
+                lang: (Paragraph(entry_inlines(entry, "title", lang)),) for lang in wish.langs
+            },
+            "Extra": {
+                lang: (*entry_blocks(entry, "about", lang), *entry_blocks(entry, "beware", lang))
+                for lang in wish.langs
+            },
+        }
+        note = entry_note(wish, entry, "formula", said, (entry.id, *entry.refs))
+        yield replace(note, form="cloze", shared={"Text": tuple(_iter_cloze_holes(entry))})
+
+
+def _iter_cloze_holes(entry: FormulaEntry) -> Iterator[ClozeHole]:
+    for index, line in enumerate(entry.lines):
+        signs, parts = parse_formula_line(line, entry.inside, entry.place)
+        if not signs:
+            raise BankError(f"{entry.place}: {line!r} has only one side")
+        cut = signs.index("⇒") + 1 if "⇒" in signs else 1
+        yield ClozeHole(
+            _typeset_visible_sides(parts[:cut], signs[:cut]),
+            _typeset_hidden_sides(parts[cut:], signs[cut:]),
+            index + 1 if entry.separate else 1,
+        )
+
+
+def _typeset_visible_sides(parts: list[TypesetMaths], signs: list[str]) -> TypesetMaths:
+    """The sides before the hidden one, with the sign after each."""
+    node = typeset.relation_chain(signs, [*(part.node for part in parts), MathRow(())])
+    typed = " ".join(f"{part.typed} {sign}" for part, sign in zip(parts, signs, strict=True))
+    return TypesetMaths(node, typed)
+
+
+def _typeset_hidden_sides(parts: list[TypesetMaths], signs: list[str]) -> TypesetMaths:
+    if not signs:
+        return parts[0]
+    pairs = zip(signs, parts[1:], strict=True)
+    typed = " ".join([parts[0].typed, *(f"{sign} {part.typed}" for sign, part in pairs)])
+    return TypesetMaths(typeset.relation_chain(signs, [part.node for part in parts]), typed)

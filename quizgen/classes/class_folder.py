@@ -1,0 +1,300 @@
+"""The folder of a class: its settings and secret, its roster, the key of every paper.
+
+``class.toml`` and ``keys.jsonl`` are for the examiner alone (mode 0600). Keys are written a line a
+student as papers are made; a line that a killed run left half written counts as not there.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from quizgen.bank.combined import BankSource
+from quizgen.classes.pseudonyms import student_code
+from quizgen.classes.roster import RosterStudent, read_roster, write_roster
+from quizgen.core.decoding import convert, decode_json, json_decoder
+from quizgen.core.errors import ClassError
+from quizgen.core.files import PRIVATE, open_private, write_all
+from quizgen.core.untrusted import parse_json, parse_toml, read_text
+from quizgen.paper.answer_key import AnswerKey, answer_key_digest, parse_answer_key
+
+SETTINGS, ROSTER, KEYS = "class.toml", "roster.csv", "keys.jsonl"
+PAPERS, SOLUTIONS, FORMS, ANSWERS = "papers", "solutions", "forms", "answers"
+
+
+class ClassSettings(msgspec.Struct, frozen=True):
+    """What a class was made with; written once.
+
+    Parameters
+    ----------
+    name : str
+        Of the class: that of its folder.
+    secret : str
+        128 bits, from which every number follows.
+    blueprint : str
+        Its name or its file.
+    banks : tuple of Source
+        What it asks.
+    lang : str
+        Of students whose row names none.
+    digest : str
+        Of the blueprint and the templates.
+    templates : tuple of tuple of str
+        For each question, the templates that it may be made from.
+    """
+
+    name: str
+    secret: str
+    blueprint: str
+    banks: tuple[BankSource, ...]
+    lang: str
+    digest: str
+    templates: tuple[tuple[str, ...], ...]
+
+
+class PrintedHead(msgspec.Struct, frozen=True):
+    """What the line of a student's paper says besides its key.
+
+    Parameters
+    ----------
+    id, code : str
+    made : str
+        Blueprint, language and digest of the files that the paper was made with.
+    stamp : str
+        Digest of the row of the roster and of ``made``.
+    beside : tuple of str
+        Ids of neighbours that this paper gave way to.
+    digest : str
+        Of the key as it was written: who edits it by hand is told.
+    former : tuple of str
+        Codes that the paper had in another language: it may have been handed out.
+    """
+
+    id: str
+    code: str
+    made: str
+    stamp: str
+    beside: tuple[str, ...] = ()
+    digest: str = ""
+    former: tuple[str, ...] = ()
+
+    @property
+    def codes(self) -> tuple[str, ...]:
+        """All codes under which it may come back."""
+        return (self.code, *self.former)
+
+
+class PaperRecord(msgspec.Struct, frozen=True):
+    """A student's paper: what was printed, and the key that marks it."""
+
+    head: PrintedHead
+    key: AnswerKey
+
+
+class ClassFolder:
+    """The folder of a class.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def __repr__(self) -> str:
+        return f"<ClassFolder {self.path}>"
+
+    @property
+    def is_new(self) -> bool:
+        """Whether there is no class yet.
+
+        Raises
+        ------
+        ClassError
+            If the folder holds something else.
+        """
+        if (self.path / SETTINGS).exists():
+            return False
+        if self.path.exists() and (not self.path.is_dir() or any(self.path.iterdir())):
+            raise ClassError(
+                f"{self.path}: holds something else than a class; name another folder with --out"
+            )
+        return True
+
+    @cached_property
+    def settings(self) -> ClassSettings:
+        """What the class was made with.
+
+        Raises
+        ------
+        ClassError
+            If it is no folder of a class.
+        """
+        place = self.path / SETTINGS
+        if not place.exists():
+            raise ClassError(f"{self.path}: is not the folder of a class (it has no {SETTINGS})")
+        table = parse_toml(read_text(place, ClassError), place, ClassError)
+        if "bank" in table:  # of a class that was made when there was but one
+            table["banks"] = [(table.pop("bank"), table.pop("trust", False))]
+        try:
+            found = convert(table, ClassSettings)
+            bytes.fromhex(found.secret)
+        except (msgspec.ValidationError, ValueError) as error:
+            raise ClassError(f"{place}: {error}") from None
+        return found
+
+    def create(self, settings: ClassSettings, students: Sequence[RosterStudent]) -> None:
+        """Begin a class: settings first, for nothing may be made that they do not explain."""
+        contents = {ROSTER: write_roster(students), KEYS: b"", SETTINGS: _format_toml(settings)}
+        write_all(self.path, contents, mode=PRIVATE)
+
+    def students(self) -> list[RosterStudent]:
+        """The students in the order of their seats."""
+        return read_roster(self.path / ROSTER)
+
+    def write_roster(self, students: Sequence[RosterStudent]) -> None:
+        """Replace the roster."""
+        write_all(self.path, {ROSTER: write_roster(students)}, mode=PRIVATE)
+
+    def heads(self) -> dict[str, PrintedHead]:
+        """Student's id to what was printed last."""
+        return {head.id: head for head, _ in self.places().values()}
+
+    def find_by_code(self, code: str) -> PaperRecord:
+        """The paper with a printed code, whose key is still that which the code was made from.
+
+        Raises
+        ------
+        ClassError
+            If no paper has it, or the paper's key has been changed.
+        """
+        wanted, secret = code.strip().upper(), self.settings.secret
+        places = [place for head, place in self.places().values() if wanted in head.codes]
+        if not places:
+            raise ClassError(f"{self.path}: no paper of this class has the code {wanted!r}")
+        found = self._read_record(places[0])
+        digest = answer_key_digest(found.key, found.head.made)
+        if student_code(secret, found.head.id, digest) != found.head.code:
+            raise ClassError(f"{self.path / KEYS}: the key of {wanted} has been changed")
+        return found
+
+    def append(self, lines: Iterable[bytes]) -> None:
+        """Add lines of keys; they are on the disk when this returns."""
+        with open_private(self.path / KEYS) as stream:
+            if self._is_last_line_torn:
+                stream.write(b"\n")
+            stream.write(b"".join(lines))
+            stream.flush()
+            os.fsync(stream.fileno())
+
+    @property
+    def _is_last_line_torn(self) -> bool:
+        """Whether a run was killed in the middle of a line."""
+        place = self.path / KEYS
+        if not place.exists() or not place.stat().st_size:
+            return False
+        with place.open("rb") as stream:
+            stream.seek(-1, os.SEEK_END)
+            return stream.read() != b"\n"
+
+    def compact(self, order: Sequence[str]) -> None:
+        """Keep each student's last line: those of the roster in its order, then those who left."""
+        index = self.places()
+        ids = [one for one in dict.fromkeys((*order, *index)) if one in index]
+        fresh = self.path / f".{KEYS}.new"
+        with (self.path / KEYS).open("rb") as lines, open_private(fresh, anew=True) as stream:
+            for one in ids:
+                lines.seek(index[one][1])
+                stream.write(lines.readline())
+            stream.flush()
+            os.fsync(stream.fileno())
+        fresh.replace(self.path / KEYS)
+
+    def places(self) -> dict[str, tuple[PrintedHead, int]]:
+        """Student's id to the last whole line about it, and where that begins."""
+        found: dict[str, tuple[PrintedHead, int]] = {}
+        at = 0
+        with (self.path / KEYS).open("rb") as stream:
+            for line in stream:
+                head = _decode_head(line)
+                if head is not None:
+                    found[head.id] = head, at
+                at += len(line)
+        return found
+
+    def _read_record(self, at: int) -> PaperRecord:
+        place = self.path / KEYS
+        with place.open("rb") as stream:
+            stream.seek(at)
+            line = stream.readline()
+        table = parse_json(original_key_bytes(line, place).decode(), place, ClassError)
+        head = decode_json(line, PrintedHead)
+        if not isinstance(table, dict):
+            raise ClassError(f"{place}: a table is expected in each line")
+        return PaperRecord(head, parse_answer_key(table, f"{place}: {head.id}"))
+
+
+class _Line(msgspec.Struct):
+    id: str
+    key: msgspec.Raw
+    digest: str = ""
+
+
+_LINE = json_decoder(_Line).decode
+
+
+def format_record(head: PrintedHead, key: AnswerKey) -> bytes:
+    """A line of the keys."""
+    written = msgspec.json.encode(key)
+    whole = msgspec.structs.replace(head, digest=_compute_key_digest(written))
+    table = {**msgspec.structs.asdict(whole), "key": msgspec.Raw(written)}
+    return msgspec.json.encode(table) + b"\n"
+
+
+def original_key_bytes(line: bytes, place: Path) -> bytes:
+    """The key of a line, to the letter as it was made.
+
+    Raises
+    ------
+    ClassError
+        If somebody has edited it.
+    """
+    try:
+        found = _LINE(line)
+    except msgspec.DecodeError as error:
+        raise ClassError(f"{place}: {error}") from None
+    if found.digest not in {"", _compute_key_digest(found.key)}:  # older classes have none
+        raise ClassError(
+            f"{place}: the key of {found.id} has been changed; to have it as it was, delete its "
+            "line and run quizgen class make (rulings change marks: quizgen class rule)"
+        )
+    return bytes(found.key)
+
+
+def _compute_key_digest(written: bytes | msgspec.Raw) -> str:
+    return hashlib.sha256(written).hexdigest()[:16]
+
+
+def _decode_head(line: bytes) -> PrintedHead | None:
+    """What a line says besides the key; None for one that a killed run left."""
+    if not line.endswith(b"\n"):
+        return None
+    try:
+        return decode_json(line, PrintedHead)
+    except msgspec.DecodeError:
+        return None
+
+
+def _format_toml(settings: ClassSettings) -> bytes:
+    """Settings as TOML: its texts are written as those of JSON."""
+    table: Mapping[str, Any] = msgspec.structs.asdict(settings)
+    lines = [f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in table.items()]
+    return ("\n".join(lines) + "\n").encode()

@@ -1,0 +1,364 @@
+"""A paper for each student: the same templates, other numbers, none shared with a neighbour.
+
+A paper follows from the secret of the class, the id of its student and the neighbours it gives way
+to, and from nothing else: who is made first, where, and what was made before does not matter.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from typing import NamedTuple
+
+import msgspec
+
+from quizgen.bank.bank import Bank
+from quizgen.bank.combined import bank_sources, open_banks
+from quizgen.bank.sampler import pick_index
+from quizgen.bank.variant import Variant
+from quizgen.classes.class_folder import (
+    FORMS,
+    PAPERS,
+    SOLUTIONS,
+    ClassFolder,
+    ClassSettings,
+    PrintedHead,
+    format_record,
+)
+from quizgen.classes.pseudonyms import form_seal, new_secret, student_code, student_seed
+from quizgen.classes.roster import RosterStudent, seat_neighbours
+from quizgen.core.errors import ClassError
+from quizgen.core.files import PRIVATE, write_all
+from quizgen.executors import run
+from quizgen.paper.answer_form import has_answers, write_blank_form
+from quizgen.paper.answer_key import make_answer_key
+from quizgen.paper.blueprint import Blueprint
+from quizgen.paper.code import PaperCode, source_digest
+from quizgen.paper.paper import Paper, PaperHolder, ProgressCallback, compose_paper
+from quizgen.paper.provenance import describe_differences
+from quizgen.paper.selection import alternatives, select_templates, slot_levels
+from quizgen.paper.variants import draw_variants, shared_content
+from quizgen.render import KINDS, render_paper
+from quizgen.render.typst_document import evict_cache
+
+CHUNK = 8
+"""Papers of a job: what a killed worker costs."""
+PRETENDED = 1
+"""Documents after each paper: a tenth of a worker's memory is what papers before it left."""
+CLASS = "class"
+"""Stands for the seed where a code would show one."""
+
+
+@dataclass(frozen=True)
+class GenerationJob:
+    """Papers to be made together.
+
+    Parameters
+    ----------
+    settings : Settings
+    blueprint : Blueprint
+    students : tuple of Student
+    beside : mapping of str to tuple of str
+        To whom each of them gives way, and those in turn.
+    former : mapping of str to tuple of str
+        Codes that each has had.
+    """
+
+    settings: ClassSettings
+    blueprint: Blueprint
+    students: tuple[RosterStudent, ...]
+    beside: Mapping[str, tuple[str, ...]]
+    former: Mapping[str, tuple[str, ...]]
+
+
+class GeneratedPaper(NamedTuple):
+    """A student's paper: its files, its line of the keys, and what a report says of it."""
+
+    student: str
+    files: dict[str, bytes]
+    line: bytes
+    points: Fraction
+    minutes: int
+    tiers: str
+    alike: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class GenerationReport:
+    """What was made.
+
+    Parameters
+    ----------
+    made : tuple of Made
+        Without files and lines.
+    kept : int
+        Papers that were there already.
+    left : tuple of str
+        Ids that have a paper, and are no longer on the roster.
+    """
+
+    made: tuple[GeneratedPaper, ...]
+    kept: int
+    left: tuple[str, ...]
+
+
+def create_settings(
+    name: str, bank: Bank, blueprint: Blueprint, lang: str, *, vary: bool = False
+) -> ClassSettings:
+    """Settings of a new class, with a secret that nobody has had before.
+
+    Parameters
+    ----------
+    name : str
+    bank : Bank
+    blueprint : Blueprint
+    lang : str
+        Of students whose row of the roster names none.
+    vary : bool
+        Whether a question may be made from any template of a family, or from one for all.
+    """
+    secret = new_secret()
+    chosen = select_templates(bank, blueprint, student_seed(secret))
+    templates = alternatives(bank, blueprint, chosen) if vary else [(one,) for one in chosen]
+    own = blueprint.name not in bank.blueprints and blueprint.file
+    return ClassSettings(
+        name=name,
+        secret=secret,
+        blueprint=str(own.resolve()) if own else blueprint.name,
+        banks=bank_sources(bank),
+        lang=lang,
+        digest=_compute_class_digest(bank, blueprint, templates),
+        templates=tuple(templates),
+    )
+
+
+def _compute_class_digest(
+    bank: Bank, blueprint: Blueprint, templates: Sequence[Sequence[str]]
+) -> str:
+    """Digest of the files behind all papers of a class."""
+    asked = [
+        (bank.template(name), level)
+        for family, level in zip(templates, slot_levels(blueprint), strict=False)
+        for name in family
+    ]
+    return source_digest(blueprint.source, [t for t, _ in asked], [level for _, level in asked])
+
+
+def generate_papers(
+    folder: ClassFolder,
+    students: Sequence[RosterStudent],
+    blueprint: Blueprint,
+    executor: Executor,
+    ahead: int,
+    tell: ProgressCallback,
+) -> GenerationReport:
+    """Make the papers that are missing, or whose row of the roster has changed.
+
+    Raises
+    ------
+    ClassError
+        If the bank or the blueprint is no longer that of the papers there are.
+    """
+    _check_bank_unchanged(folder, blueprint)
+    heads = folder.heads()
+    todo = [one for one in students if not _is_made(folder, one, heads.get(one.id))]
+    folder.write_roster(students)
+    done: list[GeneratedPaper] = []
+    former = {one: head.codes for one, head in heads.items()}
+    jobs = _iter_jobs(folder.settings, blueprint, todo, _assign_neighbours(students, heads), former)
+    for results in run(executor, run_generation_job, jobs, ahead):
+        _write_papers_and_keys(folder, results)
+        for one in results:
+            done.append(one._replace(files={}, line=b""))
+            tell(one.student)
+    order = dict.fromkeys(one.id for one in students)
+    if done:
+        folder.compact([*order])
+    left = tuple(one for one in heads if one not in order)
+    return GenerationReport(tuple(done), len(students) - len(todo), left)
+
+
+def _check_bank_unchanged(folder: ClassFolder, blueprint: Blueprint) -> None:
+    settings = folder.settings
+    bank = open_class_bank(settings)
+    if _compute_class_digest(bank, blueprint, settings.templates) != settings.digest:
+        code = next((head.code for head in folder.heads().values()), "")
+        told = (
+            describe_differences(folder.find_by_code(code).key.banks, bank.members) if code else ""
+        )
+        raise ClassError(
+            f"{folder.path}: was made with other templates or another blueprint"
+            f"{told and f' ({told})'}; its papers keep their keys, and new ones need a new folder "
+            "(--out)"
+        )
+
+
+def _iter_jobs(
+    settings: ClassSettings,
+    blueprint: Blueprint,
+    todo: Sequence[RosterStudent],
+    beside: Mapping[str, tuple[str, ...]],
+    former: Mapping[str, tuple[str, ...]],
+) -> Iterator[GenerationJob]:
+    for at in range(0, len(todo), CHUNK):
+        chunk = tuple(todo[at : at + CHUNK])
+        had = {one.id: former.get(one.id, ()) for one in chunk}
+        yield GenerationJob(settings, blueprint, chunk, _select_neighbours(chunk, beside), had)
+
+
+def _write_papers_and_keys(folder: ClassFolder, results: Sequence[GeneratedPaper]) -> None:
+    """Papers first, then their keys: who has a key has a paper. Forms with answers stay."""
+    files = {name: data for one in results for name, data in one.files.items()}
+    contents = {
+        name: data
+        for name, data in files.items()
+        if not (name.startswith(FORMS) and has_answers(folder.path / name))
+    }
+    write_all(folder.path, contents, PRIVATE)
+    folder.append(one.line for one in results)
+
+
+def _compute_student_digest(settings: ClassSettings, one: RosterStudent) -> str:
+    """Digest of all that a student's files depend on."""
+    row = [one.id, one.name, one.lang or settings.lang, one.extra, settings.digest]
+    return hashlib.sha256(json.dumps(row).encode()).hexdigest()[:16]
+
+
+def _is_made(folder: ClassFolder, one: RosterStudent, head: PrintedHead | None) -> bool:
+    if head is None or head.stamp != _compute_student_digest(folder.settings, one):
+        return False
+    return all((folder.path / name).exists() for name in _list_student_files(one))
+
+
+def _list_student_files(one: RosterStudent) -> tuple[str, ...]:
+    """The files of a student, as ``render.KINDS``, and the form."""
+    return f"{PAPERS}/{one.file}.pdf", f"{SOLUTIONS}/{one.file}.pdf", f"{FORMS}/{one.file}.toml"
+
+
+def _assign_neighbours(
+    students: Sequence[RosterStudent], heads: Mapping[str, PrintedHead]
+) -> dict[str, tuple[str, ...]]:
+    """To whom each paper gives way: every second one to both sides, a late one to those there."""
+    found = {one: head.beside for one, head in heads.items()}
+    near = seat_neighbours(students)
+    for seat, one in enumerate(students):
+        if one.id not in heads:
+            found[one.id] = tuple(
+                other
+                for other in near[one.id]
+                if (one.id not in heads[other].beside if other in heads else seat % 2)
+            )
+    return found
+
+
+def _select_neighbours(
+    students: Sequence[RosterStudent], beside: Mapping[str, tuple[str, ...]]
+) -> dict[str, tuple[str, ...]]:
+    """What of ``beside`` concerns some students."""
+    found: dict[str, tuple[str, ...]] = {}
+    todo = [one.id for one in students]
+    while todo:
+        one = todo.pop()
+        if one not in found:
+            found[one] = beside[one]
+            todo += beside[one]
+    return found
+
+
+def run_generation_job(job: GenerationJob) -> list[GeneratedPaper]:
+    """Make the papers of a job: the same bytes whatever the process."""
+    drawing = _Drawing(job)
+    return [_make_student_files(job, one, drawing) for one in job.students]
+
+
+class _Drawing:
+    """The draws of students, each made once."""
+
+    def __init__(self, job: GenerationJob) -> None:
+        self.job, self.bank = job, open_class_bank(job.settings)
+        self._known: dict[str, list[Variant]] = {}
+
+    def of(self, student: str) -> list[Variant]:
+        """The questions of a student."""
+        if student not in self._known:
+            seed = student_seed(self.job.settings.secret, student)
+            near = [self.of(other) for other in self.job.beside[student]]
+            names = _one_of_each(self.job.settings.templates, seed)
+            self._known[student] = [
+                *draw_variants(self.bank, names, seed, near, colour=self.job.blueprint.colour)
+            ]
+        return self._known[student]
+
+
+def _one_of_each(templates: Sequence[Sequence[str]], seed: str) -> list[str]:
+    return [
+        family[pick_index(f"{seed}/{place}", len(family))] for place, family in enumerate(templates)
+    ]
+
+
+def _make_student_files(
+    job: GenerationJob, one: RosterStudent, drawing: _Drawing
+) -> GeneratedPaper:
+    drawn, beside = drawing.of(one.id), job.beside[one.id]
+    made = _compose_student_paper(job, one, drawing.bank, drawn)
+    paper = _assign_student_code(job.settings, one, made)
+    sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
+    evict_cache(PRETENDED)
+    former = tuple(sorted({*job.former[one.id]} - {paper.code}))
+    head = PrintedHead(
+        one.id,
+        paper.code,
+        made.code,
+        _compute_student_digest(job.settings, one),
+        beside,
+        former=former,
+    )
+    return GeneratedPaper(
+        one.id,
+        dict(zip(_list_student_files(one), [*sheets, write_blank_form(paper)], strict=True)),
+        format_record(head, make_answer_key(paper)),
+        paper.points,
+        paper.minutes,
+        "".join(item.questions[0].tier for item in paper.items),
+        _find_shared_questions(drawn, [drawing.of(other) for other in beside]),
+    )
+
+
+def _compose_student_paper(
+    job: GenerationJob, one: RosterStudent, bank: Bank, drawn: Sequence[Variant]
+) -> Paper:
+    lang = one.lang or job.settings.lang
+    named = PaperCode(job.blueprint.name, CLASS, lang, level=job.blueprint.level)
+    return compose_paper(bank, job.blueprint, drawn, named)
+
+
+def _assign_student_code(settings: ClassSettings, one: RosterStudent, paper: Paper) -> Paper:
+    """A paper with a code that tells nothing of it, for one student."""
+    return msgspec.structs.replace(
+        paper,
+        code=student_code(settings.secret, one.id, paper.digest),
+        seal=form_seal(settings.secret, one.id, paper.digest),
+        holder=PaperHolder(one.id, one.name, one.extra_minutes(paper.minutes)),
+    )
+
+
+def _find_shared_questions(
+    drawn: Sequence[Variant], beside: Sequence[Sequence[Variant]]
+) -> tuple[int, ...]:
+    """Questions that share a number with a neighbour's, because there are too few to choose."""
+    return tuple(
+        number
+        for number, one in enumerate(drawn, 1)
+        if any(shared_content(one, other[number - 1]) for other in beside)
+    )
+
+
+@cache
+def open_class_bank(settings: ClassSettings) -> Bank:
+    """The bank that a class is made from, opened once a process."""
+    return open_banks(settings.banks)

@@ -1,0 +1,216 @@
+"""Every mark that was ever given: ``marks/001.jsonl``, ``002.jsonl``, ... and ``changes.csv``.
+
+The first run writes a line for each student, every later one a line for each student whose marks
+changed. Nothing is ever written over: a student's last line counts, the others are the history.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from collections.abc import Iterable, Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import NamedTuple
+
+import msgspec
+
+from quizgen.classes.grading import GradedClassPart, StudentMarks
+from quizgen.core.decoding import json_decoder
+from quizgen.core.errors import ClassError
+from quizgen.core.files import open_private
+from quizgen.core.untrusted import format_csv
+
+FOLDER, CHANGES = "marks", "changes.csv"
+HEAD = ("run", "when", "student", "part", "item", "answer", "before", "after", "why")
+
+_ENCODE = msgspec.json.Encoder().encode
+_DECODE = json_decoder(StudentMarks).decode
+
+
+class MarkChange(NamedTuple):
+    """A mark that is another one now; None where there was none or nobody has decided."""
+
+    student: str
+    part: str
+    item: str
+    answer: str
+    before: float | None
+    after: float | None
+    why: str
+
+
+class GradingOutcome(NamedTuple):
+    """What a run of marking did."""
+
+    students: int
+    new: int
+    undecided: int
+    changes: list[MarkChange]
+
+
+class GradingHistory:
+    """The marks of a class.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the class.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def runs(self) -> list[Path]:
+        """The files, oldest first."""
+        found = (self.folder / FOLDER).glob("[0-9]*.jsonl")
+        return sorted(found, key=lambda path: int(path.stem))
+
+    def places(self) -> dict[str, tuple[Path, int]]:
+        """Where the last line of each student begins."""
+        found: dict[str, tuple[Path, int]] = {}
+        for path in self.runs():
+            at = 0
+            with path.open("rb") as stream:
+                for line in stream:
+                    found[_read_student(line, path)] = path, at
+                    at += len(line)
+        return found
+
+    def current(self) -> Iterator[StudentMarks]:
+        """The marks of each student, one after the other; none is kept in memory."""
+        places = self.places()
+        with _Lines() as lines:
+            for path, at in places.values():
+                yield _decode_marks(lines.at(path, at), path)
+
+    def marks_of(self, student: str) -> list[tuple[str, StudentMarks]]:
+        """All marks that a student ever had, each with its run."""
+        found = []
+        for path in self.runs():
+            with path.open("rb") as stream:
+                marked = (
+                    _decode_marks(line, path)
+                    for line in stream
+                    if _read_student(line, path) == student
+                )
+                found += [(path.stem, one) for one in marked]
+        return found
+
+    def write(self, marked: Iterable[StudentMarks]) -> GradingOutcome:
+        """Keep what changed, and say what did.
+
+        Parameters
+        ----------
+        marked : iterable of Marks
+            At most one for each student.
+
+        Raises
+        ------
+        ClassError
+            If the history cannot be read.
+        """
+        places, number = self.places(), len(self.runs()) + 1
+        (self.folder / FOLDER).mkdir(mode=0o700, exist_ok=True)
+        final = self.folder / FOLDER / f"{number:03}.jsonl"
+        fresh = final.with_suffix(".part")
+        students = new = undecided = written = 0
+        changes: list[MarkChange] = []
+        with _Lines() as lines, open_private(fresh, anew=True) as stream:
+            for one in marked:
+                students, undecided = students + 1, undecided + one.undecided
+                line = _ENCODE(one) + b"\n"
+                before = places.get(one.student)
+                old = lines.at(*before) if before else b""
+                if old == line:
+                    continue
+                stream.write(line)
+                written += 1
+                new += not before
+                changes += _iter_changed_parts(_decode_marks(old, final), one) if before else []
+        if written:
+            fresh.replace(final)
+            self._append_changes(changes, number)
+        else:
+            fresh.unlink()
+        return GradingOutcome(students, new, undecided, changes)
+
+    def _append_changes(self, changes: list[MarkChange], number: int) -> None:
+        """Add to the list of all differences."""
+        if not changes:
+            return
+        now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
+        path = self.folder / CHANGES
+        rows = [[str(number), now, *map(_format_cell, change)] for change in changes]
+        lines = format_csv(rows if path.exists() else [HEAD, *rows])
+        with open_private(path) as stream:
+            stream.write(lines.encode())
+
+
+class _Lines(contextlib.AbstractContextManager["_Lines"]):
+    """Lines of files that stay open meanwhile."""
+
+    def __init__(self) -> None:
+        self.open = contextlib.ExitStack()
+        self.streams: dict[Path, io.BufferedReader] = {}
+
+    def at(self, path: Path, start: int) -> bytes:
+        """The line that begins somewhere."""
+        if path not in self.streams:
+            self.streams[path] = self.open.enter_context(path.open("rb"))
+        stream = self.streams[path]
+        stream.seek(start)
+        return stream.readline()
+
+    def __exit__(self, *_: object) -> None:
+        self.open.close()
+
+
+class _Who(msgspec.Struct):
+    student: str
+
+
+_WHO = json_decoder(_Who).decode
+
+
+def _read_student(line: bytes, path: Path) -> str:
+    try:
+        return _WHO(line).student
+    except msgspec.DecodeError as error:
+        raise ClassError(f"{path}: {error}") from None
+
+
+def _decode_marks(line: bytes, path: Path) -> StudentMarks:
+    try:
+        return _DECODE(line)
+    except msgspec.DecodeError as error:
+        raise ClassError(f"{path}: {error}") from None
+
+
+def _iter_changed_parts(old: StudentMarks, new: StudentMarks) -> Iterator[MarkChange]:
+    """The parts of a student whose marks are others."""
+    before = {part.id: part for part in old.parts}
+    for part in new.parts:
+        was = before.get(part.id)
+        if was is None or (was.marks, was.points) != (part.marks, part.points):
+            yield MarkChange(
+                new.student,
+                part.id,
+                part.item,
+                part.typed,
+                was.marks if was else None,
+                part.marks,
+                _explain_change(was, part),
+            )
+
+
+def _explain_change(was: GradedClassPart | None, now: GradedClassPart) -> str:
+    if was is not None and was.typed != now.typed:
+        return "another answer came in"
+    return now.by or (f"without {was.by}" if was and was.by else "marked anew")
+
+
+def _format_cell(value: str | float | None) -> str:
+    if isinstance(value, str):
+        return value
+    return "" if value is None else f"{value:g}"

@@ -1,0 +1,390 @@
+"""What a person has to decide, equal and similar answers together, so that one decision does.
+
+Answers are equal when they are the same but for blanks and, in sentences, capitals. Sentences are
+similar, and one decision may settle them, when they differ only by slips in spelling and by words
+that say nothing: never by a number, a negation or an opposite. What is nearest stands next. Nothing
+here gives points: key points that were found are a suggestion.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import lru_cache
+from pathlib import Path
+
+from quizgen.classes.grading import StudentMarks, item_name
+from quizgen.classes.rulings import (
+    DECIDE,
+    SECOND,
+    Ruling,
+    fold_answer,
+    latest_rulings,
+    read_filled_rows,
+)
+from quizgen.core.errors import ClassError, FormulaError
+from quizgen.core.files import PRIVATE, write_all
+from quizgen.core.untrusted import format_csv
+from quizgen.grading.judging.spelling import (
+    allowed_typos,
+    fold_word,
+    is_another_word,
+    typo_distance,
+)
+from quizgen.grading.kinds.text import Spec as Text
+from quizgen.grading.mark import explain_verdict, judge_answer, load_spec
+from quizgen.grading.options import GradingOptions
+from quizgen.maths.numbers import parse_written_number
+from quizgen.paper.answer_key import AnswerKey, KeyPart
+from quizgen.paper.grading import round_to_quarters
+
+FILE = "decisions.csv"
+SIMILAR = 85
+"""Of 100, how alike the letters of two sentences are at least, before their words are compared."""
+MOST_CHAINED = 2000
+"""Groups of one item that are put beside the nearest."""
+COLUMNS = ("item", "together", "answer", "students", "key", "seen", "suggestion", "worth",
+           "points", "second", "comment", "who", "group")  # fmt: skip
+"""``points`` is for the one who marks, ``second`` for a second marker, where there is one."""
+
+_WORD = re.compile(r"[^\s.,;:!?()\"'।/-]+")
+_FILLERS = frozenset(
+    ("a", "an", "the", "is", "are", "was", "were", "it", "its", "this", "that", "and", "so", "also")
+)
+
+
+@dataclass(frozen=True)
+class AnswerGroupMember:
+    """What some students typed alike.
+
+    Parameters
+    ----------
+    group : str
+        Its name, by which rulings know it.
+    item : str
+    typed : str
+        As one of them typed it.
+    student : str
+        The id of that one.
+    part : str
+        Its name on the paper of that one.
+    worth : float
+        The points that can be had.
+    students : int
+        How many.
+    marks : float or None
+        What has been decided.
+    """
+
+    group: str
+    item: str
+    typed: str
+    student: str
+    part: str
+    worth: float
+    students: int = 1
+    marks: float | None = None
+
+
+@dataclass(frozen=True)
+class DecisionCase:
+    """An answer with what helps to decide.
+
+    Parameters
+    ----------
+    answer : Answer
+    key : str
+        The right answer.
+    seen : str
+        Key points that were found, or why it was asked back.
+    suggestion : Fraction or None
+        Points that the key points found would give.
+    sentence : bool
+        Whether sentences are asked for.
+    spots : tuple of (int, int)
+        Where in the answer the key points stand.
+    """
+
+    answer: AnswerGroupMember
+    key: str
+    seen: str
+    suggestion: Fraction | None = None
+    sentence: bool = False
+    spots: tuple[tuple[int, int], ...] = ()
+
+
+def undecided_answers(
+    marked: Iterable[StudentMarks], *, decided: bool = False
+) -> list[AnswerGroupMember]:
+    """The answers of a class that nobody has decided on; those of most students first.
+
+    Parameters
+    ----------
+    marked : iterable of Marks
+    decided : bool
+        Those that somebody has decided on instead, for a second marker.
+    """
+    found: dict[str, AnswerGroupMember] = {}
+    for one in marked:
+        for part in one.parts:
+            if not part.group or part.undecided == decided or not part.points:
+                continue
+            before = found.get(part.group)
+            found[part.group] = (
+                replace(before, students=before.students + 1)
+                if before
+                else AnswerGroupMember(part.group, part.item, part.typed, one.student, part.id,
+                            part.points, 1, part.marks)
+            )  # fmt: skip
+    return sorted(found.values(), key=lambda one: (one.item, -one.students, one.typed))
+
+
+def decision_cases(
+    answers: Iterable[AnswerGroupMember], key_of: Callable[[str], AnswerKey], lang: str
+) -> list[DecisionCase]:
+    """The answers with what helps to decide them.
+
+    Parameters
+    ----------
+    answers : iterable of Answer
+    key_of : callable
+        The key of a student's paper.
+    lang : str
+        Of what is said about them.
+    """
+    asked = list(answers)
+
+    @lru_cache(maxsize=1)
+    def parts(student: str) -> dict[str, KeyPart]:
+        return {
+            item_name(one, part): part for one in key_of(student).questions for part in one.parts
+        }
+
+    by_student = sorted(range(len(asked)), key=lambda at: asked[at].student)
+    found = {at: _build_review_case(asked[at], parts(asked[at].student)[asked[at].item], lang)
+             for at in by_student}  # fmt: skip
+    return [found[at] for at in range(len(asked))]
+
+
+def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> DecisionCase:
+    spec = load_spec(part.ordered_spec(), proven=True)
+    verdict = explain_verdict(spec, judge_answer(spec, answer.typed, GradingOptions(lang)), lang)
+    if not isinstance(spec, Text):
+        return DecisionCase(answer, spec.show_in(lang), verdict.message)
+    found = tuple(map(str, _require_names(verdict.fields.get("found"))))
+    needed = spec.needed or len(spec.groups())
+    suggested = round_to_quarters(
+        Fraction(answer.worth) * min(Fraction(len(found), needed), Fraction(1))
+    )
+    shown = f"{len(found)} / {needed}: {', '.join(found)}" if found else f"0 / {needed}"
+    return DecisionCase(
+        answer, spec.show_in(lang), shown, suggested, sentence=True, spots=spec.spots(answer.typed)
+    )
+
+
+def _require_names(found: object) -> tuple[object, ...]:
+    return found if isinstance(found, tuple) else ()
+
+
+def group_cases(found: Iterable[DecisionCase]) -> list[list[DecisionCase]]:
+    """Cases that can be decided together; what many typed comes first, then what is nearest."""
+    groups: dict[tuple[object, ...], dict[str, list[DecisionCase]]] = {}
+    for case in found:
+        words = _extract_comparable_words(case)
+        about = (case.answer.item, case.key, case.seen if case.sentence else "")
+        leaders = groups.setdefault(about, {})
+        leaders.setdefault(
+            _find_group_leader(words, leaders.keys()) if case.sentence else words, []
+        ).append(case)
+    items: dict[str, list[list[DecisionCase]]] = {}
+    for (item, *_), leaders in groups.items():
+        items.setdefault(str(item), []).extend(leaders.values())
+    return [group for _, own in sorted(items.items()) for group in _order_by_similarity(own)]
+
+
+def _extract_comparable_words(case: DecisionCase) -> str:
+    """What is compared: the words that say something; all of what is no sentence."""
+    text = fold_answer(case.answer.typed, words=case.sentence)
+    if not case.sentence:
+        return text
+    return " ".join(word for word in _WORD.findall(text) if word not in _FILLERS)
+
+
+def _find_group_leader(words: str, leaders: Iterable[str]) -> str:
+    """The first answer of the group that some words belong to; the words if there is none."""
+    from rapidfuzz import fuzz, process
+
+    near = process.extract(words, leaders, scorer=fuzz.ratio, score_cutoff=SIMILAR, limit=5)
+    return next((other for other, *_ in near if _slips_only(words, other)), words)
+
+
+def _slips_only(one: str, other: str) -> bool:
+    """Whether two sentences differ by slips in spelling alone, word by word."""
+    pairs = list(zip(one.split(), other.split(), strict=False))
+    same_length = len(one.split()) == len(other.split())
+    return same_length and all(a == b or _is_misspelling(a, b) for a, b in pairs)
+
+
+def _is_misspelling(one: str, other: str) -> bool:
+    most = min(allowed_typos(fold_word(one)), allowed_typos(fold_word(other)))
+    return typo_distance(fold_word(one), fold_word(other), most) <= most and not is_another_word(
+        one, other, ()
+    )
+
+
+def _order_by_similarity(groups: list[list[DecisionCase]]) -> list[list[DecisionCase]]:
+    """Groups of one item: that of most students first, then always the nearest to the last one."""
+    from rapidfuzz import fuzz, process
+
+    left = sorted(groups, key=lambda group: -_count_students(group))
+    if len(left) > MOST_CHAINED:
+        return left
+    texts = dict(enumerate(_extract_comparable_words(group[0]) for group in left))
+    order = [0]
+    while len(order) < len(left):
+        text = texts.pop(order[-1])
+        order.append(process.extractOne(text, texts, scorer=fuzz.token_sort_ratio)[2])
+    return [left[at] for at in order]
+
+
+def _count_students(group: Iterable[DecisionCase]) -> int:
+    return sum(case.answer.students for case in group)
+
+
+def write_queue(
+    folder: Path, groups: Iterable[list[DecisionCase]], kept: Mapping[str, str]
+) -> Path:
+    """Write what is to be decided, for a spreadsheet.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the class.
+    groups : iterable of list of Case
+    kept : mapping of str to str
+        Comments that stand there already, by group.
+    """
+    rows = (
+        _format_table_row(case, number, kept)
+        for number, group in enumerate(groups, 1)
+        for case in group
+    )
+    text = format_csv([COLUMNS, *rows])
+    return write_all(folder, {FILE: text.encode("utf-8-sig")}, PRIVATE)[0]
+
+
+def _format_table_row(case: DecisionCase, number: int, kept: Mapping[str, str]) -> list[str]:
+    answer = case.answer
+    suggested = "" if case.suggestion is None else f"{float(case.suggestion):g}"
+    return [answer.item, str(number), answer.typed, str(answer.students), case.key, case.seen,
+            suggested, f"{answer.worth:g}", "", "", kept.get(answer.group, ""), "",
+            answer.group]  # fmt: skip
+
+
+def read_queue(folder: Path) -> tuple[list[Ruling], dict[str, str]]:
+    """What was filled in there, as rulings; and comments on what is still open, by group.
+
+    Points in the first row of what stands together hold for its rows that are empty.
+
+    Raises
+    ------
+    ClassError
+        Naming file, line and column.
+    """
+    path = folder / FILE
+    tables = read_filled_rows(path, {"item", "together", "points", "group"})
+    found = [
+        one for column in ("points", "second") for one in _iter_filled_rulings(tables, column, path)
+    ]
+    settled = {one.group for one in found}
+    kept = {c["group"]: c.get("comment", "") for _, c in tables if c["group"] not in settled}
+    return found, kept
+
+
+def _iter_filled_rulings(
+    tables: Iterable[tuple[int, Mapping[str, str]]], column: str, path: Path
+) -> Iterator[Ruling]:
+    """The rulings of one column."""
+    first: dict[str, Mapping[str, str]] = {}
+    for at, cells in tables:
+        said = cells if cells.get(column, "").strip() else first.get(cells["together"], cells)
+        first.setdefault(cells["together"], cells)
+        points = said.get(column, "").strip().replace(",", ".")
+        if not points or points == "-":
+            continue
+        what = DECIDE if column == "points" else SECOND
+        made = Ruling(
+            what,
+            cells["item"],
+            cells.get("answer", ""),
+            points,
+            who=said.get("who", ""),
+            comment=said.get("comment", ""),
+            group=cells["group"],
+        )
+        try:
+            made.check()
+            check_points(made, cells.get("worth", ""))
+        except (ClassError, FormulaError) as error:
+            raise ClassError(f"{path}: line {at}: {column}: {error}") from None
+        yield made
+
+
+def check_points(ruling: Ruling, worth: str) -> None:
+    """Refuse more points than there are.
+
+    Raises
+    ------
+    ClassError
+        If there are more.
+    """
+    points = ruling.points
+    if points is not None and worth and points > parse_written_number(worth):
+        raise ClassError(f"{float(points):g} points of {worth}")
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How far two markers agree.
+
+    Parameters
+    ----------
+    answers : int
+        Groups of answers that both have marked.
+    kappa : float or None
+        Cohen's, unweighted, over points.
+    apart : tuple of (Ruling, Ruling)
+        Where they differ.
+    """
+
+    answers: int
+    kappa: float | None
+    apart: tuple[tuple[Ruling, Ruling], ...]
+
+
+def marker_agreement(rulings: Sequence[Ruling]) -> Agreement:
+    """Compare the first and the second marker, by their last word on each group."""
+    first, second = latest_rulings(rulings, DECIDE), latest_rulings(rulings, SECOND)
+    both = [(one, second[group]) for group, one in first.items() if group in second]
+    said = [(a.points, b.points) for a, b in both]
+    apart = tuple(pair for pair, (a, b) in zip(both, said, strict=True) if a != b)
+    return Agreement(len(both), cohens_kappa(said), apart)
+
+
+def cohens_kappa(pairs: Sequence[tuple[Hashable, Hashable]]) -> float | None:
+    """Cohen's kappa of two markers.
+
+    Parameters
+    ----------
+    pairs : sequence
+        What each of them said of one answer.
+    """
+    if not pairs:
+        return None
+    agreed = sum(a == b for a, b in pairs) / len(pairs)
+    one, other = Counter(a for a, _ in pairs), Counter(b for _, b in pairs)
+    by_chance = sum(count * other[said] for said, count in one.items()) / len(pairs) ** 2
+    return None if by_chance == 1 else (agreed - by_chance) / (1 - by_chance)

@@ -1,0 +1,334 @@
+"""What a student gets back: answers, marks, mistakes by name, what to revise; HTML and PDF."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+import jinja2
+from markupsafe import Markup
+
+from quizgen.classes.gradebook import GradedStudent
+from quizgen.classes.grading import DROPPED, GradedClassPart, StudentMarks, item_name
+from quizgen.core.untrusted import escape_control_characters
+from quizgen.figures.inks import write_theme_css
+from quizgen.grading.mark import show_key
+from quizgen.grading.options import GradingOptions
+from quizgen.locale import (
+    FIRST,
+    fallback_language,
+    format_amount,
+    language_css,
+    load_words,
+    localise_numbers,
+)
+from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
+from quizgen.paper.grading import QuestionGrader
+from quizgen.render.fonts import bangla_faces
+from quizgen.render.layouts import jinja_environment
+from quizgen.render.typst_document import (
+    compile_pdf,
+    document_files,
+    replace_unprintable,
+    typst_literal,
+)
+
+MOST_TO_REVISE = 5
+NOT_TYPED = frozenset({"text", "sketch"})
+"""Kinds whose key nobody types."""
+PACKAGE = "quizgen.classes"
+
+
+@dataclass(frozen=True)
+class ReportPart:
+    """One part: what was typed, what is right, what it got, and why.
+
+    Parameters
+    ----------
+    label, typed, right : str
+    marks : str
+        As they are printed; a dash while nobody has decided.
+    message : str
+        What the checker says of the answer.
+    said : str
+        What people decided of it.
+    """
+
+    label: str
+    typed: str
+    right: str
+    marks: str
+    message: str
+    said: str
+
+
+@dataclass(frozen=True)
+class ReportQuestion:
+    """One question."""
+
+    number: str
+    title: str
+    marks: float
+    points: float
+    undecided: float
+    rows: tuple[ReportPart, ...]
+    topic: str
+    lang: str
+
+    @property
+    def name(self) -> str:
+        """Number and title."""
+        return f"{self.number}. {self.title}"
+
+    @property
+    def worth(self) -> str:
+        """Points that were reached, of those that could be."""
+        return localise_numbers(self.lang, f"{self.marks:g} / {self.points:g}")
+
+    @property
+    def practise(self) -> str:
+        """The command that asks more of the same."""
+        own = "" if self.lang == FIRST else f" --lang {self.lang}"
+        return f"quizgen practice --topic {self.topic}{own}"
+
+    def told(self, words: Mapping[str, str]) -> str:
+        """How much was lost."""
+        return words["lost"].format(
+            lost=format_amount(self.lost, self.lang), points=format_amount(self.points, self.lang)
+        )
+
+    @property
+    def lost(self) -> float:
+        """Points that were not reached."""
+        return self.points - self.marks - self.undecided
+
+
+@dataclass(frozen=True)
+class StudentReport:
+    """All of it, in the student's language.
+
+    Parameters
+    ----------
+    who : str
+        Name and id; empty where the code alone says whose it is.
+    """
+
+    lang: str
+    title: str
+    who: str
+    code: str
+    grade: str
+    marks: StudentMarks
+    sections: tuple[ReportQuestion, ...]
+
+    @property
+    def words(self) -> Mapping[str, str]:
+        """The sentences around."""
+        found: dict[str, str] = load_words(self.lang, "classes")["report"]
+        return found
+
+    @property
+    def head(self) -> str:
+        """What it is a report of."""
+        return f"{self.words['title']} - {self.title}"
+
+    @property
+    def total(self) -> str:
+        """Points that were reached, of those that could be."""
+        marks, points = (
+            format_amount(one, self.lang) for one in (self.marks.marks, self.marks.points)
+        )
+        return self.words["total"].format(marks=marks, points=points)
+
+    @property
+    def revise(self) -> list[ReportQuestion]:
+        """Where points were lost; most first."""
+        lost = [section for section in self.sections if section.lost > 0]
+        return sorted(lost, key=lambda section: -section.lost)[:MOST_TO_REVISE]
+
+    @property
+    def nothing(self) -> str:
+        """That all points were reached; empty while that is still to be decided."""
+        return "" if self.marks.undecided else self.words["nothing"]
+
+    @property
+    def provisional(self) -> str:
+        """That something is still to be decided; empty if nothing is."""
+        count = self.marks.undecided
+        name = "provisional_one" if count == 1 else "provisional"
+        return self.words[name].format(count=count) if count else ""
+
+
+def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False) -> StudentReport:
+    """What a student is told.
+
+    Parameters
+    ----------
+    line : Graded
+        Somebody whose answers came back.
+    key : Key
+        Of the student's paper.
+    anonymous : bool
+        Leave name and id out.
+    """
+    assert line.marks is not None  # noqa: S101 - see above
+    marks = line.marks
+    lang = fallback_language(marks.lang)
+    who = "" if anonymous else ", ".join(filter(None, (line.student.name, line.student.id)))
+    sections = tuple(_build_section(question, marks) for question in key.questions)
+    title = key.title.get(lang) or next(iter(key.title.values()), "")
+    return StudentReport(
+        lang, title, escape_control_characters(who, ""), line.code, line.grade, marks, sections
+    )
+
+
+def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion:
+    given = {part.id: part for part in marks.parts}
+    mine = [given[part.id] for part in question.parts if part.id in given]
+    rows = tuple(_iter_report_rows(question, marks))
+    title = question.title.get(marks.lang) or next(iter(question.title.values()), "")
+    return ReportQuestion(
+        question.number,
+        title,
+        sum(part.marks or 0.0 for part in mine),
+        sum(part.points for part in mine),
+        sum(part.points for part in mine if part.undecided),
+        rows,
+        question.topic,
+        fallback_language(marks.lang),
+    )
+
+
+def _iter_report_rows(question: KeyQuestion, marks: StudentMarks) -> Iterator[ReportPart]:
+    """The parts, each said of in the student's language what the checker says of it."""
+    words = load_words(fallback_language(marks.lang), "classes")["report"]
+    marker = QuestionGrader(question, GradingOptions(fallback_language(marks.lang), marks.decimal))
+    given = {part.item: part for part in marks.parts}
+    for part in question.parts:
+        found = given.get(item_name(question, part))
+        if found is None:
+            continue
+        again = marker.grade_part(part, found.typed)
+        message = "" if again.is_blank or found.marks == found.points else again.verdict.message
+        yield ReportPart(
+            part.id.removeprefix(question.number),
+            _format_typed_answer(found.typed, part.spec["kind"], words),
+            _format_right_answer(part, fallback_language(marks.lang)),
+            _format_points(found, fallback_language(marks.lang)),
+            message,
+            _format_remark(found, words),
+        )
+
+
+def _format_right_answer(part: KeyPart, lang: str) -> str:
+    """The key as a person writes it; a program's output stays as it is printed."""
+    kind = part.spec["kind"]
+    if kind in NOT_TYPED:
+        return str(load_words(lang, "classes")["report"]["solution"])
+    right = show_key(part.ordered_spec(), lang)
+    return right if kind == "code" else localise_numbers(lang, right)
+
+
+def _format_typed_answer(typed: str, kind: str, words: Mapping[str, str]) -> str:
+    """An answer as it stands in a cell."""
+    if not typed.strip():
+        return words["blank"]
+    return words["drawn"] if kind == "sketch" else escape_control_characters(typed, "")
+
+
+def _format_points(part: GradedClassPart, lang: str) -> str:
+    words = load_words(lang, "classes")["report"]
+    if part.status == DROPPED:
+        return str(words["dropped"])
+    if part.marks is None:
+        return str(words["undecided"])
+    return localise_numbers(lang, f"{part.marks:g} / {part.points:g}")
+
+
+def _format_remark(part: GradedClassPart, words: Mapping[str, str]) -> str:
+    """That a person decided, and the remark that goes with it."""
+    if not part.by or part.status == DROPPED:
+        return ""
+    remark = escape_control_characters(part.remark, "")
+    return f"{words['remark']}: {remark}" if remark else words["decided"]
+
+
+def report_to_html(report: StudentReport) -> bytes:
+    """A report as one self-contained page."""
+    made = (
+        report_environment()
+        .get_template("report.html.j2")
+        .render(
+            report=report,
+            words=report.words,
+            style=Markup(language_css(":lang({})")) + report_css(),
+            bangla_fonts=bangla_faces([report.lang], str(report)),
+        )
+    )
+    return made.encode()
+
+
+@cache
+def report_environment() -> jinja2.Environment:
+    """The layouts of pages of a class."""
+    return jinja_environment(PACKAGE, "quizgen.render")
+
+
+@cache
+def report_css() -> Markup:
+    """How they look."""
+    page = (files(PACKAGE) / "pages" / "report.css").read_text(encoding="utf-8")
+    return Markup(write_theme_css() + page)
+
+
+def report_to_pdf(report: StudentReport) -> bytes:
+    """A report as a tagged PDF.
+
+    Raises
+    ------
+    RenderError
+        If it cannot be typeset.
+    """
+    words = report.words
+    head = (
+        f"#show: report.with(title: {typst_literal(report.head)}, lang: {typst_literal(report.lang)}, "
+        f"who: {_typeset_text(report.who)}, code: {typst_literal(words['code'] + ': ' + report.code)}, "
+        f"grade: {typst_literal(words['grade'] + ': ' + report.grade)}, total: {typst_literal(report.total)}, "
+        f"provisional: {typst_literal(report.provisional)})"
+    )
+    heads = ", ".join(typst_literal(words[name]) for name in ("part", "yours", "right", "points"))
+    body = "\n".join(_typeset_question(section, heads) for section in report.sections)
+    return compile_pdf(
+        document_files("report.typ", f"{head}\n{_typeset_revision_list(report)}\n{body}\n", PACKAGE)
+    )
+
+
+def _typeset_revision_list(report: StudentReport) -> str:
+    words = report.words
+    if not report.revise:
+        return f"#block({typst_literal(report.nothing)})" if report.nothing else ""
+    rows = ", ".join(
+        f"({typst_literal(one.name)}, {typst_literal(one.told(words))}, {typst_literal(one.practise)})"
+        for one in report.revise
+    )
+    sentences = (words["revise"], words["revise_about"], words["practise"])
+    return f"#revise({', '.join(map(typst_literal, sentences))}, ({rows},))"
+
+
+def _typeset_question(section: ReportQuestion, heads: str) -> str:
+    rows = "".join(_typeset_row(row) for row in section.rows)
+    return f"#answered({typst_literal(section.name)}, {typst_literal(section.worth)}, ({heads}), ({rows}))"
+
+
+def _typeset_row(row: ReportPart) -> str:
+    """A row of the table: four cells, and what is said below them."""
+    cells = ", ".join(map(_typeset_text, (row.label, row.typed, row.right, row.marks)))
+    below = "".join(f"{_typeset_text(text)}, " for text in (row.message, row.said) if text)
+    return f"({cells}, ({below})), "
+
+
+def _typeset_text(text: str) -> str:
+    """What somebody may have written, with what no font has as ``?``."""
+    return typst_literal(replace_unprintable(text))

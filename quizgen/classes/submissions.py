@@ -1,0 +1,249 @@
+"""What came back: forms (TOML, JSON, CSV), and tables with a row for each student or each answer.
+
+A file or a row that cannot be read, is of another paper, or contradicts itself becomes a problem
+with its place and reason; it never stops the others, and nothing of it is marked.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+
+from quizgen.classes.class_folder import ANSWERS
+from quizgen.classes.grading import Submission
+from quizgen.classes.key_index import KeyIndex
+from quizgen.classes.roster import clean_cell
+from quizgen.core.errors import KeyFileError, QuizgenError
+from quizgen.core.files import PRIVATE, write_all
+from quizgen.core.untrusted import (
+    LARGEST_PICTURE,
+    detect_encoding,
+    escape_control_characters,
+    iter_csv_rows,
+    read_bytes,
+    unescape_csv_formula,
+)
+from quizgen.grading.echo import safe_echo
+from quizgen.grading.options import DECIMALS
+from quizgen.locale import list_languages
+from quizgen.paper.answer_form import read_filled_form
+
+FORMS = (".toml", ".json", ".csv")
+ABOUT = ("id", "name", "lang", "decimal", "minutes", "code")
+"""Columns of a table that are no answers."""
+
+
+def store_submissions(folder: Path, paths: Iterable[Path]) -> list[str]:
+    """Copy what came back into the folder of a class, never over what is there; say what failed."""
+    problems = []
+    for path in paths:
+        try:
+            data = read_bytes(path, KeyFileError, LARGEST_PICTURE)
+        except KeyFileError as error:
+            problems.append(str(error))
+            continue
+        name = _find_free_name(folder / ANSWERS, path, data)
+        if name:
+            write_all(folder / ANSWERS, {name: data}, PRIVATE)
+    return problems
+
+
+def _find_free_name(folder: Path, path: Path, data: bytes) -> str:
+    """A name that is free; empty if the same stands there already."""
+    name, number = path.name, 1
+    while (folder / name).exists():
+        if (folder / name).read_bytes() == data:
+            return ""
+        number += 1
+        name = f"{path.stem}-{number}{path.suffix}"
+    return name
+
+
+class Submissions:
+    """What came back of a class, sheet by sheet; problems are listed as they are met.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the class.
+    keys : Keys
+    """
+
+    def __init__(self, folder: Path, keys: KeyIndex) -> None:
+        self.folder, self.keys = folder / ANSWERS, keys
+        self.problems: list[str] = []
+        self._seen: dict[str, tuple[bytes, str]] = {}
+        self._codes = {code: head.id for head, _ in keys.places.values() for code in head.codes}
+        self._ids = {one.casefold(): one for one in keys.places}
+
+    def __iter__(self) -> Iterator[Submission]:
+        for path in sorted(self.folder.rglob("*"), key=lambda one: (one.stem, one.suffix)):
+            if path.is_dir() or path.name.startswith("."):
+                continue
+            for sheet in self._iter_sheets(path):
+                if self._is_first_submission(sheet):
+                    yield sheet
+
+    def _iter_sheets(self, path: Path) -> Iterator[Submission]:
+        """What a file holds."""
+        if path.suffix.lower() not in FORMS:
+            self._add_problem(path, f"no form ({', '.join(FORMS)})")
+            return
+        try:
+            table = _Table.found(path)
+            if table is None:
+                yield self._read_form_sheet(path)
+            else:
+                yield from self._iter_table_sheets(table)
+        except QuizgenError as error:
+            self._add_problem(path, str(error).removeprefix(f"{path}: "))
+        except (UnicodeError, OSError) as error:
+            self._add_problem(path, str(error))
+
+    def _read_form_sheet(self, path: Path) -> Submission:
+        form = read_filled_form(path)
+        about = form.student
+        student = self._identify_student(form.code, str(about.matriculation))
+        paper = self.keys.key(student).paper
+        former = form.code.strip().upper() in self.keys.places[student][0].former
+        if form.paper and form.paper != paper and not former:
+            raise KeyFileError(f"is for other questions than the paper of {safe_echo(student)}")
+        return Submission(student, form.typed(), about.lang, about.decimal, path.name)
+
+    def _identify_student(self, code: str, student: str) -> str:
+        """Whose answers they are: by the code, else by the id, which must agree."""
+        student = unescape_csv_formula(clean_cell(student))
+        owner = self._codes.get(code.strip().upper(), "")
+        if code and not owner:
+            raise KeyFileError(f"code {safe_echo(code)} is of no paper of this class")
+        if owner and student and _simplify_student_id(student) != _simplify_student_id(owner):
+            raise KeyFileError(
+                f"has the code of {safe_echo(owner)}'s paper, but the number of {safe_echo(student)}"
+            )
+        return owner or self._resolve_student_id(student)
+
+    def _resolve_student_id(self, student: str) -> str:
+        """Who has an id, which capitals do not change."""
+        if student in self.keys.places:
+            return student
+        found = self._ids.get(student.casefold())
+        if found is None:
+            near = [
+                one
+                for one in self.keys.places
+                if _simplify_student_id(one) == _simplify_student_id(student)
+            ]
+            hint = f" ({safe_echo(near[0])} has it but for zeros in front)" if near else ""
+            raise KeyFileError(f"nobody of this class has the number {safe_echo(student)!r}{hint}")
+        return found
+
+    def _iter_table_sheets(self, table: _Table) -> Iterator[Submission]:
+        """The students of a table; a row that is wrong is left out."""
+        for line, cells, answers in table.students():
+            try:
+                student = self._identify_student(cells.get("code", ""), cells.get("id", ""))
+                yield Submission(
+                    student,
+                    answers,
+                    *_read_language_and_decimal(cells),
+                    table.path.name,
+                    _parse_minutes(cells),
+                )
+            except KeyFileError as error:
+                self._add_problem(table.path, f"line {line}: {error}")
+
+    def _is_first_submission(self, sheet: Submission) -> bool:
+        """Whether nothing else came from this student."""
+        answers = sorted((part, text) for part, text in sheet.answers.items() if text.strip())
+        digest = hashlib.sha256(repr(answers).encode()).digest()[:8]
+        before = self._seen.get(sheet.student)
+        if before is None:
+            self._seen[sheet.student] = digest, sheet.file
+            return True
+        if before[0] != digest:
+            self.problems.append(
+                f"{safe_echo(sheet.student)} handed in twice, {safe_echo(before[1])} and "
+                f"{safe_echo(sheet.file)}: the first counts; remove the one that shall not"
+            )
+        return False
+
+    def _add_problem(self, path: Path, reason: str) -> None:
+        self.problems.append(escape_control_characters(f"{path.name}: {reason}", ""))
+
+
+def _simplify_student_id(student: str) -> str:
+    """An id as it is left by who thinks little of capitals and of zeros in front."""
+    return student.casefold().lstrip("0")
+
+
+def _read_language_and_decimal(cells: Mapping[str, str]) -> tuple[str, str]:
+    """Language and decimal sign, where they are named rightly."""
+    lang, decimal = cells.get("lang", "").strip(), cells.get("decimal", "").strip()
+    return lang if lang in list_languages() else "", decimal if decimal in DECIMALS else DECIMALS[0]
+
+
+def _parse_minutes(cells: Mapping[str, str]) -> float | None:
+    text = cells.get("minutes", "").strip().replace(",", ".")
+    return float(text) if text.replace(".", "", 1).isdecimal() and text.isascii() else None
+
+
+class _Table:
+    """A CSV file with a row for each student, or for each answer; read as it goes.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    encoding : str
+    head : list of str
+    """
+
+    def __init__(self, path: Path, encoding: str, head: list[str]) -> None:
+        self.path, self.encoding, self.head = path, encoding, head
+
+    @classmethod
+    def found(cls, path: Path) -> _Table | None:
+        """The table in a file; None if it is no table of students."""
+        if path.suffix.lower() != ".csv":
+            return None
+        with path.open("rb") as stream:
+            encoding = detect_encoding(stream.read(2))
+        with path.open(encoding=encoding, newline="") as text:
+            _, cells = next(iter_csv_rows(text, path, KeyFileError), (0, []))
+        head = [cell.strip() for cell in cells]
+        known = [
+            cell.lower() if cell.lower() in (*ABOUT, "part", "answer") else cell for cell in head
+        ]
+        if not {"id", "code"} & {*known}:
+            return None
+        return cls(path, encoding, known)
+
+    def students(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
+        """Line, what is said of the student, and the answers by part."""
+        long = {"part", "answer"} <= {*self.head}
+        yield from self._iter_long_rows() if long else self._iter_wide_rows()
+
+    def _iter_cells(self) -> Iterator[tuple[int, dict[str, str]]]:
+        with self.path.open(encoding=self.encoding, newline="") as stream:
+            rows = iter_csv_rows(stream, self.path, KeyFileError)
+            next(rows)
+            for line, row in rows:
+                if len(row) > len(self.head):
+                    raise KeyFileError(f"line {line}: more cells than columns")
+                yield line, dict(zip(self.head, row, strict=False))
+
+    def _iter_wide_rows(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
+        for line, cells in self._iter_cells():
+            answers = {name: text for name, text in cells.items() if name not in ABOUT}
+            yield line, cells, answers
+
+    def _iter_long_rows(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
+        """Rows of one student may stand anywhere."""
+        found: dict[tuple[str, str], tuple[int, dict[str, str], dict[str, str]]] = {}
+        for line, cells in self._iter_cells():
+            who = cells.get("id", ""), cells.get("code", "")
+            _, _, answers = found.setdefault(who, (line, cells, {}))
+            if cells["part"].strip() in answers:
+                raise KeyFileError(f"line {line}: {safe_echo(cells['part'])} stands there twice")
+            answers[cells["part"].strip()] = cells.get("answer", "")
+        yield from found.values()

@@ -1,0 +1,187 @@
+"""``quizgen class mark``, ``rule``, ``history``, ``grade`` and ``analyse``."""
+
+from __future__ import annotations
+
+import getpass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from quizgen.cli.options import MOST_JOBS, IntRangeParam, LanguageParam, match_choice, split_names
+from quizgen.cli.terminal import many, one_line, tell
+from quizgen.locale import FIRST
+
+if TYPE_CHECKING:
+    from quizgen.classes.grading import GradedClassPart
+    from quizgen.classes.grading_history import MarkChange
+    from quizgen.classes.grading_run import GradingRun
+
+SHOWN = 20
+"""Lines of a list that the terminal shows; the files have all."""
+REPORTS = ("html", "pdf")
+
+_folder = click.argument("folder", type=click.Path(path_type=Path))
+
+
+@click.command()
+@_folder
+@click.argument("files", type=click.Path(path_type=Path), nargs=-1)
+@click.option("--jobs", type=IntRangeParam(1, MOST_JOBS), default=1, help="Processes. [default: 1]")
+@click.option("--scheduler", default="", help="Dask scheduler that marks: tcp://HOST:8786.")
+def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> None:
+    """Mark what came back to the class in FOLDER: its folder answers, and FILES, copied there.
+
+    Takes what was filled in decisions.csv and rulings.csv into account, says whose marks change,
+    and writes what is still to be decided into decisions.csv.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.grading_run import grade_class
+    from quizgen.classes.submissions import store_submissions
+    from quizgen.executors import workers
+
+    found = ClassFolder(folder)
+    found.settings  # noqa: B018 - no answers are copied into a folder that is none of a class
+    lost = store_submissions(folder, files)
+    with workers(jobs, scheduler) as (executor, ahead):
+        run = grade_class(found, executor, ahead)
+    _report_run(folder, run, lost)
+
+
+def _report_run(folder: Path, run: GradingRun, lost: list[str]) -> None:
+    """What was marked, what was not, whose marks changed, what is to be decided."""
+    outcome = run.outcome
+    tell(f"{folder}: {many(outcome.students, 'student')} marked, {outcome.new} for the first time")
+    problems = [*lost, *run.problems]
+    _print_list(f"{len(problems)} not marked", problems)
+    if run.decided:
+        tell(f"{many(run.decided, 'decision')} taken from decisions.csv")
+    changes = [_format_change(one) for one in outcome.changes]
+    _print_list(f"{many(len(changes), 'mark')} changed", changes)
+    if run.groups:
+        tell(f"To be decided: {many(outcome.undecided, 'answer')} in {many(run.groups, 'group')}. "
+             f"Fill in points in {folder}/decisions.csv and mark again, "
+             f"or: quizgen serve --class {folder}")  # fmt: skip
+    else:
+        tell(f"Nothing is to be decided. Next: quizgen class grade {folder}")
+
+
+def _print_list(head: str, lines: list[str]) -> None:
+    if not lines:
+        return
+    tell(f"{head}:")
+    for line in lines[:SHOWN]:
+        tell(one_line(line))
+    if len(lines) > SHOWN:
+        tell(f"... and {len(lines) - SHOWN} more")
+
+
+def _format_change(change: MarkChange) -> str:
+    before, after = (("–" if m is None else f"{m:g}") for m in (change.before, change.after))
+    return f"{change.student} {change.part} ({change.item}): {before} -> {after}, {change.why}"
+
+
+@click.command()
+@_folder
+@click.argument("what")
+@click.argument("item")
+@click.option("--answer", default="", help="The answer it is about, or trap:NAME.")
+@click.option("--value", default="", help="Points, or a tolerance: rel=0.05.")
+@click.option("--student", default="", help="Id of the one whom it is about. [default: all]")
+@click.option("--who", default="", help="Who says so. [default: the name of the account]")
+@click.option("--comment", default="", help="Why; students read it.")
+def rule(folder: Path, what: str, item: str, **said: str) -> None:
+    """Add a line to rulings.csv of the class in FOLDER: drop, give, accept, tolerance, restore.
+
+    ITEM is the name of a template and the letter of its part, as in decisions.csv. Marks change
+    with the next quizgen class mark.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.key_index import KeyIndex
+    from quizgen.classes.rulings import Ruling, append_rulings
+
+    known = KeyIndex(ClassFolder(folder)).items()
+    if item not in known:
+        raise click.UsageError(f"no part {item!r} (there are {', '.join(sorted(known))})")
+    said["who"] = said["who"] or getpass.getuser()
+    append_rulings(folder, [Ruling(what, item, **said)])
+    tell(f"{folder}/rulings.csv: {what} {item}. Next: quizgen class mark {folder}")
+
+
+@click.command()
+@_folder
+@click.argument("student")
+def history(folder: Path, student: str) -> None:
+    """Show all marks that STUDENT ever had in the class in FOLDER, and who gave them."""
+    from quizgen.classes.grading_history import GradingHistory
+
+    before: dict[str, GradedClassPart] = {}
+    for run, marks in GradingHistory(folder).marks_of(student):
+        tell(f"Run {run}: {marks.marks:g} of {marks.points:g} points, from {one_line(marks.file)}")
+        for part in marks.parts:
+            if part.id not in before or before[part.id] != part:
+                tell(f"{part.id} ({part.item}): {_format_part_mark(part)}")
+            before[part.id] = part
+    if not before:
+        tell(f"{one_line(student)}: nothing has been marked")
+
+
+def _format_part_mark(part: GradedClassPart) -> str:
+    """A mark with the answer, what was said of it, and by whom."""
+    marks = "–" if part.marks is None else f"{part.marks:g}"
+    told = [
+        f"{marks} / {part.points:g}",
+        part.status,
+        part.note,
+        part.by,
+        one_line(part.typed)[:60],
+    ]
+    return ", ".join(filter(None, told))
+
+
+@click.command()
+@_folder
+@click.option("--reports", default="html", help="Reports for students: html, pdf, or none.")
+@click.option("--anonymous", is_flag=True, help="Reports bear the code instead of the name.")
+def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
+    """Write grades, and a report for each student, into results of the class in FOLDER.
+
+    grades.csv and grades.xlsx are for the office, posted.csv has codes and grades without names.
+    Grades follow scale.toml, else the usual German scale.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.results import write_grades_and_reports as write
+
+    wished = [
+        match_choice("reports", name, REPORTS) for name in split_names(reports) if name != "none"
+    ]
+    lines, left, files = write(ClassFolder(folder), wished, anonymous=anonymous)
+    there = [one for one in lines if one.marks]
+    passed = sum(one.passed for one in there)
+    tell(f"{len(there)} of {many(len(lines), 'student')} handed in, {passed} passed")
+    for student in left:
+        tell(f"{one_line(student)} handed in, but is not on the roster: no grade")
+    open_still = sum(one.marks.undecided for one in there if one.marks)
+    if open_still:
+        tell(f"Provisional: {many(open_still, 'answer')} still to be decided")
+    for path in files:
+        tell(str(path))
+
+
+@click.command()
+@_folder
+@click.option("--lang", type=LanguageParam(), default=FIRST, help="Of the page.")
+def analyse(folder: Path, lang: str) -> None:
+    """Write the item analysis of the class in FOLDER: results/analysis.html."""
+    from quizgen.classes.analysis_page import write_analysis_page as write
+    from quizgen.classes.class_folder import ClassFolder
+
+    found, path = write(ClassFolder(folder), lang)
+    tell(f"{many(found.students, 'student')}, {many(len(found.items), 'item')}")
+    if found.alpha is not None and found.interval is not None:
+        low, high = found.interval
+        tell(f"Cronbach's alpha {found.alpha:.2f} (95 % {low:.2f} to {high:.2f})")
+    tell(str(path))
+
+
+COMMANDS = (mark, rule, history, grade, analyse)

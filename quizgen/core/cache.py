@@ -1,0 +1,112 @@
+"""What was worked out once and is kept: in a wheel from when it was built, else in a cache.
+
+A thing is kept under the digest of all that it follows from, so it never goes stale and needs no
+date. What is damaged is worked out anew without a word, as if it had never been kept; so is
+everything where the cache may have been written by somebody else, or cannot be written.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import secrets
+import stat
+import time
+from functools import cache
+from pathlib import Path
+
+SHIPPED = Path(__file__).parent / "builtin" / "kept"
+"""What the wheel brings."""
+LARGEST = 1_000_000
+"""Bytes of the largest thing that is kept."""
+OLD = 90 * 86400.0
+"""Seconds after which a thing is swept away: it may be what nothing leads to any more."""
+_SUM = 64
+
+
+def compute_digest(*parts: bytes) -> str:
+    """Digest of parts, of which none can be taken for two or for part of another."""
+    total = hashlib.sha256()
+    for part in parts:
+        total.update(len(part).to_bytes(8, "big"))
+        total.update(part)
+    return total.hexdigest()
+
+
+def read_cached(kind: str, key: str) -> bytes | None:
+    """What is kept, or None.
+
+    Parameters
+    ----------
+    kind : str
+        What sort of thing it is: a folder of the cache.
+    key : str
+        Digest of all that it follows from.
+    """
+    found = _read_entry(SHIPPED, kind, key)
+    if found is None and (home := user_cache_folder()) is not None:
+        found = _read_entry(home, kind, key)
+    return found
+
+
+def _read_entry(folder: Path, kind: str, key: str) -> bytes | None:
+    with contextlib.suppress(OSError), (folder / kind / key).open("rb") as stream:
+        found = stream.read(LARGEST + _SUM + 1)
+        if found[:_SUM] == _compute_checksum(kind, key, found[_SUM:]):
+            return found[_SUM:]
+    return None
+
+
+def write_cached(kind: str, key: str, data: bytes) -> None:
+    """Keep a thing in the user's cache, if that can be: whole or not at all."""
+    home = user_cache_folder()
+    if home is None or len(data) > LARGEST:
+        return
+    with contextlib.suppress(OSError):
+        write_entry(home, kind, key, data)
+        remove_stale(home / kind)
+
+
+def write_entry(home: Path, kind: str, key: str, data: bytes) -> None:
+    """Write a thing as ``find`` reads it."""
+    folder = home / kind
+    folder.mkdir(parents=True, exist_ok=True)
+    part = folder / f".{key}.{os.getpid()}-{secrets.token_hex(4)}.part"
+    try:
+        part.write_bytes(_compute_checksum(kind, key, data) + data)
+        part.replace(folder / key)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def _compute_checksum(kind: str, key: str, data: bytes) -> bytes:
+    """A damaged thing has another one, and so has one that was meant for another place."""
+    return compute_digest(kind.encode(), key.encode(), data).encode()
+
+
+@cache
+def user_cache_folder() -> Path | None:
+    """The user's cache; None where there is none, or others may write there."""
+    from platformdirs import user_cache_path
+
+    with contextlib.suppress(OSError, RuntimeError):
+        folder = user_cache_path("quizgen")
+        if folder.is_absolute():
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            return folder if _is_own(folder.stat()) else None
+    return None
+
+
+def _is_own(folder: os.stat_result) -> bool:
+    if not hasattr(os, "getuid"):
+        return True
+    return folder.st_uid == os.getuid() and not folder.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+
+
+@cache
+def remove_stale(folder: Path) -> None:
+    """Remove what is old, once."""
+    for path in folder.iterdir():
+        if time.time() - path.stat().st_mtime > OLD:
+            path.unlink(missing_ok=True)

@@ -1,0 +1,409 @@
+"""Reading what comes from outside - banks, papers, forms, scenes - and believing none of it.
+
+A file is read only if it is a regular one (a pipe or a device would hang or never end) and not
+larger than expected; a table only if it is not too deep, too long, or made of numbers that nobody
+means. Whoever reads says which error is raised, so that it names the file in the reader's own kind.
+"""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+import json
+import os
+import re
+import stat
+import tomllib
+import unicodedata
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from itertools import chain, islice
+from pathlib import Path
+from typing import TypeAlias
+
+from quizgen.core.errors import QuizgenError
+
+ErrorType: TypeAlias = type[QuizgenError]
+"""The kind of error that a reader raises."""
+
+LARGEST_FILE = 20_000_000
+"""Bytes of the largest text that is read."""
+LARGEST_PICTURE = 100_000_000
+"""Bytes of the largest picture that is read."""
+DEEPEST = 30
+"""Tables and lists within each other."""
+MOST_VALUES = 500_000
+"""Values of one file."""
+MOST_DIGITS = 400
+"""Digits of one whole number."""
+LONGEST_NAME = 100
+
+_STRING = re.compile(r'"(?:[^"\\]|\\.)*+(?:"|\\?\Z)', re.DOTALL)
+"""A text in JSON, up to its quotation mark or the end of all."""
+_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+"""What a text in UTF-16 begins with, as some editors and shells of Windows write it."""
+_SEPARATORS = ",;\t"
+_NAME = re.compile(rf"(?!\.+$)[A-Za-z0-9_.-]{{1,{LONGEST_NAME}}}")
+_TOO_LARGE = 10**MOST_DIGITS
+_STARTS_FORMULA = frozenset({"=", "+", "-", "@", "\u2212", "\t"})
+_JOINERS = frozenset("\u200c\u200d")
+"""Bangla needs them."""
+CONTROLS = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+"""What steers terminals and stands in no text; tabs and ends of lines do."""
+_BREAKS = frozenset({"Zl", "Zp"})
+"""Separators of lines and paragraphs: readers of JSON Lines would cut there."""
+NAMES = "letters A-Z, digits, '_', '.' and '-'"
+"""What a name may consist of, for messages."""
+
+
+def is_identifier(text: str) -> bool:
+    """Whether a text can name a template, a topic, a figure or a solver, in any output."""
+    return _NAME.fullmatch(text) is not None
+
+
+def require_identifier(text: str, what: str, error: ErrorType) -> str:
+    """Return a text that is a name.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, if it is none.
+    """
+    if is_identifier(text):
+        return text
+    raise error(f"{what}: {text[:LONGEST_NAME]!r} is no name (allowed: {NAMES})")
+
+
+@contextmanager
+def error_context(file: Path | None, kind: ErrorType = QuizgenError) -> Iterator[None]:
+    """Have errors about what stands in a file name the file.
+
+    An error that names the file already, or another of its folder, stays as it is.
+
+    Parameters
+    ----------
+    file : pathlib.Path or None
+        None where there is no file.
+    kind : type
+        The errors that are about it.
+    """
+    try:
+        yield
+    except kind as error:
+        if file and not _has_file_name(str(error), file):
+            error.args = (f"{file}: {error}", *error.args[1:])
+        raise
+
+
+def _has_file_name(message: str, file: Path) -> bool:
+    return str(file) in message or f"{file.parent}{os.sep}" in message
+
+
+def escape_csv_formula(cell: str) -> str:
+    """A cell of a table that no spreadsheet runs as a formula.
+
+    Spreadsheets skip blanks, line breaks and invisible marks before the sign, and some read the
+    full-width signs, too.
+    """
+    return f"'{cell}" if _find_visible_character(cell) in _STARTS_FORMULA else cell
+
+
+def unescape_csv_formula(cell: str) -> str:
+    """A cell as it was before it was made inert for spreadsheets."""
+    bare = cell.removeprefix("'")
+    return bare if bare != cell and escape_csv_formula(bare) == cell else cell
+
+
+def _find_visible_character(cell: str) -> str:
+    """The first character that is seen; a control character counts as seen."""
+    hidden = {"Zs", "Zl", "Zp", "Cf"}
+    seen = (c for c in cell if c not in "\n\r\v\f" and unicodedata.category(c) not in hidden)
+    return unicodedata.normalize("NFKC", next(seen, ""))
+
+
+def escape_control_characters(text: str, kept: str = "\n") -> str:
+    """A text with its control characters named, so that it steers no terminal and hides nothing.
+
+    Parameters
+    ----------
+    text : str
+    kept : str
+        Control characters that stay as they are.
+    """
+    if text.isprintable():
+        return text
+    return "".join(
+        _format_character_name(c) if _is_control(c) and c not in kept else c for c in text
+    )
+
+
+def _is_control(character: str) -> bool:
+    kind = unicodedata.category(character)
+    return (kind[0] == "C" or kind in _BREAKS) and character not in _JOINERS
+
+
+def _format_character_name(character: str) -> str:
+    name = unicodedata.name(character, "control character")
+    return f"[U+{ord(character):04X} {name}]"
+
+
+def read_bytes(path: Path, error: ErrorType, most: int = LARGEST_FILE) -> bytes:
+    """Read a regular file.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    error : type
+        What to raise.
+    most : int
+        Bytes.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file.
+    """
+    try:
+        _refuse_special(path.stat(), path, error)
+        number = os.open(
+            path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+        )
+        with os.fdopen(number, "rb") as stream:
+            _refuse_special(os.fstat(number), path, error)
+            data = stream.read(most + 1)
+    except (OSError, ValueError) as found:
+        raise error(f"{path}: {getattr(found, 'strerror', None) or found}") from None
+    if len(data) > most:
+        raise error(f"{path}: larger than {most // 10**6} MB")
+    return data
+
+
+def _refuse_special(found: os.stat_result, path: Path, error: ErrorType) -> None:
+    """Refuse what has no end or no beginning: once before opening, once for what was opened."""
+    if not stat.S_ISREG(found.st_mode):
+        raise error(f"{path}: not a file that can be read (a folder, a pipe or a device)")
+
+
+def read_text(path: Path, error: ErrorType, most: int = LARGEST_FILE) -> str:
+    """Read a regular file of text, UTF-8 unless it says it is UTF-16, with any line ends.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file.
+    """
+    return decode_text(read_bytes(path, error, most), path, error)
+
+
+def decode_text(data: bytes, where: object, error: ErrorType) -> str:
+    """Text from bytes, UTF-8 unless they say they are UTF-16, with any line ends.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file.
+    """
+    try:
+        text = data.decode(detect_encoding(data))
+    except UnicodeDecodeError as found:
+        raise error(f"{where}: not UTF-8 text (byte {found.start}); save it as UTF-8") from None
+    if "\0" in text:
+        raise error(f"{where}: not UTF-8 text (a zero byte); save it as UTF-8")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def detect_encoding(data: bytes) -> str:
+    """How text is written that begins with these bytes: UTF-8 unless they say it is UTF-16."""
+    return "utf-16" if data.startswith(_MARKS) else "utf-8-sig"
+
+
+def iter_csv_rows(
+    lines: Iterable[str], where: object, error: ErrorType
+) -> Iterator[tuple[int, list[str]]]:
+    """Read rows of cells, each with its line, as any spreadsheet saves them, one after the other.
+
+    Cells are parted by the comma, semicolon or tab that the first row has most of; a line
+    ``sep=;`` before it says so. Cells may be quoted; rows of blanks are left out.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file and the line.
+    """
+    rest, above = iter(lines), [""]
+    for line in islice(rest, MOST_VALUES):
+        above.append(line)
+        if line.strip("\r\n"):
+            break
+    said = re.fullmatch(r"sep=([^\"\r\n])\s*", above[-1])
+    separator = said[1] if said else max(_SEPARATORS, key=above[-1].count)
+    start = [*above[1:-1], "\n"] if said else above[1:]
+    reader = csv.reader(chain(start, rest), delimiter=separator, strict=True)
+    blank = 0
+    try:
+        for row in reader:
+            if any(map(str.strip, row)):
+                yield reader.line_num, row
+            elif (blank := blank + 1) > MOST_VALUES:
+                raise error(f"{where}: more than {MOST_VALUES} empty rows")
+    except csv.Error as found:
+        raise error(f"{where}: line {reader.line_num}: {_shorten_text(found)}") from None
+
+
+def parse_csv(text: str, where: object, error: ErrorType) -> list[tuple[int, list[str]]]:
+    """Read all rows of a table, as ``csv_rows`` does.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file and the line.
+    """
+    rows: list[tuple[int, list[str]]] = []
+    count = 0
+    for line, row in iter_csv_rows(io.StringIO(text, newline=""), where, error):
+        count += 1 + len(row)
+        if count > MOST_VALUES:
+            raise error(f"{where}: more than {MOST_VALUES} values")
+        rows.append((line, row))
+    return rows
+
+
+def format_csv(rows: Iterable[Iterable[str]]) -> str:
+    """Rows of cells as CSV that no spreadsheet runs and no terminal obeys."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerows(
+        [escape_csv_formula(escape_control_characters(cell)) for cell in row] for row in rows
+    )
+    return out.getvalue()
+
+
+def parse_toml(
+    text: str, where: object, error: ErrorType, parse_float: Callable[[str], object] = float
+) -> dict[str, object]:
+    """Read TOML.
+
+    Parameters
+    ----------
+    text : str
+    where : object
+        The file, for messages.
+    error : type
+        What to raise.
+    parse_float : callable
+        What becomes of a number with a point.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file and the line or the place.
+    """
+    try:
+        table = tomllib.loads(text, parse_float=parse_float)
+    except RecursionError:
+        raise error(f"{where}: more than {DEEPEST} tables and lists within each other") from None
+    except (tomllib.TOMLDecodeError, ValueError) as found:
+        raise error(f"{where}: not valid TOML: {_shorten_text(found)}") from None
+    _check_table_limits(table, where, error)
+    for place, value, _ in _iter_table_values(table if "\\" in text else ()):
+        if isinstance(value, str) and (odd := CONTROLS.search(value)):
+            raise error(
+                f"{where}: {escape_control_characters(place) or 'a name'}: {_format_character_name(odd[0])} in a text"
+            )
+    return table
+
+
+def parse_json(text: str, where: object, error: ErrorType) -> object:
+    """Read JSON; numbers with a point stay text, and a name stands in a table once.
+
+    Raises
+    ------
+    QuizgenError
+        Of the kind asked for, naming the file and the line or the place.
+    """
+    if (
+        _count_json_values(text) > MOST_VALUES
+        and _count_json_values(_STRING.sub("", text)) > MOST_VALUES
+    ):
+        raise error(f"{where}: more than {MOST_VALUES} values")
+    try:
+        value = json.loads(
+            text, parse_float=str, parse_constant=_no_number, object_pairs_hook=_without_twins
+        )
+    except RecursionError:
+        raise error(f"{where}: more than {DEEPEST} tables and lists within each other") from None
+    except json.JSONDecodeError as found:
+        raise error(f"{where}: line {found.lineno}: {found.msg}") from None
+    except ValueError as found:
+        raise error(f"{where}: {_shorten_text(found)}") from None
+    _check_table_limits(value, where, error)
+    return value
+
+
+def _count_json_values(text: str) -> int:
+    """Values of JSON at most: what is small in a file may be large once it is read."""
+    return sum(map(text.count, ",[{"))
+
+
+def _no_number(text: str) -> object:
+    raise ValueError(f"{text} is no number")
+
+
+def _without_twins(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    table = dict(pairs)
+    if len(table) < len(pairs):
+        names = [name for name, _ in pairs]
+        twin = next(name for place, name in enumerate(names) if name in names[:place])
+        raise ValueError(f"{twin!r} stands twice in a table")
+    return table
+
+
+def _shorten_text(found: Exception) -> str:
+    return str(found)[:300]
+
+
+def _check_table_limits(table: object, where: object, error: ErrorType) -> None:
+    """Refuse a table that is too deep or too long, and numbers and texts that nobody means."""
+    for count, (place, value, depth) in enumerate(_iter_table_values(table)):
+        problem = _find_value_problem(value)
+        if problem:
+            raise error(f"{where}: {escape_control_characters(place) or 'the file'}: {problem}")
+        if depth > DEEPEST:
+            raise error(f"{where}: {escape_control_characters(place)}: more than {DEEPEST} tables and lists "
+                        "within each other")  # fmt: skip
+        if count > MOST_VALUES:
+            raise error(f"{where}: more than {MOST_VALUES} values")
+
+
+def _iter_table_values(table: object) -> Iterator[tuple[str, object, int]]:
+    """Every key and value with its place and depth, without recursion."""
+    todo: list[tuple[str, object, int]] = [("", table, 0)]
+    while todo:
+        place, value, depth = todo.pop()
+        yield place, value, depth
+        if depth > DEEPEST:
+            continue
+        if isinstance(value, dict):
+            for key, inner in value.items():
+                yield place, key, depth
+                todo.append(
+                    (
+                        f"{place}.{key[:LONGEST_NAME]}" if place else key[:LONGEST_NAME],
+                        inner,
+                        depth + 1,
+                    )
+                )
+        elif isinstance(value, list):
+            todo += [(f"{place}[{i}]", inner, depth + 1) for i, inner in enumerate(value)]
+
+
+def _find_value_problem(value: object) -> str:
+    if isinstance(value, int) and not -_TOO_LARGE < value < _TOO_LARGE:
+        return f"a number of more than {MOST_DIGITS} digits"
+    if isinstance(value, str):
+        try:
+            value.encode()
+        except UnicodeEncodeError as found:
+            return f"half a character (U+{ord(value[found.start]):04X}) in a text"
+    return ""

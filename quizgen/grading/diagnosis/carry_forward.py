@@ -1,0 +1,173 @@
+"""What the question around a number can tell: errors carried forward, then single slips."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import msgspec
+from flint import arb, fmpq
+
+from quizgen.core.errors import MathError
+from quizgen.grading.diagnosis.slip_search import slip_search_for
+from quizgen.grading.options import GradingOptions, QuestionContext
+from quizgen.grading.reading.numbers import ReadNumber
+from quizgen.grading.rounding import round_ball_half_away
+from quizgen.grading.spec import NumericSpec, matches_target
+from quizgen.grading.verdict import HALF, Verdict, partial, wrong
+from quizgen.maths.chain import ChainStep
+from quizgen.maths.numbers import to_fraction
+from quizgen.maths.tree import Num
+from quizgen.maths.units import unit_factor
+from quizgen.maths.values import Value
+
+CARRIED = "carried-forward"
+EARLY = "rounded-too-early"
+
+
+class NumberDiagnosis(msgspec.Struct, frozen=True):
+    """The question around one quantity."""
+
+    spec: NumericSpec
+    number: ReadNumber
+    factor: fmpq
+    context: QuestionContext
+    target: str
+
+    def carried_forward(self, value: Value) -> Verdict | None:
+        """Full method marks for a value computed rightly from an own earlier one."""
+        result = recompute_from_earlier(self.context, self.target)
+        if result is None or not matches_target(
+            self.spec, self.number, value, result / self.factor
+        ):
+            return None
+        return partial(Fraction(1), self.number.read_as, CARRIED)
+
+    def find_slip(self, value: Value) -> Verdict | None:
+        """Name the single slip that explains a value."""
+        if _is_rounded_early(
+            self.context, self.target, value * self.factor, self.number, self.factor
+        ):
+            return partial(HALF, self.number.read_as, EARLY)
+        return _find_slip_verdict(self.number, value, self.factor, self.context, self.target)
+
+
+def diagnosis_for(
+    spec: NumericSpec, number: ReadNumber, scale: fmpq, options: GradingOptions, target: str = ""
+) -> NumberDiagnosis | None:
+    """Return the diagnosis of one quantity's wrong values, or None without a question around.
+
+    Parameters
+    ----------
+    spec : Measured
+        The spec; ``of`` names the quantity.
+    number : Number
+        How the answer was written.
+    scale : flint.fmpq
+        Key units per judged unit (1/100 when percent are judged).
+    options : Options
+        With the question around.
+    target : str
+        The quantity, if the spec names several.
+    """
+    context = options.context
+    if context is None:
+        return None
+    quantities = spec.quantities()
+    target = target or (quantities[0] if len(quantities) == 1 else "")
+    if target not in context.chain.by_name or target not in context.solved_values:
+        return None
+    units = dict(zip(quantities, spec.value_units(), strict=True))
+    unit = units[target] or context.chain.by_name[target].unit
+    return NumberDiagnosis(spec, number, scale * unit_factor(unit), context, target)
+
+
+def recompute_from_earlier(context: QuestionContext, target: str) -> Value | None:
+    """Recompute a quantity from the student's own earlier values.
+
+    None if there is nothing to carry: no earlier value is wrong, one is zero, the result is the
+    key's own, zero, or simply the student's earlier value again.
+    """
+    upstream = context.chain.required_steps(target) - {target}
+    own = {name: value for name, value in context.earlier.items() if name in upstream}
+    changed = {
+        name: value for name, value in own.items() if not _is_solved_value(context, name, value)
+    }
+    if not changed or any(value == 0 for value in changed.values()):
+        return None
+    steps = [ChainStep(name, _to_constant(value)) for name, value in changed.items()]
+    try:
+        result = context.chain.solve_with_steps(steps, context.solved_values)[target]
+    except MathError:
+        return None
+    key = context.solved_values[target]
+    trivial = (
+        result == 0
+        or _is_nearly_equal(result, key)
+        or any(_is_nearly_equal(result, v) for v in changed.values())
+    )
+    return None if trivial else result
+
+
+def _is_solved_value(context: QuestionContext, name: str, value: Value) -> bool:
+    return name not in context.solved_values or _is_nearly_equal(value, context.solved_values[name])
+
+
+def _is_nearly_equal(a: Value, b: Value) -> bool:
+    return bool(abs(a - b) <= fmpq(1, 10**9) * abs(b))
+
+
+def _to_constant(value: Value) -> Num:
+    exact = value.mid().fmpq() if isinstance(value, arb) else value
+    return Num(to_fraction(exact))
+
+
+def _is_rounded_early(
+    context: QuestionContext, target: str, value: Value, number: ReadNumber, factor: fmpq
+) -> bool:
+    """Whether rounding the intermediate results to two or three figures gives the value."""
+    if abs(value - context.solved_values[target]) > fmpq(1, 50) * abs(
+        context.solved_values[target]
+    ):
+        return False
+    upstream = context.chain.required_steps(target) - {target}
+    if not upstream or number.form != "decimal":
+        return False
+    slack = factor / (2 * fmpq(10) ** number.places)
+    return any(
+        _is_result_of_rounding(context, target, value, slack, upstream, places)
+        for places in range(5)
+    )
+
+
+def _is_result_of_rounding(
+    context: QuestionContext,
+    target: str,
+    value: Value,
+    slack: fmpq,
+    upstream: frozenset[str],
+    places: int,
+) -> bool:
+    chain = context.chain
+    steps = []
+    for name in upstream:
+        size = unit_factor(chain.by_name[name].unit)
+        rounded = round_ball_half_away(context.solved_values[name] / size, places) * size
+        steps.append(ChainStep(name, _to_constant(rounded)))
+    try:
+        result = chain.solve_with_steps(steps, context.solved_values)[target]
+    except MathError:
+        return False
+    return bool(abs(result - value) <= slack) and not _is_nearly_equal(
+        result, context.solved_values[target]
+    )
+
+
+def _find_slip_verdict(
+    number: ReadNumber, value: Value, factor: fmpq, context: QuestionContext, target: str
+) -> Verdict | None:
+    base = float(value * factor)
+    half = 0.5001 * 10.0**-number.places * float(factor)
+    exactly = number.form in {"fraction", "mixed", "expression"}
+    slack = abs(base) * 1e-9 if exactly else min(half, 0.005 * abs(base))
+    note, detail = slip_search_for(context.chain).find(target, context.solved_values, base, slack)
+    return wrong(number.read_as, note, detail=detail) if note else None

@@ -1,0 +1,15 @@
+"""What makes a drawing right: one module for each way to read a drawing.
+
+In: what was drawn and what was wanted, in one field. Out: which share of a feature is there. Must
+never know: what the drawing is of, how credit is given. A new way to read a drawing is a module
+with a subclass of ``Feature`` and its name in ``AnyFeature``.
+"""
+
+from __future__ import annotations
+
+from quizgen.grading.drawing.curve import CurveFeature
+from quizgen.grading.drawing.line import LineFeature
+from quizgen.grading.drawing.moved import MovedFeature
+
+AnyFeature = LineFeature | CurveFeature | MovedFeature
+"""Every way to read a drawing."""

@@ -1,0 +1,99 @@
+"""Sentences of the checker in the learner's language, looked up by the language-free note."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from quizgen.grading.echo import safe_echo
+from quizgen.locale import fallback_language, load_words, localise_numbers
+from quizgen.maths.notation import pretty
+
+_CLAUSE = re.compile("⟨([^⟩]*)⟩")
+"""Part of a sentence that is left out where nothing is known to fill it in."""
+
+
+def _load_message_table(lang: str) -> dict[str, dict[str, str]]:
+    return load_words(fallback_language(lang), "messages")
+
+
+def load_sentences(lang: str) -> dict[str, str]:
+    """Return the sentences of the notes; an unknown language falls back to English."""
+    return _load_message_table(lang)["notes"]
+
+
+def load_words_inside(lang: str) -> dict[str, str]:
+    """Return the names of token kinds and short words used inside sentences."""
+    return _load_message_table(lang)["words"]
+
+
+def load_practice_words(lang: str) -> dict[str, str]:
+    """Return the sentences of ``quizgen practice``."""
+    return _load_message_table(lang)["practice"]
+
+
+def feedback_sentence(lang: str, note: str, fields: Mapping[str, object]) -> str:
+    """Return the sentence for a note.
+
+    Parameters
+    ----------
+    lang : str
+        A language; English if there are no sentences in it.
+    note : str
+        Key of the sentence; an empty or unknown note has no sentence.
+    fields : mapping
+        Texts and numbers to fill in; control characters in them are named, long ones cut.
+    """
+    sentence = load_sentences(lang).get(note, "")
+    if "{" not in sentence:
+        return sentence
+    shown = _Blanks({key: _format_message_field(lang, key, value) for key, value in fields.items()})
+    if "⟨" in sentence:
+        sentence = _CLAUSE.sub(lambda clause: _keep_filled_clause(clause[1], shown), sentence)
+    return sentence.format_map(shown)
+
+
+AS_TYPED = frozenset({"code", "gap", "text"})
+"""Kinds whose answers are words, or what a program prints: their points are no decimal signs."""
+
+
+def format_read_back(kind: str, read_as: str, lang: str) -> str:
+    """What was read of an answer of a kind, with the decimal sign of a language."""
+    return read_as if kind in AS_TYPED else localise_numbers(lang, read_as)
+
+
+_NAMES = frozenset({"names", "detail"})
+"""Fields that name quantities."""
+
+
+def _format_message_field(lang: str, key: str, value: object) -> str:
+    """What a blank is filled with; names of quantities and powers as people write them."""
+    if key == "power":
+        return pretty.format_power_of_ten(str(value))
+    if key in _NAMES and isinstance(value, (tuple, list)):
+        value = tuple(pretty.format_name(str(item)) for item in value)
+    elif key in _NAMES:
+        value = pretty.format_formula(str(value))
+    return localise_numbers(lang, _format_shown_value(lang, value))
+
+
+def _keep_filled_clause(clause: str, shown: Mapping[str, str]) -> str:
+    """A clause, if there is something to say in it."""
+    return clause if all(shown.get(name) for name in re.findall(r"{(\w+)}", clause)) else ""
+
+
+class _Blanks(dict[str, str]):
+    """A sentence never fails for want of a detail."""
+
+    def __missing__(self, key: str) -> str:
+        del key
+        return "…"
+
+
+def _format_shown_value(lang: str, value: object) -> str:
+    if isinstance(value, (tuple, list)):
+        names = load_words_inside(lang)
+        return ", ".join(
+            dict.fromkeys(safe_echo(names.get(str(item), str(item))) for item in value)
+        )
+    return safe_echo(str(value), 120)

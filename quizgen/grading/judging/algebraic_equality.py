@@ -1,0 +1,116 @@
+"""Proof of equality for rational formulas: both sides as quotients of exact polynomials."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import lru_cache, reduce
+from typing import Any
+
+from flint import Ordering, fmpq, fmpq_mpoly_ctx
+
+from quizgen.maths.numbers import to_rational
+from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, walk_tree
+
+LARGEST_POWER = 12
+MOST_NODES = 60
+
+Quotient = tuple[Any, Any]
+
+
+def is_rational(tree: Expr) -> bool:
+    """Whether a formula uses arithmetic only, and is small enough to expand."""
+    nodes = list(walk_tree(tree))
+    return len(nodes) <= MOST_NODES and all(
+        not isinstance(node, Call) or node.op in _OPERATORS for node in nodes
+    )
+
+
+def prove_equal(first: Expr, second: Expr) -> bool:
+    """Whether two formulas are proved to be the same rational function."""
+    if not (is_rational(first) and is_rational(second)):
+        return False
+    used = tuple(sorted(names_in(first) | names_in(second)))
+    try:
+        top1, low1 = _of_key(first, used)
+        top2, low2 = _convert_to_quotient(second, used)
+    except (ValueError, ZeroDivisionError):
+        return False
+    return bool(top1 * low2 == top2 * low1)
+
+
+def _convert_to_quotient(tree: Expr, used: tuple[str, ...]) -> Quotient:
+    ctx, env = _build_polynomial_field(used)
+    return _evaluate_quotient(tree, ctx, env)
+
+
+_of_key = lru_cache(maxsize=512)(_convert_to_quotient)
+"""The same for a key, which a whole class is compared with."""
+
+
+@lru_cache(maxsize=512)
+def _build_polynomial_field(used: tuple[str, ...]) -> tuple[fmpq_mpoly_ctx, dict[str, Quotient]]:
+    """Polynomials in so many variables, and what each name stands for."""
+    ctx = fmpq_mpoly_ctx.get([f"x{i}" for i in range(len(used))] or ["x0"], Ordering.lex)
+    one = ctx.constant(1)
+    return ctx, {name: (gen, one) for name, gen in zip(used, ctx.gens(), strict=False)}
+
+
+def _evaluate_quotient(tree: Expr, ctx: fmpq_mpoly_ctx, env: Mapping[str, Quotient]) -> Quotient:
+    if isinstance(tree, Num):
+        return ctx.constant(to_rational(tree.value)), ctx.constant(1)
+    if isinstance(tree, Sym):
+        return env[tree.name]
+    args = [_evaluate_quotient(arg, ctx, env) for arg in tree.args]
+    op = _OPERATORS[tree.op]
+    return op(*args) if len(args) <= 2 else reduce(op, args)
+
+
+def _add_quotients(a: Quotient, b: Quotient) -> Quotient:
+    return a[0] * b[1] + b[0] * a[1], a[1] * b[1]
+
+
+def _negate_quotient(a: Quotient) -> Quotient:
+    return -a[0], a[1]
+
+
+def _subtract_quotients(a: Quotient, b: Quotient) -> Quotient:
+    return _add_quotients(a, _negate_quotient(b))
+
+
+def _multiply_quotients(a: Quotient, b: Quotient) -> Quotient:
+    return a[0] * b[0], a[1] * b[1]
+
+
+def _divide_quotients(a: Quotient, b: Quotient) -> Quotient:
+    if b[0] == 0:
+        raise ZeroDivisionError
+    return a[0] * b[1], a[1] * b[0]
+
+
+def _raise_quotient(a: Quotient, b: Quotient) -> Quotient:
+    exponent = _require_integer_exponent(b)
+    if exponent < 0:
+        return _divide_quotients(
+            (a[1] ** 0, a[1] ** 0), _raise_quotient(a, (b[1] * -exponent, b[1]))
+        )
+    return a[0] ** exponent, a[1] ** exponent
+
+
+def _require_integer_exponent(value: Quotient) -> int:
+    top, low = value
+    if not (top.is_constant() and low.is_constant()):
+        raise ValueError("exponent is not a number")
+    number = top.leading_coefficient() / low.leading_coefficient() if top != 0 else fmpq(0)
+    if number.q != 1 or abs(number) > LARGEST_POWER:
+        raise ValueError("exponent too large")
+    return int(number.p)
+
+
+_OPERATORS: dict[str, Callable[..., Quotient]] = {
+    "add": _add_quotients,
+    "sub": _subtract_quotients,
+    "mul": _multiply_quotients,
+    "div": _divide_quotients,
+    "neg": _negate_quotient,
+    "pow": _raise_quotient,
+}

@@ -1,0 +1,191 @@
+"""Judging one number against a key: value, then traps, then precision and form."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
+import msgspec
+from flint import fmpq
+from msgspec.structs import replace
+
+from quizgen.grading.diagnosis.carry_forward import NumberDiagnosis
+from quizgen.grading.diagnosis.numeric_slips import agrees_within_half_percent, find_generic_slip
+from quizgen.grading.reading.literals import Ambiguity
+from quizgen.grading.reading.numbers import Readings, ReadNumber
+from quizgen.grading.spec import matches_misconception
+from quizgen.grading.verdict import HALF, Verdict, ambiguous, correct, partial, wrong
+from quizgen.maths.tolerance import Tolerance
+from quizgen.maths.values import Value
+
+NumberJudge = Callable[[ReadNumber], Verdict]
+
+
+def judge_readings(
+    readings: Readings, judge: NumberJudge, places_asked: int | None = None
+) -> Verdict:
+    """Judge a number that may have two readings; ask back when they would be marked differently.
+
+    The decimal reading of the learner's own decimal sign may count when it is right; a reading
+    with thousands groups counts only when the learner declared the other sign.
+    """
+    verdict = judge(readings.main)
+    if readings.other is None or readings.doubt is None:
+        return verdict
+    if readings.doubt.native and (places_asked == 3 or verdict.credit):
+        return verdict
+    other = judge(readings.other)
+    return choose_reading(
+        verdict, other, readings.doubt, (readings.main.read_as, readings.other.read_as)
+    )
+
+
+def best_verdict(verdicts: Iterable[Verdict]) -> Verdict:
+    """The best verdict of equal things that were chained; of equals the last."""
+    *before, chosen = verdicts
+    for verdict in reversed(before):
+        chosen = verdict if verdict.credit > chosen.credit else chosen
+    return chosen
+
+
+def choose_reading(
+    first: Verdict, second: Verdict, doubt: Ambiguity, echoes: tuple[str, str]
+) -> Verdict:
+    """Choose between the verdicts of two readings, or ask back."""
+    if doubt.group_wins and not first.credit:
+        return second
+    if not (first.credit or second.credit):
+        return first
+    return ambiguous("two-readings", " | ".join(echoes), first=echoes[0], second=echoes[1])
+
+
+class NumberTarget(msgspec.Struct, frozen=True):
+    """What one number is judged by.
+
+    Parameters
+    ----------
+    spec : Tolerance
+        Tolerance and precision asked.
+    key : flint.fmpq or flint.arb
+        The key, in the unit of the judged values.
+    traps : sequence of (str, value)
+        Known mistakes and what they give.
+    form : str
+        ``fraction``, ``lowest``, ``decimal`` or empty.
+    hints : Hints, optional
+        The question around: errors carried forward, slips in its chain.
+    ratio : bool
+        Whether it is a plain ratio, which can be upside down.
+    """
+
+    spec: Tolerance
+    key: Value
+    traps: Sequence[tuple[str, Value]] = ()
+    form: str = ""
+    hints: NumberDiagnosis | None = None
+    ratio: bool = False
+
+
+def judge_value(
+    asked: NumberTarget, number: ReadNumber, value: Value, read_as: str = ""
+) -> Verdict:
+    """Judge a value that stands in the key's unit; ``number`` says how it was written."""
+    read_as = read_as or number.read_as
+    if asked.spec.accepts(value, asked.key):
+        return _judge_number_form(asked.spec, number, asked.form, read_as)
+    if is_integer_written_as_decimal(asked.spec, number, value, asked.key):
+        return correct(read_as, "whole-number")
+    carried = asked.hints.carried_forward(value) if asked.hints else None
+    if carried is not None:
+        return replace(carried, read_as=read_as)
+    trap = matching_misconception(asked.spec, number, value, asked.traps)
+    if trap:
+        return wrong(read_as, f"trap:{trap}")
+    return _judge_coarse_rounding(
+        asked.spec, number, value, asked.key, read_as
+    ) or _diagnose_wrong_value(asked, number, value, read_as)
+
+
+def _diagnose_wrong_value(
+    asked: NumberTarget, number: ReadNumber, value: Value, read_as: str
+) -> Verdict:
+    if value != 0 and agrees_within_half_percent(-value, asked.key):
+        return wrong(read_as, "sign")
+    diagnosed = asked.hints.find_slip(value) if asked.hints else None
+    if diagnosed is not None:
+        return replace(diagnosed, read_as=read_as)
+    note, fields = find_generic_slip(number, value, asked.key, ratio=asked.ratio)
+    return wrong(read_as, note, **fields)
+
+
+def is_integer_written_as_decimal(
+    spec: Tolerance, number: ReadNumber, value: Value, key: Value
+) -> bool:
+    """Whether an exact whole number was given as a decimal within 0.01 of it."""
+    if not spec.exact or number.form != "decimal" or not isinstance(key, fmpq):
+        return False
+    return bool(key.q == 1 and key != 0 and abs(value - key) <= fmpq(1, 100))
+
+
+def matching_misconception(
+    spec: Tolerance, number: ReadNumber, value: Value, traps: Iterable[tuple[str, Value]]
+) -> str:
+    """Name of the nearest known mistake that gives the value, or an empty text."""
+    hits = [
+        (abs(value - trap), name)
+        for name, trap in traps
+        if matches_misconception(spec, number, value, trap)
+    ]
+    if not hits:
+        return ""
+    nearest = hits[0]
+    for hit in hits[1:]:
+        if hit[0] < nearest[0]:
+            nearest = hit
+    return nearest[1]
+
+
+def _judge_number_form(spec: Tolerance, number: ReadNumber, form: str, read_as: str) -> Verdict:
+    if form in {"fraction", "lowest"} and number.form not in {"fraction", "mixed", "integer"}:
+        return partial(HALF, read_as, "form-fraction")
+    if form == "lowest" and not number.lowest:
+        return partial(HALF, read_as, "form-lowest")
+    if form == "decimal" and number.form in {"fraction", "mixed", "expression"}:
+        return partial(HALF, read_as, "form-decimal")
+    return _judge_precision(spec, number, read_as)
+
+
+def _judge_precision(spec: Tolerance, number: ReadNumber, read_as: str) -> Verdict:
+    if spec.sigfigs is not None:
+        return _judge_significant_figures(spec, number, spec.sigfigs, read_as)
+    plain = number.form in {"decimal", "integer"}
+    if spec.strict and plain and spec.decimals not in {None, number.places}:
+        return partial(HALF, read_as, "decimals-asked", asked=spec.decimals)
+    return correct(read_as)
+
+
+def _judge_significant_figures(
+    spec: Tolerance, number: ReadNumber, asked: int, read_as: str
+) -> Verdict:
+    least, most = number.figures
+    if most < asked:
+        return partial(HALF, read_as, "figures-asked", asked=asked, given=most)
+    if spec.strict and (least, most) != (asked, asked):
+        return partial(HALF, read_as, "figures-unclear", asked=asked)
+    return correct(read_as, "more-digits" if 99 > least > asked else "")
+
+
+def _judge_coarse_rounding(
+    spec: Tolerance, number: ReadNumber, value: Value, key: Value, read_as: str
+) -> Verdict | None:
+    """Right value with too few digits: rounded correctly, but not as far as asked."""
+    if not number.places or number.figures[1] < 2 or number.form != "decimal":
+        return None
+    if abs(value - key) * 2 * 10**number.places > 1:
+        return None
+    if spec.exact:
+        return wrong(read_as, "exact-wanted")
+    if spec.decimals is not None and number.places < spec.decimals:
+        return partial(HALF, read_as, "decimals-asked", asked=spec.decimals)
+    if spec.sigfigs is not None and number.figures[1] < spec.sigfigs:
+        return partial(HALF, read_as, "figures-asked", asked=spec.sigfigs, given=number.figures[1])
+    return None

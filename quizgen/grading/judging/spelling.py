@@ -1,0 +1,151 @@
+"""Comparing words: folding case, hyphens and spelling variants; the nearest of known terms."""
+
+from __future__ import annotations
+
+import operator
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Callable, Iterable
+from functools import cache, lru_cache
+
+_BRITISH = (
+    ("colour", "color"),
+    ("grey", "gray"),
+    ("centre", "center"),
+    ("metre", "meter"),
+    ("isation", "ization"),
+    ("ise ", "ize "),
+    ("ising", "izing"),
+    ("fibre", "fiber"),
+    ("behaviour", "behavior"),
+    ("aluminium", "aluminum"),
+)
+_UMLAUTS = (("ä", "ae"), ("ö", "oe"), ("ü", "ue"), ("ß", "ss"))
+_ARTICLES = re.compile(r"^(?:the|an|a|der|die|das|ein|eine|it is|its) (?=\S)")
+_DASH = re.compile(r"[-‐‑‒–—−_/]")
+_DASHES = re.compile(r"(?<=[^\W_])[-‐‑‒–—−_/]|[-‐‑‒–—−_/](?!\d)")
+"""Hyphens and dashes, but not the sign of a number."""
+
+
+@lru_cache(maxsize=4096)
+def fold_word(text: str) -> str:
+    """Fold what does not matter in a word answer.
+
+    Case, blanks, hyphens, punctuation at the ends, articles, British spelling, digits of any
+    script, umlauts written out and decomposed letters are folded.
+    """
+    text = unicodedata.normalize("NFC", text)
+    text = unicodedata.normalize("NFKC", text).casefold()
+    if not text.isascii():
+        text = "".join(str(unicodedata.decimal(c, c)) for c in text)
+    if _DASH.search(text):
+        text = _DASHES.sub(" ", text).replace("−", "-")
+    text = " ".join(text.split()).strip(" .,;:!?\"'()।")
+    text = _ARTICLES.sub("", text)
+    for old, new in (*_UMLAUTS, *_BRITISH):
+        text = text.replace(old, new)
+    return text.replace(" ", "")
+
+
+MOST = 2
+"""Most typing slips allowed in any word."""
+
+
+@lru_cache(maxsize=4096)
+def allowed_typos(term: str) -> int:
+    """Typing slips allowed: none up to four letters or with digits, one up to eight, else two."""
+    return 0 if len(term) <= 4 or any(map(str.isdigit, term)) else 1 if len(term) <= 8 else MOST
+
+
+def typo_distance(first: str, second: str, most: int) -> int:
+    """Typing slips between two words: letters put in, left out, changed or exchanged.
+
+    Returns
+    -------
+    int
+        ``most + 1`` if there are more than ``most``.
+    """
+    if _is_too_different(first, second, most):
+        return most + 1
+    return int(_load_edit_distance()(first, second, score_cutoff=most))
+
+
+def _is_too_different(first: str, second: str, most: int) -> bool:
+    """Whether letters alone, wherever they stand, tell of more slips than ``most``."""
+    if abs(len(first) - len(second)) > most or len({*first} ^ {*second}) > 2 * most:
+        return True
+    return max(len(first), len(second)) - (Counter(first) & Counter(second)).total() > most
+
+
+@cache
+def _load_edit_distance() -> Callable[..., int]:
+    from rapidfuzz.distance import OSA  # loaded when a word is not known as it stands
+
+    return OSA.distance
+
+
+def nearest_terms(typed: str, terms: Iterable[str]) -> tuple[list[str], int]:
+    """Return the known terms nearest to a typed one, within the budget of each, and the distance.
+
+    A term that is near only because *another* known term is as near is not chosen: ties are
+    returned together.
+    """
+    folded = fold_word(typed)
+    best: list[str] = []
+    least = 3
+    for term in terms:
+        target = fold_word(term)
+        if abs(len(target) - len(folded)) > MOST:
+            continue
+        distance = typo_distance(folded, target, MOST)
+        if distance <= least and distance <= allowed_typos(target):
+            best = [term] if distance < least else [*best, term]
+            least = distance
+    return best, least
+
+
+_PREFIXES = re.compile(
+    r"^(?:anti|non|nicht|dis|mis|trans|over|under|super|sub|pre|post|un|in|im|ir|il|an|de|re|ab|ent|be|ver|a)"
+    r"(?=.{3})"
+)
+
+
+def is_another_word(typed: str, term: str, known: Iterable[str]) -> bool:
+    """Whether what was typed is a word of its own rather than a slip in spelling a term.
+
+    An opposite (``un-``, ``de-``, ``an-``), a known word, two letters replaced, or the term with
+    a short word beside it (``increases no``).
+    """
+    word, wanted = fold_word(typed), fold_word(term)
+    pieces = typed.split()
+    if any(fold_word(" ".join(pieces[:i] + pieces[i + 1 :])) == wanted for i in range(len(pieces))):
+        return True
+    stem, wanted_stem = _strip_word_prefix(word), _strip_word_prefix(wanted)
+    if stem == wanted or wanted_stem == word or word in map(fold_word, known):
+        return True
+    if word[:2] != wanted[:2] and stem == wanted_stem:
+        return True
+    if len(word) != len(wanted):
+        return False
+    changed = sum(map(operator.ne, word, wanted))
+    return changed == 2 and sorted(word) != sorted(wanted)
+
+
+@lru_cache(maxsize=4096)
+def _strip_word_prefix(word: str) -> str:
+    return _PREFIXES.sub("", word)
+
+
+def confusable_terms(terms: Iterable[str], words: Iterable[str]) -> list[str]:
+    """The terms that could be taken for a slip in spelling one of some words, and are none."""
+    known, right = tuple(terms), {fold_word(word) for word in words}
+    near = set().union(*(_find_similar_terms(known, word) for word in right))
+    return [term for term in known if term in near and fold_word(term) not in right]
+
+
+@lru_cache(maxsize=256)
+def _find_similar_terms(terms: tuple[str, ...], word: str) -> frozenset[str]:
+    """Those of some terms that may be slips in spelling a word: asked for each paper anew."""
+    few = allowed_typos(word)
+    return frozenset(term for term in terms if typo_distance(fold_word(term), word, few) <= few)

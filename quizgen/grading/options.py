@@ -1,0 +1,68 @@
+"""How to read an answer, and what is known around it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import msgspec
+
+from quizgen.core.errors import MathError
+from quizgen.maths.chain import Chain
+from quizgen.maths.values import Values
+
+DECIMALS = ("auto", "point", "comma")
+
+
+@dataclass(frozen=True)
+class QuestionContext:
+    """The question around a part: enables diagnosis by mutation and carrying errors forward.
+
+    Parameters
+    ----------
+    chain : Chain
+        The question's chain of steps.
+    given : mapping of str to flint.fmpq
+        The drawn numbers, in base units.
+    earlier : mapping of str to flint.fmpq
+        The student's own values of quantities asked in earlier parts, in base units.
+    """
+
+    chain: Chain
+    given: Values
+    earlier: Values = field(default_factory=dict)
+    _solved: list[Values] = field(init=False, repr=False, compare=False, default_factory=list)
+
+    @property
+    def solved_values(self) -> Values:
+        """The right value of every quantity; empty if the chain does not fit the given numbers.
+
+        Kept in a list, since a cached property would wait for the precision under its own lock.
+        """
+        if not self._solved:
+            self._solved.append(self._solve_given())
+        return self._solved[0]
+
+    def _solve_given(self) -> Values:
+        try:
+            return self.chain.solve(self.given)
+        except (MathError, KeyError):
+            return {}
+
+
+class GradingOptions(msgspec.Struct, frozen=True):
+    """Reading options: language of the sentences, decimal sign, and the question around.
+
+    ``points`` are the marks of the part, which limit what a missing unit costs.
+    ``settle`` allows a few seconds of a computer algebra system, in a process of its own, for a
+    formula that sampling cannot decide.
+    """
+
+    lang: str = "en"
+    decimal: str = "auto"
+    context: QuestionContext | None = None
+    settle: bool = False
+    points: Fraction = Fraction(1)
+
+
+PLAIN = GradingOptions()

@@ -1,0 +1,61 @@
+"""The counted thing beside a number: ``6 grey levels``, ``level 55``."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable
+from functools import lru_cache
+
+from quizgen.grading.reading.source_map import SourceText
+from quizgen.locale import fallback_language, is_written_in
+from quizgen.maths.units import active_units
+from quizgen.maths.units import format_unit as shown_unit
+
+MOST_WORDS, LONGEST_WORD = 60, 60
+
+
+def check_count_nouns(words: list[str]) -> None:
+    """Check the words for what is counted.
+
+    Raises
+    ------
+    ValueError
+        If one is empty or there are more than anyone means.
+    """
+    if len(words) > MOST_WORDS or not all(0 < len(word) <= LONGEST_WORD for word in words):
+        raise ValueError(f"counts: at most {MOST_WORDS} words of 1 to {LONGEST_WORD} letters")
+
+
+def drop_count_noun(source: SourceText, words: Iterable[str]) -> SourceText:
+    """Drop the word for what is counted, behind or before the number."""
+    named = tuple(word for word in words if word not in active_units().simple) if words else ()
+    if not named:
+        return source
+    behind, before = _build_count_noun_patterns(named)
+    match = behind.search(source.text)
+    if match is not None:
+        return source.slice(0, match.start())
+    match = before.match(source.text)
+    return source.slice(match.end()) if match is not None else source
+
+
+def count_noun_unit(words: Iterable[str]) -> str:
+    """The listed unit among the words for what is counted, or an empty text."""
+    return next((word for word in words if word in active_units().simple), "")
+
+
+def count_noun_name(words: list[str], lang: str) -> str:
+    """What is counted, as it is called in a language."""
+    if words[0] in active_units().simple:
+        return shown_unit(words[0])
+    return next((word for word in words if is_written_in(fallback_language(lang), word)), words[0])
+
+
+@lru_cache(maxsize=256)
+def _build_count_noun_patterns(words: tuple[str, ...]) -> tuple[re.Pattern[str], re.Pattern[str]]:
+    longest_first = sorted(words, key=len, reverse=True)
+    spelt = (re.escape(unicodedata.normalize("NFC", word)) for word in longest_first)
+    listed = "|".join(spelt).replace("/", "/ ?")
+    behind = re.compile(rf"(?<=[\d)%]) ?(?:{listed})$", re.IGNORECASE)
+    return behind, re.compile(rf"(?:{listed}) ?(?=[-+]?[\d(])", re.IGNORECASE)

@@ -1,0 +1,213 @@
+"""Answers that say more than one number: ``x = 20/3 ≈ 6.67``, ``[64]``, ``64 times``.
+
+The sides of a chain must agree; names and formulas among them are passed over.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import msgspec
+from flint import fmpq
+
+from quizgen.core.errors import FormulaError
+from quizgen.grading.reading.formulas import read_formula
+from quizgen.grading.reading.labels import WORDS
+from quizgen.grading.reading.lists import strip_brackets
+from quizgen.grading.reading.literals import Ambiguity
+from quizgen.grading.reading.numbers import (
+    Readings,
+    ReadNumber,
+    number_from_tree,
+    read_number,
+    read_plain_number,
+    scale_number,
+)
+from quizgen.grading.reading.quantities import TypedQuantity, split_quantity
+from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.units import TypedUnit, listed_unit, read_unit
+from quizgen.maths.notation import FormulaReadError
+from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.values import Value
+
+_EQUAL = re.compile(r" ?(?:=>|⇒|->|→|:=|==?|[≈≃≅≐∼~]) ?")
+_NAMED = re.compile(rf"{WORDS}: ?(?=\S)")
+_BRACKETS = re.compile(r"[\[{(]([^\[\]{}()]+)[\])}] ?(?=[^\W\d]|[%°])")
+_LETTER = re.compile(r"[^\W\d_]")
+_CLOSE = fmpq(1, 200)
+"""How far apart the sides of a chain may be, if their last decimals say no more."""
+
+
+class EqualitySide(msgspec.Struct, frozen=True):
+    """One side of a chain: the number with its readings, and its unit."""
+
+    quantity: TypedQuantity
+    readings: Readings
+
+    @property
+    def places(self) -> int:
+        """Decimals written; a fraction or formula is sharper than any decimal."""
+        number = self.readings.main
+        return number.places if number.form in {"decimal", "scientific"} else 100
+
+
+_PLAIN = re.compile(r"([^a-zA-Zµμ°% ]+) ?((?:[a-zA-Zµμ°%][a-zA-Zµμ°%/]{0,24})?)")
+_READ = SourceText("", ())
+"""In place of a number part that has been read."""
+
+
+def read_plain_side(typed: str, decimal: str) -> EqualitySide | None:
+    """Read a plain number, alone or with a plain unit behind it, without any rewriting.
+
+    Most of what people type is one: ``6.67 mm``, ``12,5%``, ``20/3``.
+    """
+    match = _PLAIN.fullmatch(typed)
+    readings = match and read_plain_number(match[1], decimal)
+    if match is None or readings is None:
+        return None
+    try:
+        return EqualitySide(
+            TypedQuantity(_READ, read_unit(match[2]) if match[2] else None), readings
+        )
+    except FormulaError:
+        return None
+
+
+def read_sides(source: SourceText, decimal: str) -> list[EqualitySide]:
+    """Read a number with or without a unit; every side, if equal things are chained.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be read, or the sides contradict each other.
+    """
+    plain = read_plain_side(source.text, decimal)
+    if plain is not None:
+        return [plain]
+    try:
+        return [_read_side(source, decimal)]
+    except FormulaReadError as error:
+        if error.code == "two-readings":
+            raise
+        found = list(_iter_lenient_sides(source, decimal))
+        if not found:
+            raise
+    _check_sides_agree(source, found)
+    return found
+
+
+def most_precise_side(sides: list[EqualitySide]) -> EqualitySide:
+    """The side that says most: an exact one, else the one with most decimals."""
+    return sides[0] if len(sides) == 1 else max(sides, key=lambda side: side.places)
+
+
+def _read_side(source: SourceText, decimal: str) -> EqualitySide:
+    quantity = split_quantity(source)
+    return EqualitySide(quantity, read_number(quantity.number, decimal))
+
+
+def _iter_lenient_sides(source: SourceText, decimal: str) -> Iterator[EqualitySide]:
+    """The sides of a chain, each without names and brackets; none if one cannot be read."""
+    pieces = [piece for piece in _split_at_equal_signs(source) if piece.text]
+    if len({piece.text for piece in pieces}) < len(pieces):
+        return
+    sides: list[EqualitySide] = []
+    for piece in pieces:
+        side = _read_lenient_side(piece, decimal)
+        if side is not None:
+            sides.append(side)
+        elif not _LETTER.search(piece.text) or (piece is pieces[-1] and len(piece.text) > 3):
+            return
+    units = [side.quantity.unit for side in reversed(sides) if side.quantity.unit]
+    unit = units[0] if units and units[0].text != "%" else None
+    for side in sides:
+        yield EqualitySide(
+            TypedQuantity(side.quantity.number, side.quantity.unit or unit), side.readings
+        )
+
+
+def _split_at_equal_signs(source: SourceText) -> Iterator[SourceText]:
+    start = 0
+    for match in _EQUAL.finditer(source.text):
+        yield source.slice(start, match.start()).strip()
+        start = match.end()
+    yield source.slice(start).strip()
+
+
+def _read_lenient_side(piece: SourceText, decimal: str) -> EqualitySide | None:
+    """Read one side, also behind a name in words, in brackets or as a formula of numbers."""
+    named = _NAMED.match(piece.text)
+    if named is not None:
+        piece = piece.slice(named.end())
+    inner, tail = strip_brackets(piece)
+    while inner.text != piece.text and not tail.text:
+        piece = inner
+        inner, tail = strip_brackets(piece)
+    piece = (
+        piece.substitute(_BRACKETS, lambda m: f"{m[1]} ") if _BRACKETS.match(piece.text) else piece
+    )
+    try:
+        return _read_side(piece, decimal)
+    except FormulaReadError:
+        return _read_constant_formula(piece, decimal)
+
+
+def _read_constant_formula(piece: SourceText, decimal: str) -> EqualitySide | None:
+    try:
+        found = read_formula(piece.text, (), decimal)
+        if found.other is not None:
+            return None
+        number = number_from_tree(found.tree)
+    except FormulaReadError:
+        return None
+    return EqualitySide(TypedQuantity(piece, None), Readings(number))
+
+
+def _check_sides_agree(source: SourceText, sides: list[EqualitySide]) -> None:
+    """Ask back when two sides are not equal."""
+    for side in sides[1:]:
+        if not _is_equal_side(sides[0], side):
+            raise FormulaReadError("two-readings", source.column(0), source.text)
+
+
+def _is_equal_side(first: EqualitySide, second: EqualitySide) -> bool:
+    one, other = first.quantity.unit, second.quantity.unit
+    if one is not None and other is not None and one.dimension != other.dimension:
+        return False
+    (a, near), (b, close) = _convert_to_base_units(first), _convert_to_base_units(second)
+    return bool(abs(a - b) <= max(near, close, key=float) or abs(a - b) <= _CLOSE * abs(b))
+
+
+def _convert_to_base_units(side: EqualitySide) -> tuple[Value, Value]:
+    """The value in base units, and what its last decimal stands for."""
+    number: ReadNumber = side.readings.main
+    factor = side.quantity.unit.factor if side.quantity.unit else fmpq(1)
+    factor = factor / 100 if number.percent else factor
+    last = fmpq(1, 10**number.places) if number.places else fmpq(0)
+    return number.value * factor, last * factor
+
+
+def read_items(
+    items: list[SourceText], asked: str, unit: TypedUnit | None, decimal: str
+) -> tuple[list[ReadNumber], list[ReadNumber] | None, Ambiguity | None]:
+    """Read every item in the asked unit; both readings if one item has two."""
+    first, second, doubt = [], [], None
+    for item in items:
+        side = most_precise_side(read_sides(item, decimal))
+        scale = _compute_unit_factor(side.quantity.unit or unit, asked, item)
+        readings = side.readings
+        first.append(scale_number(readings.main, scale))
+        second.append(scale_number(readings.other or readings.main, scale))
+        doubt = doubt or readings.doubt
+    return first, second if doubt else None, doubt
+
+
+def _compute_unit_factor(unit: TypedUnit | None, asked: str, item: SourceText) -> Value:
+    if unit is None:
+        return fmpq(1)
+    wanted = listed_unit(asked)
+    if unit.dimension != wanted.dimension:
+        code = "unit-not-asked" if not wanted.dimension else "unit-other"
+        raise FormulaReadError(code, item.column(0), shown_unit(unit.text), [shown_unit(asked)])
+    return unit.factor / wanted.factor

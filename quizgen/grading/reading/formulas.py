@@ -1,0 +1,227 @@
+"""Reading typed formulas: students' spelling to the author's grammar."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from fractions import Fraction
+from functools import lru_cache
+
+import msgspec
+
+from quizgen.grading.reading.calls import add_call_brackets
+from quizgen.grading.reading.literals import Ambiguity, join_digit_groups, with_decimal_points
+from quizgen.grading.reading.normalise import normalise_typed
+from quizgen.grading.reading.numbers import relocate_error
+from quizgen.grading.reading.source_map import Rewrite, SourceText
+from quizgen.maths.notation import (
+    FormulaReadError,
+    find_ambiguous_division,
+    format_tree,
+    parse_formula,
+    parse_tokens,
+    pretty,
+    tokenize,
+)
+from quizgen.maths.notation.names import FUNCTIONS, fold_name
+from quizgen.maths.operators import CONDITIONS
+from quizgen.maths.tree import Call, Expr, Num
+
+MULTI_ARGUMENT = r"(?:atan2|min|max|mod|piecewise)"
+_SYNONYMS = {
+    "arctan2": "atan2",
+    "arctan": "atan",
+    "arctg": "atan",
+    "arcsin": "asin",
+    "arccos": "acos",
+    "tg": "tan",
+    "lg": "log10",
+    "ld": "log2",
+    "lb": "log2",
+    "log_10": "log10",
+    "log_2": "log2",
+    "log_e": "ln",
+    "loge": "ln",
+    "Sqrt": "sqrt",
+    "wurzel": "sqrt",
+    "Wurzel": "sqrt",
+    "বর্গমূল": "sqrt",
+    "Abs": "abs",
+    "betrag": "abs",
+    "sgn": "sign",
+    "Log": "log",
+    "LN": "ln",
+    "Ln": "ln",
+    "Exp": "exp",
+    "EXP": "exp",
+    "Sin": "sin",
+    "Cos": "cos",
+    "Tan": "tan",
+    "Max": "max",
+    "Min": "min",
+}
+
+_WORD = re.compile(r"[^\W\d_]{2}")
+"""A text without one of these names no function."""
+
+_MARKED = re.compile(r"[°%;\[\].,π:]")
+"""A text without one of these needs none of the rewrites but the first."""
+
+FORMULA_REWRITES: dict[str, Rewrite] = {
+    "function synonyms": (
+        re.compile(
+            r"(?<![^\W\d_])(?:"
+            + "|".join(sorted(_SYNONYMS, key=len, reverse=True))
+            + r")(?= ?(?:\(|\^|\*\*| [\w(]))"
+        ),
+        lambda m: _SYNONYMS[m[0]],
+    ),
+    "degrees": (re.compile(r"(\d+(?:[.,]\d+)?) ?°"), lambda m: f"({m[1]}*pi/180)"),
+    "percent": (re.compile(r"(\d+(?:[.,]\d+)?) ?%"), lambda m: f"({m[1]}/100)"),
+    "semicolon arguments": (re.compile(r";"), lambda _m: ", "),
+    "square brackets": (re.compile(r"[\[\]]"), lambda m: "(" if m[0] == "[" else ")"),
+    "leading point": (re.compile(r"(?<![\w.,)\]'])[.,](?=\d)"), lambda _m: "0."),
+    "pi": (re.compile(r"π"), lambda _m: " pi "),
+    "colon": (re.compile(r"(?<=[\w)']) ?: ?(?=[\w(√])"), lambda _m: "/"),
+}
+"""Rewrites that only formulas need, in order."""
+
+_NAMES, *_MARKS = FORMULA_REWRITES.values()
+
+_EULER = re.compile(r"(?<![^\W_])e ?(?:\^|\*\*) ?(?=[(\w-])")
+_ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
+_GROUPED = re.compile(r"\d[. ]\d{3}(?!\d)")
+_LITERAL = re.compile(r"(?<![^\W\d_])(?<![\w'])\d+(?:[.,]\d+)*")
+
+
+class TypedFormula(msgspec.Struct, frozen=True):
+    """A formula as read, and the other reading if there are two."""
+
+    tree: Expr
+    other: Expr | None = None
+    doubt: Ambiguity | None = None
+
+    @property
+    def read_as(self) -> str:
+        """Echo as people write it."""
+        return pretty.format_formula(format_tree(self.tree))
+
+
+def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> TypedFormula:
+    """Read a typed formula over declared names.
+
+    Parameters
+    ----------
+    typed : str
+        For example ``fX/Z``, ``x' = f·X / Z``, ``r(1+k1 r²)``, ``20·log10(A/B)``.
+    symbols : iterable of str
+        Declared names.
+    decimal : str
+        The learner's decimal sign.
+
+    Raises
+    ------
+    ReadError
+        With the column and what was expected.
+    """
+    declared = frozenset(symbols)
+    source = normalise_typed(typed, keep_x=bool(declared & {"x", "X"}))
+    source = join_digit_groups(_right_side(source))
+    if _WORD.search(source.text):
+        source = add_call_brackets(source.substitute(*_NAMES), declared)
+    if _MARKED.search(source.text):
+        for pattern, new in _MARKS:
+            source = source.substitute(pattern, new)
+    if "e" not in declared:
+        source = _rewrite_euler_powers(source)
+    _refuse_bare_log(source, declared)
+    return _read_number_literals(source, declared, decimal)
+
+
+def _right_side(source: SourceText) -> SourceText:
+    """Drop the name on the left of ``u = ...``."""
+    match = re.match(r"([^\W\d_][\w']*(?:\([^()]*\))?) ?(?:=|:=|≈) ?(?=\S)", source.text)
+    if match is None or "=" in source.text[match.end() :]:
+        return source
+    return source.slice(match.end())
+
+
+def _rewrite_euler_powers(source: SourceText) -> SourceText:
+    """``e^x`` and ``e^(…)`` become ``exp(1)^…`` when no quantity is named e."""
+    return source.substitute(_EULER, lambda _m: "exp(1)^")
+
+
+def _refuse_bare_log(source: SourceText, declared: frozenset[str]) -> None:
+    match = re.search(r"(?<![^\W_])log(?![\w'])", source.text)
+    if match and "log" not in declared:
+        raise FormulaReadError("which-base", source.column(match.start()), "log")
+
+
+def _read_number_literals(
+    source: SourceText, declared: frozenset[str], decimal: str
+) -> TypedFormula:
+    if "," not in source.text and not _GROUPED.search(source.text):
+        return TypedFormula(_parse_loose_and_tight(source, declared))
+    if _ARGUMENTS.search(source.text) and decimal != "comma":
+        if decimal == "auto":
+            raise FormulaReadError(
+                "two-readings", source.column(source.text.index(",")), source.text
+            )
+        return TypedFormula(_parse_loose_and_tight(source, declared))
+    main, other, doubt = with_decimal_points(source, decimal)
+    if other is None or doubt is None or (doubt.native and doubt.mark == "."):
+        return TypedFormula(_parse_loose_and_tight(main, declared))
+    return TypedFormula(
+        _parse_loose_and_tight(main, declared), _parse_loose_and_tight(other, declared), doubt
+    )
+
+
+def _parse_loose_and_tight(source: SourceText, declared: frozenset[str]) -> Expr:
+    try:
+        pieces = tokenize(source.text, declared, loose=True)
+        loose = _require_formula(parse_tokens(pieces, len(source.text), tight=False))
+        if find_ambiguous_division(pieces) is None:
+            return loose
+        tight = _require_formula(parse_tokens(pieces, len(source.text), tight=True))
+    except FormulaReadError as error:
+        raise _suggest_declared_name(relocate_error(error, source), declared) from None
+    if tight == loose:
+        return loose
+    raise FormulaReadError(
+        "two-readings", source.column(0), "", [format_tree(loose), format_tree(tight)]
+    )
+
+
+_E = Call("exp", (Num(Fraction(1)),))
+
+
+def _require_formula(tree: Expr) -> Expr:
+    if isinstance(tree, Call) and tree.op in CONDITIONS:
+        raise FormulaReadError("not-a-formula", 1)
+    return _rewrite_exponentials(tree)
+
+
+def _rewrite_exponentials(tree: Expr) -> Expr:
+    """``exp(1)^x`` is ``exp(x)``."""
+    if not isinstance(tree, Call):
+        return tree
+    args = tuple(map(_rewrite_exponentials, tree.args))
+    if tree.op == "pow" and args[0] == _E:
+        return Call("exp", args[1:])
+    return Call(tree.op, args)
+
+
+def _suggest_declared_name(error: FormulaReadError, declared: frozenset[str]) -> FormulaReadError:
+    """Suggest a declared name or function that differs in case only."""
+    if error.code != "unknown-name":
+        return error
+    same = [n for n in declared if fold_name(n).lower() == fold_name(error.found).lower()]
+    if error.found in FUNCTIONS:
+        return FormulaReadError("bracket-missing", error.column or 1, error.found)
+    return FormulaReadError(error.code, error.column or 1, error.found, same or sorted(declared))
+
+
+@lru_cache(maxsize=2048)
+def parse_authored(text: str, symbols: tuple[str, ...]) -> Expr:
+    """Parse an author's formula once."""
+    return parse_formula(text, symbols=symbols)

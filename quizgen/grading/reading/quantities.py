@@ -1,0 +1,72 @@
+"""Splitting a typed quantity into its number and its unit."""
+
+from __future__ import annotations
+
+import re
+
+import msgspec
+
+from quizgen.core.errors import FormulaError
+from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.units import TypedUnit, read_unit, suggest_unit
+from quizgen.maths.notation import FormulaReadError
+
+_NUMBER_PART = re.compile(
+    r"(?:[\d.,' +()√π^*/-]|[eE](?=[-+]?\d)|sqrt(?=\()|pi(?![^\W\d_])|[xX](?= ?10))*"
+)
+
+
+class TypedQuantity(msgspec.Struct, frozen=True):
+    """The number part and the unit of an answer; the unit is None when none was typed."""
+
+    number: SourceText
+    unit: TypedUnit | None
+
+
+def split_quantity(source: SourceText) -> TypedQuantity:
+    """Split at the first letter that is not part of the number.
+
+    Raises
+    ------
+    ReadError
+        If what follows the number is not a listed unit.
+    """
+    match = _NUMBER_PART.match(source.text)
+    end = match.end() if match else 0
+    number, rest = source.text[:end], source.text[end:]
+    if rest.endswith(")") and number.rstrip(" ").endswith("("):
+        number, rest = _move_bracket_to_unit(number, rest)
+    if rest and number.rstrip().endswith(("/", "*")):
+        number, rest = _unit_with_sign(number, rest)
+    if not rest.strip():
+        return TypedQuantity(source.strip(), None)
+    if not any(map(str.isdigit, number)) and not re.search("[π√]|pi", number):
+        raise FormulaReadError("number-missing", source.column(0), rest)
+    return TypedQuantity(
+        source.slice(0, len(number)).strip(), _read_quantity_unit(rest, source, end)
+    )
+
+
+def _move_bracket_to_unit(number: str, rest: str) -> tuple[str, str]:
+    """``66.67 (mm)``: the bracket belongs to the unit."""
+    kept = number.rstrip(" (")
+    return (number[: len(kept)], number[len(kept) :].lstrip() + rest) if kept else (number, rest)
+
+
+def _unit_with_sign(number: str, rest: str) -> tuple[str, str]:
+    """``15 1/mm`` and ``0.015/mm``: the division sign belongs to the unit."""
+    match = re.search(r"(?:(?<=[\d)] )1 ?)?([/*]) ?$", number)
+    if match is None:
+        return number, rest
+    return number[: match.start()], ("1/" if match[1] == "/" else "") + rest
+
+
+def _read_quantity_unit(text: str, source: SourceText, position: int) -> TypedUnit:
+    try:
+        return read_unit(text)
+    except FormulaError:
+        column = source.column(position)
+        meant = suggest_unit(text)
+        raise FormulaReadError(
+            "unknown-unit", column, text.strip(), [meant] if meant else []
+        ) from None

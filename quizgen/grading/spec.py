@@ -1,0 +1,224 @@
+"""What the specifications of all kinds share: their common fields, and writing them as tables."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from typing import TypeVar
+
+import msgspec
+from flint import fmpq
+
+from quizgen.core.decoding import convert
+from quizgen.core.errors import FormulaError, KeyFileError
+from quizgen.grading.diagnosis.numeric_slips import CLOSE
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.numbers import ReadNumber
+from quizgen.grading.reading.units import listed_unit
+from quizgen.grading.verdict import Verdict
+from quizgen.maths.constants import Scalar, parse_exact
+from quizgen.maths.tolerance import Tolerance
+from quizgen.maths.units import UnitRegistry, build_unit_registry
+from quizgen.maths.values import Value
+
+MisconceptionNotes = dict[str, dict[str, str]]
+"""Language to sentences by trap name."""
+
+
+SpecTable = Mapping[str, object]
+"""A specification as a key stores it."""
+
+WIDEST = fmpq(1, 20)
+"""Share of a mistake's value beyond which a number is no longer called by its name."""
+
+SpecType = TypeVar("SpecType", bound="WordSpec | NumericSpec")
+
+
+class SpecBase:
+    """What every specification answers in the same way, whatever its fields."""
+
+    __slots__ = ()
+    of: list[str] | dict[str, str]
+
+    def quantities(self) -> list[str]:
+        """Names of the chain's quantities, in the order of the values."""
+        return list(self.of.values()) if isinstance(self.of, dict) else self.of
+
+    def value_units(self) -> list[str]:
+        """The unit of each value: the one that the chain shows."""
+        return [""] * len(self.of)
+
+    def known_units(self) -> UnitRegistry:
+        """The units that may be typed: those listed, and those of the question's bank."""
+        return build_unit_registry()
+
+    @abstractmethod
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge what was typed; each kind says how."""
+
+    @abstractmethod
+    def show(self) -> str:
+        """The key as it is printed; each kind says how."""
+
+    def show_in(self, _lang: str, /) -> str:
+        """The key as it is printed; most kinds have one notation for all languages."""
+        return self.show()
+
+
+class WordSpec(SpecBase, msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
+             forbid_unknown_fields=True):  # fmt: skip
+    """Fields of every kind, and all there are of the kinds whose key is made of words.
+
+    ``traps`` maps a mistake's name to the wrong answer it gives (in the shape and unit of the key,
+    which each kind states), ``notes`` a language to sentences by mistake, ``why`` a language to
+    the reason by option, pair or step, ``of`` names the chain's quantities that the answer
+    consists of.
+    """
+
+    kind: str
+    traps: Mapping[str, object] = msgspec.field(default_factory=dict)
+    notes: MisconceptionNotes = {}
+    why: MisconceptionNotes = {}
+    of: list[str] | dict[str, str] = []
+
+    def validate(self) -> None:
+        """Check what types cannot say."""
+
+
+class NumericSpec(SpecBase, Tolerance, kw_only=True, frozen=True):
+    """Fields of every kind whose key is made of numbers: those of all, and the tolerance.
+
+    ``define`` are the units of the question's bank, each as ``bank.toml`` defines it.
+    """
+
+    kind: str
+    traps: Mapping[str, Scalar | list[Scalar] | dict[str, Scalar]] = msgspec.field(
+        default_factory=dict
+    )
+    notes: MisconceptionNotes = msgspec.field(default_factory=dict)
+    of: list[str] | dict[str, str] = msgspec.field(default_factory=list)
+    define: tuple[str, ...] = ()
+
+    def known_units(self) -> UnitRegistry:
+        """The units that may be typed: those listed, and those of the question's bank."""
+        return build_unit_registry(self.define)
+
+
+class ScalarSpec(NumericSpec, kw_only=True, frozen=True):
+    """One number: ``value``; a trap may give several."""
+
+    value: Scalar
+    traps: dict[str, Scalar | list[Scalar]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check tolerance, value and traps."""
+        super().validate()
+        parse_exact(self.value)
+        self.trap_values()
+
+    def value_unit(self) -> str:
+        """The unit that the value is judged in; empty for the one that the chain shows."""
+        return ""
+
+    def value_units(self) -> list[str]:
+        """The unit of the one value."""
+        return [self.value_unit()] * len(self.of)
+
+    def trap_values(self, scale: int = 1) -> list[tuple[str, Value]]:
+        """Every trap's name with each value it can give."""
+        return [
+            (name, parse_exact(item) * scale)
+            for name, value in self.traps.items()
+            for item in (value if isinstance(value, list) else [value])
+        ]
+
+
+class VectorSpec(NumericSpec, kw_only=True, frozen=True):
+    """Several numbers: ``values``; ``unit`` of all; each trap gives as many."""
+
+    values: list[Scalar]
+    unit: str = ""
+    traps: dict[str, list[Scalar]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check tolerance, values, unit and traps."""
+        super().validate()
+        listed_unit(self.unit)
+        for value in (*self.values, *(item for trap in self.traps.values() for item in trap)):
+            parse_exact(value)
+
+    def value_units(self) -> list[str]:
+        """The one unit, for each value."""
+        return [self.unit] * len(self.of)
+
+    def keys(self) -> list[Value]:
+        """The values, exactly."""
+        return [parse_exact(value) for value in self.values]
+
+
+AnySpec = WordSpec | NumericSpec
+
+
+def matches_target(spec: Tolerance, number: ReadNumber, value: Value, target: Value) -> bool:
+    """Whether a value is the target within the tolerance, or the target rounded as written."""
+    if spec.is_within(value, target):
+        return True
+    distance = abs(value - target)
+    rounded = number.places and distance * 2 * 10**number.places <= 1
+    return bool(rounded and distance <= CLOSE * abs(target))
+
+
+def matches_misconception(spec: Tolerance, number: ReadNumber, value: Value, trap: Value) -> bool:
+    """Whether a value is what a mistake gives, with a tolerance of the mistake's own.
+
+    The key's tolerance may be far wider than a small mistake, and would then call any small
+    number by its name; so the distance counts relative to the mistake, or to the places written.
+    """
+    if not matches_target(spec, number, value, trap):
+        return False
+    distance = abs(value - trap)
+    if distance * 2 * 10**number.places <= 1:
+        return True
+    width, share = spec.half_width(trap), CLOSE * abs(trap)
+    return bool(distance <= max(share, min(width, WIDEST * abs(trap))))
+
+
+def all_match_misconception(
+    spec: Tolerance, numbers: Sequence[ReadNumber], traps: Sequence[Value]
+) -> bool:
+    """Whether each number is what a mistake gives for it."""
+    pairs = zip(numbers, traps, strict=True)
+    return all(matches_misconception(spec, number, number.value, trap) for number, trap in pairs)
+
+
+def all_match_target(
+    spec: Tolerance, numbers: Sequence[ReadNumber], targets: Sequence[Value]
+) -> bool:
+    """Whether each number is its target, within the tolerance or rounded as written."""
+    pairs = zip(numbers, targets, strict=True)
+    return all(matches_target(spec, number, number.value, target) for number, target in pairs)
+
+
+def decode_spec(shape: type[SpecType], table: SpecTable, *, proven: bool = False) -> SpecType:
+    """Turn a plain table into the specification of its kind.
+
+    Parameters
+    ----------
+    shape : type
+    table : mapping
+    proven : bool
+        Whether it is known to be as it was written, so that only its types need to be checked.
+
+    Raises
+    ------
+    KeyFileError
+        Naming the field that is wrong.
+    """
+    try:
+        spec = convert(table, shape)
+        if not proven:
+            with spec.known_units().activate():
+                spec.validate()
+    except (msgspec.ValidationError, FormulaError, ValueError, TypeError) as error:
+        raise KeyFileError(f"spec ({table['kind']}): {error}") from None
+    return spec

@@ -1,0 +1,84 @@
+"""What of its curriculum a bank covers, and what is still open.
+
+Each template names what it covers (``covers = ["F09", "C11b", "W03", "TR07"]``); a figure covers
+itself wherever it is used. What there is to cover stands in the bank's ``curriculum.toml``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from quizgen.bank.bank import Bank
+
+_NUMBER = re.compile(r"\d+$")
+_SUB_PART = re.compile(r"(?<=\d)[a-z]$|-.*$")
+
+
+@dataclass(frozen=True)
+class CoverageGroup:
+    """One group: how much of it is covered, by which templates, and the holes."""
+
+    group: str
+    covered: Mapping[str, tuple[str, ...]]
+    holes: tuple[str, ...]
+
+    @property
+    def total(self) -> int:
+        """Items of the group."""
+        return len(self.covered) + len(self.holes)
+
+
+def curriculum_coverage(bank: Bank) -> list[CoverageGroup]:
+    """Coverage of every group of the inventory."""
+    by_item: dict[str, list[str]] = {}
+    for name in bank.template_paths:
+        for item in _list_covered_items(bank, name):
+            by_item.setdefault(item, []).append(name)
+    inventory = bank.curriculum.inventory
+    return [_build_coverage_row(group, items, by_item) for group, items in inventory.items()]
+
+
+def templates_covering(bank: Bank, item: str) -> list[str]:
+    """Templates that cover an item, or a part of it: ``C12`` finds ``C12a``."""
+    wanted = re.compile(rf"{re.escape(item)}(?:-?[a-z].*)?")
+    return [
+        name
+        for name in bank.template_paths
+        if any(map(wanted.fullmatch, _list_covered_items(bank, name)))
+    ]
+
+
+def unknown_claims(bank: Bank) -> list[tuple[str, str]]:
+    """Template and item wherever a template claims something the curriculum does not have.
+
+    A whole question (``C12``, ``Q1c``) is known by its sub-parts (``C12a``, ``Q1c-i``). A bank
+    without a curriculum claims nothing wrongly.
+    """
+    groups, beyond = bank.curriculum.inventory, bank.curriculum.beyond
+    items = [item for group in groups.values() for item in group]
+    known = {*items, *(_SUB_PART.sub("", item) for item in items)}
+    return [
+        (name, item)
+        for name in (bank.template_paths if groups else ())
+        for item in bank.rules(name).covers
+        if item not in known and not _is_beyond(item, beyond)
+    ]
+
+
+def _is_beyond(item: str, beyond: tuple[str, ...]) -> bool:
+    return bool(_NUMBER.search(item)) and _NUMBER.sub("", item) in beyond
+
+
+def _list_covered_items(bank: Bank, name: str) -> Iterable[str]:
+    rules = bank.rules(name)
+    figure = bank.curriculum.figures.get(rules.figure.name) if rules.figure else None
+    return {*rules.covers, *([figure] if figure else [])}
+
+
+def _build_coverage_row(
+    group: str, items: tuple[str, ...], by_item: Mapping[str, list[str]]
+) -> CoverageGroup:
+    covered = {item: tuple(by_item[item]) for item in items if item in by_item}
+    return CoverageGroup(group, covered, tuple(item for item in items if item not in by_item))

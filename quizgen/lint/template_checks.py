@@ -1,0 +1,373 @@
+"""Proof per template: over many seeds nothing degenerate, nothing that leaks, nothing missing.
+
+For each template: every language is complete; over ``seeds`` draws no trap scores or coincides with
+another (each draw is checked, then counted), units fit formulas, figures can be drawn and give
+nothing away, the answers' range, the share of duplicates, of kept candidates, and the time per
+draw; over a few composed instances no placeholder is left, every
+number stands in every language, the printed answer typed back is correct and every trap is
+recognised.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from quizgen.bank.levels import EXAM
+from quizgen.bank.markdown import LanguageFile, slot_names
+from quizgen.bank.misconceptions import answer_names
+from quizgen.bank.sampler import sampler_for
+from quizgen.bank.template import Template
+from quizgen.bank.variant import Variant, draw_variant, reference_variant
+from quizgen.core.errors import QuizgenError
+from quizgen.grading.mark import mark, show_key
+from quizgen.grading.spec import AnySpec, SpecBase
+from quizgen.lint.dimensions import check_dimensions
+from quizgen.lint.figures import check_figures
+from quizgen.lint.item_quality import QualityReview
+from quizgen.lint.leaks import QuestionContent, question_content
+from quizgen.locale import FIRST, get_language, localise_numbers
+from quizgen.maths.numbers import to_float
+from quizgen.question.compose import Question, QuestionKey, compose_variant, variant_identity
+from quizgen.question.contract import Built
+from quizgen.question.kinds import build
+from quizgen.question.levels import LEVELS, load_level
+from quizgen.question.localise import localise
+from quizgen.render.text import blocks_to_plain_text
+
+
+class SampleShare(NamedTuple):
+    """How many of the draws are looked at more closely: one in so many, and no fewer than some."""
+
+    least: int
+    one_in: int
+
+    def count(self, seeds: int) -> int:
+        """The first so many of all."""
+        return max(self.least, seeds // self.one_in)
+
+
+COMPOSED = SampleShare(3, 33)
+"""Instances that are put into words in every language."""
+MARKED = SampleShare(5, 20)
+"""Instances whose answers and mistakes are typed back in every language."""
+AT_MOST = SampleShare(25, 4)
+"""Instances among which those with a rare mistake are typed back besides."""
+RARE = 3
+"""Times that every mistake is typed back, as far as it is met."""
+VARIED = 4
+"""Different questions whose answers cannot all be the same by chance."""
+AT_ONCE = 50
+"""Draws that are timed as one."""
+LEVELLED = 1
+"""Instances that are asked at every level, and typed back likewise."""
+ComposedLanguages = dict[str, tuple[Question, QuestionKey]]
+"""An instance in each of its languages."""
+VERBATIM = frozenset({"code", "sketch"})
+"""Kinds whose key is printed as a program writes it."""
+
+
+@dataclass
+class TemplateReport:
+    """What was found for one template."""
+
+    template: str
+    seeds: int = 0
+    distinct: int = 0
+    tries: int = 0
+    seconds: float = 0.0
+    ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
+    traps: Counter[str] = field(default_factory=Counter)
+    problems: list[str] = field(default_factory=list)
+    heard: list[QuestionContent] = field(default_factory=list)
+
+    @property
+    def acceptance(self) -> float:
+        """Share of candidates that were kept."""
+        return self.seeds / self.tries if self.tries else 0.0
+
+    @property
+    def duplicates(self) -> float:
+        """Share of draws whose numbers had come before."""
+        return 1 - self.distinct / self.seeds if self.seeds else 0.0
+
+
+def lint_template(
+    template: Template, seeds: int = 200, langs: tuple[str, ...] = ()
+) -> TemplateReport:
+    """Examine one template.
+
+    Parameters
+    ----------
+    template : Template
+    seeds : int
+        How many draws to look at.
+    langs : tuple of str
+        Languages that it must be written in: those of its bank.
+    """
+    report = TemplateReport(template.id)
+    report.problems += [*_language_problems(template, langs), *check_dimensions(template)]
+    if report.problems:
+        return report
+    lessons = QualityReview(template)
+    try:
+        first = _examine_draws(template, seeds, report, lessons)
+        known = [reference_variant(template)] if template.rules.reference is not None else []
+        composed = [
+            _compose_in_all_languages(one) for one in (*first[: COMPOSED.count(seeds)], *known)
+        ]
+        for worded in composed:
+            report.problems += check_composition(worded)
+        typed = (*_select_telling_variants(first, MARKED.count(seeds)), *known)
+        report.problems += _once_a_part([p for one in typed for p in check_grading(one)])
+        for one, worded in zip(first[:LEVELLED], composed, strict=False):
+            report.problems += check_levels(one)
+            report.heard += [question_content(question, key) for question, key in worded.values()]
+        report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
+        report.problems += [
+            f"part {one.label}: {one.what}" for one in lessons.findings() if one.level == "error"
+        ]
+    except QuizgenError as error:
+        report.problems.append(str(error))
+    report.problems = list(dict.fromkeys(report.problems))
+    return report
+
+
+def _select_telling_variants(draws: list[Variant], marked: int) -> Iterator[Variant]:
+    """The first draws, and those further ones in which a mistake is met that is rare."""
+    met = Counter[tuple[int, str]]()
+    for place, one in enumerate(draws):
+        mistakes = [(part, trap) for part, traps in enumerate(one.traps) for trap in traps]
+        if place < marked or any(met[mistake] < RARE for mistake in mistakes):
+            met.update(mistakes)
+            yield one
+
+
+def _examine_draws(
+    template: Template, seeds: int, report: TemplateReport, lessons: QualityReview
+) -> list[Variant]:
+    """Count what the draws give; those whose answers are to be typed back."""
+    seen: set[str] = set()
+    first: list[Variant] = []
+    met: Counter[tuple[tuple[str, ...], ...]] = Counter()
+    sampler_for(template)
+    for one in _draw_within_limit(template, seeds, report):
+        report.seeds += 1
+        report.tries += one.tries
+        seen.add(variant_identity(one))
+        met[one.traps] += 1
+        _widen_ranges(report, one)
+        lessons.add(one)
+        if len(first) < AT_MOST.count(seeds):
+            first.append(one)
+    report.distinct = len(seen)
+    for traps, count in met.items():
+        for trap in (trap for part in traps for trap in part):
+            report.traps[trap] += count
+    for part in sampler_for(template).parts:
+        report.problems += [
+            f"trap {trap!r} never gives a usable wrong answer"
+            for trap in part.traps
+            if not report.traps[trap]
+        ]
+    return first
+
+
+def _draw_within_limit(template: Template, seeds: int, report: TemplateReport) -> Iterator[Variant]:
+    """Draws, some at a time: to read the clock for each would take a part of what it measures."""
+    for begin in range(0, seeds, AT_ONCE):
+        started = time.process_time()
+        drawn = [draw_variant(template, seed) for seed in range(begin, min(begin + AT_ONCE, seeds))]
+        report.seconds += time.process_time() - started
+        yield from drawn
+
+
+def _widen_ranges(report: TemplateReport, one: Variant) -> None:
+    for part in one.template.rules.part:
+        for name in answer_names(part.answer):
+            value = to_float(one.shown_values[name])
+            low, high = report.ranges.get(name, (value, value))
+            report.ranges[name] = (min(low, value), max(high, value))
+
+
+def _find_constant_answers(template: Template, report: TemplateReport) -> Iterator[str]:
+    """Answers that do not vary although the questions do."""
+    for part in template.rules.part if report.distinct >= VARIED else ():
+        ranges = {name: report.ranges[name] for name in answer_names(part.answer)}
+        if ranges and all(low == high for low, high in ranges.values()):
+            said = ", ".join(f"{name} = {low:.6g}" for name, (low, _) in ranges.items())
+            yield f"the answer {said} is the same in all {report.seeds} draws"
+
+
+def _language_problems(template: Template, langs: tuple[str, ...]) -> list[str]:
+    wanted = langs or tuple(template.texts) or (FIRST,)
+    problems = [f"no {lang}.md" for lang in wanted if lang not in template.texts]
+    if not template.texts:
+        return problems
+    for lang in template.texts:
+        problems += [f"{lang}.md: {p}" for p in _find_missing_texts(template, lang)]
+    problems += _unequal_slots(template)
+    return problems
+
+
+def _find_missing_texts(template: Template, lang: str) -> Iterator[str]:
+    text, chain = template.texts[lang], template.chain
+    for label, part in zip(template.labels, template.rules.part, strict=True):
+        if label and label not in text.sections and "from" not in part.answer:
+            yield f"section {label!r} is missing"
+    if chain.steps and "check" not in text.sections:
+        yield "section 'check' is missing"
+    parts = sampler_for(template).parts
+    wanted = {
+        "steps": {step.name for part in parts for step in part.steps},
+        "traps": {trap for part in parts for trap in part.traps},
+    }
+    listed = {trap for part in template.rules.part for trap in part.answer.get("traps", ())}
+    wanted["traps"] |= listed
+    wanted["claims"] = set(template.rules.claims)
+    known = {
+        "claims": wanted["claims"],
+        "steps": set(chain.by_name),
+        "traps": set(chain.traps) | listed,
+    }
+    for section, names in wanted.items():
+        said = set(text.named.get(section, {}))
+        yield from (f"section {section!r} lacks {name!r}" for name in sorted(names - said))
+        strangers = sorted(said - known[section])
+        yield from (
+            f"section {section!r} explains {n!r}, unknown to the {_KNOWS.get(section, 'solver')}"
+            for n in strangers
+        )
+
+
+_KNOWS = {"claims": "pool [claims]"}
+
+
+def _unequal_slots(template: Template) -> Iterator[str]:
+    """Every drawn value that one language shows must be shown in the others."""
+    shown = {lang: set(_question_slots(text)) for lang, text in template.texts.items()}
+    first, *others = shown
+    for lang in others:
+        if shown[first] != shown[lang]:
+            odd = sorted(shown[first] ^ shown[lang])
+            yield f"{first}.md and {lang}.md do not show the same values: {odd}"
+    for section in ("options", "words", "gaps", "points", "claims", "reasons", "why"):
+        keys = {lang: set(text.named.get(section, {})) for lang, text in template.texts.items()}
+        for lang in others:
+            if keys[first] != keys[lang]:
+                odd = sorted(keys[first] ^ keys[lang])
+                yield f"{lang}.md: section {section!r} differs by {odd}"
+
+
+def _question_slots(text: LanguageFile) -> Iterator[str]:
+    yield from slot_names(text.stem)
+    for name, section in text.sections.items():
+        if len(name) == 1:
+            yield from slot_names(section)
+    for asked in ("options", "claims"):
+        for sentence in text.named.get(asked, {}).values():
+            yield from slot_names(sentence)
+
+
+def _compose_in_all_languages(one: Variant) -> ComposedLanguages:
+    return {lang: compose_variant(one, lang, figures=False) for lang in one.template.languages}
+
+
+def check_composition(worded: ComposedLanguages) -> list[str]:
+    """Problems of one instance in all languages."""
+    problems: list[str] = []
+    for lang, (question, key) in worded.items():
+        bodies = [question.stem, *(part.body for part in question.parts)]
+        shown = " ".join(line for body in bodies for line in blocks_to_plain_text(body))
+        if re.search(r"\{\{|\}\}|\bnan\b|\binf\b", shown):
+            problems.append(f"{lang}: a placeholder is left in {shown!r}")
+        remarks = (key.solution.why, key.solution.check, key.solution.note)
+        solved = " ".join(line for remark in remarks for line in blocks_to_plain_text(remark))
+        if "{{" in solved:
+            problems.append(f"{lang}: a placeholder is left in the solution")
+    return problems
+
+
+_TYPED = re.compile(r"seed .*?, (part \w+): (printed answer|trap '.*?')")
+
+
+def _once_a_part(problems: list[str]) -> list[str]:
+    """The first problem of a part's key and of each mistake, which would come again in each draw.
+
+    Where the key itself is not right when typed, what becomes of mistakes says nothing.
+    """
+    found: dict[tuple[str, str], str] = {}
+    for problem in problems:
+        if typed := _TYPED.match(problem):
+            found.setdefault((typed[1], typed[2]), problem)
+    keys = {part for part, what in found if what == "printed answer"}
+    return [p for (part, what), p in found.items() if what == "printed answer" or part not in keys]
+
+
+def check_grading(one: Variant) -> list[str]:
+    """Problems with typing the printed answer and each mistake back."""
+    labels = enumerate(one.template.labels)
+    return [
+        p for index, label in labels for p in _check_printed_answers(one, build(one, index), label)
+    ]
+
+
+def _check_printed_answers(one: Variant, part: Built[AnySpec], label: str) -> Iterator[str]:
+    """What is typed alike in several languages is marked once: a verdict knows no language."""
+    seen = set[tuple[str, str]]()
+    langs = one.template.languages
+    ways = {"": part.spec, **part.mistakes}
+    typed = {trap: _format_key_by_language(spec, langs) for trap, spec in ways.items()}
+    for lang in langs:
+        where = f"seed {one.seed}, {lang}, part {label or '1'}"
+        for trap in ways:
+            text = typed[trap][lang]
+            if (trap, text) not in seen:
+                seen.add((trap, text))
+                yield from _check_typed_answer(part.spec, trap, text, where, lang)
+
+
+def _format_key_by_language(spec: AnySpec, langs: Sequence[str]) -> dict[str, str]:
+    """The key as it is printed in each language; what stands there as program text is in none."""
+    first = show_key(spec, langs[0])
+    own = type(spec).show_in is not SpecBase.show_in
+    shown = {lang: show_key(spec, lang) if own else first for lang in langs}
+    if spec.kind in VERBATIM:
+        return shown
+    return {lang: localise_numbers(lang, text) for lang, text in shown.items()}
+
+
+def check_levels(one: Variant) -> list[str]:
+    """Problems of the levels that are made from the chain: marked alike in every language."""
+    found: list[str] = []
+    for name in (name for name in LEVELS if name != EXAM and load_level(name).is_applicable(one)):
+        asked = [load_level(name).ask(one, lang) for lang in one.template.languages]
+        if len({tuple(map(repr, (part.spec for part in each.parts))) for each in asked}) > 1:
+            found.append(f"seed {one.seed}: {name}: languages are not marked alike")
+        for part in asked[0].parts:
+            where = f"seed {one.seed}, {name}, part {part.label or '1'}"
+            lang = asked[0].solution.lang
+            typed = [("", _format_key_by_language(part.spec, [lang])[lang])]
+            mistakes = localise(lang, part.solved).mistakes  # of a drawing they are only told
+            typed += [(mistake.name, mistake.value) for mistake in mistakes if mistake.value]
+            found += [
+                p
+                for trap, text in typed
+                for p in _check_typed_answer(part.spec, trap, text, where, lang)
+            ]
+    return found
+
+
+def _check_typed_answer(
+    spec: AnySpec, trap: str, typed: str, where: str, lang: str
+) -> Iterator[str]:
+    comma = get_language(lang).decimal == "," and spec.kind not in VERBATIM
+    verdict = mark(spec, typed, lang=lang, decimal="comma" if comma else "point")
+    if trap and verdict.note != f"trap:{trap}":
+        yield f"{where}: trap {trap!r} typed as {typed!r} is {verdict.verdict} ({verdict.note})"
+    if not trap and verdict.verdict != "correct" and not verdict.needs_self_marking:
+        yield f"{where}: printed answer {typed!r} is marked {verdict.verdict} ({verdict.note})"

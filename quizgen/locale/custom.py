@@ -1,0 +1,177 @@
+"""Languages that a bank brings: whatever its own files do not say is said in English.
+
+``quizgen new language`` writes such files; ``docs/banks.md`` shows them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+from pathlib import Path
+from string import Formatter
+from typing import Any
+
+from quizgen.core.errors import BankError
+from quizgen.core.untrusted import parse_toml, read_text
+
+TAG = r"[a-z]{2,3}(?:-[A-Z][a-z]{3})?(?:-(?:[A-Z]{2}|[0-9]{3}))?"
+"""A language as BCP 47 names it: ``fr``, ``pt-BR``, ``sr-Latn``."""
+
+RIGHT_TO_LEFT = frozenset({"Adlm", "Arab", "Hebr", "Mand", "Nkoo", "Rohg", "Samr", "Syrc", "Thaa"})
+"""Scripts that are written from right to left, by ISO 15924."""
+_USUAL = {
+    **dict.fromkeys(("ar", "ckb", "fa", "ps", "sd", "ug", "ur"), "Arab"),
+    **dict.fromkeys(("he", "yi"), "Hebr"),
+    "dv": "Thaa",
+    "nqo": "Nkoo",
+    "syr": "Syrc",
+}
+"""Language to its script, where that is written from right to left."""
+
+Translation = dict[str, Any]
+
+
+def is_language_tag(text: str) -> bool:
+    """Whether a text names a language.
+
+    Examples
+    --------
+    >>> is_tag("fr"), is_tag("pt-BR"), is_tag("French"), is_tag("../fr")
+    (True, True, False, False)
+    """
+    return re.fullmatch(TAG, text) is not None
+
+
+def script_of(tag: str) -> str:
+    """The script of a language: as its tag says, else the usual one.
+
+    Examples
+    --------
+    >>> script_of("he"), script_of("az-Arab-IR"), script_of("ur-Latn"), script_of("fr")
+    ('Hebr', 'Arab', 'Latn', 'Latn')
+    """
+    first, *rest = tag.split("-")
+    return next((one for one in rest if len(one) == 4), _USUAL.get(first, "Latn"))
+
+
+def normalise_language_tag(text: str) -> str:
+    """A language as BCP 47 writes it, whatever the size of its letters.
+
+    Examples
+    --------
+    >>> as_tag("PT-br"), as_tag("sr-latn"), as_tag("French")
+    ('pt-BR', 'sr-Latn', 'french')
+    """
+    first, *rest = text.lower().split("-")
+    return "-".join([first, *(one.title() if len(one) == 4 else one.upper() for one in rest)])
+
+
+def read_translation(file: Path) -> Translation:
+    """A file of words that somebody brings.
+
+    Raises
+    ------
+    BankError
+        If it cannot be read or is no TOML; names the file and the line.
+    """
+    return parse_toml(read_text(file, BankError), file, BankError)
+
+
+def merge_translation(english: Translation, own: Mapping[str, Any]) -> Translation:
+    """English words with a language's own in their places.
+
+    What has no place among them stays: letters and names that are spoken are open lists. What
+    stands where English has something of another kind is left out, and so is a sentence with
+    other blanks: it would be filled with more than the words that are meant. ``unsound`` tells it.
+    """
+    found = dict(english)
+    for key, value in own.items():
+        there = english.get(key)
+        if isinstance(there, dict) and isinstance(value, dict):
+            found[key] = merge_translation(there, value)
+        elif _can_be_filled(there, value):
+            found[key] = value
+    return found
+
+
+def _can_be_filled(english: object, own: object) -> bool:
+    """Whether something can stand in the place of what English has there, if it has anything."""
+    if english is not None and type(english) is not type(own):
+        return False
+    if isinstance(own, dict):
+        return all(_can_be_filled(None, value) for value in own.values())
+    if isinstance(own, list):
+        texts = english if isinstance(english, list) else []
+        few = len(texts) - len(own)
+        pairs = zip([*texts, *[None] * -few], own, strict=False)
+        return all(_can_be_filled(there, value) for there, value in pairs)
+    if not isinstance(own, str):
+        return True
+    return not any(_blanks_amiss(english if isinstance(english, str) else "", own))
+
+
+def check_translation(
+    english: Translation, own: Translation, open_lists: frozenset[str]
+) -> Iterator[tuple[str, str]]:
+    """What a file of words says wrongly: its key, and what is the matter with it.
+
+    Parameters
+    ----------
+    english : dict
+        The same file in English.
+    own : dict
+        What somebody brings.
+    open_lists : frozenset of str
+        Tables that may hold any keys.
+    """
+    for key, value in own.items():
+        there = english.get(key)
+        if there is None:
+            close = " or ".join(map(repr, get_close_matches(key, english, 2)))
+            yield key, "quizgen has no such word" + (f"; did you mean {close}?" if close else "")
+        elif type(there) is not type(value):
+            yield key, f"is to be {_name_type(there)}, and not {_name_type(value)}"
+        elif isinstance(value, dict) and key not in open_lists:
+            inner = check_translation(there, value, frozenset())
+            yield from ((f"{key}.{name}", what) for name, what in inner)
+        elif isinstance(value, str):
+            yield from ((key, what) for what in _blanks_amiss(there, value))
+
+
+def _name_type(value: object) -> str:
+    names = {"dict": "a table", "str": "a text", "list": "a list"}
+    return names.get(type(value).__name__, "a number")
+
+
+def _blanks_amiss(english: str, own: str) -> Iterator[str]:
+    """What is wrong with the blanks of a sentence: each is a name alone, that English has, too.
+
+    ``str.format`` would look into a value at ``{page.__class__}``, and make one of gigabytes at
+    ``{page:>99999999}``.
+    """
+    try:
+        wanted, _ = _parse_blanks(english)
+        found, more = _parse_blanks(own)
+    except ValueError as error:
+        yield f"{error} (write {{{{ for a brace)"
+        return
+    for name in sorted(found - wanted):
+        known = ", ".join(f"{{{one}}}" for one in sorted(wanted)) or "none"
+        yield f"there is nothing to fill {{{name}}} with (blanks here: {known})"
+    for blank in more:
+        yield f"{{{blank}}}: a blank is a name between braces and nothing more"
+
+
+def _parse_blanks(text: str) -> tuple[set[str], list[str]]:
+    """Names of a sentence's blanks, and the blanks in which more stands than a name."""
+    names, more = set(), []
+    for _, name, form, conversion in Formatter().parse(text):
+        if name is None:
+            continue
+        names.add(name)
+        if form or conversion or not re.fullmatch(r"\w*", name):
+            more.append(
+                name + (f"!{conversion}" if conversion else "") + (f":{form}" if form else "")
+            )
+    return names, more

@@ -1,0 +1,80 @@
+"""What happens when there is no answer.
+
+Policy, the same for every function of this package:
+
+* A pole is an infinity (object in the focal plane, far limit beyond the hyperfocal distance).
+* A value beyond the range of binary64 is rounded like any other: to infinity, or to zero.
+* No answer (beyond the fold, hue of a grey, empty range, ...) raises ``DomainError`` when all
+  arguments are scalars. With arrays the result is a ``numpy.ma.MaskedArray``, masked exactly
+  where there is no answer (NaN lies under the mask). When every element has an answer, the
+  result is a plain array. ``answered(result)`` is the mask to ask for in both cases.
+* Arguments that are not finite have no answer (reason ``not-finite``), nor have those outside
+  the range that a function states.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from quizgen.numerics.typing import Array, FloatOrArray
+
+
+class DomainError(ValueError):
+    """There is no answer for these arguments.
+
+    Parameters
+    ----------
+    reason : str
+        Language-free name of the reason, for example ``beyond-fold``.
+    """
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
+class Interval(msgspec.Struct, frozen=True):
+    """The interval in which an argument must lie, and the reason given when it does not."""
+
+    low: float = -math.inf
+    high: float = math.inf
+    reason: str = "not-finite"
+    closed: bool = False
+
+    def contains(self, low: float | Array, high: float | Array) -> Any:
+        """Whether values from ``low`` to ``high`` all lie inside (false for NaN)."""
+        finite = (low > -math.inf) & (high < math.inf)
+        if self.closed:
+            return finite & (low >= self.low) & (high <= self.high)
+        return finite & (low > self.low) & (high < self.high)
+
+    def explain(self, value: float) -> str:
+        """Name what is wrong with a value outside."""
+        return self.reason if math.isfinite(value) else "not-finite"
+
+
+REAL = Interval()
+POSITIVE = Interval(low=0.0, reason="not-positive")
+NONNEGATIVE = Interval(low=0.0, reason="negative", closed=True)
+
+
+class Constraint(msgspec.Struct, frozen=True):
+    """A relation between arguments that must not occur.
+
+    ``possible`` takes the limits of the arguments: when it is false, no element breaks the rule
+    and none is looked at.
+    """
+
+    reason: str
+    broken: Callable[..., Any]
+    possible: Callable[..., bool] = lambda *_limits: True
+
+
+def is_defined(result: FloatOrArray) -> Any:
+    """Tell which elements of an array result have an answer (True for a scalar)."""
+    return ~np.ma.getmaskarray(result) if isinstance(result, np.ndarray) else True

@@ -1,0 +1,259 @@
+"""How a formula is run over arrays: in blocks, with exact fractions for the few doubtful elements.
+
+Formulas see one-dimensional blocks that fit the cache and only elements that have an answer.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
+
+import msgspec
+import numpy as np
+
+from quizgen.numerics.domain import Constraint, DomainError, Interval
+from quizgen.numerics.rational import exact_arguments, nearest_double
+from quizgen.numerics.typing import Array, ArrayFormula, Exact, Flags, FloatOrArray, Limits, Numbers
+
+BLOCK = 32768
+"""Elements per block: temporaries stay near the processor, and calls are few."""
+
+_SETTLED = 16 * 8 * BLOCK
+"""Bytes of more temporaries than a formula has."""
+
+REACH = 2.0**120
+"""Magnitudes from its inverse to it are moderate, unless a kernel says otherwise."""
+
+
+@cache
+def warm_allocator(size: int) -> None:
+    """Let the C library see a larger array of so many bytes come and go, once.
+
+    Until then it gives temporaries from 128 KiB on back to the system one by one, which can cost
+    as much as the computation. The array is never written to and takes no memory.
+    """
+    np.empty(size, np.uint8)
+
+
+class StableUfunc(msgspec.Struct, frozen=True):
+    """A formula, where it has an answer, and where it is trusted.
+
+    Parameters
+    ----------
+    formula : callable
+        Takes blocks, returns a block or one per output. A NaN asks for ``exact``.
+    spans : sequence of Span
+        Where each argument must lie to have an answer.
+    rules : sequence of Rule
+        Relations without an answer.
+    exact : callable, optional
+        The same quantity for fractions, one element at a time (microseconds).
+    reach : float
+        ``formula`` is trusted for magnitudes up to it, and from its inverse.
+    tiny : bool
+        Whether it is trusted for all smaller ones, too.
+    outputs : int
+        Number of result arrays.
+    shortcut : callable, optional
+        Fills a block of each result from those of the arguments, and tells whether a short look
+        showed that every element has an answer and the formula is trusted, as in nearly all
+        blocks. Where it says no, the block is done again with a look at each argument.
+    """
+
+    formula: ArrayFormula
+    spans: Sequence[Interval]
+    rules: Sequence[Constraint] = ()
+    exact: Exact | None = None
+    reach: float = REACH
+    tiny: bool = False
+    outputs: int = 1
+    shortcut: Callable[..., bool] | None = None
+
+    def __call__(self, *args: Numbers) -> FloatOrArray:
+        """Run the kernel on scalars or arrays that broadcast together."""
+        shape, columns = broadcast_flat(*args)
+        with np.errstate(all="ignore"):
+            results = (
+                self._evaluate_blocks(columns, shape) if shape else self._evaluate_scalar(columns)
+            )
+        return results if self.outputs > 1 else results[0]
+
+    def _evaluate_scalar(self, args: list[Array]) -> tuple[float, ...]:
+        reason = self._why_not(args)
+        if reason is not None:
+            raise DomainError(reason)
+        return tuple(
+            value[0].item()
+            for value in self._evaluate_values(args, list(map(_find_value_limits, args)))
+        )
+
+    def _why_not(self, args: list[Array]) -> str | None:
+        for span, arg in zip(self.spans, args, strict=True):
+            if not span.contains(arg[0], arg[0]):
+                return span.explain(float(arg[0]))
+        return next((rule.reason for rule in self.rules if np.any(rule.broken(*args))), None)
+
+    def _evaluate_blocks(self, args: list[Array], shape: tuple[int, ...]) -> tuple[Array, ...]:
+        warm_allocator(_SETTLED)
+        columns = [np.empty(math.prod(shape)) for _ in range(self.outputs)]
+        masks: list[tuple[int, Flags]] = []
+        fixed = [_find_value_limits(arg) if arg.size == 1 else None for arg in args]
+        for start, block in _iter_blocks(args, columns[0].size):
+            parts = [column[start : start + BLOCK] for column in columns]
+            if self.shortcut is not None and self.shortcut(*parts, *block):
+                continue
+            limits = [
+                known or _find_value_limits(arg) for known, arg in zip(fixed, block, strict=True)
+            ]
+            bad = self._flag_undefined(block, limits)
+            if bad is None:
+                _fill_masked(parts, self._evaluate_values(block, limits), slice(None))
+                continue
+            masks.append((start, bad))
+            _fill_masked(parts, [np.full(1, np.nan)] * self.outputs, bad)
+            if not bad.all():
+                some = [arg[~bad] if arg.size > 1 else arg for arg in block]
+                _fill_masked(
+                    parts, self._evaluate_values(some, list(map(_find_value_limits, some))), ~bad
+                )
+        return tuple(_with_mask(column, masks).reshape(shape) for column in columns)
+
+    def _flag_undefined(self, args: list[Array], limits: list[Limits]) -> Flags | None:
+        """Flag the elements without an answer, if there are any."""
+        if all(
+            span.contains(*limit) for span, limit in zip(self.spans, limits, strict=True)
+        ) and not any(rule.possible(*limits) and np.any(rule.broken(*args)) for rule in self.rules):
+            return None
+        bad = np.zeros(max(arg.size for arg in args), dtype=bool)
+        for span, arg in zip(self.spans, args, strict=True):
+            bad |= ~span.contains(arg, arg)
+        good = ~bad
+        if good.any():
+            some = [arg[good] if arg.size > 1 else arg for arg in args]
+            for rule in self.rules:
+                bad[good] |= rule.broken(*some)
+        return bad
+
+    def _evaluate_values(self, args: list[Array], limits: list[Limits]) -> tuple[Array, ...]:
+        """Blocks of the results, exact where the formula is not to be trusted."""
+        values = self.formula(*args)
+        columns = values if isinstance(values, tuple) else (values,)
+        if self.exact is None:
+            return columns
+        flags = self._flag_out_of_reach(args, limits)
+        for column in columns:
+            if np.isnan(column.max()):
+                lost = np.isnan(column)
+                flags = lost if flags is None else flags | lost
+        return columns if flags is None else _replace_flagged(columns, flags, self.exact, args)
+
+    def _flag_out_of_reach(self, args: list[Array], limits: list[Limits]) -> Flags | None:
+        """Flag the elements with an argument that is out of reach; zero never is."""
+        least = 0.0 if self.tiny else 1 / self.reach
+        flags: Flags | None = None
+        for arg, (low, high) in zip(args, limits, strict=True):
+            if high <= self.reach and (low >= least or (self.tiny and low >= -self.reach)):
+                continue
+            size = np.abs(arg)
+            odd = (size > self.reach) | ((size < least) & (size > 0))
+            if odd.any():
+                flags = odd if flags is None else flags | odd
+        return flags
+
+
+def smallest_nonzero(sizes: Array) -> float:
+    """The least of numbers that are not negative, but for zeros."""
+    least = float(sizes.min())
+    return least or float(np.min(sizes, where=sizes > 0, initial=math.inf))
+
+
+def _find_value_limits(arg: Array) -> Limits:
+    return float(arg.min()), float(arg.max())
+
+
+def all_within(arg: Array, low: float, high: float) -> bool:
+    """Whether all numbers lie between two limits; one number is asked without a reduction."""
+    if arg.size == 1:
+        return bool(low <= arg.item() <= high)
+    return bool(low <= arg.min()) and bool(arg.max() <= high)
+
+
+def _fill_masked(parts: Sequence[Array], values: Sequence[Array], where: Flags | slice) -> None:
+    for part, value in zip(parts, values, strict=True):
+        part[where] = value
+
+
+def _replace_flagged(
+    columns: tuple[Array, ...], flags: Flags, exact: Exact, args: list[Array]
+) -> tuple[Array, ...]:
+    """The values, exact where they are flagged."""
+    size = max(arg.size for arg in args)
+    columns = tuple(column if column.size == size else np.full(size, column) for column in columns)
+    for i in np.flatnonzero(np.broadcast_to(flags, size)):
+        answer = exact(*exact_arguments(args, i))
+        answers = answer if isinstance(answer, tuple) else (answer,)
+        for column, value in zip(columns, answers, strict=True):
+            column[i] = nearest_double(value)
+    return columns
+
+
+def broadcast_flat(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
+    """Common shape of the arguments and their values in a row.
+
+    What is the same number throughout, like the one camera of a picture, becomes one value.
+    """
+    arrays = list(map(_to_doubles, args))
+    shape = np.broadcast_shapes(*[array.shape for array in arrays])
+    single = [_is_one_number(array) for array in arrays]
+    if all(single) and math.prod(shape) > 1:
+        return shape, [np.full(math.prod(shape), array.flat[0]) for array in arrays]
+    return shape, [
+        array.reshape(-1)[:1]
+        if one
+        else np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
+        for array, one in zip(arrays, single, strict=True)
+    ]
+
+
+def _to_doubles(arg: Numbers) -> Array:
+    """Doubles; a masked element becomes NaN, which has no answer, and a huge integer infinity."""
+    array = np.asarray(arg)
+    if array.dtype.kind == "c":  # NumPy would warn, and drop what is imaginary
+        raise TypeError("the array functions take real numbers, not complex ones")
+    if hasattr(arg, "mask") and isinstance(arg, np.ma.MaskedArray):  # np.ma takes long to load
+        return np.asarray(np.ma.filled(arg.astype(np.float64), np.nan))
+    try:
+        with np.errstate(over="ignore"):
+            return array.astype(np.float64, copy=False)
+    except OverflowError:
+        return np.vectorize(_as_double, otypes=[np.float64])(array)
+
+
+def _as_double(value: int) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
+
+
+def _is_one_number(array: Array) -> bool:
+    if array.size < 2:
+        return array.size == 1
+    first = array.flat[0]
+    return bool(array.flat[-1] == first) and bool((array == first).all())
+
+
+def _iter_blocks(args: list[Array], size: int) -> Iterator[tuple[int, list[Array]]]:
+    for start in range(0, size, BLOCK):
+        yield start, [arg if arg.size == 1 else arg[start : start + BLOCK] for arg in args]
+
+
+def _with_mask(column: Array, masks: list[tuple[int, Flags]]) -> Array:
+    """The column, masked where there is no answer."""
+    if not masks:
+        return column
+    mask = np.zeros(column.size, dtype=bool)
+    for start, bad in masks:
+        mask[start : start + bad.size] = bad
+    return np.ma.MaskedArray(column, mask=mask)

@@ -1,0 +1,295 @@
+"""``key.json``: everything that marking needs, written and read by the same structs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+from flint import fmpq
+
+from quizgen.bank.most import MOST_POINTS
+from quizgen.core.decoding import convert
+from quizgen.core.errors import FormulaError, KeyFileError
+from quizgen.core.files import read_table
+from quizgen.grading.mark import load_spec
+from quizgen.grading.options import QuestionContext
+from quizgen.locale import register_languages
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.numbers import parse_written_number
+from quizgen.maths.precision import working_precision
+from quizgen.maths.units import UnitRegistry, build_unit_registry
+from quizgen.paper.code import content_digest
+from quizgen.paper.provenance import BankRecord
+
+if TYPE_CHECKING:
+    from quizgen.paper.paper import Paper, PaperItem
+
+FORMAT = "quizgen-key/2"
+UNORDERED = frozenset({"notes", "traps"})
+"""Mappings of a specification whose entries are only ever looked up by name."""
+
+
+class KeyGiven(msgspec.Struct):
+    """A drawn number in base units, and the unit it is shown in."""
+
+    value: str
+    unit: str = ""
+
+
+class KeyChain(msgspec.Struct):
+    """The chain of a question as plain formulas."""
+
+    given: dict[str, KeyGiven]
+    steps: list[tuple[str, str, str]]
+
+    def units(self) -> dict[str, str]:
+        """Step name to the unit it is shown in."""
+        return {name: unit for name, _, unit in self.steps}
+
+    def context(self, earlier: Mapping[str, fmpq]) -> QuestionContext:
+        """Return the question around a part, with the student's earlier values.
+
+        Raises
+        ------
+        FormulaError
+            If a formula cannot be read.
+        """
+        units = tuple((name, given.unit) for name, given in self.given.items())
+        chain = _build_chain(units, tuple(map(tuple, self.steps)))
+        values = {name: parse_exact(given.value) for name, given in self.given.items()}
+        return QuestionContext(chain, values, earlier)
+
+
+@lru_cache(maxsize=512)
+def _build_chain(
+    units: tuple[tuple[str, str], ...], steps: tuple[tuple[str, str, str], ...]
+) -> Chain:
+    """Build a chain once for all students of a paper."""
+    from quizgen.maths.notation import parse_formula
+
+    built = tuple(ChainStep(name, parse_formula(formula), unit) for name, formula, unit in steps)
+    return Chain(dict(units), built)
+
+
+@lru_cache(maxsize=256)
+def _parse_points(text: str) -> Fraction:
+    """Points as an exact number; a class has few different ones."""
+    return parse_written_number(text)
+
+
+class KeyPart(msgspec.Struct):
+    """One answer field.
+
+    Objects of JSON have no order, but cells of a table are asked and typed in one: ``order`` holds
+    the names of every mapping of ``spec`` as a list.
+    """
+
+    id: str
+    points: str
+    spec: dict[str, Any]
+    order: dict[str, list[str]] = {}
+
+    def points_exact(self) -> Fraction:
+        """Points as an exact number."""
+        return _parse_points(self.points)
+
+    def ordered_spec(self) -> dict[str, Any]:
+        """The specification with its mappings in their order.
+
+        Raises
+        ------
+        KeyFileError
+            If the order is not one of the names there are.
+        """
+        for field, names in self.order.items():
+            mapping = self.spec.get(field)
+            if not isinstance(mapping, dict) or sorted(mapping) != sorted(names):
+                raise KeyFileError(f"order.{field} does not hold the names of spec.{field}")
+        sorted_out = {
+            field: {name: self.spec[field][name] for name in names}
+            for field, names in self.order.items()
+        }
+        return {**self.spec, **sorted_out}
+
+
+class KeyQuestion(msgspec.Struct):
+    """One question of the key."""
+
+    number: str
+    parts: list[KeyPart]
+    points: str = ""
+    template: str = ""
+    identity: str = ""
+    topic: str = ""
+    tier: str = ""
+    title: dict[str, str] = {}
+    chain: KeyChain | None = None
+
+    def known_units(self) -> UnitRegistry:
+        """The units of its chain: those listed, and those that its parts define."""
+        return build_unit_registry(
+            next((tuple(p.spec["define"]) for p in self.parts if "define" in p.spec), ())
+        )
+
+
+class AnswerKey(msgspec.Struct):
+    """A paper's answer key."""
+
+    format: str
+    questions: list[KeyQuestion]
+    code: str = ""
+    paper: str = ""
+    title: dict[str, str] = {}
+    langs: tuple[str, ...] = ("en",)
+    banks: tuple[BankRecord, ...] = ()
+
+
+def make_answer_key(paper: Paper) -> AnswerKey:
+    """The answer key of a paper."""
+    title = {lang: paper.title(lang) for lang in paper.langs}
+    questions = [make_key_question(item) for item in paper.items]
+    return AnswerKey(FORMAT, questions, paper.code, paper.digest, title, paper.langs, paper.banks)
+
+
+def answer_key_digest(key: AnswerKey, code: str = "") -> str:
+    """Digest of the paper that a key is of: ``Paper.digest``.
+
+    Parameters
+    ----------
+    key : Key
+    code : str
+        That which the paper had before it got a secret one.
+    """
+    asked = [
+        (q.number, q.template, q.identity, [(part.id, part.points) for part in q.parts])
+        for q in key.questions
+    ]
+    return content_digest(code or key.code, asked)
+
+
+def make_key_question(item: PaperItem) -> KeyQuestion:
+    """The key of one question."""
+    question, key = item.questions[0], item.keys[0]
+    parts = [
+        _key_part(part.field.id, str(part.points), msgspec.to_builtins(spec))
+        for part, spec in zip(question.parts, key.specs, strict=True)
+    ]
+    return KeyQuestion(
+        number=item.number,
+        parts=parts,
+        points=str(question.points),
+        template=key.template,
+        identity=key.identity,
+        topic=question.topic,
+        tier=question.tier,
+        title={q.lang: q.title for q in item.questions},
+        chain=None if key.chain is None else convert(key.chain, KeyChain),
+    )
+
+
+def _key_part(name: str, points: str, spec: dict[str, Any]) -> KeyPart:
+    order = {
+        field: list(value)
+        for field, value in spec.items()
+        if isinstance(value, dict) and field not in UNORDERED and len(value) > 1
+    }
+    return KeyPart(name, points, spec, order)
+
+
+def write_answer_key(paper: Paper) -> bytes:
+    """``key.json``."""
+    table = msgspec.to_builtins(make_answer_key(paper))
+    text = json.dumps(table, ensure_ascii=False, indent=1)
+    return (text + "\n").encode()
+
+
+def parse_answer_key(table: Mapping[str, Any], place: str = "key") -> AnswerKey:
+    """Validate a key table.
+
+    Raises
+    ------
+    KeyFileError
+        Naming file and field.
+    """
+    if table.get("format") == "quizgen-key/1":
+        raise KeyFileError(
+            f"{place}: from an earlier version, which did not keep the order of the cells of a "
+            "table; make the paper again, or mark it with that version"
+        )
+    if table.get("format") != FORMAT:
+        form = " (this is a form; the key comes first)" if "answers" in table else ""
+        found = f"format is {table.get('format')!r}, not {FORMAT!r}"
+        raise KeyFileError(f"{place}: {found}{form}")
+    try:
+        key = convert(table, AnswerKey)
+    except msgspec.ValidationError as error:
+        raise KeyFileError(f"{place}: {error}") from None
+    seen: set[str] = set()
+    for part in (part for question in key.questions for part in question.parts):
+        if part.id in seen:
+            raise KeyFileError(f"{place}: part {part.id!r} stands twice")
+        seen.add(part.id)
+        _check_points(part, place)
+        _check_spec(part, place)
+    for question in key.questions:
+        _check_chain(question, place)
+    register_languages(key.langs)
+    return key
+
+
+def _check_points(part: KeyPart, place: str) -> None:
+    try:
+        worth = part.points_exact()
+    except ValueError as error:
+        raise KeyFileError(f"{place}: part {part.id!r}: points: {error}") from None
+    if not 0 < worth <= MOST_POINTS:
+        raise KeyFileError(
+            f"{place}: part {part.id!r}: points {part.points[:40]!r} (allowed: more than 0, "
+            f"at most {MOST_POINTS})"
+        )
+
+
+def _check_spec(part: KeyPart, place: str) -> None:
+    try:
+        spec = load_spec(part.ordered_spec())
+        for unit in spec.value_units():
+            spec.known_units().factor(unit)
+    except (KeyFileError, FormulaError) as error:
+        raise KeyFileError(f"{place}: part {part.id!r}: {error}") from None
+
+
+@working_precision()
+def _check_chain(question: KeyQuestion, place: str) -> None:
+    if question.chain is None:
+        return
+    try:
+        question.chain.context({})
+        for unit in question.chain.units().values():
+            question.known_units().factor(unit)
+    except FormulaError as error:
+        raise KeyFileError(f"{place}: question {question.number!r}: chain: {error}") from None
+
+
+def read_answer_key(path: Path) -> AnswerKey:
+    """Read ``key.json``.
+
+    Raises
+    ------
+    KeyFileError
+        Naming file and field or line.
+    """
+    return parse_answer_key(read_table(path), str(path))
+
+
+def read_key_code(path: Path) -> str:
+    """The code of the paper that a key is of; empty for any other file, or none."""
+    try:
+        return str(read_table(path).get("code", ""))
+    except KeyFileError:
+        return ""

@@ -1,0 +1,247 @@
+"""Marking a whole paper: every part, errors carried forward, marks and total."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+import msgspec
+
+from quizgen.core.errors import require_one_of
+from quizgen.grading.contract import Kind
+from quizgen.grading.mark import explain_verdict, judge_answer, load_spec, read_error_verdict
+from quizgen.grading.options import DECIMALS, GradingOptions
+from quizgen.grading.verdict import Verdict
+from quizgen.locale import list_languages
+from quizgen.maths.notation import FormulaReadError
+from quizgen.maths.precision import working_precision
+from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion, parse_answer_key
+
+QUARTERS = 4
+"""Parts of a point that marks are given in."""
+
+
+class PartResult(msgspec.Struct, frozen=True):
+    """One part of a marked paper.
+
+    ``marks`` is None where a person has to decide (free text); an answer that could not be read
+    gets no marks yet and is counted in ``PaperResult.asked_back``.
+    """
+
+    id: str
+    number: str
+    template: str
+    typed: str
+    points: Fraction
+    verdict: Verdict
+    marks: Fraction | None
+    kind: str = ""
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether nothing was typed."""
+        return not self.typed.strip()
+
+    @property
+    def status(self) -> str:
+        """``blank``, ``open`` or the verdict."""
+        if self.is_blank:
+            return "blank"
+        return "open" if self.marks is None else self.verdict.verdict
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain values for JSON."""
+        return {
+            "id": self.id,
+            "question": self.number,
+            "template": self.template,
+            "typed": self.typed,
+            "status": self.status,
+            "points": float(self.points),
+            "marks": None if self.marks is None else float(self.marks),
+            **self.verdict.as_json(),
+        }
+
+
+class PaperResult(msgspec.Struct, frozen=True):
+    """A marked paper."""
+
+    code: str
+    parts: tuple[PartResult, ...]
+    unknown: tuple[str, ...] = ()
+
+    @property
+    def marks(self) -> Fraction:
+        """Marks so far."""
+        return sum((part.marks or Fraction(0) for part in self.parts), Fraction(0))
+
+    @property
+    def points(self) -> Fraction:
+        """Marks that can be had."""
+        return sum((part.points for part in self.parts), Fraction(0))
+
+    @property
+    def asked_back(self) -> int:
+        """Answers that could not be read as meant."""
+        return sum(part.status in {"unreadable", "ambiguous"} for part in self.parts)
+
+    @property
+    def to_decide(self) -> int:
+        """Free texts that a person has to mark."""
+        return sum(part.status == "open" for part in self.parts)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return plain values for JSON."""
+        return {
+            "code": self.code,
+            "marks": float(self.marks),
+            "points": float(self.points),
+            "asked_back": self.asked_back,
+            "to_decide": self.to_decide,
+            "unknown_parts": list(self.unknown),
+            "parts": [part.as_json() for part in self.parts],
+        }
+
+
+def grade_paper(
+    key: AnswerKey | Mapping[str, Any],
+    answers: Mapping[str, str],
+    lang: str = "en",
+    *,
+    decimal: str = "auto",
+    settle: bool = False,
+) -> PaperResult:
+    """Mark a paper.
+
+    Parameters
+    ----------
+    key : Key or mapping
+        The contents of ``key.json``.
+    answers : mapping of str to str
+        Part to typed text.
+    lang : str
+        Language of the messages.
+    decimal : str
+        The student's decimal sign: ``auto``, ``point`` or ``comma``.
+    settle : bool
+        Allow a few seconds of SymPy for each formula that sampling leaves undecided.
+
+    Raises
+    ------
+    ChoiceError
+        If there is no such language or decimal sign.
+    KeyFileError
+        If the key is wrong (never because of what was typed).
+    """
+    found = key if isinstance(key, AnswerKey) else parse_answer_key(key)
+    options = GradingOptions(
+        require_one_of("language", lang, list_languages()),
+        require_one_of("decimal", decimal, DECIMALS),
+        settle=settle,
+    )
+    parts = [
+        part for question in found.questions for part in _grade_question(question, answers, options)
+    ]
+    known = {part.id for part in parts}
+    unknown = tuple(name for name, text in answers.items() if name not in known and text.strip())
+    return PaperResult(found.code, tuple(parts), unknown)
+
+
+def _grade_question(
+    question: KeyQuestion, answers: Mapping[str, str], options: GradingOptions
+) -> list[PartResult]:
+    marker = QuestionGrader(question, options)
+    return [marker.grade_part(part, answers.get(part.id, "")) for part in question.parts]
+
+
+class QuestionGrader:
+    """Marks the parts of one question in order, remembering the student's own values.
+
+    Parameters
+    ----------
+    question : KeyQuestion
+        The question's key.
+    options : Options
+        How to read, and the language of the messages.
+    proven : bool
+        Whether the key is known to be as it was written.
+    """
+
+    def __init__(
+        self, question: KeyQuestion, options: GradingOptions, *, proven: bool = False
+    ) -> None:
+        self.question, self.proven = question, proven
+        self.options = options
+        self.earlier: dict[str, Any] = {}
+
+    def grade_part(self, part: KeyPart, typed: str) -> PartResult:
+        """Mark one part; a part marked again replaces its earlier values."""
+        spec, verdict = self._judge_typed_answer(part, typed)
+        return _build_part_result(
+            self.question, part, typed, explain_verdict(spec, verdict, self.options.lang)
+        )
+
+    def judge_part(self, part: KeyPart, typed: str) -> PartResult:
+        """Mark one part without a word about it."""
+        return _build_part_result(
+            self.question, part, typed, self._judge_typed_answer(part, typed)[1]
+        )
+
+    @working_precision()
+    def _judge_typed_answer(self, part: KeyPart, typed: str) -> tuple[Kind, Verdict]:
+        spec = load_spec(part.ordered_spec(), proven=self.proven)
+        options = msgspec.structs.replace(self.options, points=part.points_exact())
+        verdict = _judge_with_context(self.question, spec, typed, options, self.earlier)
+        if self.question.chain is not None:
+            _remember_own_values(self.question, spec, verdict, self.earlier)
+        return spec, verdict
+
+    def ask_back(self, part: KeyPart, typed: str, why: FormulaReadError) -> PartResult:
+        """A part whose answer did not arrive as it was given; it counts as one not read."""
+        verdict = explain_verdict(
+            load_spec(part.ordered_spec()), read_error_verdict(why), self.options.lang
+        )
+        return _build_part_result(self.question, part, typed, verdict)
+
+
+def _judge_with_context(
+    question: KeyQuestion, spec: Kind, typed: str, options: GradingOptions, earlier: dict[str, Any]
+) -> Verdict:
+    """Mark without the question around; only what went wrong is looked at again with it."""
+    verdict = judge_answer(spec, typed, options)
+    around = question.chain is not None and spec.quantities() and typed.strip()
+    if not around or not verdict.is_graded or verdict.verdict == "correct":
+        return verdict
+    context = question.chain.context(earlier) if question.chain else None
+    return judge_answer(spec, typed, msgspec.structs.replace(options, context=context))
+
+
+def _remember_own_values(
+    question: KeyQuestion, spec: Kind, verdict: Verdict, earlier: dict[str, Any]
+) -> None:
+    """Keep the student's own values, in base units, for the parts that follow."""
+    if question.chain is None or len(spec.quantities()) != len(verdict.values):
+        return
+    units = question.chain.units()
+    triples = zip(spec.quantities(), verdict.values, spec.value_units(), strict=True)
+    for name, value, unit in triples:
+        if value is not None and name in units:
+            earlier[name] = value * spec.known_units().factor(unit or units[name])
+
+
+def _build_part_result(
+    question: KeyQuestion, part: KeyPart, typed: str, verdict: Verdict
+) -> PartResult:
+    worth = part.points_exact()
+    marks: Fraction | None = round_to_quarters(verdict.credit * worth)
+    if verdict.needs_self_marking:
+        marks = None
+    number, template, kind = question.number, question.template, part.spec["kind"]
+    return PartResult(part.id, number, template, typed, worth, verdict, marks, kind)
+
+
+def round_to_quarters(marks: Fraction) -> Fraction:
+    """Round marks to the nearest quarter of a point, halves up."""
+    above, below = marks.numerator, marks.denominator
+    return Fraction((2 * QUARTERS * above + below) // (2 * below), QUARTERS)

@@ -1,0 +1,197 @@
+"""The numbers of a paper's questions: none stands twice, and none tells another's answer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+import msgspec
+
+from quizgen.bank.bank import Bank
+from quizgen.bank.misconceptions import answer_names
+from quizgen.bank.sampler import Sampler, sampler_for
+from quizgen.bank.template import Template
+from quizgen.bank.variant import SiblingContent, Variant, draw_variant, leading_digits
+from quizgen.core.errors import SamplingError
+from quizgen.grading.kinds import expression
+from quizgen.grading.reading.formulas import parse_authored
+from quizgen.maths.canonical import CanonicalForm, canonical_equation
+from quizgen.maths.notation import format_tree
+from quizgen.maths.numbers import to_float
+from quizgen.maths.tree import Expr, substitute
+from quizgen.maths.values import Value
+from quizgen.question.compose import variant_identity
+from quizgen.question.figure import coloured
+from quizgen.question.kinds import build
+from quizgen.question.specs import authored_answer
+
+REDRAWS = 50
+"""Tries to avoid the same numbers twice in one paper."""
+OTHER_ANSWERS = 30
+"""Tries to avoid an answer that the paper asks, or states, somewhere else."""
+COUNTED = 10
+"""Whole numbers below are asked in many questions, and tell nothing."""
+DIGITS = 3
+"""Digits of a number that is not in another question by chance."""
+
+
+class _Seen(msgspec.Struct):
+    """What the questions so far ask and state."""
+
+    questions: set[str] = msgspec.field(default_factory=set)
+    asked: set[str] = msgspec.field(default_factory=set)
+    given: set[str] = msgspec.field(default_factory=set)
+
+    def add(self, one: Variant) -> None:
+        self.questions.add(variant_identity(one))
+        self.asked |= _collect_notable_answers(one)
+        self.given |= _collect_stated_numbers(one)
+
+    def tells(self, one: Variant) -> bool:
+        """Whether a draw asks what is asked or stated already, or states what is asked."""
+        asked = _collect_notable_answers(one)
+        return bool(
+            asked & self.asked or asked & self.given or self.asked & _collect_stated_numbers(one)
+        )
+
+
+def draw_variants(
+    bank: Bank, names: Sequence[str], seed: str, beside: Sequence[Sequence[Variant]] = (),
+    *, colour: bool = True,
+) -> Iterator[Variant]:  # fmt: skip
+    """Draw the questions of a paper in order.
+
+    Parameters
+    ----------
+    bank : Bank
+    names : sequence of str
+        The templates.
+    seed : str
+    beside : sequence of sequences of Draw
+        Other papers of the same templates, with which no question is to share what it asks.
+    colour : bool
+        Whether a figure may need colour to be read.
+
+    Raises
+    ------
+    DrawError
+        If a question would stand in the paper again and has no other numbers.
+    """
+    seen = _Seen()
+    for place, name in enumerate(names, 1):
+        near = [paper[place - 1] for paper in beside]
+        one = _draw_least_revealing(bank.template(name), seed, place, seen, near, colour=colour)
+        seen.add(one)
+        yield one
+
+
+def _draw_least_revealing(
+    template: Template, seed: str, place: int, seen: _Seen, near: Sequence[Variant], *, colour: bool
+) -> Variant:
+    """The first draw that is new and tells nothing; if there is none, the one that tells least."""
+    new: list[Variant] = []
+    for again in range(REDRAWS):
+        one = draw_variant(template, seed, f"{place}.{again}" if again else place)
+        if variant_identity(one) not in seen.questions and (colour or not coloured(one)):
+            new.append(one)
+            if not seen.tells(one) and not any(shared_content(one, other) for other in near):
+                return one
+        if new and again >= OTHER_ANSWERS:
+            return min(new, key=lambda one: _find_overlap(one, seen, near))
+    raise SamplingError(
+        f"{template.file}: would stand in the paper again, and has no other numbers: "
+        "ask for fewer questions, or let other templates take the place"
+    )
+
+
+def _find_overlap(one: Variant, seen: _Seen, near: Sequence[Variant]) -> tuple[bool, bool, bool]:
+    """What of a draw tells something: its own paper, the same question beside it, its answer."""
+    again = any(variant_identity(one) == variant_identity(other) for other in near)
+    return seen.tells(one), again, any(shared_content(one, other) for other in near)
+
+
+def shared_content(one: Variant, other: Variant) -> set[str]:
+    """What two questions have in common: numbers that both ask, or that they are the same."""
+    same = {variant_identity(one)} & {variant_identity(other)}
+    return (_collect_answer_numbers(one) & _collect_answer_numbers(other)) | same
+
+
+def _collect_notable_answers(one: Variant) -> set[str]:
+    """Numbers that are asked for, small whole ones aside."""
+    return {
+        leading_digits(v)
+        for v in _iter_asked_values(one)
+        if abs(to_float(v)) >= COUNTED or to_float(v) % 1
+    }
+
+
+def _collect_answer_numbers(one: Variant) -> set[str]:
+    """Numbers that are asked for."""
+    return set(map(leading_digits, _iter_asked_values(one)))
+
+
+def _iter_asked_values(one: Variant) -> Iterator[Value]:
+    for part in one.template.rules.part:
+        yield from (one.shown_values[name] for name in answer_names(part.answer))
+
+
+def _collect_stated_numbers(one: Variant) -> set[str]:
+    """Numbers that a question states, as far as they have digits enough."""
+    return {
+        text
+        for text in map(leading_digits, one.shown.values())
+        if _count_significant_digits(text) >= DIGITS
+    }
+
+
+def _count_significant_digits(text: str) -> int:
+    """Digits without zeros at the ends."""
+    return len(text.partition("e")[0].replace(".", "").strip("0"))
+
+
+def with_siblings(drawn: Sequence[Variant]) -> Iterator[Variant]:
+    """Each draw with what the other questions of its paper ask."""
+    formulas = [frozenset(_iter_asked_formulas(one)) for one in drawn]
+    numbers = [
+        frozenset(
+            n for n in _collect_notable_answers(one) if _count_significant_digits(n) >= DIGITS
+        )
+        for one in drawn
+    ]
+    for place, one in enumerate(drawn):
+        others = [other for other in range(len(drawn)) if other != place]
+        asked = SiblingContent(
+            frozenset().union(*(formulas[other] for other in others)),
+            frozenset().union(*(numbers[other] for other in others)),
+        )
+        yield replace(one, elsewhere=asked)
+
+
+def _iter_asked_formulas(one: Variant) -> Iterator[CanonicalForm]:
+    for index in range(len(one.template.rules.part)):
+        yield from asked_formulas(one, index)
+
+
+def asked_formulas(drawn: Variant, index: int) -> Mapping[CanonicalForm, str]:
+    """Forms of the steps to an answer, each also with the steps before it put in, and the key."""
+    found = _formulas_of_steps(sampler_for(drawn.template), index)
+    if authored_answer(drawn, index)["kind"] == "expression":
+        spec: expression.Spec = build(drawn, index).spec
+        formula = parse_authored(spec.value, tuple(spec.symbols))
+        return found | dict.fromkeys(canonical_equation("", formula), spec.value)
+    return found
+
+
+@lru_cache(maxsize=4096)
+def _formulas_of_steps(plan: Sampler, index: int) -> dict[CanonicalForm, str]:
+    """Those that are the same in every draw."""
+    found: dict[CanonicalForm, str] = {}
+    inner: dict[str, Expr] = {}
+    for step in plan.parts[index].steps:
+        inner[step.name] = substitute(step.expr, inner)
+        for expr in (step.expr, inner[step.name]):
+            found |= dict.fromkeys(
+                canonical_equation(step.name, expr), f"{step.name} = {format_tree(expr)}"
+            )
+    return found

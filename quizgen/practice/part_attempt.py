@@ -1,0 +1,164 @@
+"""One part being asked: tries, hints in rungs, feedback, and how it went."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import Enum
+from typing import Any, Generic, Protocol, TypeVar
+
+import msgspec
+
+from quizgen.grading.verdict import Verdict
+from quizgen.paper.answer_key import KeyPart
+from quizgen.paper.grading import QuestionGrader
+from quizgen.practice.session_state import PartOutcome, PartState
+
+TRIES = 3
+"""Wrong answers after which the solution is shown."""
+
+
+class NextStep(Enum):
+    """What is to happen after an answer."""
+
+    ASK_BACK = "ask back"
+    """It could not be read as meant; that cost no try."""
+    AGAIN = "again"
+    """Not right yet, and there are tries left."""
+    SELF_MARK = "self-mark"
+    """Show the solution and let the learner say whether the answer was right."""
+    RIGHT = "right"
+    OUT_OF_TRIES = "out of tries"
+
+
+class AnswerFeedback(msgspec.Struct, frozen=True):
+    """What is said to an answer.
+
+    Parameters
+    ----------
+    verdict : Verdict
+        With its message in the session's language.
+    then : Next
+        What is to happen now.
+    left : int
+        Tries that are left.
+    """
+
+    verdict: Verdict
+    then: NextStep
+    left: int
+
+
+class HintSource(Protocol):
+    """A worked solution, whose lines can be told little by little: the hints."""
+
+    @property
+    def lines(self) -> Sequence[Any]:
+        """Lines with ``rungs``, in order."""
+
+
+P = TypeVar("P")
+S = TypeVar("S", bound=HintSource)
+
+
+class PartAttempt(Generic[P, S]):
+    """One part, asked until it is right, given up, or out of tries.
+
+    Parameters
+    ----------
+    topic : str
+    part : P
+        What is shown.
+    solved : S
+        Its worked solution, to be shown when the task is done.
+    keyed : KeyPart
+        What it is marked by.
+    state : PartState
+        How far it has got; changed as it goes on.
+    marker : Marker
+        Of the whole question: it carries errors forward to the parts that follow.
+    """
+
+    @property
+    def kind(self) -> str:
+        """Kind of the answer, such as ``number``."""
+        return str(self._keyed.spec["kind"])
+
+    def __init__(
+        self,
+        topic: str,
+        part: P,
+        solved: S,
+        keyed: KeyPart,
+        state: PartState,
+        *,
+        marker: QuestionGrader,
+    ) -> None:
+        self.topic, self.part, self.solved, self.state = topic, part, solved, state
+        self._keyed, self._marker = keyed, marker
+        self.verdict = marker.grade_part(keyed, state.typed).verdict if state.typed else None
+        """What is said of the last answer that could be read."""
+
+    @property
+    def outcome(self) -> PartOutcome | None:
+        """How it went, once it is done."""
+        return self.state.outcome
+
+    def next_hint(self) -> Any:
+        """The next hint, a rung of a step of the solution; None if there is no more."""
+        if not self.more_hints:
+            return None
+        self.state.hints += 1
+        return self._available_hints[self.state.hints - 1]
+
+    @property
+    def hints(self) -> Sequence[Any]:
+        """The hints that were given."""
+        return self._available_hints[: self.state.hints]
+
+    @property
+    def more_hints(self) -> bool:
+        """Whether there is another hint."""
+        return self.state.hints < len(self._available_hints)
+
+    @property
+    def _available_hints(self) -> list[Any]:
+        return [rung for line in self.solved.lines for rung in line.rungs]
+
+    def give_up(self) -> None:
+        """End the task as not right."""
+        self._finish_part(right=False)
+
+    def skip(self) -> None:
+        """End the task as neither right nor wrong."""
+        self.state.outcome = PartOutcome(self.topic, right=False, first=False, skipped=True)
+
+    def answer(self, typed: str) -> AnswerFeedback:
+        """Mark an answer; what cannot be read costs nothing."""
+        verdict = self._marker.grade_part(self._keyed, typed).verdict
+        then = self._decide_next_step(verdict)
+        if then is not NextStep.ASK_BACK:
+            self.state.typed, self.verdict = typed, verdict
+        if then in {NextStep.AGAIN, NextStep.OUT_OF_TRIES}:
+            self.state.wrong, self.state.note = typed, verdict.note
+        if then in {NextStep.RIGHT, NextStep.OUT_OF_TRIES}:
+            self._finish_part(right=then is NextStep.RIGHT)
+        return AnswerFeedback(verdict, then, TRIES - self.state.tries)
+
+    def _decide_next_step(self, verdict: Verdict) -> NextStep:
+        self_marked = verdict.needs_self_marking
+        if not verdict.is_graded and not self_marked:
+            return NextStep.ASK_BACK
+        self.state.tries += 1
+        if self_marked:
+            return NextStep.SELF_MARK
+        if verdict.verdict == "correct":
+            return NextStep.RIGHT
+        return NextStep.AGAIN if self.state.tries < TRIES else NextStep.OUT_OF_TRIES
+
+    def self_mark(self, *, right: bool) -> None:
+        """End the task with the learner's own judgement."""
+        self._finish_part(right=right)
+
+    def _finish_part(self, *, right: bool) -> None:
+        first = right and self.state.tries == 1 and not self.state.hints
+        self.state.outcome = PartOutcome(self.topic, right, first)

@@ -1,0 +1,34 @@
+"""Which questions fit, and those of a seed: every template once, before one returns."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+
+from quizgen.bank.bank import Bank
+from quizgen.practice.session_state import PracticeRequest
+
+
+def matching_templates(bank: Bank, wish: PracticeRequest) -> tuple[str, ...]:
+    """Names of the templates that fit topic, tier and language."""
+    return tuple(
+        name for name in bank.template_paths
+        if wish.topic in (None, bank.rules(name).topic)
+        and wish.tier in (None, bank.rules(name).tier)
+        and wish.lang in bank.template_languages(name)
+    )  # fmt: skip
+
+
+def template_at(bank: Bank, names: Sequence[str], seed: str, number: int) -> str:
+    """Template of a session's question, counted from 1."""
+    turn, place = divmod(number - 1, len(names))
+
+    def rank(name: str) -> bytes:
+        return hashlib.sha256(f"practice/{seed}/{turn}/{bank.origin(name)}".encode()).digest()
+
+    return sorted(names, key=rank)[place]
+
+
+def question_seed(seed: str, number: int) -> str:
+    """Seed of a session's question, counted from 1."""
+    return hashlib.sha256(f"{seed}/{number}".encode()).hexdigest()[:8]

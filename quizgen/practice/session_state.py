@@ -1,0 +1,89 @@
+"""What is kept of a session: the wish it was started with, its seed, how far it got and how."""
+
+from __future__ import annotations
+
+import secrets
+
+import msgspec
+
+from quizgen.bank.levels import EXAM
+
+
+class PracticeRequest(msgspec.Struct, frozen=True):
+    """What to practise.
+
+    Parameters
+    ----------
+    lang : str
+    count : int
+        Questions of the session.
+    topic, tier : str, optional
+        Only these.
+    bank : str
+        Folder of the bank; empty for the built-in one.
+    seed : str
+        That a session is to have; empty for one that nobody has held before.
+    level : str
+        Of its questions.
+    """
+
+    lang: str = "en"
+    count: int = 10
+    topic: str | None = None
+    tier: str | None = None
+    bank: str = ""
+    seed: str = ""
+    level: str = EXAM
+
+
+class PartOutcome(msgspec.Struct, frozen=True):
+    """How one part went: right at all, right at the first try without help, or skipped."""
+
+    topic: str
+    right: bool
+    first: bool
+    skipped: bool = False
+
+
+class PartState(msgspec.Struct):
+    """How far one part of the question that is due has got.
+
+    Parameters
+    ----------
+    typed : str
+        The last answer that could be read.
+    tries, hints : int
+        How many have been used.
+    outcome : Outcome, optional
+        How it went, once it is done.
+    wrong, note : str
+        The last answer that was not right, and which mistake it was.
+    """
+
+    typed: str = ""
+    tries: int = 0
+    hints: int = 0
+    outcome: PartOutcome | None = None
+    wrong: str = ""
+    note: str = ""
+
+
+class SessionState(msgspec.Struct):
+    """A session as it is kept between runs.
+
+    ``due`` is the template and the seed of the question that is due, ``question`` its identity and
+    ``parts`` how far it has got; all are empty before it is shown.
+    """
+
+    wish: PracticeRequest
+    seed: str
+    done: int = 0
+    outcomes: list[PartOutcome] = []
+    due: tuple[str, str] | None = None
+    question: str = ""
+    parts: list[PartState] = []
+
+
+def new_session(wish: PracticeRequest) -> SessionState:
+    """The state of a session that begins."""
+    return SessionState(wish, wish.seed or secrets.token_hex(3))

@@ -1,0 +1,73 @@
+"""The sentences that people write about a bank, made ready for printing.
+
+They are Markdown as in templates. Mathematics between dollar signs and the lines of formulas are
+written in the grammar that students type.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from quizgen.bank.entries import Entry, Passage
+from quizgen.bank.markdown import (
+    Block,
+    Inline,
+    PictureLink,
+    Slot,
+    Unfilled,
+    fill_blocks,
+    fill_inlines,
+    parse_blocks,
+    parse_inlines,
+)
+from quizgen.bank.metadata import pick_language
+from quizgen.core.errors import BankError
+from quizgen.question.formula_lines import typeset_inline
+
+
+def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
+    """A passage of an entry as blocks, its mathematics ready for printing.
+
+    Raises
+    ------
+    BankError
+        Naming file, entry, field, language and column.
+    """
+    with _iter_field_text(entry, name, lang) as text:
+        return fill_blocks(parse_blocks(text), typeset_slot, _no_program)
+
+
+def entry_inlines(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
+    """The same as ``passage`` for a sentence, as inlines."""
+    with _iter_field_text(entry, name, lang) as text:
+        return fill_inlines(parse_inlines(text), typeset_slot)
+
+
+@contextmanager
+def _iter_field_text(entry: Entry, name: str, lang: str) -> Iterator[str]:
+    """The text of a field; what is wrong with it is located."""
+    texts: Passage = getattr(entry, name)
+    try:
+        yield pick_language(texts, lang, "")
+    except BankError as error:
+        raise BankError(f"{entry.place}: {name}.{lang}: {error}") from error
+
+
+def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
+    """Mathematics of a sentence, ready for printing.
+
+    Raises
+    ------
+    BankError
+        If a blank or a picture stands there.
+    """
+    if isinstance(part, PictureLink):
+        raise BankError(f"picture {part.file!r} cannot stand here, only in the words of a template")
+    if isinstance(part, Slot):
+        raise BankError(f"{{{{ {part.name} }}}} cannot be filled in here")
+    return (typeset_inline(part.expr),)
+
+
+def _no_program(text: str) -> str:
+    raise BankError(f"program {text!r} cannot stand here")

@@ -1,0 +1,64 @@
+"""The figure of a question, drawn or in words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import Any, TypeVar
+
+from quizgen.bank.rules import Source
+from quizgen.bank.solvers import author_error_context
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import BankError
+from quizgen.core.untrusted import error_context
+from quizgen.figures import Figure, complete_parameters, describe_figure, draw_figure, needs_colour
+from quizgen.maths.numbers import to_float
+
+Shown = TypeVar("Shown")
+
+
+def draw_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> Figure | None:
+    """The figure of a question; None if it has none."""
+    return _draw_question_figure(draw_figure, drawn, lang, quiz=quiz)
+
+
+def describe_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> str | None:
+    """The figure of a question in words, without drawing it; None if it has none."""
+    return _draw_question_figure(describe_figure, drawn, lang, quiz=quiz)
+
+
+def coloured(drawn: Variant) -> bool:
+    """Whether a question has a figure that cannot be read on grey paper, without drawing it."""
+
+    def judge(figure: ModuleType, values: Mapping[str, Any], **_how: object) -> bool:
+        return needs_colour(figure, values)
+
+    return bool(_draw_question_figure(judge, drawn, "", quiz=True))
+
+
+def _draw_question_figure(
+    show: Callable[..., Shown], drawn: Variant, lang: str, *, quiz: bool
+) -> Shown | None:
+    rule = drawn.template.rules.figure
+    if rule is None or (quiz and not rule.quiz):
+        return None
+    figure = drawn.template.figure
+    if figure is None:
+        return None
+    given: Mapping[str, Any] = {
+        name: _evaluate_parameter(drawn, s) for name, s in rule.values.items()
+    }
+    with error_context(drawn.template.file, BankError):
+        values = complete_parameters(figure, given)
+        with author_error_context(Path(str(figure.__file__))):
+            return show(figure, values, quiz=quiz, lang=lang)
+
+
+def _evaluate_parameter(drawn: Variant, source: Source) -> Any:
+    """A number as written, a drawn phrase by its name, a formula's value, or lists of these."""
+    if isinstance(source, tuple):
+        return [_evaluate_parameter(drawn, one) for one in source]
+    if not isinstance(source, str):
+        return source
+    return drawn.words.get(source) or to_float(drawn.evaluate(source))

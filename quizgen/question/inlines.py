@@ -1,0 +1,117 @@
+"""Answers, hints and values as pieces of a sentence: what Unicode can only hint at is typeset."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+
+import msgspec
+
+from quizgen import typeset
+from quizgen.bank.markdown import Inline, PlainText
+from quizgen.bank.pictures import PictureFile
+from quizgen.locale import FIRST, localise_numbers, translate
+from quizgen.maths.notation import pretty
+from quizgen.maths.notation.names import NAME
+from quizgen.typeset.nodes import Word
+
+
+class TypesetMaths(msgspec.Struct, frozen=True):
+    """A formula ready for printing: its layout, how it would be typed, and in which language."""
+
+    node: typeset.Node
+    typed: str
+    lang: str = FIRST
+
+    @property
+    def text(self) -> str:
+        """How it is written in plain text, for people; a comma in numbers separates none."""
+        text = pretty.format_formula(self.typed)
+        if localise_numbers(self.lang, text) != text:
+            text = text.replace(", ", "; ")
+        return localise_numbers(self.lang, text)
+
+
+class PlacedPicture(msgspec.Struct, frozen=True):
+    """A picture in a sentence, and what it shows in words whose blanks are filled."""
+
+    picture: PictureFile
+    told: tuple[Inline, ...]
+
+    @property
+    def alt(self) -> str:
+        """What it shows, for who cannot see it."""
+        return "".join(part.text for part in self.told)  # type: ignore[union-attr]
+
+    @property
+    def text(self) -> str:
+        """What stands in its place in plain text."""
+        return f"[{self.alt}]"
+
+    @property
+    def typed(self) -> str:
+        """The same: nobody types a picture."""
+        return self.text
+
+
+TextOrInlines = str | tuple[Inline, ...]
+"""A text for people, or pieces of a sentence."""
+
+_BEFORE_UNIT = re.compile(r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?![A-Z]\d)[^\W\d]|%)")
+
+
+def to_inlines(shown: TextOrInlines) -> tuple[Inline, ...]:
+    """Pieces of a sentence; in a text powers of ten are typeset, and units stay with numbers."""
+    return _split_powers(shown) if isinstance(shown, str) else shown
+
+
+@lru_cache(maxsize=4096)
+def _split_powers(text: str) -> tuple[Inline, ...]:
+    return tuple(_with_powers(_BEFORE_UNIT.sub("\u00a0", text)))
+
+
+def _with_powers(text: str) -> Iterator[Inline]:
+    last = 0
+    for found in pretty.POWER.finditer(text):
+        yield from _make_words(text[last : found.start()])
+        yield TypesetMaths(typeset.number(found[0]), found[0])
+        last = found.end()
+    yield from _make_words(text[last:])
+
+
+def _make_words(text: str) -> tuple[Inline, ...]:
+    return (PlainText(text),) if text else ()
+
+
+def name_inline(symbol: str) -> Inline:
+    """The name of a quantity, typeset; a label in words stays text."""
+    if not NAME.fullmatch(symbol) or isinstance(node := typeset.lay_out_name(symbol), Word):
+        return PlainText(symbol)
+    return TypesetMaths(node, symbol)
+
+
+def join_inlines(rows: Iterable[Iterable[Inline]], between: str) -> tuple[Inline, ...]:
+    """Several things of a kind with a sign between them."""
+    found: list[Inline] = []
+    for row in rows:
+        found += [PlainText(between), *row] if found else row
+    return tuple(found)
+
+
+def assignment_inlines(values: Iterable[tuple[str, str]]) -> tuple[Inline, ...]:
+    """Names with their values: ``n₁ = 128; n₂ = 3``."""
+    return join_inlines(
+        ((name_inline(name), *to_inlines(f" = {text}")) for name, text in values), "; "
+    )
+
+
+def translate_inlines(lang: str, key: str, **blanks: tuple[Inline, ...]) -> tuple[Inline, ...]:
+    """A sentence of the interface with pieces in its blanks."""
+    marks = {name: f"\0{name}\0" for name in blanks}
+    cut = translate(lang, key, **marks).split("\0")
+    texts, names = cut[::2], cut[1::2]
+    found: list[Inline] = list(_make_words(texts[0]))
+    for name, text in zip(names, texts[1:], strict=True):
+        found += [*blanks[name], *_make_words(text)]
+    return tuple(found)

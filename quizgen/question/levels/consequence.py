@@ -1,0 +1,250 @@
+"""What one change does: a factor where it is the same for all numbers, else value or direction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import islice
+
+from quizgen import typeset
+from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph, PlainText
+from quizgen.bank.sampler import pick_index, shuffle
+from quizgen.bank.variant import Variant
+from quizgen.grading.kinds.number import Spec
+from quizgen.grading.spec import decode_spec
+from quizgen.maths.notation import format_tree
+from quizgen.maths.numbers import (
+    format_exact,
+    format_for_key,
+    format_rounded,
+    is_short_decimal,
+    to_rational,
+)
+from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import Call, Num, Sym
+from quizgen.maths.values import Value
+from quizgen.question.contract import Built
+from quizgen.question.inlines import TypesetMaths, to_inlines, translate_inlines
+from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, join_unit
+from quizgen.question.kinds import KINDS
+from quizgen.question.levels.choice_part import LevelOption, make_choice_part
+from quizgen.question.levels.contract import LevelPart
+from quizgen.question.levels.perturbations import (
+    Perturbation,
+    Perturbations,
+    askable_results,
+    required_steps,
+)
+from quizgen.question.levels.steps import level_seed, step_value_spec
+from quizgen.question.solution import (
+    PartSolution,
+    SolutionStep,
+    SolvedMisconception,
+    solution_step,
+    solved_misconceptions,
+)
+from quizgen.question.specs import mistaken
+from quizgen.question.worked_steps import quantity_inlines, value_node, value_typed
+
+DIRECTIONS = ("larger", "smaller", "unchanged")
+
+
+@dataclass(frozen=True)
+class Consequence:
+    """A change, and in which way its effect is asked."""
+
+    change: Perturbation
+    way: str
+
+    def __call__(self, lang: str) -> LevelPart:
+        """The part in a language."""
+        if self.way == "factor":
+            return _ask_factor(self.change, lang)
+        return (
+            _ask_new_value(self.change, lang)
+            if self.way == "value"
+            else _ask_direction(self.change, lang)
+        )
+
+
+def choose_consequence(changes: Perturbations) -> Consequence | None:
+    """What is asked about one change; None if no change makes sense."""
+    drawn = changes.drawn
+    other: list[Perturbation] = []
+    for index, target in shuffle(f"{level_seed(drawn)}/effect", list(askable_results(drawn))):
+        for change in changes.of(index, target):
+            if change.factor is not None:
+                return Consequence(change, "factor")
+            if change.power is None and change.before > 0:
+                other.append(change)
+    if not other:
+        return None
+    if pick_index(f"{level_seed(drawn)}/effect/way", 2):
+        return Consequence(_one_way(changes, other), "direction")
+    return Consequence(other[0], "value")
+
+
+def _one_way(changes: Perturbations, moving: list[Perturbation]) -> Perturbation:
+    """A change in a drawn direction, if one is left: also of what the result does not rest on."""
+    idle = changes.of(moving[0].index, moving[0].target, idle=True)
+    first: dict[str, Perturbation] = {}
+    for change in (*moving, *islice(idle, 1)):
+        first.setdefault(_way_of(change), change)
+    ways = [way for way in DIRECTIONS if way in first]
+    return first[ways[pick_index(f"{level_seed(changes.drawn)}/effect/direction", len(ways))]]
+
+
+def _way_of(change: Perturbation) -> str:
+    """In which direction a result moves."""
+    with working_precision():
+        if change.after == change.before:
+            return "unchanged"
+        return "larger" if change.after > change.before else "smaller"
+
+
+def _build_effect_body(
+    change: Perturbation, lang: str, key: str, hint: str = ""
+) -> tuple[Block, ...]:
+    only = translate_inlines(lang, "transfer.only", change=change.describe(lang))
+    asked = translate_inlines(lang, key, target=quantity_inlines(change.drawn, change.target, lang))
+    tail = (PlainText(" "), *translate_inlines(lang, hint)) if hint else ()
+    return (Paragraph((*only, PlainText(" "), Emphasis("strong", asked), *tail)),)
+
+
+def _ask_factor(change: Perturbation, lang: str) -> LevelPart:
+    """By what factor? The key follows from the power that the formulas prove."""
+    found = change.factor or Fraction(1)
+    traps: dict[str, str] = {}
+    for name, wrong in _iter_factor_slips(change.scale, found):
+        if wrong != found and str(wrong) not in traps.values():
+            traps[name] = str(wrong)
+    langs = change.drawn.template.languages
+    notes = {
+        each: {trap: inlines_to_text(_build_slip_sentence(change, trap, each)) for trap in traps}
+        for each in langs
+    }
+    table = {"kind": "number", "value": format_for_key(to_rational(found)), "rel": "0.005"}
+    spec = decode_spec(Spec, {**table, "traps": traps, "notes": notes} if traps else table)
+    solved = PartSolution(
+        label="",
+        lines=tuple(_iter_proof_lines(change, found, lang)),
+        shown=to_inlines(KINDS["number"].printed(spec, lang)),
+        mistakes=tuple(
+            SolvedMisconception(
+                trap,
+                _build_slip_sentence(change, trap, lang),
+                to_inlines(_format_number(to_rational(wrong))),
+            )
+            for trap, wrong in traps.items()
+        ),
+    )
+    body = _build_effect_body(change, lang, "transfer.factor", "transfer.factor_hint")
+    return LevelPart(Fraction(1), body, spec, solved)
+
+
+def _iter_factor_slips(scale: Fraction, found: Fraction) -> Iterator[tuple[str, Fraction]]:
+    yield "upside-down", 1 / found
+    yield "plain", scale
+    yield "unchanged", Fraction(1)
+
+
+def _build_slip_sentence(change: Perturbation, trap: str, lang: str) -> tuple[Inline, ...]:
+    return translate_inlines(lang, f"transfer.trap_{trap}", **_name_target_and_given(change, lang))
+
+
+def _name_target_and_given(change: Perturbation, lang: str) -> dict[str, tuple[Inline, ...]]:
+    drawn = change.drawn
+    return {
+        "target": quantity_inlines(drawn, change.target, lang),
+        "given": quantity_inlines(drawn, change.given, lang),
+    }
+
+
+def _iter_proof_lines(change: Perturbation, found: Fraction, lang: str) -> Iterator[SolutionStep]:
+    """To which power of the quantity the result is proportional, and the same with numbers."""
+    both = _name_target_and_given(change, lang)
+    if not change.power:
+        yield SolutionStep(
+            _typeset_ratio(change, found), translate_inlines(lang, "transfer.cancels", **both)
+        )
+        return
+    base = Sym(change.given)
+    expr = base if change.power == 1 else Call("pow", (base, Num(change.power)))
+    node = typeset.relation_chain(
+        ["∝"], [typeset.lay_out_name(change.target), typeset.lay_out(expr)]
+    )
+    maths = TypesetMaths(node, f"{change.target} ∝ {format_tree(expr)}")
+    yield SolutionStep(maths, translate_inlines(lang, "transfer.power", **both))
+    yield SolutionStep(_typeset_ratio(change, found), translate_inlines(lang, "transfer.ratio"))
+
+
+def _typeset_ratio(change: Perturbation, found: Fraction) -> TypesetMaths:
+    """The new value over the old one."""
+    draws = {"new": change.changed, "old": change.drawn}
+    leaves = {name: value_node(draw, change.target) for name, draw in draws.items()}
+    typed = {name: value_typed(draw, change.target) for name, draw in draws.items()}
+    quotient, text = Call("div", (Sym("new"), Sym("old"))), _format_number(to_rational(found))
+    sign = "≈" if any(draw.is_rounded(change.target) for draw in draws.values()) else "="
+    node = typeset.relation_chain(
+        [sign], [typeset.lay_out(quotient, leaves=leaves), typeset.number(text)]
+    )
+    return TypesetMaths(node, f"{format_tree(quotient, typed)} {sign} {text}")
+
+
+def _format_number(value: Value) -> str:
+    return format_exact(value) or format_rounded(value)
+
+
+def value_inlines(drawn: Variant, name: str) -> tuple[Inline, ...]:
+    """A quantity with its unit in a sentence, with ≈ in front where it is rounded."""
+    value, unit = drawn.shown_values[name], drawn.template.units[name]
+    exactly = format_exact(value) if is_short_decimal(value) else None
+    text = join_unit(exactly or format_rounded(value), unit)
+    return to_inlines(text if exactly else f"≈{NBSP}{text}")
+
+
+def _ask_new_value(change: Perturbation, lang: str) -> LevelPart:
+    """The new value, marked as the part marks the old one."""
+    step = change.drawn.template.chain.by_name[change.target]
+    spec = step_value_spec(change.changed, change.index, step)
+    filler = Interpolator(change.changed, lang)
+    solved = PartSolution(
+        label="",
+        lines=_build_solution_lines(change, lang),
+        shown=to_inlines(KINDS[spec.kind].printed(spec, lang)),
+        mistakes=tuple(
+            solved_misconceptions(filler, Built(spec, mistakes=mistaken(spec, "value")))
+        ),
+    )
+    return LevelPart(Fraction(1), _build_effect_body(change, lang, "transfer.value"), spec, solved)
+
+
+def _build_solution_lines(change: Perturbation, lang: str) -> tuple[SolutionStep, ...]:
+    """All steps after the change."""
+    filler = Interpolator(change.changed, lang)
+    return tuple(
+        solution_step(filler, one) for one in required_steps(change.changed, change.target)
+    )
+
+
+def _ask_direction(change: Perturbation, lang: str) -> LevelPart:
+    """Larger, smaller or the same? Each option is answered with both values."""
+    right = _way_of(change)
+
+    def because(each: str) -> tuple[Inline, ...]:
+        return translate_inlines(
+            each, "transfer.before_after",
+            target=quantity_inlines(change.drawn, change.target, each),
+            before=value_inlines(change.drawn, change.target),
+            after=value_inlines(change.changed, change.target),
+        )  # fmt: skip
+
+    def option(way: str) -> LevelOption:
+        return LevelOption(
+            lambda each: translate_inlines(each, f"transfer.{way}"), way == right, because, way
+        )
+
+    options = [option(way) for way in DIRECTIONS]
+    body = _build_effect_body(change, lang, "transfer.direction")
+    return make_choice_part(change.drawn, lang, body, options, _build_solution_lines(change, lang))

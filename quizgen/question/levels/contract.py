@@ -1,0 +1,84 @@
+"""What a level makes of a draw: parts before they have a place in a paper."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Protocol
+
+import msgspec
+
+from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
+from quizgen.bank.variant import Variant
+from quizgen.grading.spec import AnySpec
+from quizgen.question.contract import LINE, Control
+from quizgen.question.solution import PartSolution, Solution
+
+Choice = tuple[str, tuple[Inline, ...]]
+"""A mark (letter or number) and what stands beside it."""
+
+LEAST = Fraction(1, 4)
+"""Marks are given in quarters of a point, so no part is worth less."""
+
+
+class LevelPart(msgspec.Struct, frozen=True):
+    """One part: what is said, how it is answered and marked, and its worked solution."""
+
+    points: Fraction
+    body: tuple[Block, ...]
+    spec: AnySpec
+    solved: PartSolution
+    control: Control = LINE
+    options: tuple[Choice, ...] = ()
+    targets: tuple[Choice, ...] = ()
+
+    @property
+    def label(self) -> str:
+        """Its label within the question; empty where it is the only part."""
+        return self.solved.label
+
+
+class LevelQuestion(msgspec.Struct, frozen=True):
+    """A whole question at a level; its parts and those of its solution belong together."""
+
+    stem: tuple[Block, ...]
+    parts: tuple[LevelPart, ...]
+    solution: Solution
+
+
+class Level(Protocol):
+    """A module of ``quizgen/question/levels``."""
+
+    def is_applicable(self, drawn: Variant) -> bool:
+        """Whether a draw has a form at this level."""
+
+    def ask(self, drawn: Variant, lang: str) -> LevelQuestion:
+        """Put a draw into words at this level."""
+
+
+def without_bold_questions(block: Block) -> Block:
+    """A block without bold questions, where others are asked in their place."""
+    if not isinstance(block, Paragraph):
+        return block
+    plain: list[Inline] = []
+    for part in block.children:
+        plain += part.children if isinstance(part, Emphasis) and part.style == "strong" else (part,)
+    return Paragraph(tuple(plain))
+
+
+def share_points(total: Fraction, weights: Sequence[Fraction]) -> tuple[Fraction, ...]:
+    """Marks shared out in quarters as the weights stand to each other, a quarter at least each.
+
+    The sum is the total, unless that is less than a quarter for each.
+    """
+    whole = sum(weights)
+    spare = total - LEAST * len(weights)
+    if spare <= 0:
+        return (LEAST,) * len(weights)
+    exact = [spare * weight / whole for weight in weights]
+    found = [share // LEAST * LEAST for share in exact]
+    order = sorted(range(len(weights)), key=lambda i: (found[i] - exact[i], i))
+    for place in order[: int((spare - sum(found)) / LEAST)]:
+        found[place] += LEAST
+    found[order[-1]] += spare - sum(found)
+    return tuple(LEAST + share for share in found)

@@ -1,0 +1,125 @@
+"""One worked step: *formula = numbers in place = exact value ~ rounded value*.
+
+All of it comes from the one chain of the solver: the formula is printed, the same formula is
+printed with the drawn numbers in place, and its exact value follows.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import NamedTuple
+
+from quizgen import typeset
+from quizgen.bank.markdown import Inline, PlainText, fill_inlines
+from quizgen.bank.variant import Variant
+from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import format_tree, pretty
+from quizgen.maths.number_systems import exact_system, select_branch
+from quizgen.maths.numbers import format_exact, format_rounded, is_short_decimal
+from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import Expr, Sym, names_in
+from quizgen.maths.units import format_unit as unit_shown
+from quizgen.question.entry_prose import typeset_slot
+from quizgen.question.inlines import TypesetMaths, name_inline
+from quizgen.question.interpolation import format_quantity, join_unit
+
+FORMULA, NUMBERS, RESULT = "formula", "numbers", "result"
+
+
+class WorkedSide(NamedTuple):
+    """One side of a worked line.
+
+    The sign before it, its layout, how it would be typed, and what it is: the formula, the formula
+    with numbers, or the result.
+    """
+
+    sign: str
+    node: typeset.Node
+    typed: str
+    role: str
+
+
+def quantity_inlines(drawn: Variant, name: str, lang: str) -> tuple[Inline, ...]:
+    """A quantity in a sentence: what it is called, and its letter."""
+    said = fill_inlines(drawn.template.quantities.name(name, lang), typeset_slot)
+    return (
+        (*said, PlainText(" ("), name_inline(name), PlainText(")"))
+        if said
+        else (name_inline(name),)
+    )
+
+
+def typeset_step(drawn: Variant, step: ChainStep) -> TypesetMaths:
+    """One step, printed from formula to rounded value.
+
+    Parameters
+    ----------
+    drawn : Draw
+    step : ChainStep
+    """
+    return join_sides(step.name, step_sides(drawn, step))
+
+
+@lru_cache(maxsize=128)
+def step_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
+    """The sides of a worked step, from formula to rounded value, the same in every language."""
+    with working_precision():
+        expr = select_branch(step.expr, drawn.values, exact_system())
+    sides = [WorkedSide("=", typeset.lay_out(expr), format_tree(expr), FORMULA)]
+    if names_in(expr):
+        sides.append(_with_numbers(drawn, expr))
+    values = _build_value_sides(drawn, step, about=sides[-1].sign == "≈")
+    sides += [side for side in values if side.typed != sides[-1].typed]
+    return tuple(sides)
+
+
+def join_sides(name: str, sides: Sequence[WorkedSide]) -> TypesetMaths:
+    """A quantity and some of its sides, one behind another."""
+    signs = [side.sign for side in sides]
+    nodes = [typeset.lay_out_name(name), *(side.node for side in sides)]
+    typed = "".join(f" {side.sign} {side.typed}" for side in sides)
+    return TypesetMaths(typeset.relation_chain(signs, nodes), f"{name}{typed}")
+
+
+def _with_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
+    """The formula with numbers in place; equal unless one of them is shown rounded."""
+    quantities = sorted(names_in(expr))
+    sign = "≈" if any(drawn.is_rounded(name) for name in quantities) else "="
+    node = typeset.lay_out(expr, leaves={name: value_node(drawn, name) for name in quantities})
+    if isinstance(expr, Sym):
+        return WorkedSide(sign, node, format_quantity(drawn, expr.name), NUMBERS)
+    return WorkedSide(
+        sign,
+        node,
+        format_tree(expr, {name: value_typed(drawn, name) for name in quantities}),
+        NUMBERS,
+    )
+
+
+def value_node(drawn: Variant, name: str) -> typeset.Node:
+    """The number of a quantity with its unit, to stand in a formula."""
+    return typeset.quantity(drawn.format_value(name), unit_shown(drawn.template.units[name]))
+
+
+def value_typed(drawn: Variant, name: str) -> str:
+    """A quantity inside a typed formula: in brackets unless it is a number alone."""
+    text = format_quantity(drawn, name)
+    return text if re.fullmatch(rf"[0-9.{pretty.GAP}]+", text) else f"({text})"
+
+
+def _build_value_sides(drawn: Variant, step: ChainStep, *, about: bool) -> list[WorkedSide]:
+    """The exact value if it can be shown, and the rounded one if that says more.
+
+    Behind rounded numbers (``about``) nothing is equal, and only a short exact value says more.
+    """
+    value, unit = drawn.shown_values[step.name], unit_shown(step.unit)
+    exactly = None if about and not is_short_decimal(value) else format_exact(value)
+    texts = [] if exactly is None else [("≈" if about else "=", exactly)]
+    if not is_short_decimal(value):
+        texts.append(("≈", format_rounded(value)))
+    return [
+        WorkedSide(sign, typeset.quantity(text, unit), join_unit(text, step.unit), RESULT)
+        for sign, text in texts
+    ]

@@ -1,0 +1,300 @@
+"""Pieces of Typst markup that every PDF is made of, and the typesetting itself."""
+
+from __future__ import annotations
+
+import json
+import os
+import unicodedata
+from collections.abc import Iterable, Mapping
+from datetime import UTC, datetime
+from functools import cache, lru_cache, singledispatch
+from typing import Any, Final
+
+from quizgen import typeset
+from quizgen.bank import markdown
+from quizgen.core.errors import RenderError
+from quizgen.locale import languages_in_script, translate
+from quizgen.question.inlines import PlacedPicture, TypesetMaths
+from quizgen.question.interpolation import unbreakable_groups
+from quizgen.render import fonts
+
+_KNOWN = frozenset(map(chr, (*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x985, 0x9E4))))
+"""Latin and Bangla, in which most names are written."""
+_LITERAL: Final = json.JSONEncoder(ensure_ascii=False)
+STANDARD: Final = "ua-1"
+MAIN: Final = "main.typ"
+MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
+"""The date written into every file: the same paper is the same bytes on any day."""
+
+
+def typst_literal(text: str) -> str:
+    """A Typst string literal: nothing in it is ever read as markup."""
+    return _LITERAL.encode(text)
+
+
+@singledispatch
+def inlines_to_typst(part: markdown.Inline | tuple[markdown.Inline, ...], lang: str) -> str:
+    """Inlines as Typst markup."""
+    raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
+
+
+@inlines_to_typst.register(tuple)
+@lru_cache(maxsize=1 << 13)
+def _join_inlines(parts: tuple[markdown.Inline, ...], lang: str) -> str:
+    """A sentence: most stand in the exam and its solutions, or in the next paper too."""
+    return "".join(_keep_together(group, lang) for group in unbreakable_groups(parts))
+
+
+def _keep_together(group: tuple[markdown.Inline, ...], lang: str) -> str:
+    body = "".join(inlines_to_typst(part, lang) for part in group)
+    return f"#box[{body}];" if len(group) > 1 else body
+
+
+@inlines_to_typst.register
+def _format_words(part: markdown.PlainText, _lang: str) -> str:
+    return f"#{typst_literal(part.text)};"
+
+
+@inlines_to_typst.register
+def _format_maths(part: TypesetMaths, lang: str) -> str:
+    return typst_equation(part, lang, block=False)
+
+
+@inlines_to_typst.register
+def _format_code(part: markdown.InlineCode, _lang: str) -> str:
+    return f"#raw({typst_literal(part.text)});"
+
+
+@inlines_to_typst.register
+def _format_styled(part: markdown.Emphasis, lang: str) -> str:
+    name = "emph" if part.style == "em" else "strong"
+    return f"#{name}[{inlines_to_typst(part.children, lang)}];"
+
+
+@inlines_to_typst.register
+def _format_picture(part: PlacedPicture, _lang: str) -> str:
+    """A picture with its file in it, as what is read from a string knows no files."""
+    file = f'bytes({typst_literal(part.picture.svg)}), format: "svg"'
+    return f"#box(baseline: 40%, image({file}, alt: {typst_literal(part.alt)}));"
+
+
+def typst_passage(body: str) -> str:
+    """Markup that reads markup of one passage out of a string.
+
+    Typst remembers how it laid a passage out, but takes its place in a file as part of it. What is
+    read from a string has none: it is laid out once for all papers that say it.
+    """
+    return f"#passage({typst_literal(body)});" if body else ""
+
+
+@lru_cache(maxsize=1 << 12)
+def typst_equation(maths: TypesetMaths, lang: str, *, block: bool) -> str:
+    """A formula with its spoken alternative."""
+    spoken = typst_literal(typeset.to_speech(maths.node, lang))
+    space = " " if block else ""
+    body = f"${space}{typeset.to_typst(maths.node, lang)}{space}$"
+    return f"#math.equation(alt: {spoken}, block: {str(block).lower()}, {body});"
+
+
+def blocks_to_typst(parts: Iterable[markdown.Block], lang: str) -> str:
+    """Blocks as Typst markup."""
+    return "\n\n".join(_reject_block(part, lang) for part in parts)
+
+
+@singledispatch
+def _reject_block(part: markdown.Block, lang: str) -> str:
+    raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
+
+
+@_reject_block.register
+def _format_paragraph(part: markdown.Paragraph, lang: str) -> str:
+    return typst_passage(inlines_to_typst(part.children, lang))
+
+
+@_reject_block.register
+def _code_block(part: markdown.CodeBlock, _lang: str) -> str:
+    return f"#raw({typst_literal(part.text)}, block: true);"
+
+
+@_reject_block.register
+def _format_list(part: markdown.ListBlock, lang: str) -> str:
+    name = "enum" if part.ordered else "list"
+    return f"#{name}({', '.join(f'[{blocks_to_typst(item, lang)}]' for item in part.items)});"
+
+
+@_reject_block.register
+def _format_table(part: markdown.TableBlock, lang: str) -> str:
+    cells = [cell for row in (part.head, *part.rows) for cell in row]
+    head = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in part.head)
+    rest = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in cells[len(part.head) :])
+    return f"#table(columns: {len(part.head)}, table.header({head}), {rest});"
+
+
+def in_language(lang: str, body: str) -> str:
+    """Paragraphs in a language."""
+    return f"#spoken({typst_literal(lang)})[{body}];"
+
+
+def say_in_language(lang: str, body: str) -> str:
+    """Words in a language, within a line."""
+    return f"#say({typst_literal(lang)})[{typst_passage(body)}];"
+
+
+def stack_languages(langs: Iterable[str], bodies: Iterable[str]) -> str:
+    """The same thing in each language: the second one set off by a rule."""
+    spoken = [in_language(lang, body) for lang, body in zip(langs, bodies, strict=True) if body]
+    return "\n".join([*spoken[:1], *(f"#bilingual[{body}];" for body in spoken[1:])])
+
+
+def join_languages(langs: tuple[str, ...], texts: Iterable[str]) -> str:
+    """The same words in each language, in one line."""
+    return '#" / ";'.join(
+        say_in_language(lang, text) for lang, text in zip(langs, texts, strict=True)
+    )
+
+
+def translate_all(langs: tuple[str, ...], key: str, **values: object) -> str:
+    """Words of the interface in each language, in one line."""
+    return join_languages(
+        langs, [f"#{typst_literal(translate(lang, key, **values))};" for lang in langs]
+    )
+
+
+@cache
+def _load_font_collection() -> Any:
+    """One font collection per process: only pinned fonts, never the machine's own."""
+    import typst
+
+    return typst.Fonts(
+        include_system_fonts=False,
+        include_embedded_fonts=True,
+        font_paths=[str(fonts.bangla_folder())],
+    )
+
+
+def replace_unprintable(text: str) -> str:
+    """A text with ``?`` for each character that no font here has: one alone would stop the page."""
+    return "".join(c if _has_glyph(c) else "?" for c in text)
+
+
+@cache
+def _has_glyph(character: str) -> bool:
+    if character in _KNOWN or unicodedata.category(character) in {"Mn", "Mc", "Cf"}:
+        return True  # a mark is printed with the letter before it
+    page = f'#set document(title: [x])\n#text(lang: "en", {typst_literal(character)})'
+    try:
+        compile_pdf({MAIN: page.encode()})
+    except RenderError:
+        return False
+    return True
+
+
+@cache
+def _make_scratch_compiler() -> Any:
+    """A compiler for documents that nobody reads."""
+    import typst
+
+    return typst.Compiler(b"", font_paths=_load_font_collection())
+
+
+def evict_cache(documents: int) -> None:
+    """Free memory: Typst keeps what it typeset until ten more documents have not needed it.
+
+    Parameters
+    ----------
+    documents : int
+        How many to pretend.
+    """
+    _check_not_forked()
+    for _ in range(documents):
+        _make_scratch_compiler().compile(b"", format="pdf")
+
+
+def document_files(layout: str, body: str, package: str = "quizgen.render") -> dict[str, bytes]:
+    """Files of a document: the layouts stand in files of their own, the same for all documents.
+
+    Parameters
+    ----------
+    layout : str
+        The page layout, a file of ``pages``.
+    body : str
+        What calls its functions.
+    package : str
+        Whose ``pages``.
+    """
+    names = {"common.typ": "quizgen.render", layout: package}
+    imports = "".join(f"#import {typst_literal(name)}: *\n" for name in names)
+    pages = {name: _build_layout_source(name, whose) for name, whose in names.items()}
+    return {**pages, MAIN: f"{imports}{body}".encode()}
+
+
+@cache
+def _build_layout_source(name: str, package: str) -> bytes:
+    before = '#import "common.typ": *'
+    if name == "common.typ":
+        before = f"#let bangla = ({''.join(f'{typst_literal(lang)},' for lang in languages_in_script('Beng'))})"
+    text = (fonts.package_folder(package) / "pages" / name).read_text(encoding="utf-8")
+    return f"{before}\n{text}".encode()
+
+
+def compile_pdf(sources: Mapping[str, bytes]) -> bytes:
+    """Typeset a document, with the pictures among its files, as a tagged PDF.
+
+    Raises
+    ------
+    RenderError
+        If Typst refuses the document or a font is missing.
+    """
+    import typst
+
+    _check_not_forked()
+    world: Any = dict(sources)  # the stub knows one file only
+    try:
+        data, warnings = typst.compile_with_warnings(
+            world,
+            format="pdf",
+            pdf_standards=STANDARD,
+            font_paths=_load_font_collection(),
+            timestamp=MOMENT,
+        )
+    except typst.TypstError as error:
+        raise RenderError(f"PDF: {error}") from error
+    if warnings:
+        raise RenderError(f"PDF: {warnings[0]}")
+    return bytes(data)
+
+
+def svg_to_png(svg: bytes, width: int) -> bytes:
+    """Draw an SVG on white, at 144 pixels to an inch.
+
+    Parameters
+    ----------
+    svg : bytes
+    width : int
+        Width of the picture in points.
+    """
+    import typst
+
+    _check_not_forked()
+    page = (
+        f"#set page(width: {width}pt, height: auto, margin: 4pt, fill: white)\n"
+        '#image("plot.svg", width: 100%)'
+    )
+    world: Any = {MAIN: page.encode(), "plot.svg": svg}  # the stub knows one file only
+    made: Any = typst.compile(world, format="png", ppi=144.0, font_paths=_load_font_collection())
+    return bytes(made)
+
+
+def _check_not_forked() -> None:
+    """Refuse what would wait for ever: the threads of Typst do not come along in a fork."""
+    if _get_first_process_id() != os.getpid():
+        raise RenderError(
+            "PDF: this process was forked from one that had made a PDF, and Typst does not survive "
+            'that: start processes by multiprocessing.get_context("spawn") or "forkserver"'
+        )
+
+
+@cache
+def _get_first_process_id() -> int:
+    """The process that typeset first."""
+    return os.getpid()

@@ -1,0 +1,26 @@
+"""What learners did, kept in a database: SQLite in a file, or PostgreSQL.
+
+In: plain values. Out: plain values. Must never know: requests, pages, questions.
+"""
+
+from quizgen.store.records import (
+    AttemptRecord,
+    ExamRecord,
+    Invitation,
+    Learner,
+    OutcomeRecord,
+    Person,
+    QuestionRef,
+)
+from quizgen.store.store import Store
+
+__all__ = [
+    "AttemptRecord",
+    "Invitation",
+    "Learner",
+    "Person",
+    "OutcomeRecord",
+    "ExamRecord",
+    "Store",
+    "QuestionRef",
+]

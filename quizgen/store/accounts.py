@@ -1,0 +1,236 @@
+"""People who sign in: invited once, known by a session. Of tokens only their hashes are kept."""
+
+from __future__ import annotations
+
+import hashlib
+import secrets
+import time
+import unicodedata
+from collections.abc import Mapping
+from typing import Any
+
+from sqlalchemy import (
+    ColumnElement,
+    Connection,
+    Select,
+    Table,
+    delete,
+    insert,
+    select,
+    update,
+)
+from sqlalchemy.exc import IntegrityError
+
+from quizgen.store.database import Database
+from quizgen.store.records import Invitation, Learner, Person
+from quizgen.store.schema import ACCOUNT, INVITATION, LEARNER, SESSION
+from quizgen.store.values import row_to_record
+
+ALONE = "me"
+"""Name of the learner of a server for one person; nobody signs in under it."""
+DAY = 86_400.0
+SESSION_DAYS, INVITATION_DAYS = 30, 7
+
+
+def fold_user_name(name: str) -> str:
+    """A name as it is compared: not by capitals, nor by how its letters are put together."""
+    return unicodedata.normalize("NFKC", name).casefold()
+
+
+class Accounts:
+    """People in a database.
+
+    Parameters
+    ----------
+    database : Database
+    """
+
+    def __init__(self, database: Database) -> None:
+        self.database = database
+
+    def has_manager(self) -> bool:
+        """Whether there is anybody who manages."""
+        with self.database.reading() as connection:
+            query = select(ACCOUNT.c.learner).where(ACCOUNT.c.manages).limit(1)
+            return connection.execute(query).first() is not None
+
+    def invite(self, learner: int | None = None, *, manages: bool = False) -> str:
+        """A token that is good once.
+
+        Parameters
+        ----------
+        learner : int, optional
+            Who may choose a new password with it, instead of somebody new.
+        manages : bool
+            Whether somebody new is to manage.
+        """
+        token, now = secrets.token_urlsafe(24), time.time()
+        row = {"learner": learner, "manages": manages, "until": now + INVITATION_DAYS * DAY}
+        with self.database.writing() as connection:
+            connection.execute(delete(INVITATION).where(INVITATION.c.until < now))
+            connection.execute(insert(INVITATION).values(hash=_hash_token(token), **row))
+        return token
+
+    def invited(self, token: str) -> Invitation | None:
+        """What a token invites to; None if it was used or withdrawn, or is too old."""
+        with self.database.reading() as connection:
+            return _find_invitation(connection, token)
+
+    def invitations(self) -> list[Invitation]:
+        """Invitations of somebody new that are still good."""
+        place = (INVITATION.c.until > time.time(), INVITATION.c.learner.is_(None))
+        query = select(INVITATION).where(*place).order_by(INVITATION.c.until)
+        with self.database.reading() as connection:
+            return [row_to_record(row, Invitation) for row in connection.execute(query).mappings()]
+
+    def withdraw(self, name: str) -> None:
+        """Take an invitation back, by its hash."""
+        with self.database.writing() as connection:
+            connection.execute(delete(INVITATION).where(INVITATION.c.hash == name))
+
+    def join(self, token: str, name: str, password: str, settings: Mapping[str, Any]) -> int | None:
+        """Make an account, once for each invitation.
+
+        Parameters
+        ----------
+        token : str
+        name : str
+        password : str
+            Its hash.
+        settings : mapping
+            What was chosen so far.
+
+        Returns
+        -------
+        int, optional
+            The new learner; None if somebody else has the name, or the token is no good.
+        """
+        if fold_user_name(name) == ALONE:
+            return None
+        try:
+            with self.database.writing() as connection:
+                invitation = _use_up_invitation(connection, token)
+                if invitation is None or invitation.learner:
+                    return None
+                new = insert(LEARNER).values(name=name, settings=settings, since=time.time())
+                made = connection.execute(new).inserted_primary_key
+                assert made is not None  # noqa: S101 - the row was written
+                row = {
+                    "key": fold_user_name(name),
+                    "password": password,
+                    "manages": invitation.manages,
+                }
+                connection.execute(insert(ACCOUNT).values(learner=made[0], **row))
+        except IntegrityError:
+            return None
+        return int(made[0])
+
+    def renew(self, token: str, password: str) -> int | None:
+        """Choose a new password by an invitation to do so: who did, if the token is good."""
+        with self.database.writing() as connection:
+            invitation = _use_up_invitation(connection, token)
+            if invitation is None or invitation.learner is None:
+                return None
+            _set_password(connection, invitation.learner, password)
+        return invitation.learner
+
+    def password_hash_of(self, name: str) -> tuple[int, str] | None:
+        """The learner and the password's hash of a name."""
+        query = select(ACCOUNT.c.learner, ACCOUNT.c.password)
+        with self.database.reading() as connection:
+            row = connection.execute(query.where(ACCOUNT.c.key == fold_user_name(name))).first()
+        return (int(row[0]), str(row[1])) if row else None
+
+    def set_password(self, learner: int, password: str) -> None:
+        """Change a password's hash; who is signed in has to sign in again."""
+        with self.database.writing(learner) as connection:
+            _set_password(connection, learner, password)
+
+    def start_session(self, learner: int) -> str:
+        """Sign somebody in: the token of a new session."""
+        token, now = secrets.token_urlsafe(24), time.time()
+        row = {"hash": _hash_token(token), "learner": learner, "until": now + SESSION_DAYS * DAY}
+        with self.database.writing(learner) as connection:
+            connection.execute(delete(SESSION).where(SESSION.c.until < now))
+            connection.execute(insert(SESSION).values(row))
+        return token
+
+    def end_session(self, token: str) -> None:
+        """Sign somebody out."""
+        with self.database.writing() as connection:
+            connection.execute(delete(SESSION).where(SESSION.c.hash == _hash_token(token)))
+
+    def signed_in(self, token: str) -> Learner | None:
+        """Whose session a token is of."""
+        query = _select_people(LEARNER.c.settings, ACCOUNT.c.manages).join(SESSION)
+        query = query.where(SESSION.c.hash == _hash_token(token), SESSION.c.until > time.time())
+        with self.database.reading() as connection:
+            row = connection.execute(query).mappings().first()
+        return row_to_record(row, Learner) if row else None
+
+    def is_session(self, token: str, learner: int) -> bool:
+        """Whether a token is of a browser that was let in as a learner, who may have no account."""
+        place = (SESSION.c.hash == _hash_token(token), SESSION.c.learner == learner)
+        query = select(SESSION.c.hash).where(*place, SESSION.c.until > time.time())
+        with self.database.reading() as connection:
+            return connection.execute(query).first() is not None
+
+    def people(self) -> list[Person]:
+        """Everybody who can sign in, by name."""
+        query = _select_people(ACCOUNT.c.manages, LEARNER.c.since).order_by(ACCOUNT.c.key)
+        with self.database.reading() as connection:
+            return [row_to_record(row, Person) for row in connection.execute(query).mappings()]
+
+    def rename(self, learner: int, name: str) -> bool:
+        """Give somebody another name; False if somebody else has it."""
+        if fold_user_name(name) == ALONE:
+            return False
+        try:
+            with self.database.writing(learner) as connection:
+                new = {"key": fold_user_name(name)}
+                connection.execute(
+                    update(ACCOUNT).where(_match_learner(ACCOUNT, learner)).values(new)
+                )
+                connection.execute(update(LEARNER).where(LEARNER.c.id == learner).values(name=name))
+        except IntegrityError:
+            return False
+        return True
+
+    def remove(self, learner: int) -> None:
+        """Remove somebody and everything that they did."""
+        with self.database.writing(learner) as connection:
+            connection.execute(delete(LEARNER).where(LEARNER.c.id == learner))
+
+
+def _select_people(*more: ColumnElement[Any]) -> Select[Any]:
+    query = select(LEARNER.c.id, LEARNER.c.name, *more)
+    return query.select_from(LEARNER).join(ACCOUNT)
+
+
+def _match_learner(table: Table, learner: int) -> ColumnElement[bool]:
+    return table.c.learner == learner
+
+
+def _hash_token(token: str) -> str:
+    """Tokens are random and long, so that nothing slower is needed."""
+    return hashlib.sha256(token.encode()).hexdigest()
+
+
+def _find_invitation(connection: Connection, token: str) -> Invitation | None:
+    good = (INVITATION.c.hash == _hash_token(token), INVITATION.c.until > time.time())
+    row = connection.execute(select(INVITATION).where(*good)).mappings().first()
+    return row_to_record(row, Invitation) if row else None
+
+
+def _use_up_invitation(connection: Connection, token: str) -> Invitation | None:
+    """An invitation, which is no good from now on; of two hands only one gets it."""
+    found = _find_invitation(connection, token)
+    gone = connection.execute(delete(INVITATION).where(INVITATION.c.hash == _hash_token(token)))
+    return found if gone.rowcount else None
+
+
+def _set_password(connection: Connection, learner: int, password: str) -> None:
+    new = {"password": password}
+    connection.execute(update(ACCOUNT).where(_match_learner(ACCOUNT, learner)).values(new))
+    for table in (SESSION, INVITATION):
+        connection.execute(delete(table).where(_match_learner(table, learner)))

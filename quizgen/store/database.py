@@ -1,0 +1,218 @@
+"""The database itself: opened, read from, and written to by one hand of a learner at a time."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import sqlite3
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from sqlalchemy import (
+    URL,
+    Connection,
+    Engine,
+    Executable,
+    Table,
+    create_engine,
+    event,
+    make_url,
+    select,
+)
+from sqlalchemy.dialects import sqlite
+from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
+
+from quizgen.core.errors import StoreError
+from quizgen.core.files import PRIVATE, open_private
+from quizgen.store.migrate import upgrade
+from quizgen.store.schema import LEARNER
+
+if TYPE_CHECKING:
+    from sqlalchemy.dialects.postgresql import Insert as PostgreSQL
+
+ADDRESSES = "an address is sqlite:///FILE or postgresql+psycopg://USER:PASSWORD@HOST/DATABASE"
+DRIVERS = {"sqlite", "sqlite+pysqlite", "postgresql", "postgresql+psycopg"}
+PATIENCE = 10
+"""Seconds to wait for a server to answer, or for another hand to have written."""
+_HOST = re.compile(r"[\w.:-]*")
+_WRITES = "writes"
+
+
+class Database:
+    """A database.
+
+    Parameters
+    ----------
+    address : str
+        ``sqlite:///file`` or ``postgresql+psycopg://...``.
+
+    Raises
+    ------
+    StoreError
+        If it cannot be opened, or was written by a newer version.
+    """
+
+    def __init__(self, address: str) -> None:
+        url = _parse_database_url(address)
+        _keep_private(url)
+        try:
+            self._reader = _create_engine_for(url)
+        except ModuleNotFoundError as error:
+            raise StoreError(f'no {error.name} here: pip install "quizgen[postgres]"') from error
+        self._writer = self._reader.execution_options(**{_WRITES: True})
+        with contextlib.ExitStack() as failing:
+            failing.callback(self.close)
+            try:
+                with self.writing() as connection:
+                    upgrade(connection)
+            except (SQLAlchemyError, OSError) as error:
+                raise StoreError(
+                    f"{_format_url_safely(url)}: {_format_database_error(error)}"
+                ) from error
+            failing.pop_all()
+
+    def close(self) -> None:
+        """Give the connections back."""
+        self._reader.dispose()
+
+    def reading(self) -> Connection:
+        """A connection to read with; what it reads is of one moment."""
+        return self._reader.connect()
+
+    @contextlib.contextmanager
+    def writing(self, learner: int | None = None) -> Iterator[Connection]:
+        """A connection to write with: all is written, or nothing where an error is raised.
+
+        Of two hands of one learner the second sees what the first has written: SQLite has one
+        writer at a time, PostgreSQL holds the learner's row.
+
+        Parameters
+        ----------
+        learner : int, optional
+            Whose data is written.
+        """
+        with self._writer.begin() as connection:
+            if learner is not None and connection.dialect.name != "sqlite":
+                mine = select(LEARNER.c.id).where(LEARNER.c.id == learner)
+                connection.execute(mine.with_for_update(key_share=True))
+            yield connection
+
+
+def upsert(
+    connection: Connection,
+    table: Table,
+    row: Mapping[str, object],
+    key: Sequence[str],
+    changed: Sequence[str] = (),
+) -> None:
+    """Write a row; where one of its key stands, some columns of it, or none.
+
+    Parameters
+    ----------
+    connection : sqlalchemy.Connection
+    table : sqlalchemy.Table
+    row : mapping
+    key : sequence of str
+        Columns that no two rows share.
+    changed : sequence of str
+        Columns that are written over.
+    """
+    query = _build_upsert(connection.dialect.name, table, tuple(key), tuple(changed))
+    connection.execute(query, dict(row))
+
+
+@cache
+def _build_upsert(
+    dialect: str, table: Table, key: tuple[str, ...], changed: tuple[str, ...]
+) -> Executable:
+    """The statement, built once."""
+    query: sqlite.Insert | PostgreSQL
+    if dialect == "sqlite":
+        query = sqlite.insert(table)
+    else:
+        from sqlalchemy.dialects import postgresql
+
+        query = postgresql.insert(table)
+    new = {name: query.excluded[name] for name in changed}
+    if not new:
+        return query.on_conflict_do_nothing(index_elements=key)
+    return query.on_conflict_do_update(index_elements=key, set_=new)
+
+
+def _create_engine_for(url: URL) -> Engine:
+    if url.get_backend_name() != "sqlite":
+        wait = {"connect_timeout": PATIENCE}
+        return create_engine(url, pool_pre_ping=True, hide_parameters=True, connect_args=wait)
+    wait = {"check_same_thread": False, "timeout": PATIENCE}
+    engine = create_engine(url, hide_parameters=True, connect_args=wait)
+
+    @event.listens_for(engine, "connect")
+    def _set_up(connection: sqlite3.Connection, _record: object) -> None:
+        connection.isolation_level = None  # ``_begin`` says when something begins
+        _to_wal(connection)
+        for setting in ("synchronous=NORMAL", "foreign_keys=ON"):
+            connection.execute(f"PRAGMA {setting}")
+
+    @event.listens_for(engine, "begin")
+    def _begin(connection: Connection) -> None:
+        writes = connection.get_execution_options().get(_WRITES)
+        connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+
+    return engine
+
+
+def _keep_private(url: URL) -> None:
+    """Let nobody but its owner read the file; SQLite makes the log beside it alike.
+
+    It holds answers and names, and whoever serves it chooses where: the umask is not asked.
+    """
+    if url.get_backend_name() != "sqlite" or url.database in {None, "", ":memory:"}:
+        return
+    file = Path(str(url.database))
+    with contextlib.suppress(OSError):  # SQLite says what is wrong, or it is another's
+        open_private(file).close()
+        for one in (file, *(file.with_name(file.name + end) for end in ("-wal", "-shm"))):
+            if one.exists():
+                one.chmod(PRIVATE)
+
+
+def _to_wal(connection: sqlite3.Connection) -> None:
+    """Keep a log beside the file: whoever reads waits for nobody who writes.
+
+    Of several that ask a new file for it at once SQLite refuses all but one, without waiting.
+    """
+    last = time.monotonic() + PATIENCE
+    while True:
+        try:
+            connection.execute("PRAGMA journal_mode=WAL")
+        except sqlite3.OperationalError as error:
+            if error.sqlite_errorcode & 0xFF != sqlite3.SQLITE_BUSY or time.monotonic() > last:
+                raise
+            time.sleep(0.01)
+        else:
+            return
+
+
+def _parse_database_url(address: str) -> URL:
+    """The address; what is wrong with one is said without it, for it may hold a password."""
+    try:
+        url = make_url(address)
+    except (ArgumentError, ValueError) as error:
+        raise StoreError(f"--database: {ADDRESSES}") from error
+    if url.drivername not in DRIVERS or not _HOST.fullmatch(url.host or ""):
+        raise StoreError(f"--database: {ADDRESSES} (write @ : / of a password as %40 %3A %2F)")
+    return url
+
+
+def _format_url_safely(url: URL) -> str:
+    """The address without its password, which may stand among its settings, too."""
+    return url.set(query={}).render_as_string()
+
+
+def _format_database_error(error: Exception) -> str:
+    """What went wrong, as the database says it."""
+    cause = error.orig if isinstance(error, DBAPIError) else error
+    return str(cause).strip().partition("\n")[0]

@@ -1,0 +1,152 @@
+"""What the database holds, as values."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+
+
+class Learner(msgspec.Struct, frozen=True):
+    """Who learns."""
+
+    id: int
+    name: str
+    settings: dict[str, Any]
+    manages: bool = False
+
+
+class Person(msgspec.Struct, frozen=True):
+    """Who can sign in, as those who manage see it."""
+
+    id: int
+    name: str
+    manages: bool
+    since: float
+
+
+class Invitation(msgspec.Struct, frozen=True):
+    """A link that is good once.
+
+    Parameters
+    ----------
+    hash : str
+        Of its token.
+    learner : int or None
+        Who may choose a new password; None for somebody new.
+    manages : bool
+        Whether somebody new is to manage.
+    until : float
+    """
+
+    hash: str
+    learner: int | None
+    manages: bool
+    until: float
+
+
+class QuestionRef(msgspec.Struct, frozen=True):
+    """Which question: its template, the seed of its numbers, how it is asked."""
+
+    template: str
+    seed: str
+    level: str = "exam"
+
+
+class AttemptRecord(msgspec.Struct):
+    """One question that somebody practises.
+
+    Parameters
+    ----------
+    id : str
+        Nobody can guess it.
+    learner : int
+    template, seed, level : str
+        Which question it is.
+    wish : mapping
+        What it was chosen by.
+    state : mapping
+        How far it has got.
+    begun : float
+    ended : float, optional
+    """
+
+    id: str
+    learner: int
+    template: str
+    seed: str
+    level: str
+    wish: dict[str, Any]
+    state: dict[str, Any]
+    begun: float
+    ended: float | None = None
+
+    @property
+    def which(self) -> QuestionRef:
+        """Which question it is."""
+        return QuestionRef(self.template, self.seed, self.level)
+
+
+class OutcomeRecord(msgspec.Struct, frozen=True):
+    """How a part went."""
+
+    template: str
+    topic: str
+    part: str
+    note: str
+    right: bool
+    first: bool
+    at: float
+
+
+class ExamRecord(msgspec.Struct, frozen=True):
+    """An exam that somebody sits.
+
+    Parameters
+    ----------
+    id : str
+        Nobody can guess it.
+    learner : int
+    code : str
+        Of its paper.
+    begun : float
+    limit : float or None
+        Seconds it may take.
+    pauses : bool
+        Whether it may rest.
+    rested : float
+        Seconds of its pauses.
+    resting : float, optional
+        Since when it rests.
+    handed : float, optional
+        When it was handed in.
+    marks : mapping
+        Part to the share of its points that the learner gave to a sentence.
+    """
+
+    id: str
+    learner: int
+    code: str
+    begun: float
+    limit: float | None
+    pauses: bool
+    rested: float = 0.0
+    resting: float | None = None
+    handed: float | None = None
+    marks: dict[str, float] = {}
+
+    @property
+    def ends(self) -> float | None:
+        """When its time is over; None without a limit, or while it rests."""
+        if self.limit is None or self.resting is not None:
+            return None
+        return self.begun + self.limit + self.rested
+
+    @property
+    def ran_out(self) -> bool:
+        """Whether it was handed in because its time was over."""
+        return self.handed is not None and self.ends is not None and self.handed >= self.ends
+
+    def is_over(self, now: float) -> bool:
+        """Whether it was handed in, or its time is over."""
+        return self.handed is not None or (self.ends is not None and now > self.ends)

@@ -1,0 +1,160 @@
+"""Opening the database, and everything that is read from it and written to it."""
+
+from __future__ import annotations
+
+import secrets
+import threading
+import time
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+from sqlalchemy import Connection, func, insert, select, update
+
+from quizgen.store.accounts import ALONE, Accounts
+from quizgen.store.archive import ArchiveStore
+from quizgen.store.database import Database, upsert
+from quizgen.store.exam_attempts import ExamStore
+from quizgen.store.records import AttemptRecord, Learner, OutcomeRecord, QuestionRef
+from quizgen.store.review_cards import ReviewCardStore
+from quizgen.store.schema import ATTEMPT, LEARNER, SEEN, SERVER
+from quizgen.store.values import row_to_record
+
+
+class Store:
+    """A database.
+
+    Parameters
+    ----------
+    address : str
+        ``sqlite:///file`` or ``postgresql+psycopg://...``.
+
+    Raises
+    ------
+    StoreError
+        If it cannot be opened, or was written by a newer version.
+    """
+
+    def __init__(self, address: str) -> None:
+        self.database = Database(address)
+        self._learners: dict[str, Learner] = {}
+        self._one = threading.Lock()
+        self.sittings = ExamStore(self.database)
+        """Exams that are sat."""
+        self.cards = ReviewCardStore(self.database)
+        """What is asked again, and when."""
+        self.accounts = Accounts(self.database)
+        """People who sign in."""
+        self.archives = ArchiveStore(self.database)
+        """Everything of a learner, as a file."""
+
+    def close(self) -> None:
+        """Give the connections back."""
+        self.database.close()
+
+    def shared_value(self, name: str, value: str) -> str:
+        """What servers of this database have in common under a name: the first one's value."""
+        query = select(SERVER.c.value).where(SERVER.c.name == name)
+        with self.database.writing() as connection:
+            upsert(connection, SERVER, {"name": name, "value": value}, ["name"])
+            return str(connection.execute(query).scalar_one())
+
+    def cached_learner(self, name: str = ALONE) -> Learner | None:
+        """A learner who has asked before; None where the database has to say."""
+        return self._learners.get(name)
+
+    def learner(self, name: str = ALONE) -> Learner:
+        """A learner by name; a new one if nobody has it yet."""
+        with self._one:
+            with self.database.writing() as connection:
+                row = {"name": name, "settings": {}, "since": time.time()}
+                upsert(connection, LEARNER, row, ["name"])
+                found = _get_learner(connection, name)
+            self._learners[name] = found
+        return found
+
+    def update_settings(self, learner: int, changed: Mapping[str, Any]) -> None:
+        """Change some settings of a learner."""
+        with self._one, self.database.writing(learner) as connection:
+            self._learners.clear()
+            query = select(LEARNER.c.settings).where(LEARNER.c.id == learner)
+            known = connection.execute(query).scalar_one()
+            connection.execute(
+                update(LEARNER).where(LEARNER.c.id == learner).values(settings={**known, **changed})
+            )
+
+    def start_attempt(
+        self, learner: int, which: QuestionRef, wish: Mapping[str, Any]
+    ) -> AttemptRecord:
+        """Begin a question."""
+        attempt = AttemptRecord(
+            secrets.token_urlsafe(12), learner, which.template, which.seed, which.level,
+            dict(wish), {}, time.time(),
+        )  # fmt: skip
+        with self.database.writing(learner) as connection:
+            connection.execute(insert(ATTEMPT).values(msgspec.to_builtins(attempt)))
+        return attempt
+
+    def attempt(self, learner: int, name: str) -> AttemptRecord | None:
+        """A learner's own attempt; None if there is none of this name, or it is another's."""
+        query = select(ATTEMPT).where(ATTEMPT.c.id == name, ATTEMPT.c.learner == learner)
+        with self.database.reading() as connection:
+            row = connection.execute(query).mappings().first()
+        return row_to_record(row, AttemptRecord) if row else None
+
+    def latest(self, learner: int, most: int = 50) -> list[AttemptRecord]:
+        """A learner's attempts, the latest first."""
+        query = (
+            select(ATTEMPT)
+            .where(ATTEMPT.c.learner == learner)
+            .order_by(ATTEMPT.c.begun.desc())
+            .limit(most)
+        )
+        with self.database.reading() as connection:
+            rows = connection.execute(query).mappings().all()
+        return [row_to_record(row, AttemptRecord) for row in rows]
+
+    def save_attempt(self, attempt: AttemptRecord, seen: tuple[OutcomeRecord, ...] = ()) -> None:
+        """Keep how far an attempt has got, and how parts of it went."""
+        values = {"state": attempt.state, "ended": attempt.ended}
+        with self.database.writing(attempt.learner) as connection:
+            connection.execute(update(ATTEMPT).where(ATTEMPT.c.id == attempt.id).values(values))
+            for one in seen:
+                row = {"learner": attempt.learner, **msgspec.to_builtins(one)}
+                connection.execute(insert(SEEN).values(row))
+
+    def list_outcomes(self, learner: int, most: int = 2000) -> list[OutcomeRecord]:
+        """How the parts went that a learner has ended, the latest last."""
+        names = [SEEN.c[name] for name in OutcomeRecord.__struct_fields__]
+        query = select(*names).where(SEEN.c.learner == learner)
+        query = query.order_by(SEEN.c.at.desc(), SEEN.c.id.desc()).limit(most)
+        with self.database.reading() as connection:
+            rows = connection.execute(query).all()
+        return [OutcomeRecord(*row) for row in reversed(rows)]
+
+    def was_finished(self, attempt: AttemptRecord) -> bool:
+        """Whether a learner has finished the same question with the same numbers before."""
+        query = select(ATTEMPT.c.id).where(
+            ATTEMPT.c.learner == attempt.learner,
+            ATTEMPT.c.template == attempt.template,
+            ATTEMPT.c.seed == attempt.seed,
+            ATTEMPT.c.id != attempt.id,
+            ATTEMPT.c.ended.is_not(None),
+        )
+        with self.database.reading() as connection:
+            return connection.execute(query.limit(1)).first() is not None
+
+    def count_asked(self, learner: int) -> dict[str, int]:
+        """Template to how often a learner was asked it."""
+        query = (
+            select(ATTEMPT.c.template, func.count())
+            .where(ATTEMPT.c.learner == learner)
+            .group_by(ATTEMPT.c.template)
+        )
+        with self.database.reading() as connection:
+            return {str(name): int(count) for name, count in connection.execute(query)}
+
+
+def _get_learner(connection: Connection, name: str) -> Learner:
+    query = select(LEARNER.c.id, LEARNER.c.name, LEARNER.c.settings).where(LEARNER.c.name == name)
+    return row_to_record(connection.execute(query).mappings().one(), Learner)

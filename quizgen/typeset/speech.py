@@ -1,0 +1,339 @@
+"""Formulas in words, for alternative texts: nothing in the layout is left unsaid or ambiguous.
+
+Fractions, roots and powers of a single letter or number are read the short way; longer ones say
+where they end, so that a listener can write the formula down.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache, singledispatch
+
+from quizgen.core.errors import RenderError
+from quizgen.locale import localise_numbers
+from quizgen.typeset import nodes as n
+from quizgen.typeset.names import GREEK
+from quizgen.typeset.tables import strict_lookup
+from quizgen.typeset.units import UnitPart, split_unit
+from quizgen.typeset.words import SpeechWords, load_speech_words
+
+_known = strict_lookup("reading")
+
+_BINDING = tuple(map(n.OperatorSign, ("", "·", "×", "mod")))
+_BOUNDS = tuple(map(n.OperatorSign, "<≤"))
+_COMMAS = re.compile(r"[ ,]+([,;])")
+_SPACES = re.compile(r"  +")
+_GREEK_NAMES = {char: word for word, char in GREEK.items() if word != "lamda"}
+
+
+def to_speech(node: n.Node, lang: str = "en") -> str:
+    """Read a layout aloud.
+
+    Parameters
+    ----------
+    node : Node
+        The layout.
+    lang : str
+        A language of ``quizgen.locale``.
+
+    Raises
+    ------
+    RenderError
+        If the layout holds something that has no reading.
+
+    Examples
+    --------
+    >>> from quizgen.typeset import name, spoken
+    >>> spoken(name("p'_x"))
+    'p prime sub x'
+    """
+    return _SPACES.sub(" ", _COMMAS.sub(r"\1", _say_node(node, lang))).strip(" ,")
+
+
+def is_simple(node: n.Node | None) -> bool:
+    """Whether a listener hears a node as one thing."""
+    match node:
+        case n.Digits() | n.Ident() | n.Word() | n.NumberWithUnit() | n.UnitText() | None:
+            return True
+        case n.Scripts(base=base, sub=sub, sup=None):
+            return is_simple(base) and is_simple(sub)
+        case n.Accent(base=base):
+            return is_simple(base)
+        case n.MathRow(
+            items=(n.OperatorSign(name="neg"), n.Digits() | n.NumberWithUnit() | n.Ident())
+        ):
+            return True
+        case n.MathRow(items=items, level=n.ATOM):
+            return all(map(is_simple, items))
+    return False
+
+
+def _say_phrase(lang: str, key: str, nodes: tuple[n.Node, ...]) -> str:
+    words = load_speech_words(lang)
+    table = words.short if all(map(is_simple, nodes)) else words.long
+    return str(table[key]).format(*[_say_node(node, lang) for node in nodes])
+
+
+@singledispatch
+def _say_node(node: n.Node, lang: str) -> str:
+    raise RenderError(f"no reading for {type(node).__name__} ({lang})")
+
+
+@_say_node.register
+def _say_digits(node: n.Digits, lang: str) -> str:
+    return "".join(localise_numbers(lang, node.text).split())
+
+
+def say_letter(char: str, lang: str) -> str:
+    """Say one letter; a capital is announced, since x and X differ."""
+    words = load_speech_words(lang)
+    lower = char.lower()
+    said = words.letters.get(lower) or words.greek.get(lower) or _GREEK_NAMES.get(lower)
+    if said is None:
+        said = char if char.isascii() else _known(words.greek, char, "letter")
+    if char == lower:
+        return str(said)
+    as_written = char.isascii() and not words.letters
+    return words.capital.format(char if as_written else said)
+
+
+@_say_node.register
+def _say_ident(node: n.Ident, lang: str) -> str:
+    said = say_letter(node.text, lang)
+    return load_speech_words(lang).short["bold"].format(said) if node.bold else said
+
+
+@_say_node.register
+def _say_word(node: n.Word, lang: str) -> str:
+    words = load_speech_words(lang)
+    if node.text.isupper() and words.letters:
+        return "".join([words.letters.get(char.lower(), char) for char in node.text])
+    return words.names.get(node.text, node.text)
+
+
+@_say_node.register
+def _say_reader_word(node: n.ReaderWord, lang: str) -> str:
+    return _known(load_speech_words(lang).printed, node.key, "word")
+
+
+@lru_cache(maxsize=512)
+def say_unit(text: str, lang: str, *, one: bool = False) -> str:
+    """Say a unit, in the singular after the number one."""
+    words = load_speech_words(lang)
+    said = ""
+    for part in split_unit(text):
+        below = part.sign == "/" or part.power.startswith("-")
+        word = _simple_unit(part, words, one=one or below)
+        word = _insert_word(words.unit_joints.get(part.power.lstrip("-"), "{}"), word)
+        joint = words.unit_joints["/" if below else "·"]
+        said = joint.format(said, word) if said or below else word
+    return said.strip()
+
+
+def _simple_unit(part: UnitPart, words: SpeechWords, *, one: bool) -> str:
+    if part.name in words.units:
+        return words.units[part.name][not one]
+    prefix = {"µ": "u", "μ": "u"}.get(part.name[0], part.name[0])
+    if part.name[1:] not in words.units:
+        return part.shown  # a unit of the bank's own
+    return _insert_word(
+        _known(words.prefixes, prefix, "prefix"), words.units[part.name[1:]][not one]
+    )
+
+
+def _insert_word(pattern: str, word: str) -> str:
+    """A word in its place; one that goes on with another word begins with a small letter."""
+    return pattern.format(word if pattern.startswith("{}") else word[:1].lower() + word[1:])
+
+
+@_say_node.register
+def _say_unit_text(node: n.UnitText, lang: str) -> str:
+    return say_unit(node.text, lang)
+
+
+@_say_node.register
+def _say_quantity(node: n.NumberWithUnit, lang: str) -> str:
+    one = node.value == n.Digits("1")
+    return f"{_say_node(node.value, lang)} {say_unit(node.unit.text, lang, one=one)}"
+
+
+@_say_node.register
+def _say_operator(node: n.OperatorSign, lang: str) -> str:
+    return (
+        "" if node.name == " " else _known(load_speech_words(lang).operators, node.name, "operator")
+    )
+
+
+@_say_node.register
+def _say_row(node: n.MathRow, lang: str) -> str:
+    items = node.items
+    if node.level == n.ATOM:
+        items = tuple([item for item in items if item != n.OperatorSign(",")])
+    if _two_bounds(items):
+        both = (*items[:3], n.ReaderWord("and"), *items[2:])
+        return " ".join([_say_node(item, lang) for item in both])
+    following = (*items[1:], None)
+    return " ".join(
+        [_say_with_fraction_end(*pair, lang) for pair in zip(items, following, strict=True)]
+    )
+
+
+def _two_bounds(items: tuple[n.Node, ...]) -> bool:
+    """0 ≤ x < 1 is read as two statements about x."""
+    return len(items) == 5 and all(item in _BOUNDS for item in items[1::2])
+
+
+def _say_with_fraction_end(node: n.Node, following: n.Node | None, lang: str) -> str:
+    """Say where a fraction ends if a factor comes after it."""
+    if isinstance(node, n.Frac) and not node.inline and following in _BINDING:
+        return _say_fraction(node, lang, "long")
+    return _say_node(node, lang)
+
+
+@_say_node.register
+def _say_fraction(node: n.Frac, lang: str, length: str = "short") -> str:
+    words = load_speech_words(lang)
+    said = _say_node(node.top, lang), _say_node(node.bottom, lang)
+    if node.inline or (length == "short" and is_simple(node.top) and is_simple(node.bottom)):
+        return words.short["frac"].format(*said)
+    deep = _has_frac(node.top) or _has_frac(node.bottom)
+    return words.long["deep" if deep else "frac"].format(*said)
+
+
+def _has_frac(node: n.Node) -> bool:
+    match node:
+        case n.Frac():
+            return True
+        case n.MathRow(items=items) | n.Func(args=items):
+            return any(map(_has_frac, items))
+        case n.Fenced(body=body) | n.Root(body=body):
+            return _has_frac(body)
+    return False
+
+
+@_say_node.register
+def _say_root(node: n.Root, lang: str) -> str:
+    if node.index is None:
+        return _say_phrase(lang, "sqrt", (node.body,))
+    return _say_phrase(lang, "root", (node.index, node.body))
+
+
+@_say_node.register
+def _say_scripts(node: n.Scripts, lang: str) -> str:
+    short = load_speech_words(lang).short
+    said = _say_node(node.base, lang)
+    for _ in range(node.primes):
+        said = short["prime"].format(said)
+    if node.sub is not None:
+        said = short["sub"].format(said, _say_node(node.sub, lang))
+    return said if node.sup is None else _say_power(node, said, lang)
+
+
+def _say_power(node: n.Scripts, base: str, lang: str) -> str:
+    words = load_speech_words(lang)
+    if isinstance(node.sup, n.Digits) and node.sup.text in words.powers:
+        grouped = isinstance(node.base, n.Fenced) and node.base.kind == "()"
+        return words.powers[node.sup.text + "…" * grouped].format(base)
+    if node.sup == n.OperatorSign("ᵀ"):
+        return f"{base} {_say_node(node.sup, lang)}"
+    table = words.short if is_simple(node.sup) else words.long
+    return table["power"].format(base, _say_node(node.sup, lang) if node.sup else "")
+
+
+@_say_node.register
+def _say_accent(node: n.Accent, lang: str) -> str:
+    return _known(load_speech_words(lang).accents, node.kind, "accent").format(
+        _say_node(node.base, lang)
+    )
+
+
+@_say_node.register
+def _say_fence(node: n.Fenced, lang: str) -> str:
+    words = load_speech_words(lang)
+    if node.kind in words.intervals and isinstance(node.body, n.MathRow):
+        bounds = [_say_node(item, lang) for item in node.body.items if item != n.OperatorSign(",")]
+        if len(bounds) == 2 and len(node.body.items) == 3:
+            return words.intervals[node.kind].format(*bounds)
+    long = node.kind + "…"
+    key = long if long in words.brackets and not is_simple(node.body) else node.kind
+    return _known(words.brackets, key, "brackets").format(_say_node(node.body, lang))
+
+
+@_say_node.register
+def _say_function(node: n.Func, lang: str) -> str:
+    words = load_speech_words(lang)
+    said = [_say_node(arg, lang) for arg in node.args]
+    if not all(map(is_simple, node.args)) or not _is_plain_head(node.head):
+        return words.long["func"].format(_say_function_head(node.head, lang), ", ".join(said))
+    listed = ", ".join(said)
+    if len(said) > 1:
+        listed = words.short["last"].format(", ".join(said[:-1]), said[-1])
+    if isinstance(node.head, n.Ident):
+        return words.short["of"].format(_say_node(node.head, lang), listed)
+    if isinstance(node.head, n.Scripts) and node.head.sup is not None:
+        return words.short["apply"].format(_say_function_head(node.head, lang), listed)
+    if isinstance(node.head, n.Scripts) and node.head.sub is not None:
+        return words.short["base"].format(_say_node(node.head.sub, lang), listed)
+    name = node.head.text if isinstance(node.head, n.Word) else ""
+    return _known(words.functions, name, "function")[0].format(listed)
+
+
+def _is_plain_head(head: n.Node) -> bool:
+    """Whether a head is a bare function name, or a logarithm with its base."""
+    if isinstance(head, n.Scripts):
+        return (head.base == n.Word("log")) is (head.sub is not None)
+    return isinstance(head, n.Word | n.Ident)
+
+
+def _say_function_head(node: n.Node, lang: str) -> str:
+    words = load_speech_words(lang)
+    if isinstance(node, n.Word):
+        return _known(words.functions, node.text, "function")[1]
+    if isinstance(node, n.Scripts) and node.sup is not None:
+        bare = n.Scripts(node.base, node.sub) if node.sub else node.base
+        return _say_power(node, _say_function_head(bare, lang), lang)
+    if isinstance(node, n.Scripts) and node.sub is not None:
+        if node.base == n.Word("log"):
+            return words.short["base alone"].format(_say_node(node.sub, lang))
+        return words.short["sub"].format(
+            _say_function_head(node.base, lang), _say_node(node.sub, lang)
+        )
+    return _say_node(node, lang)
+
+
+@_say_node.register
+def _say_large_operator(node: n.LargeOperator, lang: str) -> str:
+    what, low, high, closing = _known(load_speech_words(lang).signs, node.sign, "sign")
+    said = [what]
+    said += [low.format(_say_node(node.lower, lang))] if node.lower else []
+    said += [high.format(_say_node(node.upper, lang))] if node.upper else []
+    return " ".join([*said, closing])
+
+
+@_say_node.register
+def _say_under(node: n.Under, lang: str) -> str:
+    return (
+        load_speech_words(lang)
+        .short["below"]
+        .format(_say_function_head(node.base, lang), _say_node(node.below, lang))
+    )
+
+
+@_say_node.register
+def _say_cases(node: n.Cases, lang: str) -> str:
+    short = load_speech_words(lang).short
+    rows = []
+    for value, condition in node.rows:
+        if condition is None:
+            rows.append(short["otherwise"].format(_say_node(value, lang)))
+        else:
+            rows.append(short["case"].format(_say_node(value, lang), _say_node(condition, lang)))
+    return "; ".join(rows)
+
+
+@_say_node.register
+def _say_matrix(node: n.Matrix, lang: str) -> str:
+    words = load_speech_words(lang)
+    rows = [", ".join([_say_node(cell, lang) for cell in row]) for row in node.rows]
+    said = [words.short["row"].format(f"{i}: {row}") for i, row in enumerate(rows, 1)]
+    return words.long["matrix"].format("; ".join(said))

@@ -1,0 +1,174 @@
+"""Who asks: whoever has the address that was printed, or who has signed in."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+import re
+import secrets
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import urlencode
+
+from sqlalchemy.exc import SQLAlchemyError
+from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import Headers, MutableHeaders, QueryParams
+from starlette.responses import RedirectResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from quizgen.store import Learner
+from quizgen.web.security import OPEN, plain_error
+from quizgen.web.state import ServerState
+
+COOKIE = "quizgen"
+ENTRANCE = "/enter"
+"""Where the address that is opened first leads: ``/enter?key=KEY``."""
+SIGN_IN, INVITED = "/sign-in", "/invited"
+"""What somebody may see who has not signed in."""
+
+
+def csrf_token(token: str) -> str:
+    """What every form of a browser holds, so that no other site can post one."""
+    return hmac.new(token.encode(), b"form", hashlib.sha256).hexdigest()
+
+
+class AuthMiddleware:
+    """Lets in who may, and puts beside the request who that is.
+
+    Parameters
+    ----------
+    app : ASGI application
+    site : Site
+    """
+
+    def __init__(self, app: ASGIApp, site: ServerState) -> None:
+        self.app, self.site = app, site
+        self._let_in: set[str] = set()
+        """Tokens that the database has said to be good, so that not each request asks it."""
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer at once, or hand on."""
+        if scope["type"] != "http" or scope["path"].startswith(OPEN):
+            await self.app(scope, receive, send)
+            return
+        try:
+            sign = self._signed_in if self.site.settings.accounts else self._admit_sole_learner
+            answer = await sign(scope)
+        except SQLAlchemyError:
+            answer = plain_error("503", 503)
+        if answer is not None:
+            await answer(scope, receive, send)
+            return
+        await self.app(scope, receive, _with_cookie(scope, send))
+
+    async def _admit_sole_learner(self, scope: Scope) -> Response | None:
+        """Whose browser was let in by a key is the one learner there is."""
+        store = self.site.store
+        if scope["path"] == ENTRANCE:
+            return await self._begin_keyed_session(scope)
+        token = _read_session_cookie(scope)
+        learner = await self._find_learner()
+        if token not in self._let_in:
+            if not token or not await run_in_threadpool(
+                store.accounts.is_session, token, learner.id
+            ):
+                return plain_error("entrance", 403)
+            self._let_in.add(token)
+        scope.setdefault("state", {}).update(learner=learner, token=token)
+        return None
+
+    async def _find_learner(self) -> Learner:
+        store = self.site.store
+        found: Learner | None = store.cached_learner()
+        return found if found is not None else await run_in_threadpool(store.learner)
+
+    async def _begin_keyed_session(self, scope: Scope) -> Response:
+        """Begin a session of a browser that has a key."""
+        store = self.site.store
+        if not self.site.keys.is_good(QueryParams(scope["query_string"]).get("key", "")):
+            return plain_error("entrance", 403)
+        learner = await self._find_learner()
+        token = await run_in_threadpool(store.accounts.start_session, learner.id)
+        self._let_in.add(token)
+        scope.setdefault("state", {})
+        return set_session_cookie(scope, RedirectResponse("/", 303), token)
+
+    async def _signed_in(self, scope: Scope) -> Response | None:
+        """Who has a session; anybody else is sent to where one signs in."""
+        token = _read_session_cookie(scope)
+        accounts = self.site.store.accounts
+        learner = await run_in_threadpool(accounts.signed_in, token) if token else None
+        state = scope.setdefault("state", {})
+        state.update(learner=learner or _make_visitor(scope, self.site.languages), token=token)
+        if learner is not None or scope["path"] in {SIGN_IN, INVITED}:
+            if not token:
+                state["token"] = state["new_token"] = secrets.token_urlsafe(24)
+            return None
+        return _to_sign_in(scope)
+
+
+def set_session_cookie(scope: Scope, response: Response, token: str) -> Response:
+    """Give a browser another token, instead of the one that it had.
+
+    Not ``samesite=strict``: the way in begins in a file, which browsers take for another site.
+    Posts are held off by the token in each form and by ``guard``.
+    """
+    scope["state"].pop("new_token", None)
+    response.set_cookie(
+        COOKIE, token, httponly=True, samesite="lax", secure=scope["scheme"] == "https"
+    )
+    return response
+
+
+def _with_cookie(scope: Scope, send: Send) -> Send:
+    """Give a browser that has no token one for its forms, which lets nobody in."""
+
+    async def sending(message: Message) -> None:
+        token = scope.get("state", {}).get("new_token")
+        if token and message["type"] == "http.response.start":
+            given = set_session_cookie(scope, Response(), token).headers["set-cookie"]
+            MutableHeaders(scope=message).append("set-cookie", given)
+        await send(message)
+
+    return sending
+
+
+def _make_visitor(scope: Scope, spoken: tuple[str, ...]) -> Learner:
+    """Somebody unknown, who has said in which language to be spoken to, or whose browser has."""
+    asked = [QueryParams(scope["query_string"]).get("lang", "")]
+    asked += [
+        one.partition(";")[0].strip()
+        for one in Headers(scope=scope).get("accept-language", "").split(",")[:10]
+    ]
+    by_name = {_strip_country(lang): lang for lang in reversed(spoken)}
+    by_name |= {lang.lower(): lang for lang in spoken}
+    known = (by_name.get(one.lower()) or by_name.get(_strip_country(one)) for one in asked)
+    return Learner(0, "", {"lang": next(filter(None, known), spoken[0])})
+
+
+def _strip_country(lang: str) -> str:
+    """A language without its country: ``pt`` of ``pt-BR``."""
+    return lang.partition("-")[0].lower()
+
+
+def _to_sign_in(scope: Scope) -> Response:
+    """Ask somebody to sign in, and lead back to the page where they were."""
+    headers = Headers(scope=scope)
+    by_script = "hx-request" in headers
+    if scope["method"] in {"GET", "HEAD"} and not by_script:
+        return RedirectResponse(f"{SIGN_IN}?{urlencode({'to': scope['path']})}", 303)
+    page = headers.get("hx-current-url") or headers.get("referer", "")
+    back = re.sub("^[a-z]+://[^/]*", "", page).partition("?")[0] or "/"
+    where = f"{SIGN_IN}?{urlencode({'to': back, 'ended': 1})}"
+    if by_script:
+        return Response(status_code=403, headers={"hx-redirect": where})
+    if "text/html" in headers.get("accept", ""):
+        return RedirectResponse(where, 303)
+    return plain_error("sign_in", 403)
+
+
+def _read_session_cookie(scope: Scope) -> str:
+    try:
+        found = SimpleCookie(Headers(scope=scope).get("cookie", "")).get(COOKIE)
+    except CookieError:
+        return ""
+    return found.value if found else ""

@@ -1,0 +1,182 @@
+"""A paper that was handed in: marks, what was said of each part, what to practise."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from quizgen.bank.bank import Bank
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.verdict import Verdict
+from quizgen.paper.grading import PartResult, QuestionGrader, round_to_quarters
+from quizgen.practice.input_fields import join_fields
+from quizgen.practice.scheduler import ReviewEvent, ReviewRating
+from quizgen.store import OutcomeRecord
+from quizgen.web.question_view import PaperView, PartView, QuestionView
+from quizgen.web.read_errors import ReadErrorView, explain_read_error
+
+WRONG = frozenset({"wrong", "partial"})
+
+
+@dataclass(frozen=True)
+class ExamPartResult:
+    """One part of a paper that was handed in."""
+
+    part: PartView
+    values: Sequence[str]
+    """What stands in its fields."""
+    result: PartResult
+    own: float | None
+    """The share of its points that the learner gave it, where a person has to decide."""
+    lang: str
+
+    @property
+    def verdict(self) -> Verdict:
+        """What the checker says."""
+        return self.result.verdict
+
+    @property
+    def unread(self) -> ReadErrorView | None:
+        """Why it could not be read, if it could not."""
+        if self.verdict.is_graded or self.verdict.needs_self_marking:
+            return None
+        return explain_read_error(self.part.field, self.values, self.verdict, self.lang)
+
+    @property
+    def marks(self) -> Fraction | None:
+        """Its marks; None while nobody has decided."""
+        if self.result.is_blank:
+            return Fraction(0)
+        if self.result.marks is None and self.own is not None:
+            return round_to_quarters(Fraction(str(self.own)) * self.result.points)
+        return self.result.marks
+
+    @property
+    def status(self) -> str:
+        """``blank``, ``open``, ``judged`` or the verdict."""
+        if self.result.status == "open":
+            return "open" if self.own is None else "judged"
+        return self.result.status
+
+
+@dataclass(frozen=True)
+class ExamQuestionResult:
+    """One question of a paper that was handed in."""
+
+    made: QuestionView
+    parts: tuple[ExamPartResult, ...]
+
+    @property
+    def marks(self) -> Fraction:
+        """Marks so far."""
+        return sum((part.marks or Fraction(0) for part in self.parts), Fraction(0))
+
+    @property
+    def points(self) -> Fraction:
+        """Marks that can be had."""
+        return sum((part.result.points for part in self.parts), Fraction(0))
+
+    @property
+    def weak(self) -> bool:
+        """Whether it is worth practising."""
+        return self.marks < self.points
+
+
+@dataclass(frozen=True)
+class ExamResults:
+    """A paper that was handed in."""
+
+    questions: tuple[ExamQuestionResult, ...]
+
+    @property
+    def marks(self) -> Fraction:
+        """Marks so far."""
+        return sum((question.marks for question in self.questions), Fraction(0))
+
+    @property
+    def points(self) -> Fraction:
+        """Marks that can be had."""
+        return sum((question.points for question in self.questions), Fraction(0))
+
+    @property
+    def to_judge(self) -> int:
+        """Sentences that nobody has decided on."""
+        return sum(part.status == "open" for q in self.questions for part in q.parts)
+
+    def mistakes(self) -> list[tuple[str, list[QuestionView]]]:
+        """What was said of wrong parts, with the questions, those of most questions first."""
+        found: dict[str, list[QuestionView]] = {}
+        for question in self.questions:
+            for part in question.parts:
+                graded = part.status in WRONG and part.verdict.note
+                if graded and question.made not in found.setdefault(part.verdict.message, []):
+                    found[part.verdict.message].append(question.made)
+        return sorted(found.items(), key=lambda one: -len(one[1]))
+
+
+def grade_exam(
+    paper: PaperView, answers: Mapping[str, list[str]], own: Mapping[str, float]
+) -> ExamResults:
+    """Mark a paper.
+
+    Parameters
+    ----------
+    paper : MadePaper
+    answers : mapping
+        Part to what stands in its fields.
+    own : mapping
+        Part to the share that the learner gave it.
+    """
+    return ExamResults(tuple(_grade_question(item, answers, own) for item in paper.items))
+
+
+def _grade_question(
+    item: QuestionView, answers: Mapping[str, list[str]], own: Mapping[str, float]
+) -> ExamQuestionResult:
+    lang = item.wanted.lang
+    marker = QuestionGrader(item.key, GradingOptions(lang))
+    parts = []
+    for part, keyed in zip(item.parts, item.key.parts, strict=True):
+        field = part.field
+        values = answers.get(field.id, ())
+        typed = join_fields(field.control, values, field.marks)
+        parts.append(
+            ExamPartResult(part, values, marker.grade_part(keyed, typed), own.get(field.id), lang)
+        )
+    return ExamQuestionResult(item, tuple(parts))
+
+
+def review_events(bank: Bank, results: ExamResults) -> list[ReviewEvent]:
+    """What a paper says of its templates; nothing of questions that a person has to mark."""
+    found = []
+    for question in results.questions:
+        parts = [part for part in question.parts if part.status != "open"]
+        if parts:
+            right = all(part.verdict.verdict == "correct" for part in parts)
+            notes = tuple(part.verdict.note for part in parts if part.status in WRONG)
+            origin = bank.origin(question.made.wanted.template)
+            found.append(
+                ReviewEvent(origin, ReviewRating.GOOD if right else ReviewRating.AGAIN, notes)
+            )
+    return found
+
+
+def outcome_records(results: ExamResults) -> tuple[OutcomeRecord, ...]:
+    """How the parts went, for what to practise next; blank ones were not right."""
+    now = time.time()
+    return tuple(
+        OutcomeRecord(
+            question.made.wanted.template,
+            question.made.topic,
+            part.part.label,
+            part.verdict.note if part.status in WRONG else "",
+            part.verdict.verdict == "correct",
+            part.verdict.verdict == "correct",
+            now,
+        )
+        for question in results.questions
+        for part in question.parts
+        if part.status != "open"
+    )

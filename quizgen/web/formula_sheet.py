@@ -1,0 +1,154 @@
+"""The formula sheet: a page to read and practise from, and a file to print."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import msgspec
+from markupsafe import Markup
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from quizgen import typeset
+from quizgen.bank.bank import Bank
+from quizgen.core.decoding import decode_json
+from quizgen.locale import translate
+from quizgen.question.formula_sheet import NOTES, FormulaSheet, SheetFormula, compose_sheet
+from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
+from quizgen.question.inlines import TypesetMaths
+from quizgen.render import render_sheet
+from quizgen.render.sheet_html import sheet_css
+from quizgen.web.question_view import Html
+from quizgen.web.state import ServerState
+from quizgen.web.views import page_response, request_language
+
+
+class FormulaView(msgspec.Struct, frozen=True):
+    """A formula as markup."""
+
+    id: str
+    title: Html
+    sketch: Html
+    lines: list[Html]
+    units: Html
+    notes: list[tuple[str, Html]]
+    """What is said about it, each with its heading."""
+    questions: list[tuple[str, str]]
+    """Name and title of the templates that ask for it."""
+    section: str
+
+
+class FormulaTopicView(msgspec.Struct, frozen=True):
+    """The formulas of a topic."""
+
+    topic: str
+    title: str
+    formulas: list[FormulaView]
+
+
+class SheetView(msgspec.Struct, frozen=True):
+    """The formulas of a bank in one language."""
+
+    title: str
+    groups: list[FormulaTopicView]
+
+
+@dataclass(frozen=True)
+class SheetPageJob:
+    """The sheet as markup."""
+
+    lang: str
+
+    def run(self, bank: Bank) -> bytes:
+        """Make it."""
+        return msgspec.json.encode(_build_sheet(compose_sheet(bank, self.lang)))
+
+
+@dataclass(frozen=True)
+class SheetFileJob:
+    """The sheet as a PDF file."""
+
+    lang: str
+
+    def run(self, bank: Bank) -> bytes:
+        """Make it."""
+        return render_sheet(compose_sheet(bank, self.lang), "pdf")
+
+
+def _build_sheet(one: FormulaSheet) -> SheetView:
+    lang = one.langs[0]
+    groups = [
+        FormulaTopicView(
+            group.topic,
+            group.titles[lang],
+            [_build_sheet_formula(line, lang) for line in group.lines],
+        )
+        for group in one.groups
+    ]
+    return SheetView(one.titles[lang], groups)
+
+
+def _build_sheet_formula(line: SheetFormula, lang: str) -> FormulaView:
+    said = line.said[0]
+    return FormulaView(
+        line.id,
+        str(inlines_to_html(said.title, lang)),
+        line.figures[0].inline_svg.decode() if line.figures else "",
+        [_render_spoken_line(maths, lang) for maths in line.lines],
+        str(inlines_to_html(line.units, lang)),
+        [
+            (
+                translate(lang, f"sheet.{name}"),
+                str(blocks_to_html(said.notes[name], lang, tight=True)),
+            )
+            for name in NOTES
+            if name in said.notes
+        ],
+        list(said.questions),
+        translate(lang, "sheet.section", section=line.section) if line.section else "",
+    )
+
+
+def _render_spoken_line(maths: TypesetMaths, lang: str) -> Html:
+    """A line that is read aloud in the language of the page."""
+    aloud = Markup('<math aria-label="{}"').format(typeset.to_speech(maths.node, lang))
+    return str(display_to_html(maths, lang)).replace("<math", aloud, 1)
+
+
+async def show_formulas(request: Request) -> Response:
+    """All formulas of the chapter."""
+    site: ServerState = request.app.state.site
+    if "formulas" not in site.bank.cards:
+        return _render_not_found(request)
+    data = await site.workers.get_result(SheetPageJob(request_language(request)))
+    made = decode_json(data, SheetView)
+    words = {
+        name: translate(request_language(request), f"sheet.{name}") for name in ("units", "topics")
+    }
+    return page_response(request, "formulas.html.j2", sheet=made, words=words)
+
+
+async def download_sheet(request: Request) -> Response:
+    """The sheet to print."""
+    site: ServerState = request.app.state.site
+    if "formulas" not in site.bank.cards:
+        return _render_not_found(request)
+    data = await site.workers.get_result(SheetFileJob(request_language(request)))
+    return Response(data, media_type="application/pdf")
+
+
+async def style_sheet(_request: Request) -> Response:
+    """The style that the page shares with the sheet as a file."""
+    return Response(sheet_css(), media_type="text/css")
+
+
+def _render_not_found(request: Request) -> Response:
+    return page_response(request, "message.html.j2", 404, title="error.title", text="error.404")
+
+
+ROUTES = [
+    Route("/formulas", show_formulas),
+    Route("/formulas.pdf", download_sheet),
+    Route("/static/sheet.css", style_sheet),
+]

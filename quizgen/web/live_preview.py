@@ -1,0 +1,89 @@
+"""What the checker makes of a half-typed answer: how it is read, never whether it is right."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from fractions import Fraction
+
+from markupsafe import Markup, escape
+
+from quizgen import typeset
+from quizgen.core.errors import FormulaError
+from quizgen.grading.mark import mark
+from quizgen.locale import localise_numbers
+from quizgen.maths.notation import FormulaReadError, parse_formula
+from quizgen.maths.notation.pretty import format_number
+from quizgen.maths.units import SHOWN, SIMPLE, format_unit
+from quizgen.paper.answer_key import KeyQuestion
+from quizgen.practice.input_fields import join_fields
+from quizgen.web.question_view import FieldView
+
+READ = frozenset(
+    {"number", "quantity", "angle", "point", "table", "set", "interval", "expression", "witness"}
+)
+"""Kinds of which the reading says nothing about the key: what is read is what was typed."""
+
+_SEVERAL = re.compile(r"([({\[]?)(.*;.*?)([)}\]]?(?: [^\d;]+)?)")
+_BETWEEN = re.compile(r"(; | = )")
+_VALUE = re.compile(r"([^A-Za-z]+) (\D+)")
+_FRACTION = re.compile(r"[-−]?(\d{1,15})/(\d{1,15})")
+_HALF = re.compile(r"[-−+*/^(.,=:;·×]\s*$")
+
+
+def preview_reading(field: FieldView, key: KeyQuestion, values: Sequence[str], lang: str) -> Markup:
+    """How an answer is read, typeset as in a language; empty if it is incomplete, or not read."""
+    part = next(part for part in key.parts if part.id == field.id)
+    typed = join_fields(field.control, values, field.marks)
+    if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
+        return Markup()
+    verdict = mark(part.ordered_spec(), typed)
+    boxes = bool(field.control.boxes)
+    return _typeset_values(verdict.read_as, lang, boxes=boxes) if verdict.is_graded else Markup()
+
+
+def _typeset_values(text: str, lang: str, *, boxes: bool = False) -> Markup:
+    """Several values one by one, with what stands around and between them.
+
+    From boxes they come without the brackets that nobody typed, and each with its unit.
+    """
+    several = _SEVERAL.fullmatch(text)
+    before, inner, after = several.groups() if several else ("", text, "")
+    if boxes:
+        unit = after.lstrip(")}]")
+        before, inner, after = "", inner.replace("; ", f"{unit}; ") + unit, ""
+    pieces = [
+        escape(p) if _BETWEEN.fullmatch(p) else _typeset_value(p, lang)
+        for p in _BETWEEN.split(inner)
+    ]
+    return escape(before) + Markup().join(pieces) + escape(after)
+
+
+def _typeset_value(text: str, lang: str) -> Markup:
+    """A formula, or a value and its unit; a fraction with what it is about."""
+    value = _VALUE.fullmatch(text)
+    if value and _is_unit(value[2]):
+        return (
+            _typeset_value(value[1], lang)
+            + ("" if value[2] == "deg" else " ")
+            + format_unit(value[2])
+        )
+    try:
+        maths = Markup(typeset.to_mathml(typeset.lay_out(parse_formula(text)), lang))
+    except (FormulaError, FormulaReadError):
+        return escape(localise_numbers(lang, text))
+    return maths + localise_numbers(lang, _format_decimal_of_fraction(text))
+
+
+def _format_decimal_of_fraction(text: str) -> str:
+    fraction = _FRACTION.fullmatch(text)
+    if not fraction or not int(fraction[2]):
+        return ""
+    exact = Fraction(int(fraction[1]), int(fraction[2]))
+    decimal = f"{float(exact):.4g}"
+    sign = "−" if text[0] in "-−" else ""
+    return f" {'=' if Fraction(decimal) == exact else '≈'} {sign}{format_number(decimal)}"
+
+
+def _is_unit(text: str) -> bool:
+    return all(part in SIMPLE or part in SHOWN.values() for part in re.split("[/*·]", text))

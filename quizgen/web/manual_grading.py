@@ -1,0 +1,162 @@
+"""What a class's examiner has to decide: equal and similar answers together, one decision each."""
+
+from __future__ import annotations
+
+import getpass
+from collections.abc import Sequence
+from pathlib import Path
+from urllib.parse import urlencode
+
+from markupsafe import Markup, escape
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.grading_history import GradingHistory
+from quizgen.classes.grading_run import grade_class
+from quizgen.classes.key_index import KeyIndex
+from quizgen.classes.manual_grading import (
+    Agreement,
+    DecisionCase,
+    check_points,
+    decision_cases,
+    group_cases,
+    marker_agreement,
+    undecided_answers,
+)
+from quizgen.classes.rulings import (
+    DECIDE,
+    SECOND,
+    Ruling,
+    append_rulings,
+    latest_rulings,
+    read_rulings,
+)
+from quizgen.core.errors import ClassError, FormulaError
+from quizgen.executors import Here
+from quizgen.web.forms import field_text, field_texts, read_form
+from quizgen.web.state import ServerState
+from quizgen.web.views import page_response, redirect, request_language, translate_page
+
+AT_ONCE = 10
+"""Groups on a page."""
+PLACE = "/class"
+
+
+def _get_class_folder(request: Request) -> Path:
+    site: ServerState = request.app.state.site
+    folder = site.settings.classroom
+    assert folder is not None  # noqa: S101 - without it there is no such page
+    return folder
+
+
+def _build_answer_groups(
+    folder: Path, lang: str, *, second: bool
+) -> tuple[list[list[DecisionCase]], Agreement]:
+    """What is still to be decided, or what a second marker has not seen."""
+    rulings = read_rulings(folder)
+    settled = latest_rulings(rulings, DECIDE).keys()
+    seen = latest_rulings(rulings, SECOND).keys()
+    marked = list(GradingHistory(folder).current())
+    answers = undecided_answers(marked) + (
+        undecided_answers(marked, decided=True) if second else []
+    )
+    wanted = settled - seen if second else {a.group for a in answers} - settled
+    mine = [answer for answer in answers if answer.group in wanted]
+    found = group_cases(decision_cases(mine, KeyIndex(ClassFolder(folder)).key, lang))
+    return found, marker_agreement(rulings)
+
+
+async def show_queue(request: Request) -> Response:
+    """The answers that nobody has decided on."""
+    folder, lang = _get_class_folder(request), request_language(request)
+    asked = request.query_params
+    second = "second" in asked
+    groups, agreed = await run_in_threadpool(_build_answer_groups, folder, lang, second=second)
+    return page_response(
+        request,
+        "class.html.j2",
+        groups=groups[:AT_ONCE],
+        left=len(groups),
+        agreed=agreed,
+        second=second,
+        who=asked.get("who") or getpass.getuser(),
+        changed=asked.get("changed", ""),
+        wrong=asked.get("wrong", ""),
+        shown=_highlight_key_points,
+        students=lambda group: sum(case.answer.students for case in group),
+    )
+
+
+def _highlight_key_points(case: DecisionCase) -> Markup:
+    """An answer with its key points marked."""
+    typed, at, pieces = case.answer.typed, 0, []
+    for start, end in case.spots:
+        pieces += [escape(typed[at:start]), Markup("<mark>{}</mark>").format(typed[start:end])]
+        at = end
+    return Markup().join([*pieces, escape(typed[at:])])
+
+
+async def save_decision(request: Request) -> Response:
+    """Write a decision down, for all answers that were ticked."""
+    form = await read_form(request)
+    folder = _get_class_folder(request)
+    second = bool(field_text(form, "second"))
+    made = [
+        Ruling(
+            SECOND if second else DECIDE,
+            field_text(form, "item"),
+            field_text(form, f"answer-{group}"),
+            field_text(form, "points").strip().replace(",", "."),
+            who=field_text(form, "who").strip(),
+            comment=field_text(form, "comment").strip(),
+            group=group,
+        )
+        for group in field_texts(form, "group")
+    ]
+    who, worth = field_text(form, "who"), field_text(form, "worth")
+    wrong = _find_form_problem(made, worth)
+    if wrong:
+        told = translate_page(request_language(request), f"class.{wrong}", worth=worth)
+        return redirect(_build_page_url(who, second=second, wrong=told))
+    await run_in_threadpool(append_rulings, folder, made)
+    return redirect(_build_page_url(who, second=second))
+
+
+def _find_form_problem(made: Sequence[Ruling], worth: str) -> str:
+    """The name of a sentence: nothing is ticked, or these are no points that can be had."""
+    if not made:
+        return "unticked"
+    try:
+        for ruling in made:
+            ruling.check()
+            check_points(ruling, worth)
+    except (ClassError, FormulaError):
+        return "range"
+    return "" if all(ruling.value for ruling in made) else "range"
+
+
+def _build_page_url(who: str, *, second: bool, **more: str) -> str:
+    asked = {"who": who.strip(), **({"second": "1"} if second else {}), **more}
+    return f"{PLACE}?{urlencode(asked)}"
+
+
+async def regrade(request: Request) -> Response:
+    """Mark the class anew, with what was decided."""
+    form = await read_form(request)
+    folder = ClassFolder(_get_class_folder(request))
+    try:
+        run = await run_in_threadpool(grade_class, folder, Here(), 1)
+    except ClassError as error:
+        return redirect(_build_page_url(field_text(form, "who"), second=False, wrong=str(error)))
+    changed = str(len(run.outcome.changes))
+    return redirect(_build_page_url(field_text(form, "who"), second=False, changed=changed))
+
+
+ROUTES = [
+    Route(PLACE, show_queue),
+    Route(f"{PLACE}/decide", save_decision, methods=["POST"]),
+    Route(f"{PLACE}/mark", regrade, methods=["POST"]),
+]

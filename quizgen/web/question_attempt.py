@@ -1,0 +1,154 @@
+"""A question that somebody practises: its parts as tasks, and how far each has got."""
+
+from __future__ import annotations
+
+import time
+
+import msgspec
+
+from quizgen.core.decoding import convert
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.verdict import Verdict, unreadable
+from quizgen.paper.answer_key import KeyPart
+from quizgen.paper.grading import QuestionGrader
+from quizgen.practice.input_fields import is_complete, join_fields
+from quizgen.practice.part_attempt import TRIES, NextStep, PartAttempt
+from quizgen.practice.session_state import PartState
+from quizgen.store import AttemptRecord, OutcomeRecord
+from quizgen.store.learner import outcome_record
+from quizgen.web.question_view import PartView, QuestionView
+from quizgen.web.read_errors import ReadErrorView, explain_read_error
+
+HALF = unreadable("values-missing")
+"""Said of fields of which some are empty."""
+
+
+class PartProgress(msgspec.Struct):
+    """How far a part has got, and what stands in its fields."""
+
+    state: PartState = msgspec.field(default_factory=PartState)
+    values: list[str] = msgspec.field(default_factory=list)
+    asked_back: str = ""
+    """What stands there, if it could not be read as meant."""
+
+
+class AttemptPart:
+    """A part on the page: its task, its fields, what was said of it last."""
+
+    def __init__(
+        self,
+        task: PartAttempt[PartView, PartView],
+        progress: PartProgress,
+        verdict: Verdict | None,
+        lang: str,
+    ) -> None:
+        self.task, self.progress, self.verdict = task, progress, verdict
+        self.part, self._lang = task.part, lang
+
+    @property
+    def name(self) -> str:
+        """Its name in addresses."""
+        return self.part.field.id
+
+    @property
+    def done(self) -> bool:
+        """Whether it is answered, given up or skipped."""
+        return self.task.outcome is not None
+
+    @property
+    def unread(self) -> ReadErrorView | None:
+        """Why it could not be read, if it could not."""
+        if self.verdict is None or not self.progress.asked_back:
+            return None
+        return explain_read_error(self.part.field, self.progress.values, self.verdict, self._lang)
+
+    @property
+    def left(self) -> int:
+        """Tries that are left."""
+        return TRIES - self.task.state.tries
+
+    @property
+    def to_judge(self) -> bool:
+        """Whether the learner has to say whether it was right."""
+        return not self.done and self.verdict is not None and self.verdict.needs_self_marking
+
+
+class AttemptInBrowser:
+    """A question and how far it has got.
+
+    Parameters
+    ----------
+    made : Made
+        In the language of who asks.
+    attempt : Attempt
+    """
+
+    def __init__(self, made: QuestionView, attempt: AttemptRecord) -> None:
+        self.made, self.attempt = made, attempt
+        kept = attempt.state.get("parts", {})
+        self._marker = QuestionGrader(made.key, GradingOptions(made.wanted.lang))
+        self.places = [
+            self._open_part_attempt(part, keyed, convert(kept.get(part.field.id, {}), PartProgress))
+            for part, keyed in zip(made.parts, made.key.parts, strict=True)
+        ]
+
+    def _open_part_attempt(
+        self, part: PartView, keyed: KeyPart, progress: PartProgress
+    ) -> AttemptPart:
+        task = PartAttempt(self.made.topic, part, part, keyed, progress.state, marker=self._marker)
+        verdict = task.verdict
+        if progress.asked_back:
+            whole = _is_fully_filled(part, progress.values)
+            verdict = self._marker.grade_part(keyed, progress.asked_back).verdict if whole else HALF
+        return AttemptPart(task, progress, verdict, self.made.wanted.lang)
+
+    def find_part(self, name: str) -> AttemptPart | None:
+        """A part by its name."""
+        return next((place for place in self.places if place.name == name), None)
+
+    @property
+    def finished(self) -> bool:
+        """Whether every part is done."""
+        return all(place.done for place in self.places)
+
+    def answer(self, place: AttemptPart, values: list[str]) -> None:
+        """Mark what stands in the fields of a part, unless that is nothing, or it is done.
+
+        A field that was left out costs no try: Enter sends all of them from any of them.
+        """
+        typed = join_fields(place.part.field.control, values, place.part.field.marks)
+        place.progress.values = values
+        if not typed or place.done:
+            return
+        if not _is_fully_filled(place.part, values):
+            place.verdict, place.progress.asked_back = HALF, typed
+            return
+        feedback = place.task.answer(typed)
+        place.verdict = feedback.verdict
+        place.progress.asked_back = typed if feedback.then is NextStep.ASK_BACK else ""
+
+    def save_state(self) -> tuple[OutcomeRecord, ...]:
+        """Write into the attempt how far the question has got; say which parts have just ended."""
+        before = self.attempt.state.get("ended", [])
+        ended = [place for place in self.places if place.done]
+        self.attempt.state = {
+            "parts": {p.name: msgspec.to_builtins(p.progress) for p in self.places},
+            "ended": [place.name for place in ended],
+        }
+        if self.finished and self.attempt.ended is None:
+            self.attempt.ended = time.time()
+        return tuple(self._build_review_event(place) for place in ended if place.name not in before)
+
+    @property
+    def states(self) -> list[PartState]:
+        """How far each part has got."""
+        return [place.task.state for place in self.places]
+
+    def _build_review_event(self, place: AttemptPart) -> OutcomeRecord:
+        return outcome_record(
+            self.attempt.which, self.made.topic, place.part.label, place.task.state
+        )
+
+
+def _is_fully_filled(part: PartView, values: list[str]) -> bool:
+    return is_complete(part.field.control, values, part.field.marks)

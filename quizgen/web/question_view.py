@@ -1,0 +1,329 @@
+"""A question ready to be shown: its pieces as HTML, and the key that stays on the server.
+
+Made in a worker process; plain structs, so that they travel as bytes.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Protocol
+
+import msgspec
+
+from quizgen.bank.bank import Bank
+from quizgen.bank.levels import EXAM, GUIDED
+from quizgen.bank.markdown import Block, Inline
+from quizgen.core.errors import BlueprintError
+from quizgen.figures import FieldPicture
+from quizgen.grading.kinds import point
+from quizgen.grading.spec import AnySpec
+from quizgen.locale import BOTH
+from quizgen.paper.answer_key import KeyQuestion, make_key_question
+from quizgen.paper.blueprint import find_blueprint
+from quizgen.paper.paper import PaperItem, build_paper, rebuild_paper
+from quizgen.paper.provenance import record_banks
+from quizgen.question.compose import (
+    AnswerField,
+    Question,
+    QuestionKey,
+    QuestionPart,
+    compose_variant,
+    draw_instance,
+)
+from quizgen.question.contract import Control
+from quizgen.question.formula_sheet import cite_formula
+from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
+from quizgen.question.inlines import name_inline
+from quizgen.question.interpolation import inlines_to_text
+from quizgen.question.levels import effective_level
+from quizgen.question.solution import PartSolution, SolutionHint, SolvedMisconception
+
+_MATHS = re.compile("</?math[^>]*>")
+
+Html = str
+"""Markup made here; whatever a learner typed never gets into it."""
+
+
+class FieldView(msgspec.Struct, frozen=True):
+    """Where the answer of a part goes."""
+
+    id: str
+    control: Control
+    names: list[Html]
+    """Names of the boxes, typeset; empty where they have none."""
+    options: list[tuple[str, Html]]
+    targets: list[tuple[str, Html]]
+    words: list[str]
+    """The targets in plain text, for lists that hold no markup."""
+    hint: Html
+    board: Html
+    """The field that is drawn in, if the answer is a drawing."""
+
+    @property
+    def marks(self) -> list[str]:
+        """Marks of the options."""
+        return [mark for mark, _ in self.options]
+
+
+class HintView(msgspec.Struct, frozen=True):
+    """A hint, and the line of the formula sheet that it stands on."""
+
+    kind: str
+    shown: Html
+    why: Html
+    formula: str
+    sheet: Html
+
+
+class StepView(msgspec.Struct, frozen=True):
+    """A step of the worked solution."""
+
+    maths: Html
+    why: Html
+    formula: str
+    rungs: list[HintView] = []
+
+
+class PartView(msgspec.Struct, frozen=True):
+    """A part and its worked solution."""
+
+    label: str
+    points: float
+    body: Html
+    field: FieldView
+    lines: list[StepView]
+    answer: Html
+    board: Html
+    """What was to be drawn, in its field."""
+    right: list[Html]
+    why: Html
+    reasons: list[tuple[Html, Html]]
+    mistakes: list[tuple[Html, Html]]
+
+
+class QuestionRequest(msgspec.Struct, frozen=True):
+    """Which question: the same one gives the same page."""
+
+    template: str
+    seed: str
+    lang: str
+    number: str = "1"
+    level: str = EXAM
+
+
+class PaperRequest(msgspec.Struct, frozen=True):
+    """Which paper: by its code, or anew from a blueprint and a seed; in one of its languages."""
+
+    lang: str
+    code: str = ""
+    blueprint: str = ""
+    seed: int = 0
+
+
+class QuestionView(msgspec.Struct, frozen=True):
+    """A question in one language."""
+
+    wanted: QuestionRequest
+    title: str
+    topic: str
+    tier: str
+    stem: Html
+    figure: Html
+    solved_figure: Html
+    parts: list[PartView]
+    check: Html
+    note: Html
+    why: Html
+    key: KeyQuestion
+    guided: bool
+    """Whether its steps can be asked one after another instead."""
+    bank: str = ""
+    """The bank that it stands in, with version and digest, where that is said of each question."""
+
+
+class PaperView(msgspec.Struct, frozen=True):
+    """A paper in one language."""
+
+    code: str
+    title: str
+    points: float
+    minutes: int
+    pauses: bool | None
+    """Whether its blueprint allows pauses; None where whoever sits it chooses."""
+    banks: list[str]
+    """The banks that its questions stand in, with version and digest."""
+    items: list[QuestionView]
+
+
+class WorkerJob(Protocol):
+    """Something else that a worker makes; equal jobs give equal bytes."""
+
+    def run(self, bank: Bank) -> bytes:
+        """Make it."""
+        ...
+
+    def __hash__(self) -> int: ...
+
+
+def run_request(bank: Bank, wanted: QuestionRequest | PaperRequest | WorkerJob) -> bytes:
+    """Compose a question or a paper and put it into markup, or do another job.
+
+    Parameters
+    ----------
+    bank : Bank
+    wanted : Wanted or WantedPaper or Job
+
+    Raises
+    ------
+    QuizgenError
+        If a template is wrong, or there is no such paper.
+    """
+    if not isinstance(wanted, QuestionRequest | PaperRequest):
+        return wanted.run(bank)
+    if isinstance(wanted, PaperRequest):
+        return msgspec.json.encode(_build_paper(bank, wanted))
+    drawn = draw_instance(bank.template(wanted.template), wanted.seed)
+    question, key = compose_variant(drawn, wanted.lang, number=wanted.number, level=wanted.level)
+    return msgspec.json.encode(question_view(wanted, question, key, bank))
+
+
+def _build_paper(bank: Bank, wanted: PaperRequest) -> PaperView:
+    """A paper in all languages of the bank, so that its code is the same in each."""
+    if wanted.code:
+        paper = rebuild_paper(bank, wanted.code)
+    else:
+        plan = find_blueprint(wanted.blueprint, bank)
+        if plan is None:
+            raise BlueprintError(f"no blueprint {wanted.blueprint!r}")
+        paper = build_paper(bank, plan, wanted.seed, BOTH)
+    place = paper.langs.index(wanted.lang) if wanted.lang in paper.langs else 0
+    lang = paper.langs[place]
+    items = [
+        question_view(
+            QuestionRequest(item.questions[place].template, "", lang, number=item.number),
+            item.questions[place],
+            item.keys[place],
+        )
+        for item in paper.items
+    ]
+    return PaperView(
+        paper.code,
+        paper.title(lang),
+        float(paper.points),
+        paper.minutes,
+        paper.blueprint.pauses,
+        [str(one) for one in paper.banks],
+        items,
+    )
+
+
+def question_view(
+    wanted: QuestionRequest, question: Question, key: QuestionKey, bank: Bank | None = None
+) -> QuestionView:
+    """A composed question as markup; with hints and its bank, if it is said which that is."""
+    steps = wanted.level != GUIDED and effective_level(key.draw, GUIDED) == GUIDED
+    lang, solution = question.lang, key.solution
+    stem = _render_blocks(question.stem, lang)
+    figure, solved = question.figure, key.figure
+    other = solved if solved and (figure is None or solved != figure) else None
+    return QuestionView(
+        wanted,
+        question.title,
+        question.topic,
+        question.tier,
+        stem=stem,
+        figure=figure.inline_svg.decode() if figure else "",
+        solved_figure=other.inline_svg.decode() if other else "",
+        parts=[
+            _render_part(part, solved_part, _render_box_names(part, spec, stem, lang), lang, bank)
+            for part, solved_part, spec in zip(
+                question.parts, solution.parts, key.specs, strict=True
+            )
+        ],
+        check=_render_blocks(solution.check, lang),
+        note=_render_blocks(solution.note, lang),
+        why=_render_blocks(solution.why, lang),
+        key=make_key_question(PaperItem(wanted.number, (question,), (key,))),
+        guided=steps,
+        bank=str(*record_banks(bank, [wanted.template])) if bank else "",
+    )
+
+
+def _render_hint(rung: SolutionHint, bank: Bank, lang: str) -> HintView:
+    return HintView(
+        rung.kind,
+        _render_inline(rung.shown, lang),
+        _render_inline(rung.why, lang),
+        rung.formula,
+        _render_inline(cite_formula(bank, rung.formula, lang), lang),
+    )
+
+
+def _render_box_names(part: QuestionPart, spec: AnySpec, stem: Html, lang: str) -> list[Html]:
+    """Names of the boxes, typeset: their own, or those of the quantities, where all are said."""
+    boxes = part.field.control.boxes
+    if any(box.name for box in boxes):
+        return [_render_inline((name_inline(box.name),), lang) for box in boxes]
+    of = spec.of if isinstance(spec, point.Spec) and isinstance(spec.of, list) else []
+    names = [_render_inline((name_inline(name),), lang) for name in of]
+    asked = stem + _render_blocks(part.body, lang)
+    said = all(_MATHS.sub("", name) in asked for name in names)
+    return names if said and len(names) == len(boxes) else [""] * len(boxes)
+
+
+def _render_part(
+    part: QuestionPart, solved: PartSolution, names: list[Html], lang: str, bank: Bank | None
+) -> PartView:
+    return PartView(
+        part.label,
+        float(part.points),
+        _render_blocks(part.body, lang),
+        _render_field(part.field, names, lang),
+        [
+            StepView(
+                str(display_to_html(line.maths, lang)),
+                _render_inline(line.why, lang),
+                line.formula,
+                [_render_hint(rung, bank, lang) for rung in line.hints] if bank else [],
+            )
+            for line in solved.lines
+        ],
+        _render_inline(solved.shown, lang),
+        _render_board(solved.drawing),
+        [_render_inline(option, lang) for option in solved.options],
+        _render_inline(solved.why, lang),
+        _render_mistakes(solved.reasons, lang),
+        _render_mistakes(solved.mistakes, lang),
+    )
+
+
+def _render_field(field: AnswerField, names: list[Html], lang: str) -> FieldView:
+    return FieldView(
+        field.id,
+        field.control,
+        names,
+        [(mark, _render_inline(text, lang)) for mark, text in field.options],
+        [(mark, _render_inline(text, lang)) for mark, text in field.targets],
+        [inlines_to_text(text) for _, text in field.targets],
+        _render_inline(field.hint_in_fields, lang),
+        _render_board(field.drawing),
+    )
+
+
+def _render_board(drawing: FieldPicture | None) -> Html:
+    return drawing.figure.inline_svg.decode() if drawing else ""
+
+
+def _render_mistakes(mistakes: Iterable[SolvedMisconception], lang: str) -> list[tuple[Html, Html]]:
+    return [
+        (_render_inline(one.shown, lang), _render_inline(one.sentence, lang)) for one in mistakes
+    ]
+
+
+def _render_blocks(parts: tuple[Block, ...], lang: str) -> Html:
+    return str(blocks_to_html(parts, lang))
+
+
+def _render_inline(parts: tuple[Inline, ...], lang: str) -> Html:
+    return str(inlines_to_html(parts, lang))

@@ -1,0 +1,126 @@
+"""What every request passes first: from which page it comes, under which name, and how much.
+
+Sources: OWASP cheat sheets "Cross-Site Request Forgery Prevention" (fetch metadata, tokens bound
+to the session) and "Content Security Policy".
+"""
+
+from __future__ import annotations
+
+import re
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.exceptions import HTTPException
+from starlette.responses import PlainTextResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from quizgen.locale import list_languages, load_words
+from quizgen.web.settings import ServerSettings
+
+MOST_BYTES = 1_000_000
+"""Of a request's body."""
+LARGER = {"/progress/import": 17_000_000}
+"""Where a body may be larger: a file of everything that somebody did."""
+OPEN = "/static/"
+"""What anybody may see."""
+
+_NAME = re.compile(r"(\[[0-9a-f:.]+\]|[^\[\]:@]+)(:[0-9]+)?")
+"""A name or a number, and a port."""
+
+HEADERS = {
+    "content-security-policy": "default-src 'none'; script-src 'self'; "
+    "style-src 'self' 'unsafe-inline'; "  # figures have styles in their elements
+    "img-src 'self' data:; font-src 'self'; connect-src 'self'; form-action 'self'; "
+    "base-uri 'none'; frame-ancestors 'none'",
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "same-origin",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+}
+
+
+def body_limit(scope: Scope) -> int:
+    """How large the body of a request may be."""
+    return LARGER.get(scope["path"], MOST_BYTES)
+
+
+class SecurityMiddleware:
+    """Lets in what is asked under a name of this server, and sent by its own pages.
+
+    Parameters
+    ----------
+    app : ASGI application
+    settings : Settings
+    """
+
+    def __init__(self, app: ASGIApp, settings: ServerSettings) -> None:
+        self.app, self.settings = app, settings
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer at once, or hand on."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+
+        async def guarded(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                for name, value in HEADERS.items():
+                    headers.setdefault(name, value)
+                headers.setdefault("cache-control", _choose_cache_control(scope["path"]))
+            await send(message)
+
+        refused = self._find_refusal(scope)
+        if refused is not None:
+            await refused(scope, receive, guarded)
+            return
+        await self.app(scope, _Measured(receive, body_limit(scope)), guarded)
+
+    def _find_refusal(self, scope: Scope) -> Response | None:
+        headers = Headers(scope=scope)
+        name = _NAME.fullmatch(headers.get("host", "").lower())
+        if name is None or not self.settings.is_own_name(name[1].strip("[]")):
+            return plain_error("host", 400)
+        length = headers.get("content-length", "0")
+        if not length.isdecimal() or "\0" in scope["path"]:
+            return plain_error("400", 400)
+        if int(length[:12]) > body_limit(scope):
+            return plain_error("413", 413)
+        if scope["method"] not in {"GET", "HEAD"} and not _is_from_own_page(headers):
+            return plain_error("403", 403)
+        return None
+
+
+def plain_error(name: str, status: int) -> Response:
+    """Say something to whoever it is, in every language."""
+    said = [load_words(lang, "web")["error"][name] for lang in list_languages()]
+    return PlainTextResponse("\n".join(said), status)
+
+
+def _choose_cache_control(path: str) -> str:
+    """How long a browser may keep what it was sent."""
+    if path.startswith("/static/fonts/"):
+        return "max-age=604800"
+    return "no-cache" if path.startswith(OPEN) else "no-store"
+
+
+def _is_from_own_page(headers: Headers) -> bool:
+    """Whether one of our own pages sends this, as far as browsers say."""
+    site = headers.get("sec-fetch-site")
+    if site is not None:
+        return site == "same-origin"
+    origin = headers.get("origin")
+    return origin is None or origin.partition("://")[2] == headers.get("host")
+
+
+class _Measured:
+    """A body that is refused where it is longer than its header said, or says nothing."""
+
+    def __init__(self, receive: Receive, most: int) -> None:
+        self.receive, self.left = receive, most
+
+    async def __call__(self) -> Message:
+        message = await self.receive()
+        self.left -= len(message.get("body", b""))
+        if self.left < 0:
+            raise HTTPException(413)
+        return message

@@ -1,7 +1,0 @@
-"""Runs the steps on the connection that ``quizgen.web.store.migrate`` has opened."""
-
-from alembic import context
-
-context.configure(connection=context.config.attributes["connection"], render_as_batch=True)
-with context.begin_transaction():
-    context.run_migrations()

@@ -1,0 +1,153 @@
+"""Judging right on the edge: ties, zeros, ambiguous digits, undecided comparisons, few points."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import flint
+import pytest
+from flint import arb, fmpq
+
+from quizgen.core.errors import UndecidedError
+from quizgen.grading.diagnosis.carry_forward import recompute_from_earlier
+from quizgen.grading.judging.sampled_equality import compare_by_sampling, sample_points
+from quizgen.grading.mark import mark
+from quizgen.grading.options import QuestionContext
+from quizgen.maths.chain import Chain, ChainStep
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.number_systems import compile_expr, exact_system
+
+
+@pytest.mark.parametrize(
+    ("value", "typed", "note"),
+    [
+        ("1.25", "1.3", "decimals-asked"),
+        ("1.25", "1.2", "decimals-asked"),
+        ("1.2501", "1.2", ""),
+        ("-1.25", "-1.3", "decimals-asked"),
+        ("1.35", "1.3", "decimals-asked"),
+        ("1.3501", "1.3", ""),
+    ],
+)
+def test_a_tie_rounded_either_way_has_too_few_digits_only(value, typed, note):
+    """A key of 1.25 stands exactly halfway between 1.2 and 1.3; 1.2501 does not."""
+    verdict = mark({"kind": "number", "value": value, "decimals": 4}, typed)
+    assert (verdict.note, verdict.credit) == (note, Fraction(1, 2) if note else 0)
+
+
+def test_a_tie_in_too_few_figures_counts_either_way():
+    spec = {"kind": "number", "value": "12.25", "sigfigs": 5}
+    assert [mark(spec, typed).note for typed in ("12.2", "12.3", "12.1")] == [
+        "figures-asked", "figures-asked", ""]  # fmt: skip
+
+
+def chain() -> Chain:
+    """u = a + b, then v = 10 u + 3."""
+    steps = (ChainStep("u", parse_formula("a + b")), ChainStep("v", parse_formula("10*u + 3")))
+    return Chain({"a": "", "b": ""}, steps)
+
+
+GIVEN = {"a": fmpq(2), "b": fmpq(3)}
+
+
+@pytest.mark.parametrize(
+    ("own", "carried"),
+    [
+        (fmpq(7), fmpq(73)),
+        (fmpq(0), None),
+        (fmpq(5), None),
+        (fmpq(-3, 10), None),
+    ],
+    ids=["7 gives 73", "zero gives nothing", "the right 5", "a result of zero"],
+)
+def test_an_error_is_carried_forward_unless_it_is_zero(own, carried):
+    """With u = 7 the next step is 10*7 + 3 = 73; the right one is 53."""
+    assert recompute_from_earlier(QuestionContext(chain(), GIVEN, {"u": own}), "v") == carried
+
+
+def test_a_typed_zero_earns_nothing_for_what_follows():
+    spec = {"kind": "number", "value": "53", "exact": True, "of": ["v"]}
+    after_seven = mark(spec, "73", context=QuestionContext(chain(), GIVEN, {"u": fmpq(7)}))
+    assert (after_seven.note, after_seven.credit) == ("carried-forward", 1)
+    after_zero = mark(spec, "3", context=QuestionContext(chain(), GIVEN, {"u": fmpq(0)}))
+    assert (after_zero.verdict, after_zero.credit) == ("wrong", 0)
+
+
+AMBIGUOUS = [
+    ("123456", "123.456", "ambiguous", "two-readings"),
+    ("123456", "123,456", "ambiguous", "two-readings"),
+    ("123.456", "123.456", "correct", ""),
+    ("123456", "0.456", "wrong", None),
+    ("1234567", "1234.567", "wrong", None),
+]
+
+
+@pytest.mark.parametrize(("key", "typed", "verdict", "note"), AMBIGUOUS)
+def test_three_digits_after_one_mark_are_asked_back_when_only_thousands_are_right(
+    key, typed, verdict, note
+):
+    found = mark({"kind": "number", "value": key, "exact": True}, typed)
+    assert found.verdict == verdict
+    assert note is None or found.note == note
+
+
+def test_a_quantity_is_asked_back_like_a_number():
+    spec = {"kind": "quantity", "value": "123456", "unit": "mm", "exact": True}
+    assert mark(spec, "123.456 mm").note == "two-readings"
+    assert mark(spec, "123.4560 mm").verdict == "wrong"
+
+
+@pytest.mark.parametrize(
+    ("decimal", "verdict"), [("auto", "ambiguous"), ("comma", "ambiguous"), ("point", "wrong")]
+)
+def test_the_declared_sign_settles_what_a_point_means(decimal, verdict):
+    """Whoever writes decimals with a point has written a decimal; with a comma it may be both."""
+    spec = {"kind": "number", "value": "123456", "exact": True}
+    assert mark(spec, "123.456", decimal=decimal).verdict == verdict
+
+
+ZERO = arb(0, 1e-20)
+"""A ball around zero: it may be less than zero, or not."""
+
+
+@pytest.mark.parametrize("relation", ["a < 0", "a > 0", "a <= 0", "a >= 0", "a = 0"])
+def test_a_comparison_that_cannot_be_certified_is_not_false(relation):
+    with pytest.raises(UndecidedError):
+        compile_expr(parse_formula(relation), exact_system())({"a": ZERO})
+
+
+def test_an_example_that_cannot_be_decided_is_asked_back():
+    """sin(pi*x) of a whole number is zero, but a ball around it never excludes other values."""
+    spec = {"kind": "witness", "predicate": "sin(pi*x) < 0", "symbols": ["x"]}
+    assert mark(spec, "1").note == "undecided"
+    assert mark(spec, "3/2").verdict == "correct"
+    assert mark(spec, "1/2").verdict == "wrong"
+
+
+def nearly(points: int) -> str:
+    """A formula that is x at so many of the points that are looked at, and nowhere else."""
+
+    roots = [point["x"] for point in sample_points({"x": "positive"})[:points]]
+    factors = "*".join(f"(x - {root.p}/{root.q})" for root in roots)
+    return f"x + {factors}" if factors else "x + 1"
+
+
+@pytest.mark.parametrize("points", range(8))
+def test_formulas_that_agree_at_fewer_than_eight_points_differ(points):
+    found = compare_by_sampling(
+        parse_formula("x"), parse_formula(nearly(points)), {"x": "positive"}
+    )
+    assert found.equal is False
+
+
+def test_equal_formulas_are_looked_at_in_eight_points():
+    found = compare_by_sampling(
+        parse_formula("exp(x)^2"), parse_formula("exp(2*x)"), {"x": "positive"}
+    )
+    assert (found.equal, found.points, found.ground) == (True, 8, "sampled")
+
+
+def test_ambient_precision_is_left_as_it_was():
+    before = flint.ctx.prec
+    mark({"kind": "number", "value": "sqrt(2)"}, "√2")
+    assert flint.ctx.prec == before

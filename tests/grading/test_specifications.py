@@ -1,0 +1,123 @@
+"""Specifications as structs and as the plain tables of a key."""
+
+from __future__ import annotations
+
+import json
+
+import msgspec
+import pytest
+
+from quizgen.core.errors import KeyFileError
+from quizgen.grading.kinds import KINDS, choice, number
+from quizgen.grading.mark import load_spec, mark, show_key
+from quizgen.maths.tolerance import Tolerance
+
+NOTES = {"en": {"half": "You took half."}, "bn": {"half": "অর্ধেক নিয়েছ।"}}
+
+FULL = [
+    {"kind": "number", "decimals": 3, "within": "1/2", "accept": ["1", "2"], "strict": True,
+     "value": "20/3", "traps": {"half": "10/3", "two": ["1", "2"]}, "notes": NOTES, "of": ["x"],
+     "form": "decimal", "percent": True, "notation": "f-number"},
+    {"kind": "number", "sigfigs": 3, "value": "5", "unit": "px"},
+    {"kind": "number", "value": "5", "counts": ["px", "level"]},
+    {"kind": "quantity", "rel": "0.005", "value": "50", "unit": "mm", "bare": True,
+     "traps": {"half": "25"}, "notes": NOTES, "of": ["f"]},
+    {"kind": "angle", "abs": "0.5", "value": "140", "period": "180", "of": ["H"]},
+    {"kind": "set", "values": ["1", "2"], "unit": "kg", "define": ["gram = [mass] = g"]},
+    {"kind": "point", "exact": True, "values": ["440", "160"], "names": ["u", "v"], "unit": "px",
+     "counts": ["px"], "up_to_scale": True, "traps": {"half": ["1", "2"]}, "of": ["u", "v"]},
+    {"kind": "table", "exact": True, "values": {"V": "1", "H": "2"}, "units": {"V": "px"},
+     "counts": {"V": ["px"]}, "cells": {"H": {"kind": "angle", "abs": "0.5"}}, "traps": {"half": {"V": "3"}},
+     "of": {"V": "V", "H": "H"}},
+    {"kind": "set", "values": ["1", "2"], "unit": "mm", "traps": {"half": ["3"]}},
+    {"kind": "interval", "value": "]0; 1]", "abs": "0.01"},
+    {"kind": "expression", "value": "f*X/Z", "symbols": {"f": "positive", "X": "real", "Z": [1, 2]},
+     "traps": {"half": "f*X"}},
+    {"kind": "choice", "options": ["a", "b"], "correct": [2], "traps": {"half": 1}},
+    {"kind": "multi", "options": ["a", "b", "c"], "correct": [2, 3], "negative": False,
+     "traps": {"half": [1, 2]}},
+    {"kind": "tf", "correct": [2]},
+    {"kind": "match", "pairs": {"A": "1", "B": "1"}, "reuse": True, "traps": {"half": {"A": "2"}}},
+    {"kind": "order", "steps": ["a", "b"], "before": [["a", "b"]], "distractors": ["c"]},
+    {"kind": "gap", "accept": [["colour", "রং"], "grey"], "among": ["hue"],
+     "terms": ["great"]},
+    {"kind": "witness", "predicate": "x^2 < y", "symbols": {"x": "real"}, "let": {"y": "x"},
+     "where": ["x > 0"], "example": {"x": "1/2"}},
+    {"kind": "code", "output": "4", "also": ["4.0"], "traps": {"half": "2"}, "notes": NOTES},
+    {"kind": "text", "points": {"noise": ["noise", "grain"]}, "needed": 1},
+    {"kind": "sketch", "view": [-1, 1, 0, "1"], "tall": "1/2", "cuts": [0], "lines": {"ray": "0,0 0.5,1"},
+     "features": {"way": {"reads": "line", "of": ["ray"], "worth": 2, "bend": True, "on": True,
+                          "circle": [0, 0, "0.7"]}},
+     "traps": {"half": {"ray": "0,0 0.25,1"}}, "notes": NOTES},
+]  # fmt: skip
+"""Every field of every kind, none of them at its default."""
+
+
+def named(spec) -> str:
+    return spec["kind"]
+
+
+def test_every_field_of_every_kind_is_looked_at():
+    for shape in KINDS.values():
+        looked_at = {name for spec in FULL if KINDS[spec["kind"]] is shape for name in spec}
+        common = {*Tolerance.__struct_fields__, "traps", "notes", "why", "of", "define"} - {
+            "accept"
+        }
+        assert {*shape.__struct_fields__} - common - {"accept"} <= looked_at, shape
+
+
+@pytest.mark.parametrize("table", FULL, ids=named)
+def test_a_specification_as_a_table_and_back_is_the_same(table):
+    spec = load_spec(table)
+    assert json.loads(json.dumps(msgspec.to_builtins(spec))) == table
+    assert load_spec(json.loads(json.dumps(msgspec.to_builtins(spec)))) == spec
+
+
+@pytest.mark.parametrize("table", FULL, ids=named)
+def test_a_struct_is_marked_and_shown_as_its_table(table):
+    spec = load_spec(table)
+    typed = show_key(table)
+    assert show_key(spec) == typed
+    assert mark(spec, typed) == mark(table, typed)
+    assert show_key(spec, "bn") == show_key(table, "bn")
+
+
+def test_defaults_are_left_out():
+    spec = number.Spec(kind="number", value="20/3", decimals=3)
+    assert msgspec.to_builtins(spec) == {"kind": "number", "decimals": 3, "value": "20/3"}
+
+
+def test_true_or_false_needs_no_options_and_keeps_none():
+    spec = choice.Spec(kind="tf", correct=[1])
+    assert (show_key(spec), show_key(spec, "bn")) == ("true", "সত্য")
+    assert msgspec.to_builtins(spec) == {"kind": "tf", "correct": [1]}
+
+
+def test_a_specification_cannot_be_changed():
+    spec = number.Spec(kind="number", value="1")
+    with pytest.raises(AttributeError):
+        spec.value = "2"  # type: ignore[misc]
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ({"kind": "number", "value": "1", "traps": {"half": {"a": 1}}}, "traps"),
+        ({"kind": "code", "output": "1", "traps": {"half": 1}}, "traps"),
+        ({"kind": "table", "values": {"a": "1"}, "traps": {"half": "2"}}, "traps"),
+        ({"kind": "match", "pairs": {"A": "1"}, "traps": {"half": "A2"}}, "traps"),
+        ({"kind": "order", "steps": ["A", "B", "A"], "before": [["A", "B"]]}, "stands twice"),
+        ({"kind": "number", "value": "1", "colour": "red"}, "colour"),
+        ({"kind": "number", "value": "1", "decimals": 1, "exact": True}, "only one of"),
+    ],
+)
+def test_what_has_the_wrong_shape_is_named(table, said):
+    with pytest.raises(KeyFileError, match=said):
+        load_spec(table)
+
+
+def test_every_kind_is_a_frozen_struct_that_leaves_out_defaults():
+    for shape in set(KINDS.values()):
+        config = shape.__struct_config__
+        assert issubclass(shape, msgspec.Struct)
+        assert (config.frozen, config.omit_defaults, config.forbid_unknown_fields) == (True,) * 3

@@ -1,0 +1,26 @@
+"""The curriculum is covered, and nothing is claimed that it does not have."""
+
+from __future__ import annotations
+
+import pytest
+
+from quizgen.bank.bank import builtin_bank
+from quizgen.lint.coverage import curriculum_coverage, unknown_claims
+
+
+def test_the_inventory_counts_what_the_curriculum_counts(bank):
+    counts = {group: len(items) for group, items in bank.curriculum.inventory.items()}
+    assert counts == {
+        "formulas": 46, "worked examples": 18, "trial exam": 6, "mock questions": 51,
+        "sections": 24, "figures": 9, "code": 28, "traps": 28, "statements": 3,
+    }  # fmt: skip
+
+
+def test_no_template_claims_what_is_not_there(bank):
+    assert unknown_claims(bank) == []
+
+
+@pytest.mark.parametrize("group", list(builtin_bank().curriculum.inventory))
+def test_nothing_is_left_out(bank, group):
+    (row,) = [row for row in curriculum_coverage(bank) if row.group == group]
+    assert row.holes == ()
