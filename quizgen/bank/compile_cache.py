@@ -15,7 +15,7 @@ from typing import Generic, TypeVar
 
 import msgspec
 
-from quizgen.core import cache as cache_module
+from quizgen.core.cache import compute_digest, read_cached, write_cached
 from quizgen.core.decoding import prepare_type
 
 T = TypeVar("T")
@@ -46,7 +46,7 @@ class CompileCache(Generic[T]):
 
     def get(self, *sources: bytes) -> T | None:
         """What sources came to, if it is kept."""
-        found = cache_module.read_cached(self.kind, self._compute_key(sources))
+        found = read_cached(self.kind, self._compute_key(sources))
         if found is None:
             return None
         with suppress(*_UNFIT):
@@ -58,26 +58,24 @@ class CompileCache(Generic[T]):
         with suppress(*_UNFIT):
             data = msgspec.msgpack.encode(thing, enc_hook=str)
             if self._decoder.decode(data) == thing:
-                cache_module.write_cached(self.kind, self._compute_key(sources), data)
+                write_cached(self.kind, self._compute_key(sources), data)
         return thing
 
     def _compute_key(self, sources: tuple[bytes, ...]) -> str:
-        return cache_module.compute_digest(_compute_code_digest(self.package), *sources)
+        return compute_digest(_compute_code_digest(self.package), *sources)
 
 
 @cache
 def _compute_code_digest(package: str) -> bytes:
     """Digest of the code that makes of sources what is kept."""
-    return cache_module.compute_digest(
-        *(file.read_bytes() for file in _iter_code_files(package))
-    ).encode()
+    return compute_digest(*(file.read_bytes() for file in _iter_code_files(package))).encode()
 
 
 def _iter_code_files(package: str) -> Iterator[Path]:
     own = Path(__file__).parent.parent
     for folder in ("bank", "maths"):
         yield from sorted((own / folder).rglob("*.py"))
-    yield own / "outside.py"
+    yield own / "core" / "untrusted.py"
     found = find_spec(package) if package else None
     if found is not None and found.origin is not None:
         yield Path(found.origin).with_name(_VERSIONS[package])

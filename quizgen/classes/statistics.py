@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from statistics import StatisticsError
-from statistics import correlation as pearson
+from statistics import StatisticsError, correlation
 
 import numpy as np
 from flint import arb
@@ -79,7 +78,7 @@ def pearson(first: ScoreTable, second: ScoreTable) -> float | None:
     """Pearson's correlation over the students who have both."""
     both = ~(np.isnan(first) | np.isnan(second))
     try:
-        return pearson(first[both].tolist(), second[both].tolist())
+        return correlation(first[both].tolist(), second[both].tolist())
     except StatisticsError:  # fewer than two, or all the same
         return None
 

@@ -18,7 +18,7 @@ import matplotlib as mpl
 import msgspec
 import numpy as np
 
-from quizgen.core import cache as cache_module
+from quizgen.core.cache import compute_digest, read_cached, write_cached
 from quizgen.core.decoding import prepare_type
 from quizgen.figures.axes import Sheet
 from quizgen.figures.contract import FigureModule, first_parameter, parameters_of
@@ -86,8 +86,8 @@ def draw_module(
     wants_lang = "lang" in parameters_of(module.draw)
     told = msgspec.json.encode((items, quiz, lang if wants_lang else "", decimal, marks))
     name = str(module.__file__)  # type: ignore[attr-defined]
-    key = cache_module.compute_digest(_digest_engine(), _digest_folder(module), name.encode(), told)
-    if (found := cache_module.read_cached(_KIND, key)) is not None:
+    key = compute_digest(_digest_engine(), _digest_folder(module), name.encode(), told)
+    if (found := read_cached(_KIND, key)) is not None:
         return _make_drawing_decoder().decode(found)
     extra = {"lang": lang} if wants_lang else {}
 
@@ -99,7 +99,7 @@ def draw_module(
 
     size = getattr(module, "SIZE", COLUMN)
     drawing = draw_sheet(draw, size, decimal, axes=first_parameter(module.draw) == "ax")
-    cache_module.write_cached(_KIND, key, msgspec.msgpack.encode(drawing))
+    write_cached(_KIND, key, msgspec.msgpack.encode(drawing))
     return drawing
 
 
@@ -114,16 +114,14 @@ def _digest_engine() -> bytes:
     """Digest of quizgen's code that draws, and of the libraries it draws with."""
     files = [file for name in _CODE for file in _python_files(_PACKAGE / name)]
     versions = f"{mpl.__version__} {np.__version__}".encode()
-    return cache_module.compute_digest(versions, *(file.read_bytes() for file in files)).encode()
+    return compute_digest(versions, *(file.read_bytes() for file in files)).encode()
 
 
 @lru_cache(256)
 def _digest_folder(module: FigureModule) -> bytes:
     """Digest of a figure's code and of what it may import from beside it."""
     folder = Path(str(module.__file__)).parent  # type: ignore[attr-defined]
-    return cache_module.compute_digest(
-        *(file.read_bytes() for file in sorted(folder.glob("*.py")))
-    ).encode()
+    return compute_digest(*(file.read_bytes() for file in sorted(folder.glob("*.py")))).encode()
 
 
 def _python_files(place: Path) -> list[Path]:

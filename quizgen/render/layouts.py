@@ -17,7 +17,7 @@ from types import CodeType
 import jinja2
 from jinja2.bccache import Bucket, BytecodeCache
 
-from quizgen.core import cache as cache_module
+from quizgen.core.cache import compute_digest, read_cached, write_cached
 
 _KIND = "layouts"
 
@@ -41,9 +41,7 @@ class _Kept(BytecodeCache):
     ) -> Bucket:
         """What is kept of a layout, or room for it."""
         del filename
-        key = cache_module.compute_digest(
-            _compute_compiler_digest(), name.encode(), source.encode()
-        )
+        key = compute_digest(_compute_compiler_digest(), name.encode(), source.encode())
         bucket = Bucket(environment, key, "")
         self.load_bytecode(bucket)
         return bucket
@@ -51,19 +49,19 @@ class _Kept(BytecodeCache):
     def load_bytecode(self, bucket: Bucket) -> None:
         """Find it."""
         with suppress(EOFError, ValueError, TypeError):
-            found = marshal.loads(cache_module.read_cached(_KIND, bucket.key) or b"")  # noqa: S302 (as Python's own)
+            found = marshal.loads(read_cached(_KIND, bucket.key) or b"")  # noqa: S302 (as Python's own)
             bucket.code = found if isinstance(found, CodeType) else None
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         """Keep it."""
-        cache_module.write_cached(_KIND, bucket.key, marshal.dumps(bucket.code))
+        write_cached(_KIND, bucket.key, marshal.dumps(bucket.code))
 
 
 @cache
 def _compute_compiler_digest() -> bytes:
     """Digest of what makes bytecode of a layout."""
     own = Path(__file__).read_bytes()
-    return cache_module.compute_digest(own, jinja2.__version__.encode(), MAGIC_NUMBER).encode()
+    return compute_digest(own, jinja2.__version__.encode(), MAGIC_NUMBER).encode()
 
 
 def jinja_environment(*packages: str) -> jinja2.Environment:
