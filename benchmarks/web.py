@@ -2,8 +2,9 @@
 
 Starts a server of its own and asks it on a schedule, with a bounded number of requests: the echo
 of what is typed 100 times a second, answers, the next question of somebody who looks at each for
-a second, and 300 students whose exams save themselves every 5 seconds (60 seconds, or as many as
-are given). Prints what half and what 95 and 99 of a hundred waited, beside what they may, errors,
+a second. Then 300 learners with papers of their own begin within 10 seconds, save every 5 seconds
+(60 seconds, or as many as are given) and hand in within 10. Prints what half and what 95 and 99
+of a hundred waited, beside what they may, errors,
 CPU of the server for each request, and memory of all its processes; exit code 1 if one is over.
 Waiting counts from when a request was due; the client shares the machine.
 """
@@ -22,9 +23,14 @@ from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 import httpx2
+from sqlalchemy import insert
 
-STUDENTS, EVERY, PAPERS = 300, 5.0, 6
-MEMORY = 400
+from quizgen.store import Store
+from quizgen.store.schema import ACCOUNT, LEARNER
+from quizgen.web.auth import COOKIE, csrf_token
+
+STUDENTS, EVERY, WITHIN = 300, 5.0, 10.0
+MEMORY, MEMORY_OF_CLASS = 400, 700
 FIRST_PAGE = 60_000
 QUESTION = "point-to-image-plane"
 
@@ -41,11 +47,11 @@ def told(name: str, value: float, most: float, unit: str, more: str = "") -> Non
 class Served:
     """A server in processes of its own."""
 
-    def __init__(self, folder: str) -> None:
+    def __init__(self, folder: str, file: str = "x.sqlite3", *more: str) -> None:
         began = time.perf_counter()
         self.process = subprocess.Popen(
             [sys.executable, "-m", "quizgen", "serve", "--no-open", "--database",
-             f"sqlite:///{folder}/x.sqlite3"],
+             f"sqlite:///{folder}/{file}", *more],
             stdout=subprocess.PIPE, text=True, start_new_session=True,
         )  # fmt: skip
         self.entrance = self.process.stdout.readline().split()[-1]
@@ -135,30 +141,86 @@ async def practice(client: httpx2.AsyncClient, served: Served, token: str) -> No
     report("next question, 1 a second", await scheduled(served, 40, 1, following), 60)
 
 
-async def exams(client: httpx2.AsyncClient, served: Served, token: str, seconds: float) -> None:
-    codes = []
-    for _ in range(PAPERS):
-        sent = {"token": token, "blueprint": "mock"}
-        at = (await client.post("/exam", data=sent, timeout=60)).headers["location"]
-        page = (await client.get(at)).text
-        codes.append(re.search(r"<code>([\w.-]+)</code>", page)[1])
-    parts = re.findall(r'<fieldset data-part="(\w+)"', page)
-    sittings = [
-        (await client.post("/exam", data={"token": token, "code": codes[n % PAPERS]}, timeout=60))
-        .headers["location"]
-        for n in range(STUDENTS)
-    ]  # fmt: skip
+class Class:
+    """Learners with sessions of their own, as if each had signed in; they sit the mock exam.
 
-    def save(number: int) -> Awaitable[httpx2.Response]:
-        part = parts[number // STUDENTS % len(parts)]
-        body = {"token": token, f"on-{part}": "", f"a-{part}": f"{number},5"}
-        return client.post(sittings[number % STUDENTS], data=body,
-                           headers={"accept": "application/json"})  # fmt: skip
+    Parameters
+    ----------
+    database : str
+        Address of the database of a server where people sign in.
+    """
 
-    count = int(STUDENTS * seconds / EVERY)
-    report("300 students save", await scheduled(served, count, STUDENTS / EVERY, save), 250, 0.99)
-    report("an exam's page, 2 a second", await scheduled(
-        served, 20, 2, lambda n: client.get(sittings[n])), 250)  # fmt: skip
+    def __init__(self, database: str) -> None:
+        store = Store(database)
+        with store.database.writing() as connection:
+            for number in range(STUDENTS):
+                row = {"name": f"s{number}", "settings": {}, "since": time.time()}
+                (learner,) = connection.execute(insert(LEARNER).values(row)).inserted_primary_key
+                account = {"key": f"s{number}", "password": "", "manages": False}
+                connection.execute(insert(ACCOUNT).values(learner=learner, **account))
+        self.tokens = [
+            store.accounts.begin(store.learner(f"s{number}").id) for number in range(STUDENTS)
+        ]
+        store.close()
+        self.sittings: dict[int, str] = {}
+        self.parts: dict[int, list[str]] = {}
+        self.marked = 0.0
+
+    def _who(self, number: int) -> dict[str, str]:
+        return {"cookie": f"{COOKIE}={self.tokens[number]}", "accept": "application/json"}
+
+    async def begin(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
+        """Begin a paper of one's own and see it."""
+        sent = {"token": csrf_token(self.tokens[number]), "blueprint": "mock"}
+        answer = await client.post("/exam", data=sent, headers=self._who(number))
+        self.sittings[number] = answer.headers.get("location", "/")
+        page = await client.get(self.sittings[number], headers=self._who(number))
+        self.parts[number] = re.findall(r'<fieldset data-part="(\w+)"', page.text) or ["1"]
+        return page
+
+    async def save(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
+        """Save an answer, as a page does every few seconds."""
+        who = number % STUDENTS
+        part = self.parts[who][number // STUDENTS % len(self.parts[who])]
+        body = {"token": csrf_token(self.tokens[who]), f"on-{part}": "", f"a-{part}": f"{number},5"}
+        return await client.post(self.sittings[who], data=body, headers=self._who(who))
+
+    async def hand_in(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
+        """Hand in and see the marks."""
+        sent = {"token": csrf_token(self.tokens[number]), "do": "hand-in"}
+        at = self.sittings[number]
+        answer = await client.post(at, data=sent, headers=self._who(number))
+        if answer.status_code == 303:
+            answer = await client.get(at, headers=self._who(number))
+            if f'data-handed="{at.rpartition("/")[2]}"' not in answer.text:
+                raise httpx2.HTTPError("no marks")
+        self.marked = time.perf_counter()
+        return answer
+
+
+async def exams(folder: str, seconds: float) -> None:
+    """300 learners with papers of their own: all begin in 10 s, save, hand in in 10 s."""
+    served = Served(folder, "class.sqlite3", "--host", "0.0.0.0")
+    try:
+        port = re.search(r":(\d+)/", served.entrance)[1]
+        sat = Class(f"sqlite:///{folder}/class.sqlite3")
+        limits = httpx2.Limits(max_connections=400, max_keepalive_connections=400)
+        async with httpx2.AsyncClient(
+            base_url=f"http://127.0.0.1:{port}", limits=limits, timeout=120
+        ) as client:
+            each = STUDENTS / WITHIN
+            report("300 learners begin", await scheduled(
+                served, STUDENTS, each, lambda n: sat.begin(client, n)), 8000)  # fmt: skip
+            count = int(STUDENTS * seconds / EVERY)
+            saved = await scheduled(served, count, STUDENTS / EVERY, lambda n: sat.save(client, n))
+            report("300 learners save", saved, 500, 0.99)
+            due = time.perf_counter() + WITHIN
+            report("300 learners hand in", await scheduled(
+                served, STUDENTS, each, lambda n: sat.hand_in(client, n)), 60_000)  # fmt: skip
+            told("last marks after the last due", max(0.0, sat.marked - due), 60, "s")
+        told("memory in an exam", served.memory(), MEMORY_OF_CLASS, "MB")
+    finally:
+        served.end()
 
 
 async def first_page(client: httpx2.AsyncClient) -> None:
@@ -175,7 +237,7 @@ async def first_page(client: httpx2.AsyncClient) -> None:
     told("first page besides fonts", size / 1000, FIRST_PAGE / 1000, "kB")
 
 
-async def ask(served: Served, seconds: float) -> None:
+async def ask(served: Served) -> None:
     limits = httpx2.Limits(max_connections=100, max_keepalive_connections=100)
     base, _, _ = served.entrance.partition("/enter")
     async with httpx2.AsyncClient(base_url=base, limits=limits, timeout=30) as client:
@@ -183,7 +245,6 @@ async def ask(served: Served, seconds: float) -> None:
         token = re.search(r'name="token" value="(\w+)"', (await client.get("/")).text)[1]
         await first_page(client)
         await practice(client, served, token)
-        await exams(client, served, token, seconds)
 
 
 def main(seconds: float) -> int:
@@ -191,10 +252,11 @@ def main(seconds: float) -> int:
         served = Served(folder)
         try:
             told("ready", 1000 * served.ready, 1000, "ms")
-            asyncio.run(ask(served, seconds))
+            asyncio.run(ask(served))
             told("memory", served.memory(), MEMORY, "MB")
         finally:
             served.end()
+        asyncio.run(exams(folder, seconds))
     return bool(over)
 
 

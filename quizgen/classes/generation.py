@@ -30,6 +30,7 @@ from quizgen.classes.class_folder import (
     PrintedHead,
     format_record,
 )
+from quizgen.classes.lock import locked
 from quizgen.classes.pseudonyms import form_seal, new_secret, student_code, student_seed
 from quizgen.classes.roster import RosterStudent, seat_neighbours
 from quizgen.core.errors import ClassError
@@ -162,8 +163,21 @@ def generate_papers(
     Raises
     ------
     ClassError
-        If the bank or the blueprint is no longer that of the papers there are.
+        If the bank or the blueprint is no longer that of the papers there are, or another
+        command writes there.
     """
+    with locked(folder.path):
+        return _make(folder, students, blueprint, executor, ahead, tell)
+
+
+def _make(
+    folder: ClassFolder,
+    students: Sequence[RosterStudent],
+    blueprint: Blueprint,
+    executor: Executor,
+    ahead: int,
+    tell: ProgressCallback,
+) -> GenerationReport:
     _check_bank_unchanged(folder, blueprint)
     heads = folder.heads()
     todo = [one for one in students if not _is_made(folder, one, heads.get(one.id))]

@@ -12,6 +12,7 @@ from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.grading import StudentMarks, Submission, grade_submission
 from quizgen.classes.grading_history import GradingHistory, GradingOutcome
 from quizgen.classes.key_index import KeyIndex, read_key_at
+from quizgen.classes.lock import locked
 from quizgen.classes.manual_grading import (
     decision_cases,
     group_cases,
@@ -19,7 +20,7 @@ from quizgen.classes.manual_grading import (
     undecided_answers,
     write_queue,
 )
-from quizgen.classes.rulings import FILE, Ruling, RulingBook, append_rulings, read_rulings
+from quizgen.classes.rulings import FILE, Ruling, RulingBook, note_rulings, read_rulings
 from quizgen.classes.submissions import Submissions
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.untrusted import error_context
@@ -75,8 +76,14 @@ def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingR
     Raises
     ------
     ClassError
-        If rulings, the queue or the folder cannot be read; nothing is changed then.
+        If rulings, the queue or the folder cannot be read, or another command writes there;
+        nothing is changed then.
     """
+    with locked(folder.path):
+        return _mark(folder, executor, ahead)
+
+
+def _mark(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
     filled, kept = read_queue(folder.path)
     before = read_rulings(folder.path)
     rulings = (*before, *filled)
@@ -87,7 +94,7 @@ def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingR
     chunks = in_order(executor, run_grading_job, jobs, ahead)
     outcome = history.write(one for chunk in chunks for one in chunk)
     if filled:  # now: a run that ends before this one does reads the same queue again
-        append_rulings(folder.path, filled)
+        note_rulings(folder.path, filled)
     groups = group_cases(decision_cases(undecided_answers(history.current()), keys.key, FIRST))
     write_queue(folder.path, groups, kept)
     return GradingRun(outcome, len(filled), len(groups), tuple(collected.problems))

@@ -10,6 +10,7 @@ from quizgen.classes.grade_scale import read_grade_scale
 from quizgen.classes.gradebook import FOLDER, GradedStudent, grade_students, write_grades
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
+from quizgen.classes.lock import locked
 from quizgen.classes.student_reports import make_report, report_to_html, report_to_pdf
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
@@ -38,10 +39,17 @@ def write_grades_and_reports(
     Raises
     ------
     ClassError
-        If nothing has been marked.
+        If nothing has been marked, or another command writes there.
     RenderError
         If something cannot be written.
     """
+    with locked(folder.path):
+        return _grade(folder, formats, anonymous=anonymous)
+
+
+def _grade(
+    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool
+) -> tuple[list[GradedStudent], list[str], list[Path]]:
     marked = {one.student: one for one in GradingHistory(folder.path).current()}
     if not marked:
         raise ClassError(f"{folder.path}: nothing has been marked yet (quizgen class mark)")

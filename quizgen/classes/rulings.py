@@ -31,6 +31,7 @@ from pathlib import Path
 
 import msgspec
 
+from quizgen.classes.lock import locked
 from quizgen.core.errors import ClassError, FormulaError
 from quizgen.core.files import open_private
 from quizgen.core.untrusted import format_csv, parse_csv, read_text, unescape_csv_formula
@@ -184,8 +185,14 @@ def append_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
     Raises
     ------
     ClassError
-        If one of them says nothing that can be done.
+        If one of them says nothing that can be done, or another command writes there.
     """
+    with locked(folder):
+        return note_rulings(folder, rulings)
+
+
+def note_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
+    """The same where the folder is held already."""
     now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
     added = [msgspec.structs.replace(one, when=one.when or now) for one in rulings]
     for one in added:

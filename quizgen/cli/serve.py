@@ -9,6 +9,7 @@ import click
 
 from quizgen.cli.lint import lint_while_writing
 from quizgen.cli.options import (
+    MOST_JOBS,
     BankOptions,
     IntRangeParam,
     bank_options,
@@ -27,6 +28,9 @@ class ServeOptions(BankOptions):
     behind_proxy: bool
     invite: bool
     database: str
+    workers: int
+    log_form: str
+    backup: Path | None
     author: bool
     classroom: Path | None
 
@@ -60,6 +64,25 @@ class ServeOptions(BankOptions):
 @click.option("--open/--no-open", "show", default=True, help="Open the browser.")
 @database_option
 @click.option(
+    "--workers",
+    type=IntRangeParam(1, MOST_JOBS),
+    default=2,
+    help="Processes that make questions and mark exams. [default: 2]",
+)
+@click.option(
+    "--log",
+    "log_form",
+    type=click.Choice(("plain", "json")),
+    default="plain",
+    help="How what goes wrong and who signs in is written to the standard error.",
+)
+@click.option(
+    "--backup",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="Copy the database of a server, which may be running, and end.",
+)
+@click.option(
     "--author", is_flag=True, help="Show every template with its solution, as it is saved."
 )
 @click.option(
@@ -71,6 +94,12 @@ class ServeOptions(BankOptions):
 @bank_options
 def serve(**options: Unpack[ServeOptions]) -> None:
     """Practise and sit the exam in a browser: alone, or with everybody in the network."""
+    if options["backup"]:
+        from quizgen.store.database import back_up
+
+        back_up(options["database"], options["backup"])
+        click.echo(f"{options['backup']}: written")
+        return
     from quizgen.web.settings import ServerSettings
 
     settings = ServerSettings(
@@ -81,6 +110,7 @@ def serve(**options: Unpack[ServeOptions]) -> None:
         behind_proxy=options["behind_proxy"],
         examine=lint_while_writing if options["author"] else None,
         classroom=options["classroom"],
+        workers=options["workers"],
     )
     if settings.accounts and options["author"]:
         raise click.UsageError("--author shows every solution: on this machine alone")
@@ -91,5 +121,6 @@ def serve(**options: Unpack[ServeOptions]) -> None:
     from quizgen.web.server import run_server
 
     run_server(
-        settings, options["port"], show=options["show"], tell=click.echo, invite=options["invite"]
-    )
+        settings, options["port"], show=options["show"], tell=click.echo,
+        invite=options["invite"], log_form=options["log_form"],
+    )  # fmt: skip

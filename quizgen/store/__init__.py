@@ -9,6 +9,7 @@ from quizgen.store.records import (
     Invitation,
     Learner,
     OutcomeRecord,
+    Packed,
     Person,
     QuestionRef,
 )
@@ -18,6 +19,7 @@ __all__ = [
     "AttemptRecord",
     "Invitation",
     "Learner",
+    "Packed",
     "Person",
     "OutcomeRecord",
     "ExamRecord",

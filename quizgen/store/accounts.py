@@ -23,7 +23,7 @@ from sqlalchemy.exc import IntegrityError
 
 from quizgen.store.database import Database
 from quizgen.store.records import Invitation, Learner, Person
-from quizgen.store.schema import ACCOUNT, INVITATION, LEARNER, SESSION
+from quizgen.store.schema import ACCOUNT, INVITATION, LEARNER, PAPER, SESSION, SITTING
 from quizgen.store.values import row_to_record
 
 ALONE = "me"
@@ -197,9 +197,11 @@ class Accounts:
         return True
 
     def remove(self, learner: int) -> None:
-        """Remove somebody and everything that they did."""
+        """Remove somebody and everything that they did, and papers that nobody else sat."""
         with self.database.writing(learner) as connection:
             connection.execute(delete(LEARNER).where(LEARNER.c.id == learner))
+            sat = select(SITTING.c.paper).where(SITTING.c.paper.is_not(None))
+            connection.execute(delete(PAPER).where(PAPER.c.id.not_in(sat)))
 
 
 def _select_people(*more: ColumnElement[Any]) -> Select[Any]:

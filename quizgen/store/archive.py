@@ -14,8 +14,9 @@ from quizgen.core.errors import StoreError
 from quizgen.practice.scheduler import Moment, ReviewCard
 from quizgen.practice.session_state import PartState
 from quizgen.store.database import Database
+from quizgen.store.exam_attempts import numbers_of
 from quizgen.store.review_cards import read_cards, write_card
-from quizgen.store.schema import ANSWER, ATTEMPT, CARD, FLAG, LEARNER, SEEN, SITTING
+from quizgen.store.schema import ANSWER, ATTEMPT, CARD, FLAG, LEARNER, PAPER, SEEN, SITTING
 
 FORMAT = "quizgen learning"
 TEXT = "^[^\0]*$"
@@ -98,6 +99,9 @@ class ArchivedExam(StrictStruct, frozen=True):
     marks: dict[Part, Annotated[float, msgspec.Meta(ge=0, le=1)]]
     answers: list[ArchivedAnswer]
     flags: list[Part]
+    practice: bool = False
+    paper: Annotated[str, msgspec.Meta(pattern="^[0-9a-f]{64}$")] | None = None
+    """Its id, once it was handed in. The paper itself is HTML: nobody's file is believed that."""
 
 
 class LearnerArchive(StrictStruct, frozen=True):
@@ -158,8 +162,12 @@ class ArchiveStore:
                     select(CARD.c.data).where(CARD.c.learner == learner)
                 ).scalars().all(),
                 "sittings": [
-                    {**row, **_read_sitting_contents(connection, str(row["id"]))}
-                    for row in _iter_learner_rows(connection, SITTING, learner)
+                    {
+                        **row,
+                        "paper": row["paper"] if row["handed"] is not None else None,
+                        **_read_sitting_contents(connection, str(row["id"])),
+                    }
+                    for row in _iter_learner_rows(connection, SITTING, learner, "counted")
                 ],
             }  # fmt: skip
         return msgspec.json.encode(whole)
@@ -182,9 +190,10 @@ class ArchiveStore:
                 mine = cards.get((card.kind, card.name))
                 if mine is None or mine.last < card.last:
                     write_card(connection, learner, card)
-            return count + sum(
-                _insert_sitting(connection, learner, one) for one in archive.sittings
-            )
+            # As handed in by a file, a paper would show the key of the same that is open here.
+            sat = _open_papers(connection, learner)
+            coming = [one for one in archive.sittings if numbers_of(one.code) not in sat]
+            return count + sum(_insert_sitting(connection, learner, one) for one in coming)
 
 
 def _select_columns(names: tuple[str, ...], table: Mapping[str, Any]) -> dict[str, Any]:
@@ -244,12 +253,21 @@ def _insert_attempt(connection: Connection, learner: int, attempt: ArchivedAttem
     return name is not None
 
 
+def _open_papers(connection: Connection, learner: int) -> set[str]:
+    """What a learner has begun and not handed in, each by what the same papers have in common."""
+    mine = (SITTING.c.learner == learner, SITTING.c.handed.is_(None))
+    return set(map(numbers_of, connection.execute(select(SITTING.c.code).where(*mine)).scalars()))
+
+
 def _insert_sitting(connection: Connection, learner: int, sitting: ArchivedExam) -> bool:
     name = _find_free_name(connection, SITTING, learner, sitting.id)
     if name is None:
         return False
     row = {**msgspec.to_builtins(sitting), "id": name, "learner": learner}
     answers, flags = row.pop("answers"), row.pop("flags")
+    known = select(PAPER.c.id).where(PAPER.c.id == sitting.paper)
+    row["paper"] = connection.execute(known).scalar()
+    row["counted"] = sitting.handed is not None  # how its parts went is in the file, too
     connection.execute(insert(SITTING).values(row))
     for answer in {one["part"]: one for one in answers}.values():
         connection.execute(insert(ANSWER).values(sitting=name, **answer))

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import re
 import sqlite3
+import threading
 import time
-from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future
+from functools import cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from sqlalchemy import (
     URL,
@@ -37,6 +40,7 @@ ADDRESSES = "an address is sqlite:///FILE or postgresql+psycopg://USER:PASSWORD@
 DRIVERS = {"sqlite", "sqlite+pysqlite", "postgresql", "postgresql+psycopg"}
 PATIENCE = 10
 """Seconds to wait for a server to answer, or for another hand to have written."""
+T = TypeVar("T")
 _HOST = re.compile(r"[\w.:-]*")
 _WRITES = "writes"
 
@@ -63,6 +67,8 @@ class Database:
         except ModuleNotFoundError as error:
             raise StoreError(f'no {error.name} here: pip install "quizgen[postgres]"') from error
         self._writer = self._reader.execution_options(**{_WRITES: True})
+        self._waiting: list[_Write] = []
+        self._joining, self._turn = threading.Lock(), threading.Lock()
         with contextlib.ExitStack() as failing:
             failing.callback(self.close)
             try:
@@ -99,6 +105,112 @@ class Database:
                 mine = select(LEARNER.c.id).where(LEARNER.c.id == learner)
                 connection.execute(mine.with_for_update(key_share=True))
             yield connection
+
+    def write(self, learner: int, work: Callable[[Connection], T]) -> T:
+        """What some writing of a learner gives, once it is on the disk.
+
+        A disk takes some milliseconds for each commit, however little it holds. So all that waits
+        while one is under way is committed together: whoever comes first writes for those behind.
+        What fails takes nothing else with it. PostgreSQL groups commits by itself.
+
+        Parameters
+        ----------
+        learner : int
+            Whose data is written.
+        work : callable
+            Given the connection; what it raises is raised here, and has written nothing.
+        """
+        if self._reader.dialect.name != "sqlite":
+            with self.writing(learner) as connection:
+                return work(connection)
+        mine = _Write(work)
+        with self._joining:
+            self._waiting.append(mine)
+        with self._turn:
+            if not mine.done():
+                with self._joining:
+                    together, self._waiting = self._waiting, []
+                self._commit(together)
+        found: T = mine.result()
+        return found
+
+    def _commit(self, together: Sequence[_Write]) -> None:
+        """Do all that waits; nobody is told before it is on the disk."""
+        try:
+            with self._writer.begin() as connection:
+                ends = [one.run(connection) for one in together]
+                _check_open(connection)
+        except BaseException as error:  # noqa: BLE001 - raised again by each who waits
+            for one in together:
+                one.set_exception(error)
+        else:
+            for end in ends:
+                end()
+
+
+def _check_open(connection: Connection) -> None:
+    """Refuse to commit what is undone: where the disk is full SQLite rolls everything back."""
+    raw = connection.connection.dbapi_connection
+    if isinstance(raw, sqlite3.Connection) and not raw.in_transaction:
+        raise SQLAlchemyError("nothing was written")
+
+
+class _Write(Future[Any]):
+    """Some writing that waits for its turn."""
+
+    def __init__(self, work: Callable[[Connection], Any]) -> None:
+        super().__init__()
+        self.work = work
+
+    def run(self, connection: Connection) -> Callable[[], None]:
+        """Do it; what to call once it is on the disk."""
+        try:
+            with connection.begin_nested():
+                found = self.work(connection)
+        except Exception as error:  # noqa: BLE001 - raised again by who asked
+            return partial(self.set_exception, error)
+        return partial(self.set_result, found)
+
+
+def back_up(address: str, file: Path) -> None:
+    """Copy a database to a file of its own, also while a server writes to it.
+
+    The copy is of one moment, is one file without a log beside it, and is there whole or not at
+    all; only its owner reads it.
+
+    Parameters
+    ----------
+    address : str
+        As of ``Database``.
+    file : pathlib.Path
+        Replaced where there is one.
+
+    Raises
+    ------
+    StoreError
+        If there is no such database, it is PostgreSQL, or the file cannot be written.
+    """
+    url = _parse_database_url(address)
+    if url.get_backend_name() != "sqlite":
+        raise StoreError("--backup: PostgreSQL copies a database with its own pg_dump")
+    place = Path(str(url.database))
+    if not place.is_file():
+        raise StoreError(f"{place}: there is no such database")
+    fresh = file.with_name(f".{file.name}.new")
+    try:
+        open_private(fresh, anew=True).close()
+        with (
+            contextlib.closing(sqlite3.connect(place, timeout=PATIENCE)) as source,
+            contextlib.closing(sqlite3.connect(fresh)) as copy,
+        ):
+            source.backup(copy)
+            copy.execute("PRAGMA journal_mode=DELETE")
+        with fresh.open("rb+") as written:
+            os.fsync(written.fileno())
+        fresh.replace(file)
+    except (sqlite3.Error, OSError) as error:
+        fresh.unlink(missing_ok=True)
+        raise StoreError(f"{file}: {error}") from error
 
 
 def upsert(
@@ -153,7 +265,8 @@ def _create_engine_for(url: URL) -> Engine:
     def _set_up(connection: sqlite3.Connection, _record: object) -> None:
         connection.isolation_level = None  # ``_begin`` says when something begins
         _to_wal(connection)
-        for setting in ("synchronous=NORMAL", "foreign_keys=ON"):
+        # In a log NORMAL waits for no disk: a power cut would take back what was acknowledged.
+        for setting in ("synchronous=FULL", "foreign_keys=ON"):
             connection.execute(f"PRAGMA {setting}")
 
     @event.listens_for(engine, "begin")

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import secrets
-import time
 from collections.abc import Mapping
 
 import msgspec
 from sqlalchemy import Connection, bindparam, delete, insert, select, update
 
+from quizgen.core.errors import PaperCodeError
+from quizgen.paper.code import parse_code
+from quizgen.store.clock import Clock
 from quizgen.store.database import Database, upsert
-from quizgen.store.records import ExamRecord, OutcomeRecord
-from quizgen.store.schema import ANSWER, FLAG, SEEN, SITTING
+from quizgen.store.records import ExamRecord, OutcomeRecord, Packed
+from quizgen.store.schema import ANSWER, FLAG, PAPER, SEEN, SITTING
 from quizgen.store.values import row_to_record
 
 GRACE = 5.0
 """Seconds after the end in which what was typed before it may still arrive."""
+MOST_PARTS = 1000
 
 
 _OWN = select(SITTING).where(
@@ -30,17 +33,80 @@ class ExamStore:
     Parameters
     ----------
     database : Database
+    clock : Clock
+        The time of exams.
     """
 
-    def __init__(self, database: Database) -> None:
-        self.database = database
+    def __init__(self, database: Database, clock: Clock) -> None:
+        self.database, self.clock = database, clock
 
-    def begin(self, learner: int, code: str, limit: float | None, *, pauses: bool) -> ExamRecord:
-        """Begin an exam."""
-        made = ExamRecord(secrets.token_urlsafe(12), learner, code, time.time(), limit, pauses)
-        with self.database.writing(learner) as connection:
+    def begin(
+        self,
+        learner: int,
+        code: str,
+        limit: float | None,
+        *,
+        pauses: bool,
+        paper: Packed | None = None,
+        practice: bool = False,
+    ) -> ExamRecord | None:
+        """Begin an exam, or go on with the one of the same numbers that is open.
+
+        Parameters
+        ----------
+        learner : int
+        code : str
+        limit : float or None
+            Seconds it may take.
+        pauses : bool
+        paper : Packed, optional
+            What it shows.
+        practice : bool
+            Begin it also where its key was shown to the learner.
+
+        Returns
+        -------
+        Sitting or None
+            None if its key was shown, and it is not for practice.
+        """
+        name, now = paper.id if paper else None, self.clock.now()
+
+        def work(connection: Connection) -> ExamRecord | None:
+            known = _twins(connection, learner, code)
+            for one in known:
+                if one.handed is None:
+                    return one
+            if known and not practice:
+                return None
+            if paper:
+                _put_paper(connection, paper)
+            made = ExamRecord(secrets.token_urlsafe(12), learner, code, now, limit, pauses,
+                           paper=name, practice=bool(known))  # fmt: skip
             connection.execute(insert(SITTING).values(msgspec.to_builtins(made)))
-        return made
+            return made
+
+        return self.database.write(learner, work)
+
+    def paper(self, name: str) -> bytes:
+        """What an exam shows, as it is kept."""
+        with self.database.reading() as connection:
+            query = select(PAPER.c.data).where(PAPER.c.id == name)
+            return bytes(connection.execute(query).scalar_one())
+
+    def attach(self, sitting: ExamRecord, paper: Packed) -> None:
+        """Keep the paper of an exam that was begun before papers were kept."""
+
+        def work(connection: Connection) -> None:
+            _put_paper(connection, paper)
+            _update_sitting(connection, sitting, paper=paper.id)
+
+        self.database.write(sitting.learner, work)
+
+    def without_paper(self) -> list[ExamRecord]:
+        """Exams that were begun before papers were kept."""
+        with self.database.reading() as connection:
+            rows = connection.execute(select(SITTING).where(SITTING.c.paper.is_(None)))
+            return [row_to_record(row, ExamRecord) for row in rows.mappings()]
 
     def find(self, learner: int, name: str) -> ExamRecord | None:
         """A learner's own exam; None if there is none of this name, or it is another's."""
@@ -76,17 +142,22 @@ class ExamStore:
         sitting : Sitting or None
             The learner's exam; None if there is none of this name, or it is another's.
         kept : bool
-            False if the exam is over.
+            False if the exam is over, or its paper has no such part.
         """
-        now = time.time()
-        with self.database.writing(learner) as connection:
+        now = self.clock.now()
+
+        def work(connection: Connection) -> tuple[ExamRecord | None, bool]:
             known = _find_sitting(connection, learner, name)
             if known is None or known.resting is not None or known.is_over(now - GRACE):
+                return known, False
+            if not _has_parts(connection, known, answers):
                 return known, False
             for part, fields in answers.items():
                 row = {"sitting": name, "part": part, "fields": fields, "at": now}
                 upsert(connection, ANSWER, row, ["sitting", "part"], ["fields", "at"])
-        return known, True
+            return known, True
+
+        return self.database.write(learner, work)
 
     def flag(self, sitting: ExamRecord, number: str) -> None:
         """Mark a question to come back to, or take the mark away."""
@@ -97,7 +168,7 @@ class ExamStore:
 
     def set_pause(self, sitting: ExamRecord, *, on: bool) -> None:
         """Begin or end a pause, where pauses are allowed."""
-        now = time.time()
+        now = self.clock.now()
         with self.database.writing(sitting.learner) as connection:
             known = _find_sitting(connection, sitting.learner, sitting.id)
             if known is None or not known.pauses or known.is_over(now):
@@ -109,17 +180,33 @@ class ExamStore:
                     connection, sitting, resting=None, rested=known.rested + now - known.resting
                 )
 
-    def hand_in(self, sitting: ExamRecord, seen: tuple[OutcomeRecord, ...]) -> bool:
+    def hand_in(self, sitting: ExamRecord) -> bool:
         """Hand an exam in, once; False if it was."""
-        with self.database.writing(sitting.learner) as connection:
+        now = self.clock.now()
+
+        def work(connection: Connection) -> bool:
             known = _find_sitting(connection, sitting.learner, sitting.id)
             if known is None or known.handed is not None:
                 return False
-            _update_sitting(connection, sitting, handed=time.time())
+            _update_sitting(connection, sitting, handed=now)
+            return True
+
+        return self.database.write(sitting.learner, work)
+
+    def count(self, sitting: ExamRecord, seen: tuple[OutcomeRecord, ...]) -> bool:
+        """Keep how the parts of an exam that was handed in went, once; False if it was."""
+
+        def work(connection: Connection) -> bool:
+            known = _find_sitting(connection, sitting.learner, sitting.id)
+            if known is None or known.handed is None or known.counted:
+                return False
+            _update_sitting(connection, sitting, counted=True)
             for one in seen:
                 row = {"learner": sitting.learner, **msgspec.to_builtins(one)}
                 connection.execute(insert(SEEN).values(row))
-        return True
+            return True
+
+        return self.database.write(sitting.learner, work)
 
     def save_self_mark(self, sitting: ExamRecord, part: str, share: float) -> None:
         """Keep the share of the points that a learner gave to a sentence."""
@@ -134,5 +221,42 @@ def _find_sitting(connection: Connection, learner: int, name: str) -> ExamRecord
     return row_to_record(row, ExamRecord) if row else None
 
 
+def _put_paper(connection: Connection, paper: Packed) -> None:
+    row = {"id": paper.id, "code": paper.code, "parts": paper.parts, "data": paper.data}
+    upsert(connection, PAPER, row, ["id"])
+
+
+def _has_parts(connection: Connection, sitting: ExamRecord, answers: Mapping[str, object]) -> bool:
+    """Whether the paper of an exam has all these parts.
+
+    One of before papers were kept has none until it is made again; what arrives before that is
+    kept, up to more parts than any paper has.
+    """
+    if sitting.paper is not None:
+        query = select(PAPER.c.parts).where(PAPER.c.id == sitting.paper)
+        return answers.keys() <= set(connection.execute(query).scalar_one())
+    query = select(ANSWER.c.part).where(ANSWER.c.sitting == sitting.id)
+    return len(answers.keys() | set(connection.execute(query).scalars())) <= MOST_PARTS
+
+
 def _update_sitting(connection: Connection, sitting: ExamRecord, **values: object) -> None:
     connection.execute(update(SITTING).where(SITTING.c.id == sitting.id).values(values))
+
+
+def _twins(connection: Connection, learner: int, code: str) -> list[ExamRecord]:
+    """A learner's exams with the same numbers, in whatever language."""
+    start = numbers_of(code)
+    query = select(SITTING).where(
+        SITTING.c.learner == learner, SITTING.c.code.startswith(start, autoescape=True)
+    )
+    found = (row_to_record(row, ExamRecord) for row in connection.execute(query).mappings())
+    return [one for one in found if numbers_of(one.code) == start]
+
+
+def numbers_of(code: str) -> str:
+    """What papers with the same numbers have in common."""
+    try:
+        found = parse_code(code)
+    except PaperCodeError:
+        return code
+    return f"{found.blueprint}-{found.seed}-"

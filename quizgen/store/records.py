@@ -99,6 +99,29 @@ class OutcomeRecord(msgspec.Struct, frozen=True):
     at: float
 
 
+class Packed(msgspec.Struct, frozen=True):
+    """A paper as it is kept, see ``web.papers``.
+
+    Parameters
+    ----------
+    id : str
+        Digest of what it shows and what marks it.
+    code : str
+    data : bytes
+    minutes : int
+    pauses : bool or None
+    parts : tuple of str
+        Their names.
+    """
+
+    id: str
+    code: str
+    data: bytes
+    minutes: int
+    pauses: bool | None
+    parts: tuple[str, ...]
+
+
 class ExamRecord(msgspec.Struct, frozen=True):
     """An exam that somebody sits.
 
@@ -122,6 +145,12 @@ class ExamRecord(msgspec.Struct, frozen=True):
         When it was handed in.
     marks : mapping
         Part to the share of its points that the learner gave to a sentence.
+    paper : str or None
+        Id of what it shows; None for one of before papers were kept.
+    practice : bool
+        Whether its key had been shown to the learner before.
+    counted : bool
+        Whether it is counted in what the learner has done.
     """
 
     id: str
@@ -134,6 +163,9 @@ class ExamRecord(msgspec.Struct, frozen=True):
     resting: float | None = None
     handed: float | None = None
     marks: dict[str, float] = {}
+    paper: str | None = None
+    practice: bool = False
+    counted: bool = False
 
     @property
     def ends(self) -> float | None:

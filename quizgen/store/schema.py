@@ -10,9 +10,11 @@ from sqlalchemy import (
     ForeignKey,
     Index,
     Integer,
+    LargeBinary,
     MetaData,
     String,
     Table,
+    text,
 )
 
 METADATA = MetaData()
@@ -59,18 +61,34 @@ SEEN = Table(
 )
 """How a part went: right, right at once, and the note of the last mistake."""
 
+PAPER = Table(
+    "paper",
+    METADATA,
+    Column("id", String(64), primary_key=True),
+    Column("code", String(200), nullable=False),
+    Column("parts", JSON, nullable=False),
+    Column("data", LargeBinary, nullable=False),
+)
+"""What an exam shows and what marks it, see ``web.papers``; shared by all who sit it.
+
+``parts`` are the names of its parts: no answer is kept under another.
+"""
+
 SITTING = Table(
     "sitting",
     METADATA,
     Column("id", String(32), primary_key=True),
     Column("learner", ForeignKey("learner.id", ondelete="CASCADE"), nullable=False),
     Column("code", String(200), nullable=False),
+    Column("paper", ForeignKey("paper.id")),
+    Column("practice", Boolean, nullable=False, server_default=text("false")),
     Column("begun", Float, nullable=False),
     Column("limit", Float),
     Column("pauses", Boolean, nullable=False),
     Column("rested", Float, nullable=False),
     Column("resting", Float),
     Column("handed", Float),
+    Column("counted", Boolean, nullable=False, server_default=text("false")),
     Column("marks", JSON, nullable=False),
     Index("sitting_of", "learner", "begun"),
 )

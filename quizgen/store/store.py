@@ -13,6 +13,7 @@ from sqlalchemy import Connection, func, insert, select, update
 
 from quizgen.store.accounts import ALONE, Accounts
 from quizgen.store.archive import ArchiveStore
+from quizgen.store.clock import Clock, since_boot
 from quizgen.store.database import Database, upsert
 from quizgen.store.exam_attempts import ExamStore
 from quizgen.store.records import AttemptRecord, Learner, OutcomeRecord, QuestionRef
@@ -39,7 +40,9 @@ class Store:
         self.database = Database(address)
         self._learners: dict[str, Learner] = {}
         self._one = threading.Lock()
-        self.sittings = ExamStore(self.database)
+        self.clock = self._begin_clock()
+        """The time of exams."""
+        self.sittings = ExamStore(self.database, self.clock)
         """Exams that are sat."""
         self.cards = ReviewCardStore(self.database)
         """What is asked again, and when."""
@@ -51,6 +54,26 @@ class Store:
     def close(self) -> None:
         """Give the connections back."""
         self.database.close()
+
+    def check(self) -> None:
+        """Ask the database something.
+
+        Raises
+        ------
+        sqlalchemy.exc.SQLAlchemyError
+            If it does not answer.
+        """
+        with self.database.reading() as connection:
+            connection.execute(select(LEARNER.c.id).limit(1))
+
+    def _begin_clock(self) -> Clock:
+        """Go on with the time of the first server since the machine was started."""
+        began, name = Clock(), since_boot()
+        if not name:
+            return began
+        kept = self.shared_value(name, " ".join(map(repr, began.anchor)))
+        at, then = map(float, kept.split())
+        return Clock((at, then))
 
     def shared_value(self, name: str, value: str) -> str:
         """What servers of this database have in common under a name: the first one's value."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
+import hmac
+import secrets
 import time
 from dataclasses import dataclass
 
@@ -13,8 +16,9 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from quizgen.store import Invitation, Person
-from quizgen.store.accounts import Accounts, fold_user_name
-from quizgen.web.auth import INVITED, SIGN_IN, set_session_cookie
+from quizgen.store.accounts import DAY, Accounts, fold_user_name
+from quizgen.web.auth import INVITED, SIGN_IN, set_cookie, set_session_cookie
+from quizgen.web.event_log import log_event
 from quizgen.web.forms import field_text, read_form
 from quizgen.web.passwords import (
     LONGEST_NAME,
@@ -32,6 +36,10 @@ from quizgen.web.views import (
     translate_page,
 )
 
+BROWSER = "quizgen-browser"
+"""Cookie of a browser in which somebody has signed in; it lets nobody in."""
+BROWSER_DAYS = 365
+
 
 @dataclass(frozen=True)
 class AccountLink:
@@ -47,11 +55,42 @@ def _get_accounts(request: Request) -> Accounts:
     return site.store.accounts
 
 
-def _begin_sign_in_attempt(request: Request, name: str) -> tuple[object, int]:
-    """Who tries to sign in, as far as can be told, and how many seconds they have to wait."""
+def _address(request: Request) -> str:
+    return request.client.host if request.client else ""
+
+
+def _proof(request: Request, learner: int, number: str) -> str:
+    """What the cookie of a browser says in which a learner has signed in."""
     site: ServerState = request.app.state.site
-    who = (request.client.host if request.client else "", fold_user_name(name[:LONGEST_NAME]))
-    return who, site.patience.seconds_to_wait(who)
+    text, secret = f"{learner}.{number}".encode(), site.browser_secret.encode()
+    return f"{number}.{hmac.new(secret, text, hashlib.sha256).hexdigest()}"
+
+
+def _known_browser(request: Request, learner: int | None) -> str:
+    """What tells a browser in which a learner has signed in before; empty for any other."""
+    given = request.cookies.get(BROWSER, "")
+    right = _proof(request, learner or 0, given.partition(".")[0])
+    return given if learner and secrets.compare_digest(given.encode(), right.encode()) else ""
+
+
+async def _try_password(
+    request: Request, name: str, known: tuple[int, str] | None, password: str
+) -> tuple[int, bool]:
+    """The seconds to wait where it may not be tried yet, and whether a password is right."""
+    site: ServerState = request.app.state.site
+    limits, browser = site.password_limits, _known_browser(request, known[0] if known else None)
+    who = (fold_user_name(name[:LONGEST_NAME]), _address(request), browser)
+    wait = limits.begin(*who)
+    learner = known[0] if known else 0
+    if wait:
+        log_event("password not tried yet", learner=learner, address=who[1], seconds=wait)
+        return wait, False
+    async with limits.turns.turn(browser or _address(request)):
+        right = await verify_password(known[1] if known else None, password)
+    if right:
+        limits.count_right(*who)
+    log_event("password right" if right else "password wrong", learner=learner, address=who[1])
+    return 0, right
 
 
 async def _begin_session(request: Request, learner: int, address: str) -> Response:
@@ -59,7 +98,9 @@ async def _begin_session(request: Request, learner: int, address: str) -> Respon
     accounts = _get_accounts(request)
     await run_in_threadpool(accounts.end_session, request.state.token)
     token = await run_in_threadpool(accounts.start_session, learner)
-    return set_session_cookie(request.scope, redirect(safe_redirect_target(address)), token)
+    answer = set_session_cookie(request.scope, redirect(safe_redirect_target(address)), token)
+    proof = _proof(request, learner, secrets.token_urlsafe(12))
+    return set_cookie(request.scope, answer, BROWSER, proof, BROWSER_DAYS * DAY)
 
 
 def _render_sign_in_page(
@@ -86,23 +127,18 @@ async def show_sign_in(request: Request) -> Response:
 async def sign_in(request: Request) -> Response:
     """Sign in by name and password."""
     form = await read_form(request)
-    site: ServerState = request.app.state.site
     name = field_text(form, "name")
-    who, wait = _begin_sign_in_attempt(request, name)
+    known = await run_in_threadpool(_get_accounts(request).password_hash_of, name)
+    wait, right = await _try_password(request, name, known, field_text(form, "password"))
     if wait:
         slow = translate_page(request_language(request), "account.wait", count=wait)
         answer = _render_sign_in_page(request, 429, slow, name)
         answer.headers["retry-after"] = str(wait)
         return answer
-    known = await run_in_threadpool(_get_accounts(request).password_hash_of, name)
-    if (
-        not await verify_password(known[1] if known else None, field_text(form, "password"))
-        or known is None
-    ):
+    if not right or known is None:
         return _render_sign_in_page(
             request, 403, translate_page(request_language(request), "account.wrong"), name
         )
-    site.patience.reset(who)
     return await _begin_session(request, known[0], request.query_params.get("to", "/"))
 
 
@@ -154,6 +190,7 @@ async def accept_invitation(request: Request) -> Response:
         learner = await run_in_threadpool(accounts.join, key, str(name), kept, settings)
     if learner is None:
         return _render_invitation_page(request, await _find_invitation(request), "taken", typed)
+    log_event("invitation used", learner=learner, address=_address(request))
     return await _begin_session(request, learner, "/")
 
 
@@ -178,20 +215,19 @@ async def show_account(request: Request) -> Response:
 async def set_password(request: Request) -> Response:
     """Change one's own password, by the old one; other browsers have to sign in again."""
     form = await read_form(request)
-    site: ServerState = request.app.state.site
     learner = request.state.learner
-    who, wait = _begin_sign_in_attempt(request, learner.name)
+    known = await run_in_threadpool(_get_accounts(request).password_hash_of, learner.name)
+    wait, right = await _try_password(request, learner.name, known, field_text(form, "old"))
     if wait:
         raise HTTPException(429)
-    known = await run_in_threadpool(_get_accounts(request).password_hash_of, learner.name)
-    if not known or not await verify_password(known[1], field_text(form, "old")):
+    if not right:
         return _render_own_account(request, 403, "wrong_old")
-    site.patience.reset(who)
     problem = _wrong_password(form)
     if problem:
         return _render_own_account(request, 400, problem)
     kept = await hash_password(field_text(form, "password"))
     await run_in_threadpool(_get_accounts(request).set_password, learner.id, kept)
+    log_event("password changed", learner=learner.id)
     return await _begin_session(request, learner.id, "/account?changed=1")
 
 
@@ -218,6 +254,8 @@ def _make_invitation_link(
     request: Request, learner: Person | None, *, manages: bool = False
 ) -> AccountLink:
     token = _get_accounts(request).invite(learner.id if learner else None, manages=manages)
+    whose = learner.id if learner else "new"
+    log_event("link made", by=request.state.learner.id, learner=whose, manages=manages)
     return AccountLink(f"{request.base_url}{INVITED[1:]}?key={token}", learner)
 
 
@@ -292,6 +330,7 @@ async def remove(request: Request) -> Response:
     if found.id == request.state.learner.id or not field_text(form, "sure"):
         return _render_person_page(request, found, 400, "not_sure")
     await run_in_threadpool(_get_accounts(request).remove, found.id)
+    log_event("learner removed", by=request.state.learner.id, learner=found.id)
     return redirect("/people")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 from collections.abc import AsyncIterator
 from importlib.resources import files
@@ -31,10 +32,12 @@ from quizgen.web import (
     tradeoff,
 )
 from quizgen.web.auth import AuthMiddleware
+from quizgen.web.event_log import find_cause
+from quizgen.web.exam import GoneError
 from quizgen.web.forms import field_text, read_form
 from quizgen.web.security import SecurityMiddleware
 from quizgen.web.settings import ServerSettings
-from quizgen.web.state import ServerState
+from quizgen.web.state import QuotaError, ServerState
 from quizgen.web.views import page_language_css, page_response, redirect, safe_redirect_target
 
 PAGES = (*practice.ROUTES, *exam.ROUTES, *progress.ROUTES, *formula_sheet.ROUTES, *camera.ROUTES,
@@ -59,7 +62,9 @@ def create_app(settings: ServerSettings) -> Starlette:
     async def lifespan(_app: Starlette) -> AsyncIterator[None]:
         try:
             site.workers.warm()
+            attaching = asyncio.ensure_future(site.papers.attach_all())
             yield
+            attaching.cancel()
         finally:
             site.close()
 
@@ -123,21 +128,33 @@ async def handle_http_error(request: Request, error: Exception) -> Response:
     """A page for what is not there or not allowed."""
     status = error.status_code if isinstance(error, HTTPException) else 500
     name = f"error.{status}" if status in {400, 403, 404, 405, 410, 413, 429} else "error.400"
+    if isinstance(error, GoneError):
+        name = "exam.gone"
+    if isinstance(error, QuotaError):
+        name = "error.quota"
     if not hasattr(request.state, "learner"):  # a style or a picture that is not there
         return PlainTextResponse(str(status), status)
-    return page_response(request, "message.html.j2", status, title="error.title", text=name)
+    answer = page_response(request, "message.html.j2", status, title="error.title", text=name)
+    answer.headers.update(getattr(error, "headers", None) or {})
+    return answer
 
 
 async def handle_store_error(request: Request, error: Exception) -> Response:
     """A page for a database that does not answer."""
-    del error
-    return page_response(request, "message.html.j2", 503, title="error.title", text="error.503")
+    return _failure(request, error, 503, "error.503")
 
 
 async def handle_bank_error(request: Request, error: Exception) -> Response:
     """A page for a template that is wrong; authors are told what is."""
     site: ServerState = request.app.state.site
     wrong = str(error) if site.settings.examine else ""
-    return page_response(
-        request, "message.html.j2", 500, title="error.title", text="error.500", wrong=wrong
-    )
+    return _failure(request, error, 500, "error.500", wrong)
+
+
+def _failure(
+    request: Request, error: Exception, status: int, text: str, wrong: str = ""
+) -> Response:
+    """A page with the id by which it is found in the log, where it says why."""
+    request.state.cause = find_cause(error)
+    return page_response(request, "message.html.j2", status, title="error.title", text=text, wrong=wrong,
+                number=request.state.request_id)  # fmt: skip

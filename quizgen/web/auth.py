@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import hmac
 import re
@@ -12,16 +13,21 @@ from urllib.parse import urlencode
 from sqlalchemy.exc import SQLAlchemyError
 from starlette.concurrency import run_in_threadpool
 from starlette.datastructures import Headers, MutableHeaders, QueryParams
-from starlette.responses import RedirectResponse, Response
+from starlette.responses import JSONResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from quizgen.store import Learner
+from quizgen.web.event_log import find_cause
 from quizgen.web.security import OPEN, plain_error
 from quizgen.web.state import ServerState
 
 COOKIE = "quizgen"
 ENTRANCE = "/enter"
 """Where the address that is opened first leads: ``/enter?key=KEY``."""
+HEALTH = "/health"
+"""Where whoever watches over the server asks how it is; it lets nobody in and tells of nobody."""
+LONGEST_CHECK = 5.0
+"""Seconds in which the database is to answer."""
 SIGN_IN, INVITED = "/sign-in", "/invited"
 """What somebody may see who has not signed in."""
 
@@ -50,15 +56,31 @@ class AuthMiddleware:
         if scope["type"] != "http" or scope["path"].startswith(OPEN):
             await self.app(scope, receive, send)
             return
+        if scope["path"] == HEALTH:
+            await (await self._health())(scope, receive, send)
+            return
         try:
             sign = self._signed_in if self.site.settings.accounts else self._admit_sole_learner
             answer = await sign(scope)
-        except SQLAlchemyError:
-            answer = plain_error("503", 503)
+        except SQLAlchemyError as error:
+            state = scope["state"]
+            state["cause"] = find_cause(error)
+            answer = plain_error("503", 503, state["request_id"])
         if answer is not None:
             await answer(scope, receive, send)
             return
         await self.app(scope, receive, _with_cookie(scope, send))
+
+    async def _health(self) -> Response:
+        """Whether the database answers, and how many processes make questions."""
+        try:
+            await asyncio.wait_for(run_in_threadpool(self.site.store.check), LONGEST_CHECK)
+            is_well = True
+        except (SQLAlchemyError, TimeoutError):
+            is_well = False
+        told = {"status": "ok" if is_well else "failing", "database": is_well,
+                "workers": self.site.workers.alive}  # fmt: skip
+        return JSONResponse(told, 200 if is_well else 503)
 
     async def _admit_sole_learner(self, scope: Scope) -> Response | None:
         """Whose browser was let in by a key is the one learner there is."""
@@ -113,9 +135,17 @@ def set_session_cookie(scope: Scope, response: Response, token: str) -> Response
     Posts are held off by the token in each form and by ``guard``.
     """
     scope["state"].pop("new_token", None)
+    return set_cookie(scope, response, COOKIE, token)
+
+
+def set_cookie(
+    scope: Scope, response: Response, name: str, value: str, seconds: float | None = None
+) -> Response:
+    """The response with a cookie that no script reads, kept for some seconds or until it closes."""
     response.set_cookie(
-        COOKIE, token, httponly=True, samesite="lax", secure=scope["scheme"] == "https"
-    )
+        name, value, max_age=None if seconds is None else int(seconds),
+        httponly=True, samesite="lax", secure=scope["scheme"] == "https",
+    )  # fmt: skip
     return response
 
 

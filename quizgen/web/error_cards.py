@@ -98,7 +98,8 @@ def _make_card_part(name: str, state: PartState) -> PracticedPart:
 
 
 async def _send_cards(request: Request, job: ErrorCardsJob) -> Response:
-    data = await request.app.state.site.workers.done(job)
+    site: ServerState = request.app.state.site
+    data = await site.workers.done(job, request.state.learner.id)
     if not data:
         return page_response(
             request, "message.html.j2", 404, title="anki.title", text="anki.nothing"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 import secrets
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass
+from urllib.parse import urlencode
 
 import msgspec
 from starlette.concurrency import run_in_threadpool
@@ -22,12 +22,13 @@ from quizgen.paper.blueprint import EVERYTHING, find_blueprint
 from quizgen.paper.code import LARGEST_SEED, parse_code
 from quizgen.practice.input_fields import is_complete
 from quizgen.store import ExamRecord
-from quizgen.store.exam_attempts import ExamStore
+from quizgen.store.exam_attempts import GRACE, ExamStore
 from quizgen.web.due import progress_of
-from quizgen.web.exam_results import grade_exam, outcome_records, review_events
-from quizgen.web.forms import field_text, field_texts, read_form
+from quizgen.web.exam_results import ExamResults, grade_exam, outcome_records, review_events
+from quizgen.web.forms import field_text, field_texts, read_answer, read_form
 from quizgen.web.live_preview import preview_reading
-from quizgen.web.question_view import PaperRequest, PaperView, PartView, QuestionView
+from quizgen.web.papers import MakePaper
+from quizgen.web.question_view import PaperView, PartView, QuestionView
 from quizgen.web.state import ServerState
 from quizgen.web.views import (
     page_response,
@@ -49,6 +50,10 @@ LONGEST_MINUTES = 300
 """Of a paper of a topic: a longer one occupies a process that others wait for."""
 
 
+class GoneError(HTTPException):
+    """An exam of before papers were kept, of which nobody can make the paper any more."""
+
+
 @dataclass(frozen=True)
 class ExamChoice:
     """A paper that can be chosen."""
@@ -64,10 +69,11 @@ async def list_exams(request: Request) -> Response:
     site: ServerState = request.app.state.site
     store = site.store.sittings
     sittings = await run_in_threadpool(store.latest, request.state.learner.id)
-    problem, now = request.query_params.get("problem"), time.time()
+    problem, now = request.query_params.get("problem"), request.app.state.site.store.clock.now()
     return page_response(request, "exams.html.j2", choices=_list_exam_choices(request), lengths=MINUTES,
                 sat=[(one, _find_exam_title(request, one)) for one in sittings],
-                when=relative_time(now, request_language(request)), now=now, problem=problem)  # fmt: skip
+                when=relative_time(now, request_language(request)), now=now, problem=problem,
+                code=request.query_params.get("code", ""))  # fmt: skip
 
 
 def _list_exam_choices(request: Request) -> list[ExamChoice]:
@@ -99,8 +105,11 @@ async def start_exam(request: Request) -> Response:
     """Make a paper and begin it."""
     form = await read_form(request)
     site: ServerState = request.app.state.site
+    learner = request.state.learner.id
     try:
-        paper = await site.workers.get_paper(_parse_wanted_paper(request, form))
+        wanted = _parse_wanted_paper(request, form)
+        site.spend_quota("exam", learner)
+        paper = await site.papers.make(wanted, learner)
     except QuizgenError as error:
         problem = "code" if isinstance(error, PaperCodeError) else "paper"
         return redirect(f"/exam?problem={problem}")
@@ -108,26 +117,30 @@ async def start_exam(request: Request) -> Response:
     pauses = bool(field_text(form, "pauses")) if paper.pauses is None else paper.pauses
     sitting = await run_in_threadpool(
         site.store.sittings.begin,
-        request.state.learner.id,
+        learner,
         paper.code,
         limit,
         pauses=pauses,
+        paper=paper,
+        practice=bool(field_text(form, "practice")),
     )
+    if sitting is None:
+        return redirect(f"/exam?{urlencode({'problem': 'shown', 'code': paper.code})}")
     return redirect(f"/exam/{sitting.id}")
 
 
-def _parse_wanted_paper(request: Request, form: FormData) -> PaperRequest:
-    lang, code = request_language(request), field_text(form, "code").strip()
+def _parse_wanted_paper(request: Request, form: FormData) -> MakePaper:
+    code = field_text(form, "code").strip()
     if code:
         parsed = parse_code(code)
         _refuse_long(parsed.blueprint)
-        return PaperRequest(lang, code=str(parsed))
+        return MakePaper(str(parsed))
     name, minutes = field_text(form, "blueprint"), field_text(form, "minutes")
     site: ServerState = request.app.state.site
     if minutes.isdecimal() and name not in site.bank.blueprints:
         name = f"{name}.{int(minutes[:4])}"
     _refuse_long(name)
-    return PaperRequest(lang, blueprint=name, seed=secrets.randbelow(LARGEST_SEED))
+    return MakePaper(blueprint=name, seed=secrets.randbelow(LARGEST_SEED))
 
 
 def _refuse_long(name: str) -> None:
@@ -154,20 +167,23 @@ async def _get_sitting(request: Request) -> ExamRecord:
 
 async def _make_paper(request: Request, sitting: ExamRecord) -> PaperView:
     site: ServerState = request.app.state.site
-    return await site.workers.get_paper(PaperRequest(request_language(request), code=sitting.code))
+    try:
+        return await site.papers.of(sitting, request_language(request))
+    except QuizgenError as error:
+        raise GoneError(410) from error
 
 
 async def show_exam(request: Request) -> Response:
     """The paper, or its results once it is handed in or its time is over."""
     sitting = await _get_sitting(request)
-    if sitting.handed is None and sitting.is_over(time.time()):
+    if sitting.handed is None and sitting.over(request.app.state.site.store.clock.now()):
         await _hand_in(request, sitting)
         sitting = await _get_sitting(request)
-    paper, now = await _make_paper(request, sitting), time.time()
+    paper, now = await _make_paper(request, sitting), request.app.state.site.store.clock.now()
     store = request.app.state.site.store.sittings
     answers = await run_in_threadpool(store.answers, sitting)
     if sitting.handed is not None:
-        results = grade_exam(paper, answers, sitting.marks)
+        results = await _count(request, sitting, paper, answers)
         return page_response(
             request, "results.html.j2", sitting=sitting, paper=paper, results=results
         )
@@ -180,15 +196,15 @@ def _read_changed_fields(form: FormData) -> dict[str, list[str]]:
     """What was changed, by part.
 
     Parts that were not on the form are left as they are, and so are those that still hold what the
-    page was made with: another page of the same exam may have changed them since. The paper is not
-    asked which parts it has, so that nobody waits for it; what it lacks is never looked at.
+    page was made with: another page of the same exam may have changed them since. The store knows
+    which parts the paper has, so that nobody waits until it is read.
     """
     names = {name.removeprefix(SHOWN) for name, _ in form.multi_items() if name.startswith(SHOWN)}
     return {
         name: values
         for name in names
         if PART.fullmatch(name)
-        for values in [field_texts(form, FIELDS + name)]
+        for values in [read_answer(form, FIELDS + name)]
         if any(
             _normalise_fields(values) != shown
             for shown in map(_decode_shown_fields, field_texts(form, SHOWN + name))
@@ -212,11 +228,15 @@ def _normalise_fields(values: list[str]) -> list[str]:
 async def save_answers(request: Request) -> Response:
     """Keep what was typed; a script is told when, a form leads back to the paper."""
     form = await read_form(request)
-    store: ExamStore = request.app.state.site.store.sittings
+    site: ServerState = request.app.state.site
+    store: ExamStore = site.store.sittings
     learner, name = request.state.learner.id, request.path_params["sitting"]
     sitting, kept = await run_in_threadpool(store.save, learner, name, _read_changed_fields(form))
     if sitting is None:
         raise HTTPException(404)
+    over = sitting.resting is not None or sitting.over(site.store.clock.now() - GRACE)
+    if not kept and not over:  # a part that the paper has not: nothing of it is handed in
+        raise HTTPException(400)
     if field_text(form, "do") == "end":
         return redirect(f"/exam/{sitting.id}/hand-in")
     if field_text(form, "do") == "hand-in":
@@ -224,20 +244,21 @@ async def save_answers(request: Request) -> Response:
     elif field_text(form, "do") in {"rest", "go-on"}:
         await run_in_threadpool(store.set_pause, sitting, on=field_text(form, "do") == "rest")
     elif request.headers.get("accept", "").startswith("application/json"):
-        return JSONResponse({"kept": kept, "at": time.time()}, 200 if kept else 409)
+        return JSONResponse({"kept": kept, "at": site.store.clock.now()}, 200 if kept else 409)
     return redirect(f"/exam/{sitting.id}")
 
 
 async def submit_exam(request: Request) -> Response:
     """Ask before a paper is handed in, naming what is not answered and what was flagged."""
     sitting = await _get_sitting(request)
-    if sitting.resting is not None or sitting.is_over(time.time()):
+    if sitting.resting is not None or sitting.over(request.app.state.site.store.clock.now()):
         return redirect(f"/exam/{sitting.id}")
     paper = await _make_paper(request, sitting)
     store = request.app.state.site.store.sittings
     answers = await run_in_threadpool(store.answers, sitting)
     flags = await run_in_threadpool(store.flags, sitting)
-    return page_response(request, "hand_in.html.j2", sitting=sitting, paper=paper, now=time.time(),
+    now = request.app.state.site.store.clock.now()
+    return page_response(request, "hand_in.html.j2", sitting=sitting, paper=paper, now=now,
                 blank=_list_unfinished_questions(paper, answers),
                 flagged=[one for one in paper.items if one.wanted.number in flags])  # fmt: skip
 
@@ -259,13 +280,25 @@ def _is_answered(part: PartView, answers: Mapping[str, list[str]]) -> bool:
 
 
 async def _hand_in(request: Request, sitting: ExamRecord) -> None:
+    """Hand in, for good; marked after that, so that nobody's hand-in waits for another's marks."""
     store = request.app.state.site.store.sittings
-    paper = await _make_paper(request, sitting)
-    answers = await run_in_threadpool(store.answers, sitting)
-    results = grade_exam(paper, answers, {})
-    if await run_in_threadpool(store.hand_in, sitting, outcome_records(results)):
-        learning = progress_of(request)
-        await run_in_threadpool(learning.apply_reviews, review_events(learning.bank, results))
+    await run_in_threadpool(store.hand_in, sitting)
+
+
+async def _count(
+    request: Request, sitting: ExamRecord, paper: PaperView, answers: Mapping[str, list[str]]
+) -> ExamResults:
+    """The results; the first time they are counted in what the learner has done."""
+    site: ServerState = request.app.state.site
+    results = await grade_exam(site.workers, paper, answers, sitting.marks, sitting.learner)
+    if not sitting.counted:
+        first = await run_in_threadpool(
+            site.store.sittings.count, sitting, outcome_records(results)
+        )
+        if first:
+            learning = progress_of(request)
+            await run_in_threadpool(learning.apply_reviews, review_events(learning.bank, results))
+    return results
 
 
 async def toggle_flag(request: Request) -> Response:
@@ -293,7 +326,7 @@ async def preview_exam_answer(request: Request) -> Response:
     form = await read_form(request)
     paper = await _make_paper(request, await _get_sitting(request))
     part, place = _get_part(paper, request.path_params["part"])
-    values = field_texts(form, FIELDS + part.field.id)
+    values = read_answer(form, FIELDS + part.field.id)
     lang = request_language(request)
     read = preview_reading(part.field, paper.items[place].key, values, lang)
     return HTMLResponse(translate_page(lang, "practice.read", value=read) if read else "")

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import pickle
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+import msgspec
+from msgspec.structs import replace
+
 from quizgen.bank.bank import Bank
+from quizgen.core.decoding import decode_json
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.verdict import Verdict
+from quizgen.paper.answer_key import KeyQuestion
 from quizgen.paper.grading import PartResult, QuestionGrader, round_to_quarters
 from quizgen.practice.input_fields import join_fields
 from quizgen.practice.scheduler import ReviewEvent, ReviewRating
 from quizgen.store import OutcomeRecord
+from quizgen.web.job_cache import WorkerPool
 from quizgen.web.question_view import PaperView, PartView, QuestionView
 from quizgen.web.read_errors import ReadErrorView, explain_read_error
 
@@ -116,36 +123,71 @@ class ExamResults:
         return sorted(found.items(), key=lambda one: -len(one[1]))
 
 
-def grade_exam(
-    paper: PaperView, answers: Mapping[str, list[str]], own: Mapping[str, float]
+@dataclass(frozen=True)
+class MarkPaper:
+    """A paper to mark: the keys of its questions, as JSON, and what was typed at each part."""
+
+    lang: str
+    keys: bytes
+    typed: tuple[tuple[str, ...], ...]
+
+    def run(self, bank: Bank) -> bytes:
+        """Mark it; the results of the parts of each question, for ``marked``."""
+        del bank
+        found = []
+        for key, typed in zip(decode_json(self.keys, list[KeyQuestion]), self.typed, strict=True):
+            marker = QuestionGrader(key, GradingOptions(self.lang))
+            found.append([_sent(marker.mark(*one)) for one in zip(key.parts, typed, strict=True)])
+        return pickle.dumps(found)
+
+
+def _sent(result: PartResult) -> PartResult:
+    """A result without the numbers that only the parts after it need."""
+    return replace(result, verdict=_bare(result.verdict))
+
+
+def _bare(verdict: Verdict) -> Verdict:
+    return replace(verdict, values=(), cells=tuple(map(_bare, verdict.cells)))
+
+
+async def grade_exam(
+    workers: WorkerPool,
+    paper: PaperView,
+    answers: Mapping[str, list[str]],
+    own: Mapping[str, float],
+    learner: int,
 ) -> ExamResults:
-    """Mark a paper.
+    """Mark a paper, in a process of its own.
 
     Parameters
     ----------
+    workers : Workers
     paper : MadePaper
     answers : mapping
         Part to what stands in its fields.
     own : mapping
         Part to the share that the learner gave it.
+    learner : int
     """
-    return ExamResults(tuple(_grade_question(item, answers, own) for item in paper.items))
-
-
-def _grade_question(
-    item: QuestionView, answers: Mapping[str, list[str]], own: Mapping[str, float]
-) -> ExamQuestionResult:
-    lang = item.wanted.lang
-    marker = QuestionGrader(item.key, GradingOptions(lang))
-    parts = []
-    for part, keyed in zip(item.parts, item.key.parts, strict=True):
-        field = part.field
-        values = answers.get(field.id, ())
-        typed = join_fields(field.control, values, field.marks)
-        parts.append(
-            ExamPartResult(part, values, marker.grade_part(keyed, typed), own.get(field.id), lang)
+    lang = paper.items[0].wanted.lang
+    values = [[answers.get(part.field.id, ()) for part in item.parts] for item in paper.items]
+    typed = tuple(
+        tuple(
+            join_fields(part.field.control, one, part.field.marks)
+            for part, one in zip(item.parts, mine, strict=True)
         )
-    return ExamQuestionResult(item, tuple(parts))
+        for item, mine in zip(paper.items, values, strict=True)
+    )
+    keys = msgspec.json.encode([item.key for item in paper.items])
+    data = await workers.done(MarkPaper(lang, keys, typed), learner)
+    results = pickle.loads(data)  # noqa: S301 - from a process of our own
+    return ExamResults(tuple(
+        ExamQuestionResult(item, tuple(
+            ExamPartResult(part, given, result, own.get(part.field.id), lang)
+            for part, given, result in zip(item.parts, *told, strict=True)
+        ))
+        for item, *told in zip(paper.items, values, results, strict=True)
+    ))  # fmt: skip
 
 
 def review_events(bank: Bank, results: ExamResults) -> list[ReviewEvent]:

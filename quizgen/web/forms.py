@@ -14,6 +14,8 @@ LONGEST = 10_000
 """Characters of one field."""
 MOST = 400
 """Fields of a form."""
+LONGEST_ANSWER = 20_000
+"""Characters of all fields of a part together."""
 
 
 async def read_form(request: Request) -> FormData:
@@ -61,3 +63,17 @@ def field_text(form: FormData, name: str) -> str:
 def field_texts(form: FormData, name: str) -> list[str]:
     """All texts of a field, in order."""
     return [value for value in form.getlist(name) if isinstance(value, str)]
+
+
+def read_answer(form: FormData, name: str) -> list[str]:
+    """All texts of the fields of a part, in order.
+
+    Raises
+    ------
+    HTTPException
+        413 where they are longer than any answer is.
+    """
+    values = field_texts(form, name)
+    if sum(map(len, values)) > LONGEST_ANSWER:
+        raise HTTPException(413)
+    return values

@@ -5,29 +5,28 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from collections import OrderedDict
+from collections.abc import Hashable
 from concurrent.futures import ThreadPoolExecutor
 from queue import LifoQueue
+from typing import Generic, TypeVar
 
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import QuizgenError
+from quizgen.web.fairness import FairQueue
 from quizgen.web.makers import Maker
-from quizgen.web.question_view import (
-    PaperRequest,
-    PaperView,
-    QuestionRequest,
-    QuestionView,
-    WorkerJob,
-)
+from quizgen.web.question_view import QuestionRequest, QuestionView, WorkerJob
 from quizgen.web.settings import ServerSettings
 
 ROOM = 100_000_000
 """Bytes of what is kept ready, as it was sent; the latest."""
 
-PoolRequest = QuestionRequest | PaperRequest | WorkerJob
-PoolResult = QuestionView | PaperView | bytes
+PoolRequest = QuestionRequest | WorkerJob
+PoolResult = QuestionView | bytes
+K = TypeVar("K")
+V = TypeVar("V")
 
 
-class ResultCache:
+class ResultCache(Generic[K, V]):
     """The latest of what was made, as much of it as there is room for.
 
     Parameters
@@ -38,18 +37,18 @@ class ResultCache:
 
     def __init__(self, room: int) -> None:
         self.room = room
-        self._found: OrderedDict[PoolRequest, tuple[PoolResult, int]] = OrderedDict()
+        self._found: OrderedDict[K, tuple[V, int]] = OrderedDict()
 
-    def get(self, wanted: PoolRequest) -> PoolResult | None:
+    def get(self, wanted: K) -> V | None:
         """What was kept; None where nothing is."""
         if wanted not in self._found:
             return None
         self._found.move_to_end(wanted)
         return self._found[wanted][0]
 
-    def put(self, wanted: PoolRequest, found: PoolResult, size: int) -> None:
+    def put(self, wanted: K, found: V, size: int) -> None:
         """Keep something; what was not asked for the longest goes."""
-        _, before = self._found.pop(wanted, (None, 0))
+        before = self._found.pop(wanted)[1] if wanted in self._found else 0
         self._found[wanted] = (found, size)
         self.room += before - size
         while self.room < 0:
@@ -65,8 +64,11 @@ class WorkerPool:
         self.makers: list[Maker] = []
         self._idle: LifoQueue[Maker] = LifoQueue()
         self._threads = ThreadPoolExecutor(settings.workers, "maker")
-        self._kept = ResultCache(ROOM)
+        self._kept: ResultCache[PoolRequest, PoolResult] = ResultCache(ROOM)
         self._due: dict[PoolRequest, asyncio.Future[PoolResult]] = {}
+        # Where others ask too, one who asks for hours of work leaves them a process.
+        share = max(1, settings.workers - 1) if settings.accounts else settings.workers
+        self._turns = FairQueue(settings.workers, share)
 
     def warm(self) -> None:
         """Start the processes."""
@@ -83,41 +85,46 @@ class WorkerPool:
         finally:
             self._idle.put(maker)
 
-    async def get_question(self, wanted: QuestionRequest) -> QuestionView:
+    async def get_question(self, wanted: QuestionRequest, asker: Hashable = None) -> QuestionView:
         """A question, from those kept if it is among them.
+
+        Parameters
+        ----------
+        wanted : Wanted
+        asker : hashable, optional
+            Who waits for it: all who ask have their turns.
 
         Raises
         ------
         BankError, DrawError
             If its template is wrong.
         """
-        found = await self._get_or_make(wanted)
+        found = await self._get_or_make(wanted, asker)
         assert isinstance(found, QuestionView)  # noqa: S101 - what was asked for
         return found
 
-    async def get_paper(self, wanted: PaperRequest) -> PaperView:
-        """A paper, from those kept if it is among them.
-
-        Raises
-        ------
-        QuizgenError
-            If there is no such paper, or a template is wrong.
-        """
-        found = await self._get_or_make(wanted)
-        assert isinstance(found, PaperView)  # noqa: S101 - what was asked for
-        return found
-
-    async def get_result(self, job: WorkerJob) -> bytes:
+    async def get_result(self, job: WorkerJob, asker: Hashable = None) -> bytes:
         """What a job gives, from what is kept if it is among it; asked twice, it is done once.
+
+        Parameters
+        ----------
+        job : Job
+        asker : hashable, optional
+            Who waits for it: all who ask have their turns.
 
         Raises
         ------
         QuizgenError
             If it cannot be done; tried anew by whoever asks next.
         """
-        found = await self._get_or_make(job)
+        found = await self._get_or_make(job, asker)
         assert isinstance(found, bytes)  # noqa: S101 - what was asked for
         return found
+
+    @property
+    def alive(self) -> int:
+        """How many processes there are; one that has died is replaced when it is asked."""
+        return sum(maker.process.is_alive() for maker in self.makers)
 
     @property
     def has_spare(self) -> bool:
@@ -128,22 +135,24 @@ class WorkerPool:
         """Make a question that is likely asked soon, where a process has nothing else to do."""
         if self.has_spare:
             with contextlib.suppress(QuizgenError):  # told to whoever asks
-                await self._get_or_make(wanted)
+                await self._get_or_make(wanted, self)
 
-    async def _get_or_make(self, wanted: PoolRequest) -> PoolResult:
+    async def _get_or_make(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
         found = self._kept.get(wanted)
         if found is not None:
             return found
         if wanted not in self._due:
-            self._due[wanted] = asyncio.ensure_future(self._make_result(wanted))
+            self._due[wanted] = due = asyncio.ensure_future(self._make_result(wanted, asker))
+            due.add_done_callback(_forget_error)
         return await asyncio.shield(self._due[wanted])
 
-    async def _make_result(self, wanted: PoolRequest) -> PoolResult:
+    async def _make_result(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
         loop = asyncio.get_running_loop()
         try:
-            data = await loop.run_in_executor(self._threads, self._make_in_free_process, wanted)
-            name, found = _decode_result(wanted, data)
-            self._kept.put(name, found, len(data))
+            async with self._turns.turn(asker):
+                data = await loop.run_in_executor(self._threads, self._make_in_free_process, wanted)
+            found = decode_json(data, QuestionView) if isinstance(wanted, QuestionRequest) else data
+            self._kept.put(wanted, found, len(data))
             return found
         finally:
             del self._due[wanted]
@@ -155,11 +164,7 @@ class WorkerPool:
         self._threads.shutdown(cancel_futures=True)
 
 
-def _decode_result(wanted: PoolRequest, data: bytes) -> tuple[PoolRequest, PoolResult]:
-    """What was made, after what it will be asked by: a paper by its code, however chosen."""
-    if isinstance(wanted, PaperRequest):
-        paper = decode_json(data, PaperView)
-        return PaperRequest(wanted.lang, code=paper.code), paper
-    if isinstance(wanted, QuestionRequest):
-        return wanted, decode_json(data, QuestionView)
-    return wanted, data
+def _forget_error(due: asyncio.Future[PoolResult]) -> None:
+    """Whoever asked may have gone: then nobody is left to be told what went wrong."""
+    if not due.cancelled():
+        due.exception()

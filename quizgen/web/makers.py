@@ -14,7 +14,7 @@ from multiprocessing.connection import Connection
 from quizgen.bank.bank import Bank
 from quizgen.core.errors import BankError
 from quizgen.executors import uninterrupted
-from quizgen.web.question_view import PaperRequest, QuestionRequest, WorkerJob, run_request
+from quizgen.web.question_view import QuestionRequest, WorkerJob, run_request
 
 LONGEST = 120.0
 """Seconds after which a process is taken to hang."""
@@ -46,7 +46,7 @@ class Maker:
             self.process.start()
         there.close()
 
-    def make(self, wanted: QuestionRequest | PaperRequest | WorkerJob) -> bytes:
+    def make(self, wanted: QuestionRequest | WorkerJob) -> bytes:
         """A question, a paper or another job, as ``made.make`` gives it.
 
         Raises
@@ -99,7 +99,7 @@ def _work(line: Connection, bank: Bank) -> None:
             line.send(_made(bank, line.recv()))
 
 
-def _made(bank: Bank, wanted: QuestionRequest | PaperRequest | WorkerJob) -> bytes | Exception:
+def _made(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes | Exception:
     try:
         return run_request(bank, wanted)
     except Exception as error:  # noqa: BLE001 - raised again by who asked

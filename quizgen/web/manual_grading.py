@@ -121,7 +121,10 @@ async def save_decision(request: Request) -> Response:
     if wrong:
         told = translate_page(request_language(request), f"class.{wrong}", worth=worth)
         return redirect(_build_page_url(who, second=second, wrong=told))
-    await run_in_threadpool(append_rulings, folder, made)
+    try:
+        await run_in_threadpool(append_rulings, folder, made)
+    except ClassError as error:  # another command writes there
+        return redirect(_build_page_url(who, second=second, wrong=str(error)))
     return redirect(_build_page_url(who, second=second))
 
 

@@ -1,17 +1,21 @@
-"""Names and passwords as they are typed, and what is kept of passwords: an Argon2 hash."""
+"""Names and passwords as they are typed, how often they may be tried, and what is kept of them.
+
+Of passwords an Argon2 hash is kept. Source: OWASP, "Slow Down Online Guessing Attacks with Device
+Cookies".
+"""
 
 from __future__ import annotations
 
 import asyncio
-import math
 import re
 import time
 import unicodedata
-from collections import OrderedDict
-from collections.abc import Callable, Hashable
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from typing import TYPE_CHECKING
+
+from quizgen.web.fairness import Allowance, FairQueue
 
 if TYPE_CHECKING:
     from argon2 import PasswordHasher
@@ -21,10 +25,6 @@ SHORTEST, LONGEST = 8, 200
 """Characters of a password."""
 AT_ONCE = 2
 """Passwords that are hashed at the same time: each takes 19 MB and a core."""
-FREE = 5
-"""Wrong passwords after which one has to wait."""
-LONGEST_WAIT = 300.0
-REMEMBERED = 10_000
 
 _JOINERS = "\u200c\u200d"  # Bangla writes with them
 _HIDDEN = {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}
@@ -96,35 +96,55 @@ def _make_hashing_threads() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(AT_ONCE, "passwords")
 
 
-class RateLimiter:
-    """Lets what keeps failing be tried again only later and later.
+class PasswordLimits:
+    """How often passwords may be tried, and in which order they are.
+
+    A browser in which somebody has signed in before is told by a cookie: its tries count for it
+    alone, so that wrong ones of others never keep its owner out. Any other try counts for the name
+    at the address, for the name, and for the address.
 
     Parameters
     ----------
     clock : callable
+        Seconds that only go on.
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        self._clock = clock
-        self._tries: OrderedDict[Hashable, tuple[int, float]] = OrderedDict()
+        self._of_browser = Allowance(10, 60.0, clock)
+        self._of_name_at_address = Allowance(5, 60.0, clock)
+        self._of_name = Allowance(50, 60.0, clock)
+        self._of_address = Allowance(100, 2.0, clock)
+        self.turns = FairQueue(AT_ONCE)
+        """Of those whose passwords are hashed."""
 
-    def seconds_to_wait(self, who: Hashable) -> int:
-        """Seconds to wait before a try; 0 if it may be made now, and then it counts as failed."""
-        count, since = self._tries.pop(who, (0, 0.0))
-        now = self._clock()
-        left = since + _compute_waiting_time(count) - now if count >= FREE else 0.0
-        if left > 0:
-            self._tries[who] = count, since
-            return math.ceil(left)
-        self._tries[who] = count + 1, now
-        if len(self._tries) > REMEMBERED:
-            self._tries.popitem(last=False)
-        return 0
+    def _counted(self, name: str, address: str, browser: str) -> list[tuple[Allowance, object]]:
+        if browser:
+            return [(self._of_browser, browser)]
+        return [
+            (self._of_name_at_address, (name, address)),
+            (self._of_name, name),
+            (self._of_address, address),
+        ]
 
-    def reset(self, who: Hashable) -> None:
-        """Forget what failed before."""
-        self._tries.pop(who, None)
+    def begin(self, name: str, address: str, browser: str) -> int:
+        """Seconds to wait before a try; 0 if it may be made now, and then it counts as failed.
 
+        Parameters
+        ----------
+        name : str
+            As it is compared.
+        address : str
+        browser : str
+            What tells a browser in which somebody of this name has signed in; empty for others.
+        """
+        counted = self._counted(name, address, browser)
+        wait = max(allowance.seconds_to_wait(asker) for allowance, asker in counted)
+        if not wait:
+            for allowance, asker in counted:
+                allowance.spend(asker)
+        return wait
 
-def _compute_waiting_time(count: int) -> float:
-    return min(LONGEST_WAIT, 2.0 ** min(count - FREE, 20))
+    def count_right(self, name: str, address: str, browser: str) -> None:
+        """Take back that a try counted as failed."""
+        for allowance, asker in self._counted(name, address, browser):
+            allowance.give_back(asker)

@@ -16,7 +16,7 @@ from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
 from quizgen.store import AttemptRecord, QuestionRef
 from quizgen.web.due import due_today, progress_of
-from quizgen.web.forms import field_text, field_texts, read_form
+from quizgen.web.forms import field_text, read_answer, read_form
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.question_attempt import AttemptInBrowser, AttemptPart
 from quizgen.web.question_view import QuestionRequest, QuestionView
@@ -76,6 +76,7 @@ async def _find_next_question(request: Request, wish: dict[str, str]) -> Questio
 
 async def _begin_attempt(request: Request, which: QuestionRef, wish: dict[str, Any]) -> Response:
     site: ServerState = request.app.state.site
+    site.spend_quota("practice", request.state.learner.id)
     attempt = await run_in_threadpool(
         site.store.start_attempt, request.state.learner.id, which, wish
     )
@@ -97,7 +98,8 @@ def _build_question_request(request: Request, which: QuestionRef) -> QuestionReq
 
 async def _make_question(request: Request, attempt: AttemptRecord) -> QuestionView:
     site: ServerState = request.app.state.site
-    return await site.workers.get_question(_build_question_request(request, attempt.which))
+    wanted = _build_question_request(request, attempt.which)
+    return await site.workers.question(wanted, request.state.learner.id)
 
 
 async def _get_turn(request: Request) -> AttemptInBrowser:
@@ -147,7 +149,7 @@ async def submit_answer(request: Request) -> Response:
     async with site.attempt_lock(request.path_params["attempt"]):
         turn = await _get_turn(request)
         place = _get_part_attempt(request, turn)
-        _perform_action(turn, place, field_text(form, "do"), field_texts(form, "a"))
+        _perform_action(turn, place, field_text(form, "do"), read_answer(form, "a"))
         return await _store_turn(request, turn, place)
 
 
@@ -175,7 +177,7 @@ async def preview_practice_answer(request: Request) -> Response:
     if field is None:
         raise HTTPException(404)
     lang = request_language(request)
-    read = preview_reading(field, made.key, field_texts(form, "a"), lang)
+    read = preview_reading(field, made.key, read_answer(form, "a"), lang)
     return HTMLResponse(translate_page(lang, "practice.read", value=read) if read else "")
 
 

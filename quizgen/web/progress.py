@@ -166,7 +166,9 @@ async def download_archive(request: Request) -> Response:
 
 async def upload_archive(request: Request) -> Response:
     """Add what a file holds to what is there, all of it or nothing."""
+    site: ServerState = request.app.state.site
     data = await read_upload(request, "file")
+    site.spend_quota("import", request.state.learner.id)
     return await run_in_threadpool(_taken_in, request, data)
 
 

@@ -21,7 +21,7 @@ from quizgen.grading.spec import AnySpec
 from quizgen.locale import BOTH
 from quizgen.paper.answer_key import KeyQuestion, make_key_question
 from quizgen.paper.blueprint import find_blueprint
-from quizgen.paper.paper import PaperItem, build_paper, rebuild_paper
+from quizgen.paper.paper import Paper, PaperItem, build_paper, rebuild_paper
 from quizgen.paper.provenance import record_banks
 from quizgen.question.compose import (
     AnswerField,
@@ -112,15 +112,6 @@ class QuestionRequest(msgspec.Struct, frozen=True):
     level: str = EXAM
 
 
-class PaperRequest(msgspec.Struct, frozen=True):
-    """Which paper: by its code, or anew from a blueprint and a seed; in one of its languages."""
-
-    lang: str
-    code: str = ""
-    blueprint: str = ""
-    seed: int = 0
-
-
 class QuestionView(msgspec.Struct, frozen=True):
     """A question in one language."""
 
@@ -166,38 +157,45 @@ class WorkerJob(Protocol):
     def __hash__(self) -> int: ...
 
 
-def run_request(bank: Bank, wanted: QuestionRequest | PaperRequest | WorkerJob) -> bytes:
-    """Compose a question or a paper and put it into markup, or do another job.
+def run_request(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes:
+    """Compose a question and put it into markup, or do another job.
 
     Parameters
     ----------
     bank : Bank
-    wanted : Wanted or WantedPaper or Job
+    wanted : Wanted or Job
 
     Raises
     ------
     QuizgenError
         If a template is wrong, or there is no such paper.
     """
-    if not isinstance(wanted, QuestionRequest | PaperRequest):
+    if not isinstance(wanted, QuestionRequest):
         return wanted.run(bank)
-    if isinstance(wanted, PaperRequest):
-        return msgspec.json.encode(_build_paper(bank, wanted))
     drawn = draw_instance(bank.template(wanted.template), wanted.seed)
     question, key = compose_variant(drawn, wanted.lang, number=wanted.number, level=wanted.level)
     return msgspec.json.encode(question_view(wanted, question, key, bank))
 
 
-def _build_paper(bank: Bank, wanted: PaperRequest) -> PaperView:
-    """A paper in all languages of the bank, so that its code is the same in each."""
-    if wanted.code:
-        paper = rebuild_paper(bank, wanted.code)
+def make_papers(bank: Bank, code: str, blueprint: str, seed: int) -> dict[str, PaperView]:
+    """A paper in each language of its own, by its code, or of a blueprint and a seed.
+
+    Raises
+    ------
+    QuizgenError
+        If there is no such paper, or a template is wrong.
+    """
+    if code:
+        paper = rebuild_paper(bank, code)
     else:
-        plan = find_blueprint(wanted.blueprint, bank)
+        plan = find_blueprint(blueprint, bank)
         if plan is None:
-            raise BlueprintError(f"no blueprint {wanted.blueprint!r}")
-        paper = build_paper(bank, plan, wanted.seed, BOTH)
-    place = paper.langs.index(wanted.lang) if wanted.lang in paper.langs else 0
+            raise BlueprintError(f"no blueprint {blueprint!r}")
+        paper = build_paper(bank, plan, seed, BOTH)
+    return {lang: _build_paper(paper, place) for place, lang in enumerate(paper.langs)}
+
+
+def _build_paper(paper: Paper, place: int) -> PaperView:
     lang = paper.langs[place]
     items = [
         question_view(
@@ -222,7 +220,10 @@ def question_view(
     wanted: QuestionRequest, question: Question, key: QuestionKey, bank: Bank | None = None
 ) -> QuestionView:
     """A composed question as markup; with hints and its bank, if it is said which that is."""
-    steps = wanted.level != GUIDED and effective_level(key.draw, GUIDED) == GUIDED
+    # No exam is asked step by step, and to find out whether it could takes a while.
+    steps = (
+        bank is not None and wanted.level != GUIDED and effective_level(key.draw, GUIDED) == GUIDED
+    )
     lang, solution = question.lang, key.solution
     stem = _render_blocks(question.stem, lang)
     figure, solved = question.figure, key.figure

@@ -6,14 +6,19 @@ to the session) and "Content Security Policy".
 
 from __future__ import annotations
 
+import logging
 import re
+import secrets
+import time
 
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from quizgen.locale import list_languages, load_words
+from quizgen.web.event_log import find_cause, log_event
 from quizgen.web.settings import ServerSettings
 
 MOST_BYTES = 1_000_000
@@ -60,20 +65,37 @@ class SecurityMiddleware:
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
+        state = scope.setdefault("state", {})
+        state["request_id"], began, begun = secrets.token_hex(4), time.monotonic(), False
 
         async def guarded(message: Message) -> None:
+            nonlocal begun
             if message["type"] == "http.response.start":
+                begun = True
+                if message["status"] >= 500:
+                    _log_failure(scope, message["status"], time.monotonic() - began)
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers.setdefault(name, value)
                 headers.setdefault("cache-control", _choose_cache_control(scope["path"]))
+                headers["x-request-id"] = state["request_id"]
             await send(message)
 
         refused = self._find_refusal(scope)
         if refused is not None:
             await refused(scope, receive, guarded)
             return
-        await self.app(scope, _Measured(receive, body_limit(scope)), guarded)
+        try:
+            await self.app(scope, _Measured(receive, body_limit(scope)), guarded)
+        except ClientDisconnect:
+            return
+        except Exception as error:
+            state["cause"] = find_cause(error)
+            if begun:
+                _log_failure(scope, 500, time.monotonic() - began)
+                raise
+            crash = plain_error("crash", 500, state["request_id"])
+            await crash(scope, receive, guarded)
 
     def _find_refusal(self, scope: Scope) -> Response | None:
         headers = Headers(scope=scope)
@@ -90,10 +112,28 @@ class SecurityMiddleware:
         return None
 
 
-def plain_error(name: str, status: int) -> Response:
-    """Say something to whoever it is, in every language."""
-    said = [load_words(lang, "web")["error"][name] for lang in list_languages()]
+def plain_error(name: str, status: int, request_id: str = "") -> Response:
+    """Say something to whoever it is, in every language; by which id it is found in the log."""
+    errors = [load_words(lang, "web")["error"] for lang in list_languages()]
+    said = [error[name] for error in errors]
+    said += [error["number"].format(number=request_id) for error in errors if request_id]
     return PlainTextResponse("\n".join(said), status)
+
+
+def _log_failure(scope: Scope, status: int, seconds: float) -> None:
+    """Write which page failed and why; an address may hold what somebody typed."""
+    state, page = scope["state"], scope.get("endpoint")
+    log_event(
+        "failed",
+        logging.ERROR,
+        id=state["request_id"],
+        status=status,
+        page=getattr(page, "__qualname__", type(page).__name__),
+        module=getattr(page, "__module__", ""),
+        milliseconds=round(1000 * seconds),
+        learner=getattr(state.get("learner"), "id", 0),
+        **state.get("cause", {}),
+    )
 
 
 def _choose_cache_control(path: str) -> str:

@@ -17,6 +17,7 @@ from quizgen.core.errors import StoreError
 from quizgen.store import Store
 from quizgen.web.app import create_app
 from quizgen.web.auth import ENTRANCE, INVITED
+from quizgen.web.event_log import FORMS, set_up_log
 from quizgen.web.limits import TimedProtocol, allow_connections
 from quizgen.web.settings import LOCAL, ServerSettings
 from quizgen.web.state import ServerState
@@ -34,6 +35,7 @@ def run_server(
     show: bool,
     tell: Callable[[str], object],
     invite: bool = False,
+    log_form: str = FORMS[0],
 ) -> None:
     """Serve until interrupted.
 
@@ -48,12 +50,15 @@ def run_server(
         Told the address.
     invite : bool
         Whether to invite somebody else who manages; the first one always is.
+    log_form : str
+        How the log is written: one of ``event_log.FORMS``.
 
     Raises
     ------
     StoreError
         If the port is taken.
     """
+    set_up_log(log_form)
     app = create_app(settings)
     site: ServerState = app.state.site
     listening = (
@@ -77,7 +82,7 @@ def _run_server(
 ) -> None:
     """What is asked is written nowhere; only a proxy of ours is believed who asked."""
     config = uvicorn.Config(
-        app, log_level="warning", access_log=False, server_header=False,
+        app, log_config=None, access_log=False, server_header=False,
         proxy_headers=settings.behind_proxy, forwarded_allow_ips=[LOCAL[0], "::1"],
         timeout_graceful_shutdown=PATIENCE, timeout_keep_alive=IDLE, http=TimedProtocol,
     )  # fmt: skip

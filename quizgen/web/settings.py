@@ -37,7 +37,7 @@ class ServerSettings:
         What the printed address holds: it lets in while the server runs. A browser that was let
         in has a session of its own, which outlives the server.
     workers : int
-        Processes that make questions.
+        Processes that make questions and mark exams.
     classroom : pathlib.Path, optional
         Folder of a class whose examiner asks; without it there are no pages for decisions.
     examine : callable, optional

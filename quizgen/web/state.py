@@ -3,14 +3,28 @@
 from __future__ import annotations
 
 import asyncio
+import logging
+import secrets
 from weakref import WeakValueDictionary
+
+from starlette.exceptions import HTTPException
 
 from quizgen.locale import FIRST, list_languages
 from quizgen.store import Store
+from quizgen.web.event_log import log_event
+from quizgen.web.fairness import Allowance
 from quizgen.web.job_cache import WorkerPool
 from quizgen.web.keys import Keys
-from quizgen.web.passwords import RateLimiter
+from quizgen.web.papers import Papers
+from quizgen.web.passwords import PasswordLimits
 from quizgen.web.settings import ServerSettings
+
+QUOTAS = {"exam": (30, 600.0), "practice": (300, 10.0), "import": (3, 21_600.0)}
+"""What a learner may begin at once, and seconds until once more: each takes room on the disk."""
+
+
+class QuotaError(HTTPException):
+    """A learner has begun more than there is room for."""
 
 
 class ServerState:
@@ -33,8 +47,11 @@ class ServerState:
         self.workers = WorkerPool(settings)
         self.keys = Keys(settings.token)
         """Keys that let a browser of this machine in."""
-        self.patience = RateLimiter()
-        """With those who sign in with wrong passwords."""
+        self.papers = Papers(self.store, self.workers)
+        self.password_limits = PasswordLimits()
+        self.browser_secret = self.store.shared_value("browsers", secrets.token_urlsafe(24))
+        """What proves that somebody has signed in at a browser before."""
+        self._quotas = {name: Allowance(*quota) for name, quota in QUOTAS.items()}
         self.languages = tuple(filter(list_languages().__contains__, self.bank.languages)) or (
             FIRST,
         )
@@ -44,6 +61,22 @@ class ServerState:
     def attempt_lock(self, attempt: str) -> asyncio.Lock:
         """Held while an attempt is answered: of two answers at once the second sees the first."""
         return self._turns.setdefault(attempt, asyncio.Lock())
+
+    def spend_quota(self, what: str, learner: int) -> None:
+        """Count that a learner begins something, where there are several.
+
+        Raises
+        ------
+        QuotaError
+            If it has been begun too often.
+        """
+        if not self.settings.accounts:
+            return
+        wait = self._quotas[what].seconds_to_wait(learner)
+        if wait:
+            log_event("quota is used up", logging.WARNING, learner=learner, of=what)
+            raise QuotaError(429, headers={"retry-after": str(wait)})
+        self._quotas[what].spend(learner)
 
     def close(self) -> None:
         """End the processes and give the connections back."""

@@ -68,6 +68,15 @@ def test_what_comes_out_goes_in_elsewhere_and_is_the_same(full, store):
     assert content(other) == content(full)
 
 
+def test_a_file_does_not_hand_in_the_paper_that_is_open_here(full):
+    learner = full.learner().id
+    open_here = json.loads(full.archives.write(learner))
+    (sitting,) = open_here["sittings"]
+    sitting |= {"id": "another-name", "code": "mock-1-both-0a1b2c", "handed": NOW}
+    full.archives.import_archive(learner, read_archive(json.dumps(open_here).encode()))
+    assert [one.handed for one in full.sittings.latest(learner)] == [None]
+
+
 def test_somebody_else_on_the_same_server_gets_names_of_their_own(full):
     data = full.archives.write(full.learner().id)
     other = full.learner("other").id

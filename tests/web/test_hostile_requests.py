@@ -10,7 +10,7 @@ import httpx2
 import pytest
 
 from quizgen.store import QuestionRef, Store
-from quizgen.web.question_view import PaperRequest
+from quizgen.web.papers import unpack
 
 EXAM_ROUTES = ("", "/flag/1", "/read/1", "/judge/1")
 TURN_ROUTES = ("/again", "/variant", "/guided", "/next", "/1", "/1/read")
@@ -136,7 +136,7 @@ def test_nothing_of_a_key_is_sent_before_it_is_handed_in(client, token, app):
     at = client.post("/exam", data={"token": token, "blueprint": "mock"}).url.path
     store = app.state.site.store
     sitting = store.sittings.find(store.learner().id, at.rsplit("/", 1)[1])
-    kept = app.state.site.workers._kept.get(PaperRequest("en", code=sitting.code))
+    kept = unpack(store.sittings.paper(sitting.paper), "en")
     parts = [part for item in kept.items for part in item.parts]
     json = {"accept": "application/json"}
     sent = [client.get(at).text, client.post(f"{at}/flag/1", data={"token": token}).text]

@@ -97,5 +97,5 @@ def test_steps_are_cards_and_what_is_no_longer_in_the_bank_is_left_out(client, t
 def test_nobody_gets_those_of_another(client, app):
     other = app.state.site.store.learner("other").id
     sitting = app.state.site.store.sittings.begin(other, "trial-1-en-0a1b2c", None, pauses=False)
-    app.state.site.store.sittings.hand_in(sitting, ())
+    app.state.site.store.sittings.hand_in(sitting)
     assert client.get(f"/exam/{sitting.id}/mistakes.apkg").status_code == 404

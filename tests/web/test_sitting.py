@@ -43,7 +43,7 @@ def code(bank):
 
 
 @pytest.fixture
-def exam(client, token, code):
+def exam(client, token, code, nothing_done):
     """A short exam that has begun: its address and page."""
 
     def begun(**how: str):
@@ -168,7 +168,8 @@ def test_a_pause_stops_the_clock_where_it_is_allowed(client, token, exam, app):
     assert refused.status_code == 409
     assert "The exam rests" not in client.post(at, data={"token": token, "do": "go-on"}).text
     assert store.find(learner, name).rested > 0
-    strict, _ = exam()
+    client.post(at, data={"token": token, "do": "hand-in"})
+    strict, _ = exam(practice="1")
     assert "The exam rests" not in client.post(strict, data={"token": token, "do": "rest"}).text
 
 
@@ -179,13 +180,28 @@ def test_a_flag_comes_and_goes(client, token, exam):
     assert client.post(f"{at}/flag/77", data={"token": token}).status_code == 404
 
 
-def test_the_same_paper_by_its_code(client, token, exam):
-    _, page = exam()
-    code = re.search(r"<code>([\w.-]+)</code>", page)[1]
-    again = client.post("/exam", data={"token": token, "code": code})
-    assert code in again.text
+def test_a_code_begun_is_one_exam_until_it_is_handed_in(client, token, exam, code):
+    at, _ = exam()
+    again, _ = exam()
+    assert again == at
+    single = code.replace("-both-", "-en-")
+    assert client.post("/exam", data={"token": token, "code": single}).url.path == at
+
+
+def test_a_paper_whose_key_was_shown_is_begun_again_for_practice_alone(client, token, exam, app):
+    at, page = exam()
+    assert "whoever has this code has the solutions" in page
+    client.post(at, data={"token": token, "do": "hand-in"})
+    refused, told = exam()
+    assert refused == "/exam"
+    assert "You have seen the key of this paper" in told
+    again, practised = exam(practice="1")
+    assert again != at
+    assert exam(practice="1")[0] == again
     stem = re.findall(r'<div class="stem">.*?</div>', page, re.DOTALL)
-    assert re.findall(r'<div class="stem">.*?</div>', again.text, re.DOTALL) == stem
+    assert re.findall(r'<div class="stem">.*?</div>', practised, re.DOTALL) == stem
+    store = app.state.site.store
+    assert store.sittings.find(store.learner().id, again.rsplit("/", 1)[1]).practice
 
 
 @pytest.mark.parametrize(
@@ -252,7 +268,7 @@ def test_results_say_when_the_time_was_over(client, token, exam, app):
             update(SITTING).where(SITTING.c.id == name).values(begun=time.time() - 86400)
         )
     assert "The time was over" in client.get(f"{at}/hand-in").text
-    early, _ = exam()
+    early, _ = exam(practice="1")
     done = client.post(early, data={"token": token, "do": "hand-in"})
     assert "The time was over" not in done.text
 
@@ -262,8 +278,8 @@ def test_two_hands_hand_in_once(client, token, exam, app):
     site = app.state.site
     before = len(site.store.seen(site.store.learner().id))
     sitting = site.store.sittings.find(site.store.learner().id, at.rsplit("/", 1)[1])
-    assert site.store.sittings.hand_in(sitting, ())
-    assert not site.store.sittings.hand_in(sitting, ())
+    assert site.store.sittings.hand_in(sitting)
+    assert not site.store.sittings.hand_in(sitting)
     assert len(site.store.seen(site.store.learner().id)) == before
 
 

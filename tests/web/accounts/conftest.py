@@ -9,7 +9,7 @@ from sqlalchemy import delete
 
 from quizgen.store.schema import INVITATION, LEARNER
 from quizgen.web import passwords
-from quizgen.web.passwords import RateLimiter
+from quizgen.web.passwords import PasswordLimits
 from quizgen.web.settings import ServerSettings
 
 
@@ -34,7 +34,7 @@ def site(app):
     with site.store.database.writing() as connection:
         for table in (INVITATION, LEARNER):
             connection.execute(delete(table))
-    site.patience = RateLimiter()
+    site.password_limits = PasswordLimits()
     return site
 
 

@@ -1,0 +1,67 @@
+"""The folder of a class is written by one command at a time; another one waits for its turn."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from quizgen.core.errors import ClassError
+from quizgen.core.files import PRIVATE
+
+FILE = ".lock"
+PATIENCE = 60.0
+"""Seconds to wait for another command."""
+_PAUSE = 0.05
+
+
+@contextlib.contextmanager
+def locked(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
+    """Hold the folder of a class; the system lets go of it where a process is killed.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        One that is not there is left to who reads it.
+    patience : float
+        Seconds to wait for another command.
+
+    Raises
+    ------
+    ClassError
+        If another command still writes there.
+    """
+    if not folder.is_dir():
+        yield
+        return
+    number = os.open(folder / FILE, os.O_RDWR | os.O_CREAT, PRIVATE)
+    try:
+        last = time.monotonic() + patience
+        while not _take(number):
+            if time.monotonic() > last:
+                raise ClassError(
+                    f"{folder}: another command writes there; try again when it has ended"
+                )
+            time.sleep(_PAUSE)
+        yield
+    finally:
+        os.close(number)
+
+
+def _take(number: int) -> bool:
+    """Whether the lock is ours now."""
+    try:
+        if sys.platform == "win32":
+            import msvcrt
+
+            msvcrt.locking(number, msvcrt.LK_NBLCK, 1)
+        else:
+            import fcntl
+
+            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True

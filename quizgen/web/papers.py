@@ -1,0 +1,168 @@
+"""What an exam shows and what marks it, kept from its beginning.
+
+A later bank, or a later quizgen, would make another paper from the same code, or none. So an exam
+keeps its paper: in every language, with keys, versions, and each figure once, by its digest.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import zlib
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+from starlette.concurrency import run_in_threadpool
+
+import quizgen
+from quizgen.bank.bank import Bank
+from quizgen.core.decoding import convert, decode_json
+from quizgen.core.errors import QuizgenError
+from quizgen.store import ExamRecord, Packed, Store
+from quizgen.web.job_cache import ROOM, ResultCache, WorkerPool
+from quizgen.web.question_view import PaperView, make_papers
+
+FORMAT = 1
+"""Rises with what cannot be read as before; new members of what is kept have defaults instead."""
+PICTURES = frozenset({"figure", "solved_figure", "board"})
+MARK = "sha256:"
+_LOG = logging.getLogger("quizgen.papers")
+
+
+class KeptPaper(msgspec.Struct):
+    """A paper as it is written."""
+
+    format: int
+    quizgen: str
+    papers: dict[str, msgspec.Raw]
+    figures: dict[str, str]
+
+
+@dataclass(frozen=True)
+class MakePaper:
+    """Which paper to make: by its code, or of a blueprint and a seed."""
+
+    code: str = ""
+    blueprint: str = ""
+    seed: int = 0
+
+    def run(self, bank: Bank) -> bytes:
+        """Make it in all its languages, as it is kept.
+
+        Raises
+        ------
+        QuizgenError
+            If there is no such paper, or a template is wrong.
+        """
+        return msgspec.msgpack.encode(pack(make_papers(bank, self.code, self.blueprint, self.seed)))
+
+
+def pack(papers: dict[str, PaperView]) -> Packed:
+    """A paper in its languages, as it is kept."""
+    figures: dict[str, str] = {}
+
+    def note(svg: str) -> str:
+        if not svg:
+            return ""
+        name = MARK + hashlib.sha256(svg.encode()).hexdigest()
+        figures[name] = svg
+        return name
+
+    whole = {
+        lang: msgspec.Raw(msgspec.json.encode(_pictured(msgspec.to_builtins(paper), note)))
+        for lang, paper in papers.items()
+    }
+    data = msgspec.json.encode(KeptPaper(FORMAT, quizgen.__version__, whole, figures))
+    paper = next(iter(papers.values()))
+    name = hashlib.sha256(data).hexdigest()
+    parts = tuple(part.field.id for item in paper.items for part in item.parts)
+    return Packed(name, paper.code, zlib.compress(data, 6), paper.minutes, paper.pauses, parts)
+
+
+def unpack(data: bytes, lang: str) -> PaperView:
+    """A kept paper in a language, or in its first one."""
+    kept = decode_json(zlib.decompress(data), KeptPaper)
+    raw = kept.papers.get(lang) or next(iter(kept.papers.values()))
+    return convert(
+        _pictured(msgspec.json.decode(raw), lambda name: kept.figures.get(name, name)), PaperView
+    )
+
+
+def _pictured(value: Any, other: Callable[[str], str]) -> Any:
+    """The same with something else in the place of each picture."""
+    if isinstance(value, list):
+        return [_pictured(one, other) for one in value]
+    if not isinstance(value, dict):
+        return value
+    return {
+        name: other(one) if name in PICTURES and isinstance(one, str) else _pictured(one, other)
+        for name, one in value.items()
+    }
+
+
+class Papers:
+    """The papers of exams, the latest of them in memory.
+
+    Parameters
+    ----------
+    store : Store
+    workers : Workers
+    """
+
+    def __init__(self, store: Store, workers: WorkerPool) -> None:
+        self.store, self.workers = store, workers
+        self._kept: ResultCache[tuple[str, str], PaperView] = ResultCache(ROOM)
+
+    async def make(self, wanted: MakePaper, asker: Hashable = None) -> Packed:
+        """A paper, ready to be kept.
+
+        Parameters
+        ----------
+        wanted : MakePaper
+        asker : hashable, optional
+            Who waits for it.
+
+        Raises
+        ------
+        QuizgenError
+            If there is no such paper, or a template is wrong.
+        """
+        return msgspec.msgpack.decode(await self.workers.done(wanted, asker), type=Packed)
+
+    async def of(self, sitting: ExamRecord, lang: str) -> PaperView:
+        """What an exam shows; one of before papers were kept is made from its code, for good.
+
+        Raises
+        ------
+        QuizgenError
+            If it is of before and cannot be made any more.
+        """
+        name = sitting.paper or await self._attach(sitting)
+        found = self._kept.get((name, lang))
+        if found is None:
+            data = await run_in_threadpool(self.store.sittings.paper, name)
+            found = await run_in_threadpool(unpack, data, lang)
+            self._kept.put((name, lang), found, len(data) * 8)
+        return found
+
+    async def _attach(self, sitting: ExamRecord) -> str:
+        packed = await self.make(MakePaper(sitting.code), self)
+        await run_in_threadpool(self.store.sittings.attach, sitting, packed)
+        return packed.id
+
+    async def attach_all(self) -> None:
+        """Have every exam of before keep its paper, where it can be made; say how many not."""
+        lost = 0
+        for sitting in await run_in_threadpool(self.store.sittings.without_paper):
+            try:
+                await self._attach(sitting)
+            except QuizgenError:
+                lost += 1
+        if lost:
+            _LOG.warning(
+                "%d exams kept only the code of a paper that cannot be made any more; their "
+                "answers stay, but cannot be shown",
+                lost,
+            )

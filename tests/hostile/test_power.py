@@ -1,0 +1,124 @@
+"""What was acknowledged is there after a kill and after a power cut."""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+from needed import absent
+from sqlalchemy import event
+
+from quizgen.store import Store
+
+HERE = Path(__file__).parent / "power"
+FILE = "learning.sqlite3"
+THREADS = 8
+
+
+@pytest.fixture(scope="session")
+def synced(tmp_path_factory):
+    """A library that keeps each file of a database as it was last synced."""
+    cc = shutil.which("cc")
+    if not cc or sys.platform != "linux":
+        absent("a C compiler", "gcc")
+    made = tmp_path_factory.mktemp("synced") / "synced.so"
+    subprocess.run([cc, "-shared", "-fPIC", "-o", made, HERE / "synced.c", "-ldl"], check=True)
+    return made
+
+
+def run(folder: Path, library: Path, seconds: float) -> list[list[str]]:
+    """Write for some time and be killed; what was acknowledged, and ``folder/synced``."""
+    left = folder / "synced"
+    left.mkdir()
+    with (folder / "said").open("wb") as said:
+        writer = subprocess.Popen(
+            [sys.executable, HERE / "writer.py", folder / FILE, str(THREADS)],
+            stdout=said, env={**os.environ, "LD_PRELOAD": str(library), "SYNCED": str(left)},
+        )  # fmt: skip
+        while not (folder / "said").stat().st_size:
+            time.sleep(0.01)
+            assert writer.poll() is None
+        time.sleep(seconds)
+        writer.send_signal(signal.SIGKILL)
+        writer.wait()
+    return [line.split() for line in (folder / "said").read_text().splitlines()]
+
+
+def lost(file: Path, acknowledged: list[list[str]]) -> list[list[str]]:
+    """What of it the database does not hold."""
+    with closing(sqlite3.connect(file)) as database:
+        assert database.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+        saved = dict(database.execute("SELECT sitting, fields FROM answer"))
+        handed = {name for (name,) in database.execute(
+            "SELECT id FROM sitting WHERE handed IS NOT NULL")}  # fmt: skip
+    return [
+        line for line in acknowledged
+        if (line[1] not in handed if line[0] == "handed"
+            else int(line[2]) > int(saved.get(line[1], '["-1"]')[2:-2]))
+    ]  # fmt: skip
+
+
+def rounds(few: int, many: int):
+    return [pytest.param(n, marks=[pytest.mark.slow] if n >= few else []) for n in range(many)]
+
+
+@pytest.mark.parametrize("number", rounds(2, 100))
+def test_a_killed_server_has_lost_nothing(tmp_path, synced, number):
+    acknowledged = run(tmp_path, synced, random.Random(number).uniform(0.05, 0.6))
+    assert acknowledged
+    assert lost(tmp_path / FILE, acknowledged) == []
+
+
+@pytest.mark.parametrize("number", rounds(2, 20))
+def test_a_power_cut_has_lost_nothing(tmp_path, synced, number):
+    chance = random.Random(number)
+    acknowledged = run(tmp_path, synced, chance.uniform(0.05, 0.6))
+    left = tmp_path / "synced"
+    log, now = left / f"{FILE}-wal", tmp_path / f"{FILE}-wal"
+    if number % 2 and log.read_bytes() == now.read_bytes()[: log.stat().st_size]:
+        # some of what was written after the last sync may have reached the disk
+        with log.open("ab") as end:
+            tail = now.read_bytes()[log.stat().st_size :]
+            end.write(tail[: chance.randrange(len(tail) + 1)])
+    assert acknowledged
+    assert lost(left / FILE, acknowledged) == []
+
+
+def test_all_that_wait_are_committed_together(tmp_path):
+    store = Store(f"sqlite:///{tmp_path / FILE}")
+    me = store.learner().id
+    sitting = store.sittings.begin(me, "mock-1-both-0a1b2c", None, pauses=False)
+    commits = []
+    event.listen(store.database._reader, "commit", commits.append)
+    with ThreadPoolExecutor(THREADS) as threads:
+        with store.database._turn:  # as while another commit is under way
+            saved = [
+                threads.submit(store.sittings.save, me, sitting.id, {f"{n}": ["x"]})
+                for n in range(THREADS)
+            ]
+            while len(store.database._waiting) < THREADS:
+                time.sleep(0.001)
+        assert all(one.result()[1] for one in saved)
+    assert len(commits) == 1
+    assert len(store.sittings.answers(sitting)) == THREADS
+    store.close()
+
+
+def test_what_fails_in_a_group_takes_nothing_else_with_it(tmp_path):
+    store = Store(f"sqlite:///{tmp_path / FILE}")
+    me = store.learner().id
+    sitting = store.sittings.begin(me, "mock-1-both-0a1b2c", None, pauses=False)
+    with pytest.raises(ZeroDivisionError):
+        store.database.write(me, lambda _: 1 / 0)
+    assert store.sittings.save(me, sitting.id, {"1": ["x"]})[1]
+    store.close()
