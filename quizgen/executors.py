@@ -181,9 +181,9 @@ def _end_with_parent() -> None:
 def _answer(job: bytes) -> bytes:
     """What a job gives, or the error that it ends in, as it goes over the line."""
     try:
-        work, args, kwargs = pickle.loads(job)  # noqa: S301 - from the parent
+        work, args, kwargs = pickle.loads(job)
         return bytes(ForkingPickler.dumps((True, work(*args, **kwargs))))
-    except Exception as error:  # noqa: BLE001 - raised again by who asked
+    except Exception as error:
         error.add_note(traceback.format_exc())
         return _error(error)
 
@@ -192,14 +192,14 @@ def _error(error: Exception) -> bytes:
     """An error as it goes over the line: in words if it cannot be taken apart and put together."""
     try:
         told = bytes(ForkingPickler.dumps((False, error)))
-        pickle.loads(told)  # noqa: S301 - made here
-    except Exception:  # noqa: BLE001 - whatever its own code raises
+        pickle.loads(told)
+    except Exception:
         return bytes(ForkingPickler.dumps((False, RuntimeError(traceback.format_exc()))))
     return told
 
 
 def _value(answer: bytes) -> Any:
-    good, value = pickle.loads(answer)  # noqa: S301 - from our own process
+    good, value = pickle.loads(answer)
     if not good:
         raise value
     return value

@@ -212,7 +212,7 @@ def _find_indistinguishable(
 def _is_within_widths(
     a: tuple[float, ...], b: tuple[float, ...], widths: tuple[float, ...]
 ) -> bool:
-    for x, y, width in zip(a, b, widths, strict=True):  # noqa: SIM110 - asked for every draw
+    for x, y, width in zip(a, b, widths, strict=True):
         if not abs(x - y) <= width:
             return False
     return True

@@ -243,7 +243,7 @@ def check_visible(seen: Visibility, *, grey: bool = False) -> None:
         raise InvisibleEffectError(f"{seen.kind} cannot be seen in grey: {seen.grey.explain()}")
 
 
-def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some each
+def photograph_question(
     scene: Scene,
     camera: Camera,
     asks: str | Iterable[str] = (),

@@ -39,7 +39,7 @@ class Style(TypedDict, total=False):
     dim: bool
 
 
-class Quit(Exception):  # noqa: N818 - a wish, not a failure
+class Quit(Exception):
     """The learner wants to stop for now."""
 
 

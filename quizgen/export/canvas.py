@@ -89,7 +89,7 @@ class Query:
         item, lang = self.item, self.item.lang
         text = stem(item, _source) + body(self.part, self.asks, lang, _source)
         if len(self.asks) > 1:
-            text = Markup(text.replace("[", "&#91;"))  # noqa: S704 - the same page
+            text = Markup(text.replace("[", "&#91;"))
             blanks = (f"{place}. [blank{place}]" for place, _ in enumerate(self.asks, 1))
             text += Markup("<p>{}</p>").format(Markup("<br>").join(blanks))
         return text + self._which + signed(item, self.suffix)

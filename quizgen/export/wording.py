@@ -215,7 +215,7 @@ def solution(
     made = PaperItem(question.number, (question,), (key,))
     page = render_html_fragment("worked.html.j2", _way.get(), item=made, figure=item.solved_figure,
                     draw=lambda figure: image(figure, source))  # fmt: skip
-    return Markup(_STYLED.sub("", page))  # noqa: S704 - a page without some attributes
+    return Markup(_STYLED.sub("", page))
 
 
 def _alone(whole: Solution) -> Solution:

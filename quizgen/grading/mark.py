@@ -175,8 +175,8 @@ def show_key(spec: SpecTable | Kind, lang: str = "en") -> str:
 
 
 __all__ = [
-    "QuestionContext",
     "GradingOptions",
+    "QuestionContext",
     "Verdict",
     "explain_verdict",
     "judge_answer",

@@ -240,7 +240,7 @@ def array_system(bits: int) -> NumberSystem:
     own: dict[str, OperatorFunction] = {
         "erf": _find_special_function("erf", bits),
         "erfc": _find_special_function("erfc", bits),
-        "rounded": lambda a: np.copysign(np.floor(np.abs(a) + number(0.5)), a),
+        "round_float_half_away": lambda a: np.copysign(np.floor(np.abs(a) + number(0.5)), a),
         "pi": lambda: number(math.pi),
         "piecewise": _select_array_branch,
     }
@@ -281,7 +281,7 @@ def sympy_system() -> NumberSystem:
     own: dict[str, OperatorFunction] = {
         "log2": lambda x: sympy.log(x) / sympy.log(2),
         "log10": lambda x: sympy.log(x) / sympy.log(10),
-        "rounded": lambda x: sympy.sign(x) * sympy.floor(abs(x) + sympy.Rational(1, 2)),
+        "round_float_half_away": lambda x: sympy.sign(x) * sympy.floor(abs(x) + sympy.Rational(1, 2)),
         "pi": lambda: sympy.pi,
     }
     ops = operator_functions("sympy", operator, sympy, **own)

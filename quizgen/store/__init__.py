@@ -17,12 +17,12 @@ from quizgen.store.store import Store
 
 __all__ = [
     "AttemptRecord",
+    "ExamRecord",
     "Invitation",
     "Learner",
+    "OutcomeRecord",
     "Packed",
     "Person",
-    "OutcomeRecord",
-    "ExamRecord",
-    "Store",
     "QuestionRef",
+    "Store",
 ]

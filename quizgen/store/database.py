@@ -140,7 +140,7 @@ class Database:
             with self._writer.begin() as connection:
                 ends = [one.run(connection) for one in together]
                 _check_open(connection)
-        except BaseException as error:  # noqa: BLE001 - raised again by each who waits
+        except BaseException as error:
             for one in together:
                 one.set_exception(error)
         else:
@@ -167,7 +167,7 @@ class _Write(Future[Any]):
         try:
             with connection.begin_nested():
                 found = self.work(connection)
-        except Exception as error:  # noqa: BLE001 - raised again by who asked
+        except Exception as error:
             return partial(self.set_exception, error)
         return partial(self.set_result, found)
 

@@ -4,7 +4,7 @@ The distance to the difficulty is what a formula's subtraction leaves of 1: with
 sixteen digits are gone. Undistorting subtracts nothing that counts: there it is that to the fold.
 """
 
-# ruff: noqa: ARG005 - every column of a formula has its name
+
 
 from __future__ import annotations
 
@@ -278,7 +278,7 @@ FORMULAS = (
     ),
     Formula(
         "normalisation", "I low high a b", "(I - low)*(b - a)/(high - low) + a", _draw_range_inputs,
-        lambda I, low, high, a, b: np.abs((2 * I - low - high) / (high - low)),  # noqa: E741
+        lambda I, low, high, a, b: np.abs((2 * I - low - high) / (high - low)),
         lambda u: [100 + 60 * u, _fill_column(40, u), _fill_column(160, u), _fill_column(-1, u), _fill_column(1, u)],
     ),
     Formula(

@@ -99,7 +99,7 @@ def _make_card_part(name: str, state: PartState) -> PracticedPart:
 
 async def _send_cards(request: Request, job: ErrorCardsJob) -> Response:
     site: ServerState = request.app.state.site
-    data = await site.workers.done(job, request.state.learner.id)
+    data = await site.workers.get_result(job, request.state.learner.id)
     if not data:
         return page_response(
             request, "message.html.j2", 404, title="anki.title", text="anki.nothing"

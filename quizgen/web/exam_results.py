@@ -137,7 +137,7 @@ class MarkPaper:
         found = []
         for key, typed in zip(decode_json(self.keys, list[KeyQuestion]), self.typed, strict=True):
             marker = QuestionGrader(key, GradingOptions(self.lang))
-            found.append([_sent(marker.mark(*one)) for one in zip(key.parts, typed, strict=True)])
+            found.append([_sent(marker.grade_part(*one)) for one in zip(key.parts, typed, strict=True)])
         return pickle.dumps(found)
 
 
@@ -179,8 +179,8 @@ async def grade_exam(
         for item, mine in zip(paper.items, values, strict=True)
     )
     keys = msgspec.json.encode([item.key for item in paper.items])
-    data = await workers.done(MarkPaper(lang, keys, typed), learner)
-    results = pickle.loads(data)  # noqa: S301 - from a process of our own
+    data = await workers.get_result(MarkPaper(lang, keys, typed), learner)
+    results = pickle.loads(data)
     return ExamResults(tuple(
         ExamQuestionResult(item, tuple(
             ExamPartResult(part, given, result, own.get(part.field.id), lang)

@@ -102,5 +102,5 @@ def _work(line: Connection, bank: Bank) -> None:
 def _made(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes | Exception:
     try:
         return run_request(bank, wanted)
-    except Exception as error:  # noqa: BLE001 - raised again by who asked
+    except Exception as error:
         return error

@@ -129,7 +129,7 @@ class Papers:
         QuizgenError
             If there is no such paper, or a template is wrong.
         """
-        return msgspec.msgpack.decode(await self.workers.done(wanted, asker), type=Packed)
+        return msgspec.msgpack.decode(await self.workers.get_result(wanted, asker), type=Packed)
 
     async def of(self, sitting: ExamRecord, lang: str) -> PaperView:
         """What an exam shows; one of before papers were kept is made from its code, for good.

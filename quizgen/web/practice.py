@@ -99,7 +99,7 @@ def _build_question_request(request: Request, which: QuestionRef) -> QuestionReq
 async def _make_question(request: Request, attempt: AttemptRecord) -> QuestionView:
     site: ServerState = request.app.state.site
     wanted = _build_question_request(request, attempt.which)
-    return await site.workers.question(wanted, request.state.learner.id)
+    return await site.workers.get_question(wanted, request.state.learner.id)
 
 
 async def _get_turn(request: Request) -> AttemptInBrowser:

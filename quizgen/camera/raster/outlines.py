@@ -106,7 +106,7 @@ def _of(rows: slice, plane: Plane) -> slice:
     return rows if len(plane) > 1 else slice(None)
 
 
-def _full(thing: Thing, x: Plane, y: Plane) -> Plane:  # noqa: ARG001 - every shape takes the same
+def _full(thing: Thing, x: Plane, y: Plane) -> Plane:
     return np.full(np.broadcast_shapes(x.shape, y.shape), -np.inf)
 
 
@@ -160,11 +160,11 @@ def _odd(place: Plane) -> NDArray[np.bool_]:
     return np.asarray(half != np.floor(half))
 
 
-def _stripes(thing: Thing, x: Plane, y: Plane) -> Share:  # noqa: ARG001
+def _stripes(thing: Thing, x: Plane, y: Plane) -> Share:
     return _wave(2.0 * math.pi * x / thing.cell.value)
 
 
-def _ramp(thing: Thing, x: Plane, y: Plane) -> Share:  # noqa: ARG001
+def _ramp(thing: Thing, x: Plane, y: Plane) -> Share:
     return np.clip(x / max(thing.width.value, 1e-9) + 0.5, 0.0, 1.0)
 
 

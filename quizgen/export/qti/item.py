@@ -172,4 +172,4 @@ def _source(shown: Figure | PictureFile) -> str:
 def _xml(page: Markup) -> Markup:
     """HTML that is well formed as XML says the same."""
     shown = _MATHS.sub('<math xmlns="http://www.w3.org/1998/Math/MathML"', page)
-    return Markup(shown.replace(' lang="', ' xml:lang="'))  # noqa: S704 - a rewritten page
+    return Markup(shown.replace(' lang="', ' xml:lang="'))

@@ -43,4 +43,4 @@ def decide_equality(first: str, second: str, positive: frozenset[str]) -> str:
     return "different" if difference.is_nonzero else "unknown"
 
 
-__all__ = ["to_sympy", "decide_equality"]
+__all__ = ["decide_equality", "to_sympy"]

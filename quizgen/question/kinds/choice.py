@@ -57,4 +57,4 @@ def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.choice"),)
 
 
-__all__ = ["build", "hints", "show_key"]
+__all__ = ["build", "hints", "printed"]

@@ -77,4 +77,4 @@ def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.gap"),)
 
 
-__all__ = ["build", "hints", "show_key"]
+__all__ = ["build", "hints", "printed"]

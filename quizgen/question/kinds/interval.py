@@ -22,4 +22,4 @@ def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     return given(translate(lang, "ask.interval"), rounding(spec, spec.value, lang))
 
 
-__all__ = ["build", "hints", "show_key"]
+__all__ = ["build", "hints", "printed"]

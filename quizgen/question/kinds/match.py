@@ -45,4 +45,4 @@ def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.match"),)
 
 
-__all__ = ["build", "hints", "show_key"]
+__all__ = ["build", "hints", "printed"]

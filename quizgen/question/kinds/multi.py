@@ -20,4 +20,4 @@ def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.multi"),)
 
 
-__all__ = ["build", "hints", "show_key"]
+__all__ = ["build", "hints", "printed"]

@@ -85,4 +85,4 @@ def hints(spec: Spec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.order" if spec.distractors else "ask.order_all"),)
 
 
-__all__ = ["build", "hints", "show_key"]
+__all__ = ["build", "hints", "printed"]

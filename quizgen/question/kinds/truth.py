@@ -48,4 +48,4 @@ def hints(_spec: Spec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.tf"),)
 
 
-__all__ = ["build", "hints", "show_key"]
+__all__ = ["build", "hints", "printed"]
