@@ -83,7 +83,7 @@ def imported(path: Path) -> set[str]:
     return {name.split(".")[1] for name in imported_modules(path) if "." in name}
 
 
-FILES = [path for path in MODULES.values() if not package_of(path).startswith("__")]
+FILES = [path for path in MODULES.values() if not package_of(path).startswith("_")]
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))

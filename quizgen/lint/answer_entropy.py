@@ -85,7 +85,7 @@ class AnswerTally:
         known = self._lengths.get((filler.lang, name))
         if known is None:
             known = len(inlines_to_text(filler.sentence("options", name)))
-            if ("options", name) in filler.text.filled:
+            if ("options", name) in filler.text.unslotted_sentences:
                 self._lengths[filler.lang, name] = known
         return known
 

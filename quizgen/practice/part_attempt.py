@@ -122,7 +122,7 @@ class PartAttempt(Generic[P, S]):
 
     @property
     def _available_hints(self) -> list[Any]:
-        return [rung for line in self.solved.lines for rung in line.rungs]
+        return [rung for line in self.solved.lines for rung in line.hints]
 
     def give_up(self) -> None:
         """End the task as not right."""

@@ -80,12 +80,12 @@ class Interpolator:
             If the language file lacks it, or a slot names nothing that may stand there.
         """
         place = section, name
-        if place in self.text.filled:
-            return self.text.filled[place]
+        if place in self.text.unslotted_sentences:
+            return self.text.unslotted_sentences[place]
         written = self.raw_sentence(section, name)
         filled = fill_inlines(written, self._fill_value, self._fill_program)
         if place not in self.text.cases and not any(slot_names(written)):
-            self.text.filled[place] = filled
+            self.text.unslotted_sentences[place] = filled
         return filled
 
     def raw_sentence(self, section: str, name: str) -> tuple[Inline, ...]:

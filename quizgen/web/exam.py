@@ -342,7 +342,7 @@ async def save_self_mark(request: Request) -> Response:
     if share is None or sitting.handed is None:
         raise HTTPException(400)
     store = request.app.state.site.store.sittings
-    await run_in_threadpool(store.judge, sitting, part.field.id, share)
+    await run_in_threadpool(store.save_self_mark, sitting, part.field.id, share)
     return redirect(f"/exam/{sitting.id}#part-{part.field.id}")
 
 
