@@ -71,8 +71,13 @@ class DrawingComparison:
         return cast("T", self._read[read])
 
 
+def _name_in_files(class_name: str) -> str:
+    """Word that stands for a feature in templates and keys: ``LineFeature`` is ``line``."""
+    return class_name.removesuffix("Feature").lower()
+
+
 class Feature(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
-              forbid_unknown_fields=True, tag_field="reads", tag=str.lower):  # fmt: skip
+              forbid_unknown_fields=True, tag_field="reads", tag=_name_in_files):  # fmt: skip
     """Something that makes a drawing right.
 
     ``of`` names the lines that have it; ``worth`` weighs it among the others.
