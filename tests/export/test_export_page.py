@@ -19,7 +19,7 @@ def plain(bank) -> list[Item]:
     """Every template once, without its figures."""
     return [
         Item(f"{name}.1.en", name, *compose_question(bank.template(name), 1, "en", figures=False))
-        for name in bank.paths
+        for name in bank.template_paths
     ]
 
 

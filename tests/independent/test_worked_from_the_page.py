@@ -101,7 +101,7 @@ def test_the_page_leads_to_the_key_in_both_languages(bank, seed):
 @pytest.mark.parametrize("seed", [51])
 def test_the_words_of_figures_agree_with_the_page(bank, seed):
     """With all figures: a value that a figure names otherwise than the text is found."""
-    both = [printed(bank, list(bank.paths), seed, lang, figures=True) for lang in LANGS]
+    both = [printed(bank, list(bank.template_paths), seed, lang, figures=True) for lang in LANGS]
     assert not [
         wrong for one in both for name, page, key in one for wrong in disagreeing(page, name, key)
     ]
@@ -185,7 +185,7 @@ def test_every_template_is_worked_out_or_listed_with_its_reason(bank, name):
 
 
 def test_no_solver_is_left_over(bank):
-    assert {*SOLVERS, *LISTED} <= set(bank.paths)
+    assert {*SOLVERS, *LISTED} <= set(bank.template_paths)
 
 
 @pytest.mark.parametrize("path", sorted(HERE.glob("[bhp]*.py")), ids=lambda path: path.stem)

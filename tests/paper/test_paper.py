@@ -131,7 +131,7 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     from quizgen.bank.bank import Bank, builtin_root
 
     shutil.copytree(builtin_root() / "templates", tmp_path / "templates")
-    source = bank.paths["point-to-image-plane"]
+    source = bank.template_paths["point-to-image-plane"]
     shutil.copytree(source, tmp_path / "templates" / "projection" / "A3copy")
     larger = Bank(tmp_path, trusted=True)
     blueprint = Blueprint(
