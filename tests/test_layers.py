@@ -21,29 +21,37 @@ LAYERS = {
     "executors": "core",
     "locale": "core",
     "maths": "core",
-    "numerics": "core",
+    "numerics": "",
     "typeset": "core locale maths",
-    "camera": "core png maths numerics",
+    "camera": "png core maths numerics",
     "grading": "core locale maths",
-    "bank": "core locale maths",
-    "figures": "core png locale maths numerics camera",
-    "question": "core locale maths typeset grading bank figures",
-    "paper": "columns core locale maths grading bank figures question",
-    "practice": "core locale maths grading bank question paper",
-    "store": "core bank question paper practice",
-    "responses": "columns core locale maths grading question paper practice",
+    "kinds": "core locale maths typeset grading",
+    "bank": "core locale maths kinds",
+    "figures": "png core locale maths camera kinds",
+    "question": "core locale maths typeset grading kinds bank figures",
+    "paper": "columns core locale maths grading kinds bank question",
+    "practice": "core locale grading kinds bank question paper",
+    "store": "core bank paper practice",
+    "responses": "columns core locale maths grading kinds paper practice",
     "render": "core locale typeset bank figures question paper",
-    "cards": "core executors locale maths typeset bank figures question paper render",
-    "export": "core locale maths typeset grading bank figures question paper responses render",
+    "cards": "core executors locale typeset bank figures question paper render",
+    "export": "core locale maths typeset grading kinds bank figures question paper responses render",
     "tradeoff": "core locale maths numerics bank figures render",
-    "classes": "core executors locale maths grading bank figures question paper responses render",
-    "web": "core executors png locale maths typeset camera grading bank figures question paper practice store render cards "
-    "tradeoff classes",
-    "lint": "core locale maths grading bank figures question paper render cards",
-    "cli": "columns core executors png locale maths camera grading bank figures question paper practice store render cards "
-    "responses export tradeoff classes lint web",
+    "classes": "core executors locale maths grading kinds bank figures paper responses render",
+    "web": "png core executors locale maths typeset camera grading kinds bank figures question "
+    "paper practice store render cards tradeoff classes",
+    "lint": "core locale maths grading kinds bank figures question paper render cards",
+    "cli": "png columns core executors locale camera grading kinds bank figures question paper practice store "
+    "responses render cards export tradeoff classes web lint",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
+
+BELONGS = {
+    "quizgen.bank.markdown": "typeset",
+    "quizgen.question.inlines": "typeset",
+    "quizgen.bank.complaints": "shapes",
+}
+"""Modules that know nothing of the package they lie in: pieces of prose, and what msgspec says."""
 
 MAY_IMPORT_BY_NAME = {"__init__.py", "cli/main.py", "bank/solvers.py"}
 """The lazy public names, the lazy commands, and a bank's own solvers."""
@@ -80,7 +88,8 @@ def imported_modules(path: Path) -> set[str]:
 
 def imported(path: Path) -> set[str]:
     """Packages of quizgen that a file imports."""
-    return {name.split(".")[1] for name in imported_modules(path) if "." in name}
+    modules = imported_modules(path)
+    return {BELONGS.get(name, name.split(".")[1]) for name in modules if "." in name}
 
 
 FILES = [path for path in MODULES.values() if not package_of(path).startswith("_")]
@@ -164,7 +173,7 @@ def test_help_loads_no_heavy_package():
 
 
 def test_checking_loads_neither_sympy_nor_matplotlib():
-    code = "import quizgen.grading.mark as c\nc.mark({'kind':'number','value':'20/3','decimals':3},'6,67')"
+    code = "import quizgen.kinds.grade as c\nc.grade_answer({'kind':'number','value':'20/3','decimals':3},'6,67')"
     assert not {"numpy", "sympy", "matplotlib"} & loaded(code)
 
 

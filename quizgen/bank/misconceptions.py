@@ -15,6 +15,7 @@ from flint import fmpq
 
 from quizgen.bank.template import Template
 from quizgen.core.errors import BankError
+from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep, CompiledSteps
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.number_systems import compile_expr, float64_system
@@ -28,26 +29,18 @@ APART = 2.0
 """Two values count as different when more than this many tolerances lie between them."""
 
 
-def answer_names(answer: Mapping[str, Any]) -> tuple[str, ...]:
-    """Chain quantities that an answer consists of."""
-    of = answer.get("of", ())
-    if isinstance(of, str):
-        return (of,)
-    return tuple(of.values()) if isinstance(of, Mapping) else tuple(of)
-
-
 class PartChecker:
     """What must hold for one part so that no wrong method scores."""
 
     def __init__(self, template: Template, index: int) -> None:
         rules = template.rules
         self.answer = rules.part[index].answer
-        self.of = answer_names(self.answer)
+        self.of = asked_quantities(self.answer)
         place = f"{template.file}: part {index + 1}"
         unknown = set(self.of) - {*template.chain.given, *template.chain.by_name}
         if unknown:
             raise BankError(f"{place}: answer: of: unknown to the solver: {sorted(unknown)}")
-        self.known = {n for part in rules.part[:index] for n in answer_names(part.answer)}
+        self.known = {n for part in rules.part[:index] for n in asked_quantities(part.answer)}
         needed = frozenset().union(
             *(template.chain.required_steps(n, self.known - {n}) for n in self.of), frozenset()
         )

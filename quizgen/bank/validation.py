@@ -11,21 +11,19 @@ from fractions import Fraction
 
 import msgspec
 
-from quizgen.bank.answers import ANSWERS, Choice, Match, Numeric, Order, Pooled
 from quizgen.bank.complaints import explain_validation_error
-from quizgen.bank.most import (
-    MOST_CHOICES,
-    MOST_FORMULAS,
-    MOST_IN_POOL,
-    MOST_MINUTES,
-    MOST_OPTIONS,
-    MOST_PARTS,
-    MOST_POINTS,
-)
 from quizgen.bank.rules import DrawRule, KeepRule, Rules, Source
 from quizgen.core.decoding import convert
 from quizgen.core.errors import FormulaError
 from quizgen.core.untrusted import NAMES, is_identifier
+from quizgen.kinds import KINDS
+from quizgen.kinds.contract import (
+    MOST_CHOICES,
+    MOST_FORMULAS,
+    MOST_MINUTES,
+    MOST_PARTS,
+    MOST_POINTS,
+)
 from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import parse_written_number
 from quizgen.maths.tolerance import MOST_DIGITS
@@ -179,63 +177,17 @@ def find_malformed_answers(rules: Rules) -> FieldProblems:
         kind = part.answer.get("kind", "")
         if "kind" not in part.answer:
             yield f"part {place}: answer", "the key 'kind' is missing"
-        elif not isinstance(kind, str) or kind not in ANSWERS:
-            yield f"part {place}", f"unknown kind {kind!r} (allowed: {', '.join(sorted(ANSWERS))})"
+        elif not isinstance(kind, str) or kind not in KINDS:
+            yield f"part {place}", f"unknown kind {kind!r} (allowed: {', '.join(sorted(KINDS))})"
         else:
             try:
-                convert(part.answer, ANSWERS[kind])
+                convert(part.answer, KINDS[kind].authored)
             except msgspec.ValidationError as error:
-                yield f"part {place}: answer", explain_validation_error(error, ANSWERS[kind])
-
-
-LISTS = "options", "pairs", "steps", "gaps", "points"
-"""Keys of an answer that hold names, of which there is at least one."""
+                yield f"part {place}: answer", explain_validation_error(error, KINDS[kind].authored)
 
 
 def _check_answer(table: Mapping[str, object]) -> FieldProblems:
-    answer = convert(table, ANSWERS[str(table["kind"])])
-    most = MOST_IN_POOL if table.get("take") else MOST_OPTIONS
-    shown = {name: getattr(answer, name) for name in LISTS if name in answer.__struct_fields__}
-    if isinstance(answer, Match | Order):
-        shown["distractors"] = answer.distractors
-    if isinstance(answer, Order):
-        shown["steps"] = (*answer.steps, *answer.distractors)
-    for field, names in shown.items():
-        if len(names) > most or (field in LISTS and not names):
-            yield f"answer.{field}", f"1 to {most} are needed"
-        if len(set(names)) < len(names):
-            yield f"answer.{field}", "a name stands twice"
-    if isinstance(answer, Numeric):
-        yield from _check_asked_count(answer)
-    if isinstance(answer, Order):
-        strangers = {name for pair in answer.before for name in pair} - set(answer.steps)
-        if strangers:
-            yield "answer.before", f"names {sorted(strangers)}, which are not steps"
-    if isinstance(answer, Pooled):
-        yield from _check_pool_sizes(answer)
-
-
-def _check_asked_count(answer: Numeric) -> FieldProblems:
-    count = 1 if isinstance(answer.of, str) else len(answer.of)
-    if not answer.least <= count <= answer.most:
-        wanted = f"{answer.least} to {answer.most}" if answer.most > 1 else "one"
-        yield "answer.of", f"names {count}, and this kind asks for {wanted}"
-
-
-def _check_pool_sizes(answer: Pooled) -> FieldProblems:
-    field = next(field for field in LISTS if field in answer.__struct_fields__)
-    if answer.take and not 1 <= answer.take <= min(MOST_OPTIONS, len(getattr(answer, field))):
-        yield "answer.take", f"must be 1 to {MOST_OPTIONS} and at most the number of {field}"
-    if isinstance(answer, Order) and answer.take and answer.before:
-        yield "answer.take", "some of the steps can be taken only of one order, without before"
-    right = answer.right if isinstance(answer, Choice) else None
-    if right and not (answer.take and 1 <= right[0] <= right[1]):
-        yield "answer.right", "is [least, most] right options among those that take names"
-    if isinstance(answer, Match | Order):
-        others = {*answer.pairs.values()} if isinstance(answer, Match) and answer.take else ()
-        spare = len(answer.distractors) + len(others)
-        if answer.extra is not None and not 0 <= answer.extra <= spare:
-            yield "answer.extra", f"must be 0 to {spare}, the number of distractors"
+    yield from convert(table, KINDS[str(table["kind"])].authored).find_problems()
 
 
 def _check_claims(rules: Rules) -> FieldProblems:

@@ -14,8 +14,8 @@ from quizgen.classes.gradebook import GradedStudent
 from quizgen.classes.grading import DROPPED, GradedClassPart, StudentMarks, item_name
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.figures.inks import write_theme_css
-from quizgen.grading.mark import show_key
 from quizgen.grading.options import GradingOptions
+from quizgen.kinds.grade import show_key
 from quizgen.locale import (
     FIRST,
     fallback_language,

@@ -12,19 +12,18 @@ from functools import singledispatch
 
 from quizgen.bank.markdown import Inline, PlainText
 from quizgen.export.ranges import Near, Range, ranges
-from quizgen.grading.kinds import angle, choice, code, gap, match, number, order, point, table
-from quizgen.grading.kinds import quantity as quantities
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec
 from quizgen.grading.spec import VectorSpec as SeveralNumbers
+from quizgen.kinds import angle, choice, code, gap, match, number, order, point, table
+from quizgen.kinds import quantity as quantities
+from quizgen.kinds.asking import KeyNumbers, rounding_hint
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import pretty
 from quizgen.maths.numbers import count_decimals
 from quizgen.maths.values import Value
 from quizgen.question.compose import QuestionPart
-from quizgen.question.hints import rounding
 from quizgen.question.solution import PartSolution
-from quizgen.question.specs import Numbers
 
 Said = tuple[Inline, ...]
 """A sentence, or pieces of one."""
@@ -204,7 +203,7 @@ def _asks(spec: AnySpec, asked: Asked) -> tuple[Ask, ...]:
 
 
 @_asks.register
-def _number(spec: number.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _number(spec: number.NumberSpec, asked: Asked) -> tuple[Ask, ...]:
     if spec.form in {"fraction", "lowest"}:
         return (asked.written("fraction"),)
     unit = "%" if spec.percent else spec.unit
@@ -212,12 +211,12 @@ def _number(spec: number.Spec, asked: Asked) -> tuple[Ask, ...]:
 
 
 @_asks.register
-def _quantity(spec: quantities.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _quantity(spec: quantities.QuantitySpec, asked: Asked) -> tuple[Ask, ...]:
     return _measured(spec, asked, spec.unit)
 
 
 @_asks.register
-def _angle(spec: angle.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _angle(spec: angle.AngleSpec, asked: Asked) -> tuple[Ask, ...]:
     return _measured(spec, asked, "°", period=parse_exact(spec.period))
 
 
@@ -233,14 +232,14 @@ def _measured(
     return (Numeric("", unit, ranges(spec, key, wrong, period), told),)
 
 
-def _precision(spec: NumericSpec, key: Numbers, lang: str) -> str:
+def _precision(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
     """How exactly a number is meant that can only be typed as a decimal."""
     rule, number = spec.stated or ("", "")
     if rule == "exact":
         return translate(lang, "export.exact")
     if rule == "abs":
         return translate(lang, "export.abs", abs=pretty.format_number(str(number)))
-    return rounding(spec, key, lang)
+    return rounding_hint(spec, key, lang)
 
 
 def _finite(key: Value) -> bool:
@@ -251,7 +250,7 @@ def _finite(key: Value) -> bool:
 
 
 @_asks.register
-def _point(spec: point.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _point(spec: point.PointSpec, asked: Asked) -> tuple[Ask, ...]:
     if spec.up_to_scale:
         return (asked.written("scale"),)
     return _several(spec, asked, [box.name for box in asked.part.field.control.boxes])
@@ -274,10 +273,10 @@ def _several(spec: SeveralNumbers, asked: Asked, names: list[str]) -> tuple[Ask,
 
 
 @_asks.register
-def _table(spec: table.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _table(spec: table.TableSpec, asked: Asked) -> tuple[Ask, ...]:
     found: list[Ask] = []
     for name in spec.values:
-        cell = table.cell(spec, name)
+        cell = table.cell_spec(spec, name)
         (one,) = _asks(cell, asked)
         if isinstance(one, Write):
             return (one,)
@@ -286,7 +285,7 @@ def _table(spec: table.Spec, asked: Asked) -> tuple[Ask, ...]:
 
 
 @_asks.register
-def _choice(spec: choice.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _choice(spec: choice.ChoiceSpec, asked: Asked) -> tuple[Ask, ...]:
     if spec.kind == "tf":
         told = asked.solved.options
         return (Truth(spec.correct == [1], told[0] if told else ()),)
@@ -299,7 +298,7 @@ def _choice(spec: choice.Spec, asked: Asked) -> tuple[Ask, ...]:
 
 
 @_asks.register
-def _match(spec: match.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _match(spec: match.MatchSpec, asked: Asked) -> tuple[Ask, ...]:
     field, reasons = asked.part.field, asked.reasons
     said = {
         (left, right): reasons.get(f"{left}{right}", reasons.get(left, ()))
@@ -311,21 +310,21 @@ def _match(spec: match.Spec, asked: Asked) -> tuple[Ask, ...]:
 
 
 @_asks.register
-def _order(spec: order.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _order(spec: order.OrderSpec, asked: Asked) -> tuple[Ask, ...]:
     if spec.before and not _one_way(spec):
         return (asked.written("orders"),)
     return (Order(asked.part.field.options, tuple(spec.steps)),)
 
 
-def _one_way(spec: order.Spec) -> bool:
+def _one_way(spec: order.OrderSpec) -> bool:
     """Whether only one order keeps to what must come before what."""
-    then = order.followers(spec)
+    then = order.later_steps(spec)
     row = zip(spec.steps, spec.steps[1:], strict=False)
     return all(later in then[earlier] for earlier, later in row)
 
 
 @_asks.register
-def _gap(spec: gap.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _gap(spec: gap.GapSpec, asked: Asked) -> tuple[Ask, ...]:
     wrong: dict[str, list[tuple[str, Said]]] = {}
     for mark, sentence in asked.reasons.items():
         place, _, term = mark.removeprefix("(").partition(") ")
@@ -337,7 +336,7 @@ def _gap(spec: gap.Spec, asked: Asked) -> tuple[Ask, ...]:
 
 
 @_asks.register
-def _code(spec: code.Spec, asked: Asked) -> tuple[Ask, ...]:
+def _code(spec: code.CodeSpec, asked: Asked) -> tuple[Ask, ...]:
     outputs = (spec.output, *spec.also)
     if any("\n" in output for output in outputs):
         return (asked.written("lines"),)

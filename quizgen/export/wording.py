@@ -23,13 +23,13 @@ from quizgen.core.errors import require_one_of
 from quizgen.export.asks import Ask, Choose, Fill, Numeric, Order, Pairs, Said, by_person
 from quizgen.export.items import Item
 from quizgen.export.pictures import Source, image
+from quizgen.kinds.asking import nonempty
+from quizgen.kinds.asking import unit_hint as in_unit
 from quizgen.locale import translate
 from quizgen.maths.units import format_unit as shown_unit
 from quizgen.paper.paper import PaperItem
 from quizgen.question import html
 from quizgen.question.compose import QuestionPart
-from quizgen.question.hints import given
-from quizgen.question.hints import unit as in_unit
 from quizgen.question.html import HtmlDialect, display_mathml
 from quizgen.question.inlines import name_inline
 from quizgen.question.solution import PartSolution, Solution
@@ -147,7 +147,7 @@ def _told(part: QuestionPart, found: Sequence[Ask], lang: str) -> Iterable[Marku
     if by_person(found):
         return [inline(part.field.hint, lang)]
     if len(found) == 1 and isinstance(found[0], Numeric):
-        return map(Markup.escape, given(_unit(found[0].unit, lang), *_typed(found[0], lang)))
+        return map(Markup.escape, nonempty(_unit(found[0].unit, lang), *_typed(found[0], lang)))
     told = (sentence for ask in found for sentence in _typed(ask, lang))
     return map(Markup.escape, dict.fromkeys(told))
 

@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.template import Template
+from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
@@ -55,7 +55,7 @@ def check_dimensions(template: Template) -> Iterator[str]:
         known[step.name] = _parse_unit_dimension(units, step.unit)
     for place, part in enumerate(template.rules.part, 1):
         asked = part.answer.get("unit")
-        for name in answer_names(part.answer) if isinstance(asked, str) else ():
+        for name in asked_quantities(part.answer) if isinstance(asked, str) else ():
             shown = template.units.get(name, "")
             fits = (
                 _parse_unit_dimension(units, str(asked)) == _parse_unit_dimension(units, shown)

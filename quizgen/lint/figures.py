@@ -9,10 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.variant import Variant, leading_digits
 from quizgen.core.errors import QuizgenError
 from quizgen.figures import Figure
+from quizgen.kinds.contract import asked_quantities
 from quizgen.lint.figure_looks import look_problems
 from quizgen.question.figure import describe_question_figure, draw_question_figure
 
@@ -81,7 +81,7 @@ def _iter_numbers(text: str) -> Iterator[str]:
 
 def _given_away(shown: Sequence[tuple[Variant, set[str]]]) -> Iterator[str]:
     for place, part in enumerate(shown[0][0].template.rules.part, 1):
-        for name in answer_names(part.answer):
+        for name in asked_quantities(part.answer):
             secret = [(leading_digits(one.shown_values[name]), numbers) for one, numbers in shown
                       if leading_digits(one.shown_values[name]) not in _collect_stated_numbers(one)]  # fmt: skip
             different = {answer for answer, _ in secret}

@@ -24,7 +24,7 @@ from quizgen.lint.workload import check_workload
 from quizgen.maths.precision import working_precision
 from quizgen.question.compose import variant_identity
 from quizgen.question.interpolation import Interpolator, inlines_to_text
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 FEW, MANY = 0.8, 1.5
 """Bits that the answer of a part must have: of 2 or 3 options, and of more."""
@@ -224,7 +224,7 @@ def _check_option_letters(one: Variant, index: int) -> Said:
     """Letters of options that the figure shows too, and numbered pictures out of order."""
     lang = one.template.languages[0]
     shown = set(_MARK.findall(figure_text(one, lang, quiz=True)))
-    options = build(one, index).options
+    options = ask_part(one, index).options
     clash = sorted(shown & {mark for mark, _ in options})
     if clash:
         yield "error", f"options and figure both have letters {', '.join(clash)}"

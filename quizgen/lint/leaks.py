@@ -27,9 +27,9 @@ from quizgen.bank.markdown import (
 )
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import FormulaError
-from quizgen.grading.kinds import choice, gap, match, order, text
-from quizgen.grading.mark import show_key
 from quizgen.grading.spec import AnySpec
+from quizgen.kinds import NUMERIC, choice, gap, match, order, text
+from quizgen.kinds.grade import show_key
 from quizgen.maths.canonical import CanonicalForm, canonical_forms, formulas_in_program
 from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula
 from quizgen.maths.tree import Expr
@@ -49,7 +49,7 @@ SAME = 0.85
 """Share of a sentence's words that another one must have to say the same."""
 POINTS = 2
 """Key points of a text that one sentence of another question must name to tell them."""
-NUMBERS = frozenset({"number", "quantity", "angle", "point", "table", "set", "interval", "code"})
+NUMBERS = NUMERIC | {"code"}
 
 _SENTENCE = re.compile(r"(?<=[.।?;]) ")
 GAP = "____"
@@ -115,7 +115,7 @@ class AskedContent:
     formulas: Mapping[CanonicalForm, str]
     numbers: frozenset[str]
     sentences: tuple[tuple[str, str], ...]
-    points: text.Spec | None
+    points: text.TextSpec | None
     steps: tuple[str, ...]
 
     @property
@@ -126,7 +126,7 @@ class AskedContent:
     @cached_property
     def named(self) -> dict[str, list[str]]:
         """Key points with the words that name each; none if they are too few to tell them."""
-        points = self.points.groups() if self.points else {}
+        points = self.points.key_points() if self.points else {}
         named = {name: [f" {t.casefold()}" for t in terms] for name, terms in points.items()}
         return named if len(named) >= POINTS else {}
 
@@ -269,14 +269,14 @@ def asked_content(
         spec = key.specs[index]
         asked = _asked_formulas(key, index)
         shown = show_key(spec, question.lang) if spec.kind in NUMBERS else ""
-        steps = spec.steps if isinstance(spec, order.Spec) else []
+        steps = spec.steps if isinstance(spec, order.OrderSpec) else []
         options = {mark: inlines_to_plain_text(text) for mark, text in part.field.options}
         yield AskedContent(
             part.label,
             {form: name for form, name in asked.items() if form not in own.formulas},
             frozenset(_iter_notable_numbers(shown)) - own.numbers,
             tuple(_right_sentences(question, index, spec)),
-            spec if isinstance(spec, text.Spec) else None,
+            spec if isinstance(spec, text.TextSpec) else None,
             tuple(options[mark] for mark in steps),
         )
 
@@ -291,12 +291,12 @@ def _right_sentences(question: Question, index: int, spec: AnySpec) -> Iterator[
     """What is right in words, options, pairs, filled gaps: what must be told, and what may be."""
     shown = question.parts[index].field
     options = {mark: inlines_to_plain_text(text) for mark, text in shown.options}
-    if isinstance(spec, match.Spec):
+    if isinstance(spec, match.MatchSpec):
         targets = {mark: inlines_to_plain_text(text) for mark, text in shown.targets}
         yield from ((options[left], targets[right]) for left, right in spec.pairs.items())
-    elif isinstance(spec, choice.Spec) and options:
+    elif isinstance(spec, choice.ChoiceSpec) and options:
         yield from (("", text) for n, text in enumerate(options.values(), 1) if n in spec.correct)
-    elif isinstance(spec, gap.Spec):
+    elif isinstance(spec, gap.GapSpec):
         body = (*question.stem, *question.parts[index].body)
         lines = [line for line in blocks_to_plain_text(body) if GAP in line]
         words = [accepted[0] for accepted in spec.gaps()]

@@ -19,13 +19,13 @@ from typing import NamedTuple
 
 from quizgen.bank.levels import EXAM
 from quizgen.bank.markdown import LanguageFile, slot_names
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.sampler import sampler_for
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant, reference_variant
 from quizgen.core.errors import QuizgenError
-from quizgen.grading.mark import mark, show_key
 from quizgen.grading.spec import AnySpec, SpecBase
+from quizgen.kinds.contract import AskedPart, asked_quantities
+from quizgen.kinds.grade import grade_answer, show_key
 from quizgen.lint.dimensions import check_dimensions
 from quizgen.lint.figures import check_figures
 from quizgen.lint.item_quality import QualityReview
@@ -33,10 +33,9 @@ from quizgen.lint.leaks import QuestionContent, question_content
 from quizgen.locale import FIRST, get_language, localise_numbers
 from quizgen.maths.numbers import to_float
 from quizgen.question.compose import Question, QuestionKey, compose_variant, variant_identity
-from quizgen.question.contract import Built
-from quizgen.question.kinds import build
 from quizgen.question.levels import LEVELS, load_level
 from quizgen.question.localise import localise
+from quizgen.question.part_context import ask_part
 from quizgen.render.text import blocks_to_plain_text
 
 
@@ -188,7 +187,7 @@ def _draw_within_limit(template: Template, seeds: int, report: TemplateReport) -
 
 def _widen_ranges(report: TemplateReport, one: Variant) -> None:
     for part in one.template.rules.part:
-        for name in answer_names(part.answer):
+        for name in asked_quantities(part.answer):
             value = to_float(one.shown_values[name])
             low, high = report.ranges.get(name, (value, value))
             report.ranges[name] = (min(low, value), max(high, value))
@@ -197,7 +196,7 @@ def _widen_ranges(report: TemplateReport, one: Variant) -> None:
 def _find_constant_answers(template: Template, report: TemplateReport) -> Iterator[str]:
     """Answers that do not vary although the questions do."""
     for part in template.rules.part if report.distinct >= VARIED else ():
-        ranges = {name: report.ranges[name] for name in answer_names(part.answer)}
+        ranges = {name: report.ranges[name] for name in asked_quantities(part.answer)}
         if ranges and all(low == high for low, high in ranges.values()):
             said = ", ".join(f"{name} = {low:.6g}" for name, (low, _) in ranges.items())
             yield f"the answer {said} is the same in all {report.seeds} draws"
@@ -312,11 +311,13 @@ def check_grading(one: Variant) -> list[str]:
     """Problems with typing the printed answer and each mistake back."""
     labels = enumerate(one.template.labels)
     return [
-        p for index, label in labels for p in _check_printed_answers(one, build(one, index), label)
+        p
+        for index, label in labels
+        for p in _check_printed_answers(one, ask_part(one, index), label)
     ]
 
 
-def _check_printed_answers(one: Variant, part: Built[AnySpec], label: str) -> Iterator[str]:
+def _check_printed_answers(one: Variant, part: AskedPart[AnySpec], label: str) -> Iterator[str]:
     """What is typed alike in several languages is marked once: a verdict knows no language."""
     seen = set[tuple[str, str]]()
     langs = one.template.languages
@@ -366,7 +367,7 @@ def _check_typed_answer(
     spec: AnySpec, trap: str, typed: str, where: str, lang: str
 ) -> Iterator[str]:
     comma = get_language(lang).decimal == "," and spec.kind not in VERBATIM
-    verdict = mark(spec, typed, lang=lang, decimal="comma" if comma else "point")
+    verdict = grade_answer(spec, typed, lang=lang, decimal="comma" if comma else "point")
     if trap and verdict.note != f"trap:{trap}":
         yield f"{where}: trap {trap!r} typed as {typed!r} is {verdict.verdict} ({verdict.note})"
     if not trap and verdict.verdict != "correct" and not verdict.needs_self_marking:

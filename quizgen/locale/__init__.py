@@ -28,7 +28,7 @@ from __future__ import annotations
 import re
 import tomllib
 import unicodedata
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -273,9 +273,20 @@ def load_words(lang: str, name: str = "interface") -> dict[str, Any]:
         raise QuizgenError(
             f"no {name} words for language {lang!r} (there are {', '.join(list_languages())})"
         )
-    if file and file.is_relative_to(SHIPPED):
+    if file == english:
         return _read_words(file)
+    if file and file.is_relative_to(SHIPPED):
+        return _with_english(_read_words(file), load_words(FIRST, name))
     return custom.merge_translation(load_words(FIRST, name), _read_words(file))
+
+
+def _with_english(own: Mapping[str, Any], english: Mapping[str, Any]) -> dict[str, Any]:
+    """Words of a language, and English ones where it has none yet."""
+    merged = {**english, **own}
+    for key, value in own.items():
+        if isinstance(value, dict) and isinstance(english.get(key), dict):
+            merged[key] = _with_english(value, english[key])
+    return merged
 
 
 def untranslated_languages(langs: Iterable[str]) -> list[str]:

@@ -31,11 +31,11 @@ import msgspec
 
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.levels import CHOICES, EXAM
-from quizgen.bank.most import MOST_MINUTES, MOST_POINTS
 from quizgen.bank.qualified_names import BETWEEN
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BlueprintError
 from quizgen.core.untrusted import NAMES, is_identifier, parse_toml, read_text
+from quizgen.kinds.contract import MOST_MINUTES, MOST_POINTS
 from quizgen.locale import list_languages, translate
 
 MOST_QUESTIONS = 200

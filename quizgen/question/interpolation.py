@@ -25,12 +25,12 @@ from quizgen.bank.markdown import (
 )
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
+from quizgen.kinds.contract import LabelledName
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.numbers import format_exact, format_rounded
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import format_unit as unit_shown
 from quizgen.maths.values import Values
-from quizgen.question.contract import Named
 from quizgen.question.inlines import PlacedPicture, TypesetMaths, to_inlines
 
 NBSP = "\u00a0"
@@ -53,7 +53,7 @@ class Interpolator:
 
     def __init__(self, drawn: Variant, lang: str, *, hidden: bool = False) -> None:
         self.drawn, self.lang, self.hidden = drawn, lang, hidden
-        self.own: dict[str, Named] = {}
+        self.own: dict[str, LabelledName] = {}
         self.known: Values = drawn.shown if hidden else drawn.shown_values
         self.text = drawn.template.texts[lang]
 

@@ -229,7 +229,7 @@ class _Sheet:
             return "\n".join(shown)
         if control.board:
             shown.append(self._typeset_drawing_field(fields[0].id, fields))
-        elif control.reckoned:
+        elif control.needs_working:
             shown.append(f"#answer-line([{translate_all(self.langs, 'paper.answer_here')}])")
             shown.append(f"#room({answer_rows(part.points)})")
         else:
@@ -261,7 +261,7 @@ class _Sheet:
 
     def _choose_option_style(self, field: AnswerField, side: str) -> str:
         """How a row of options looks: with a box to tick, with one for a number, or plain."""
-        if self.kind == "exam" and field.control.ticked:
+        if self.kind == "exam" and field.control.is_ticked:
             return "tick"
         paired = field.control.form == "pairs" and side == "options"
         return "pair" if self.kind == "exam" and paired else "option"
@@ -346,7 +346,7 @@ def _format_holder(paper: Paper) -> str:
 
 def _left_over(part: QuestionPart) -> str:
     """What of the page is left goes to calculations, by points; without any it is for notes."""
-    return f"#more-room({float(part.points):g})" if part.field.control.reckoned else "#rest"
+    return f"#more-room({float(part.points):g})" if part.field.control.needs_working else "#rest"
 
 
 def _typeset_reasons(part: PartSolution, lang: str) -> str:

@@ -16,10 +16,10 @@ import msgspec
 from quizgen.core.decoding import json_decoder
 from quizgen.core.errors import KeyFileError
 from quizgen.core.untrusted import read_text
+from quizgen.kinds.contract import InputForm
 from quizgen.paper.answer_key import FORMAT as KEY_FORMAT
 from quizgen.paper.answer_key import KeyQuestion, parse_answer_key
 from quizgen.paper.provenance import BankRecord
-from quizgen.question.contract import Form
 
 Line = TypeVar("Line")
 FORMAT = "quizgen-responses/1"
@@ -72,9 +72,9 @@ class Entry(msgspec.Struct, frozen=True):
 
 
 class Shape(msgspec.Struct, frozen=True, omit_defaults=True):
-    """How a part is answered in one line: see ``quizgen.question.contract.Control``."""
+    """How a part is answered in one line: see ``quizgen.kinds.contract.InputControl``."""
 
-    form: Form
+    form: InputForm
     names: list[str] = []
     named: bool = False
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 from msgspec import structs
 
 from quizgen.grading.options import GradingOptions
+from quizgen.kinds.contract import InputBox, InputControl
 from quizgen.maths.notation import FormulaReadError
 from quizgen.paper.grading import PaperResult, PartResult, QuestionGrader
 from quizgen.practice.input_fields import join_fields
-from quizgen.question.contract import Box, Control
 from quizgen.responses.attempts import Attempt, Response
 from quizgen.responses.keys import Entry, Kept, Keys, Shape
 from quizgen.responses.qti import variables
@@ -152,5 +152,5 @@ def _line(shape: Shape, values: list[Values | FormulaReadError], stems: list[str
         if isinstance(one, FormulaReadError):
             return one
         filled += one if len(values) == 1 else one or [""]
-    control = Control(shape.form, boxes=tuple(map(Box, shape.names)), named=shape.named)
+    control = InputControl(shape.form, boxes=tuple(map(InputBox, shape.names)), named=shape.named)
     return join_fields(control, filled, stems)

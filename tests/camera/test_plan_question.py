@@ -7,7 +7,7 @@ import pytest
 from quizgen.bank.variant import draw_variant
 from quizgen.camera import Camera, Length, Prepared, Scene, Thing, run
 from quizgen.camera.simulate import measure_difference
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 EFFECTS = {
     "defocus": "defocus",
@@ -51,7 +51,7 @@ def test_what_the_key_leaves_out_changes_no_more_than_two_levels(bank, seed):
     prepared = Prepared(_scene(given), _camera(given))
     names = [effect.name for effect in prepared.present]
     whole = run(prepared)
-    for _, name in build(drawn, 4).right:
+    for _, name in ask_part(drawn, 4).right:
         if EFFECTS[name] != "read noise":  # which is asked by its deviation, not its tail
             without = run(prepared, [other for other in names if other != EFFECTS[name]])
             assert measure_difference(without, whole) <= 2.0, name
@@ -59,5 +59,5 @@ def test_what_the_key_leaves_out_changes_no_more_than_two_levels(bank, seed):
 
 def test_every_number_of_effects_occurs(bank):
     template = bank.template("which-effects-to-simulate")
-    sizes = {len(build(draw_variant(template, seed), 4).right) for seed in range(SEEDS)}
+    sizes = {len(ask_part(draw_variant(template, seed), 4).right) for seed in range(SEEDS)}
     assert sizes == {1, 2, 3}

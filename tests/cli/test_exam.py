@@ -159,7 +159,7 @@ def test_a_form_that_cannot_be_read_is_never_overwritten(tmp_path):
 
 
 def test_the_printed_answers_get_full_marks(made):
-    from quizgen.grading.mark import show_key
+    from quizgen.kinds.grade import show_key
 
     folder, _ = made
     key = json.loads((folder / "exam" / "key.json").read_text())

@@ -39,7 +39,7 @@ PLACES = [
     ("quizgen.camera.reading", "module.load", ["simulate", "flat"]),
     ("quizgen.paper.answer_key", "module.read_key", ["check", "key.json", "answers.toml"]),
     ("quizgen.cards", "module.build", ["cards"]),
-    ("quizgen.grading.mark", "module.mark", ["mark", "{}", "1"]),
+    ("quizgen.kinds.grade", "module.grade_answer", ["mark", "{}", "1"]),
 ]
 
 

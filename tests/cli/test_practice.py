@@ -15,7 +15,7 @@ from quizgen.bank.bank import builtin_bank
 from quizgen.cli import practice
 from quizgen.cli.options import own_database
 from quizgen.grading.feedback import load_practice_words
-from quizgen.grading.mark import show_key
+from quizgen.kinds.grade import show_key
 from quizgen.locale import list_languages
 from quizgen.practice.scheduler import ReviewEvent, ReviewRating
 from quizgen.practice.selection import matching_templates, question_seed, template_at

@@ -8,7 +8,7 @@ from itertools import chain
 from xml.etree import ElementTree as ET
 
 from quizgen.export.asks import Choose, Fill, Numeric, Order, Pairs, Truth, Write, as_pairs
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.question.html import inlines_to_html
 
 INSIDE, OUTSIDE = 0.98, 1.02
@@ -113,7 +113,7 @@ def several(one: Asked):
     tried = [right, right[1:], *([*right, mark] for mark in wrong)]
     for marks in tried:
         if marks:
-            credit = float(mark(one.spec, " ".join(marks)).credit)
+            credit = float(grade_answer(one.spec, " ".join(marks)).credit)
             yield [one.choice(mark) for mark in marks], credit, [said[mark] for mark in marks]
 
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 from quizgen.export.asks import Choose, Fill, Numeric, Order, Pairs, Truth
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 
 INSIDE = 0.98
 """Share of an interval that our closed one holds, too: it was widened by a hundredth."""
@@ -30,7 +30,7 @@ def disagreements(items):
             names = [f"{ask.name} = " if spec.kind == "table" else "" for ask in found]
             values = [repr(ask.key.value) for ask in found]
             typed = "; ".join(map("".join, zip(names, values, strict=True)))
-            if mark(spec, typed).credit != 1:
+            if grade_answer(spec, typed).credit != 1:
                 yield item.id, part.label, typed
 
 
@@ -38,7 +38,7 @@ def judged(ask, spec, told):
     """Each answer that the ask has a mark for and that we mark otherwise."""
     sentences = {f"trap:{mistake.name}": mistake.sentence for mistake in told.mistakes}
     for typed, credit, said in declared(ask, spec):
-        verdict = mark(spec, typed)
+        verdict = grade_answer(spec, typed)
         if verdict.credit != credit or (said and sentences.get(verdict.note, said) != said):
             yield typed, credit, verdict.credit, verdict.note
 

@@ -21,7 +21,7 @@ from quizgen.camera import pictures
 from quizgen.core.errors import BankError, QuizgenError
 from quizgen.figures import complete_parameters, svg
 from quizgen.png import encode
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 artefacts = module("artefacts")
 depth_of_field = module("depth_of_field")
@@ -450,7 +450,7 @@ NAMES = {
 def draw_key(bank, name, seed, part=0):
     """Drawn numbers and the name of the right option of a part."""
     drawn = draw_question(bank.template(name), seed)
-    ((_, right),) = build(drawn, part).right
+    ((_, right),) = ask_part(drawn, part).right
     return {key: float(value) for key, value in drawn.shown.items()}, right
 
 
@@ -500,7 +500,7 @@ def test_the_edits_stand_where_the_key_says(bank, seed):
 def test_each_photo_was_taken_with_the_setting_of_the_key(bank, seed):
     drawn = draw_question(bank.template("which-photo-which-focus"), seed)
     given = {key: float(value) for key, value in drawn.shown.items()}
-    built = build(drawn, 0)
+    built = ask_part(drawn, 0)
     settings = {
         "focus-near": (given["z_1"], given["N_w"]),
         "focus-middle": (given["z_2"], given["N_w"]),

@@ -13,7 +13,7 @@ from quizgen.bank.variant import draw_variant as draw_numbers
 from quizgen.camera import pictures
 from quizgen.core.errors import BankError
 from quizgen.numerics import luminosity
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 find_extent = module("distorted_grid").find_extent
 read_efficiency = module("luminosity").read_efficiency
@@ -398,7 +398,7 @@ def test_a_learners_staircase_has_treads_of_its_own_length(marks):
 def _draw_question(bank, name, seed, part=0):
     """Drawn numbers and the name of the right option of a part."""
     drawn = draw_numbers(bank.template(name), seed)
-    ((_, right),) = build(drawn, part).right
+    ((_, right),) = ask_part(drawn, part).right
     return {key: float(value) for key, value in drawn.shown.items()}, right
 
 
@@ -471,7 +471,7 @@ def test_the_staircase_rises_where_the_key_says(bank, seed):
     }[key]  # fmt: skip
     tread = rises[1] - rises[0]
     assert (rises[0] / tread, (1 - rises[-1]) / tread) == pytest.approx(ends, abs=1e-9)
-    k, q = (float(v) for v in build(drawn, 2).spec.show().replace("k = ", "").split("; q = "))
+    k, q = (float(v) for v in ask_part(drawn, 2).spec.show().replace("k = ", "").split("; q = "))
     rounding = ROUNDINGS[int(given["rule"])]
     assert k == sum(rise < given["I"] for rise in rises) == rounding(given["I"], int(given["n"]))
     assert q == pytest.approx(k / len(rises), abs=0.0001)

@@ -11,7 +11,7 @@ from answer_tables import rows
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 
 SPECS = {row.spec["kind"]: row.spec for row in rows()}
 HANGS = 2.0
@@ -74,7 +74,7 @@ HOSTILE = {
 
 def timed(kind, text):
     start = time.process_time()
-    verdict = mark(SPECS[kind], text)
+    verdict = grade_answer(SPECS[kind], text)
     return verdict, time.process_time() - start
 
 
@@ -101,7 +101,7 @@ def test_hostile_input_is_answered_quickly_and_never_right(kind, name):
 def test_memory_stays_small(kind):
     tracemalloc.start()
     for text in HOSTILE.values():
-        mark(SPECS[kind], text)
+        grade_answer(SPECS[kind], text)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 50_000_000
@@ -111,12 +111,12 @@ def test_nothing_typed_is_evaluated(tmp_path):
     target = tmp_path / "made"
     for text in (f"__import__('pathlib').Path('{target}').touch()", f"open('{target}','w')"):
         for spec in SPECS.values():
-            mark(spec, text)
+            grade_answer(spec, text)
     assert not target.exists()
 
 
 def test_the_limit_is_named():
-    verdict = mark({"kind": "number", "value": "1"}, "1" * 1_000_000)
+    verdict = grade_answer({"kind": "number", "value": "1"}, "1" * 1_000_000)
     assert (verdict.note, "200" in verdict.message) == ("too-long", True)
 
 
@@ -176,5 +176,5 @@ def test_many_strings_raise_nothing_and_cost_next_to_nothing():
     st.sampled_from(["auto", "point", "comma"]),
 )
 def test_any_unicode_text_gets_a_verdict(text, kind, decimal):
-    verdict = mark(SPECS[kind], text, decimal=decimal, lang="bn")
+    verdict = grade_answer(SPECS[kind], text, decimal=decimal, lang="bn")
     assert verdict.verdict in {"correct", "partial", "wrong", "unreadable", "ambiguous"}

@@ -170,7 +170,7 @@ def use_answers(folder: Path, key: Path, form: Path) -> None:
 
 def form_of(table: dict) -> dict:
     """A form with a right answer in each part."""
-    from quizgen.grading.mark import show_key
+    from quizgen.kinds.grade import show_key
 
     typed = {p["id"]: show_key(p["spec"]) for q in table["questions"] for p in q["parts"]}
     return {

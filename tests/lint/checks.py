@@ -16,7 +16,17 @@ from typing import NamedTuple
 PACKAGE = Path(__file__).parents[2] / "quizgen"
 AUDIT = ("audit/decks.py", "audit/dimensions.py", "audit/lacking.py", "audit/leaks.py",
          "audit/lint.py", "audit/looks.py", "audit/pictures.py", "audit/teach.py", "cli/lint.py")  # fmt: skip
-READING = ("bank", "maths", "marking", "figures", "question", "cards", "locale", "outside.py")
+READING = (
+    "bank",
+    "kinds",
+    "maths",
+    "marking",
+    "figures",
+    "question",
+    "cards",
+    "locale",
+    "outside.py",
+)
 """What reads banks and complains."""
 ELSEWHERE = {
     "quizgen.lint.item_quality:examine", "quizgen.lint.item_quality:_pool_findings",

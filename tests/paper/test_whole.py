@@ -9,9 +9,9 @@ from itertools import combinations, product
 import pytest
 from shelf import Shelf
 
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.rules import suggested_minutes
 from quizgen.core.errors import BlueprintError
+from quizgen.kinds.contract import asked_quantities
 from quizgen.paper.blueprint import Blueprint, SlotRule, load_blueprint
 from quizgen.paper.constraints import paper_minutes
 from quizgen.paper.paper import build_paper
@@ -145,7 +145,7 @@ def test_a_trial_is_ten_points_in_eleven_minutes(bank):
 
 def asked(draw):
     """Numbers a question asks, to four digits, whole ones below ten aside."""
-    names = [n for part in draw.template.rules.part for n in answer_names(part.answer)]
+    names = [n for part in draw.template.rules.part for n in asked_quantities(part.answer)]
     values = [abs(float(draw.shown_values[name])) for name in names]
     return {f"{value:.4g}" for value in values if value >= 10 or value % 1}
 

@@ -11,7 +11,7 @@ import pytest
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.core.errors import InvalidChoiceError
-from quizgen.grading.mark import show_key
+from quizgen.kinds.grade import show_key
 from quizgen.practice.part_attempt import TRIES, NextStep
 from quizgen.practice.selection import matching_templates, question_seed, template_at
 from quizgen.practice.session import Session

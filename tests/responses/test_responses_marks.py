@@ -16,7 +16,7 @@ QUESTION = {"number": "1", "template": "t", "parts": [{"id": "1", "points": "2",
 
 @pytest.mark.parametrize(("settle", "marks", "note"), [(False, 0, "undecided"), (True, 2, "")])
 def test_an_undecided_formula_is_settled_if_that_is_allowed(monkeypatch, settle, marks, note):
-    monkeypatch.setattr("quizgen.grading.kinds.expression.settle_equal", lambda *_: True)
+    monkeypatch.setattr("quizgen.kinds.expression.settle_equal", lambda *_: True)
     question = msgspec.Raw(msgspec.json.encode(QUESTION))
     entries = [Entry("abcd-2345", "q", [Asked("written", "1")])]
     keys = Keys([Kept("q", "s", "en", question, {"1": Shape("line")}, entries)])

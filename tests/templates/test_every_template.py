@@ -16,7 +16,7 @@ from quizgen.lint.template_checks import lint_template
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Call, Expr, Num, Sym
 from quizgen.question.compose import variant_identity
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 NAMES = list(builtin_bank().template_paths)
 SEEDS = [20, pytest.param(60, marks=pytest.mark.slow)]
@@ -138,7 +138,8 @@ def test_the_right_choice_stands_anywhere(bank, name, index, draws):
     """Position of the right option over seeds: no place more than five deviations off its share."""
     template = bank.template(name)
     seen = [
-        build(draw_variant(template, seed, "place"), index).spec.correct[0] for seed in range(draws)
+        ask_part(draw_variant(template, seed, "place"), index).spec.correct[0]
+        for seed in range(draws)
     ]
     answer = template.rules.part[index].answer
     places = answer.get("take") or len(answer["options"])
