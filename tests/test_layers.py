@@ -35,17 +35,16 @@ LAYERS = {
     "question": "errors shapes outside locale maths typeset bank figures marking",
     "paper": "columns errors shapes outside files kept locale maths bank figures marking question",
     "practice": "errors shapes outside files locale maths bank marking question paper",
-    "responses": "columns errors shapes outside files locale maths marking question paper practice",
     "render": "errors outside files kept locale typeset bank figures question paper",
     "cards": "errors executors shapes outside files locale maths typeset bank figures question paper render",
-    "export": "errors files locale maths typeset bank figures marking question paper responses render",
     "tradeoff": "errors shapes files locale maths arrays bank figures render",
-    "classes": "errors executors shapes outside files locale maths bank figures marking question paper responses render",
+    "classes": "errors executors shapes outside files locale maths bank figures marking question paper render",
+    "lms": "columns errors shapes outside files locale maths typeset bank figures marking question paper practice render classes",
     "web": "errors executors shapes outside files png locale maths typeset bank camera figures marking question paper practice render "
     "cards tradeoff classes",
     "audit": "errors outside files locale maths bank figures marking question paper render cards",
     "cli": "columns errors executors outside files png locale maths bank camera figures marking question paper practice render cards "
-    "responses export tradeoff classes audit web",
+    "tradeoff classes lms audit web",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
 

@@ -15,6 +15,7 @@ from quizgen.cli.options import (
     database_option,
     open_bank,
 )
+from quizgen.core.errors import require_extra
 
 
 class ServeOptions(BankOptions):
@@ -71,6 +72,9 @@ class ServeOptions(BankOptions):
 @bank_options
 def serve(**options: Unpack[ServeOptions]) -> None:
     """Practise and sit the exam in a browser: alone, or with everybody in the network."""
+    require_extra("web", "quizgen serve")
+    if options["classroom"]:
+        require_extra("class", "quizgen serve --class")
     from quizgen.web.settings import ServerSettings
 
     settings = ServerSettings(
