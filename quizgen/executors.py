@@ -28,7 +28,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.reduction import ForkingPickler
 from typing import Any, ParamSpec, TypeVar, cast
 
-from quizgen.core.errors import InvalidChoiceError, WorkerError
+from quizgen.core.errors import InvalidChoiceError, WorkerError, require_extra
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -238,10 +238,9 @@ def workers(count: int, scheduler: str = "") -> Iterator[tuple[Executor, int]]:
 
 @contextmanager
 def _cluster(scheduler: str) -> Iterator[tuple[Executor, int]]:
-    try:
-        from distributed import Client
-    except ImportError:
-        raise InvalidChoiceError("a scheduler needs Dask: install quizgen[cluster]") from None
+    require_extra("cluster", "--scheduler")
+    from distributed import Client
+
     try:
         client = Client(scheduler, timeout=10, set_as_default=False)
     except (OSError, ValueError) as error:

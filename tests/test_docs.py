@@ -147,8 +147,8 @@ def test_links_of_the_readme_lead_somewhere():
 
 NOT_RUN = {
     "uv run pytest": "these very tests",
-    "uv run quizgen check tests/responses/moodle/quiz.keys.jsonl "
-    "tests/responses/moodle/responses.csv": "tests/cli/test_check_responses.py",
+    "uv run quizgen check tests/lms/moodle/quiz.keys.jsonl "
+    "tests/lms/moodle/responses.csv": "tests/cli/test_check_responses.py",
 }
 LONG = (
     "uv run quizgen cards --lang both",

@@ -32,17 +32,16 @@ LAYERS = {
     "paper": "columns core locale maths grading kinds bank question",
     "practice": "core locale grading kinds bank question paper",
     "store": "core bank paper practice",
-    "responses": "columns core locale maths grading kinds paper practice",
     "render": "core locale typeset bank figures question paper",
     "cards": "core executors locale typeset bank figures question paper render",
-    "export": "core locale maths typeset grading kinds bank figures question paper responses render",
     "tradeoff": "core locale maths numerics bank figures render",
-    "classes": "core executors locale maths grading kinds bank figures paper responses render",
+    "classes": "core executors locale maths grading kinds bank figures paper render",
+    "lms": "columns core locale maths typeset grading bank figures question paper practice render classes",
     "web": "png core executors locale maths typeset camera grading kinds bank figures question "
     "paper practice store render cards tradeoff classes",
     "lint": "core locale maths grading kinds bank figures question paper render cards",
     "cli": "png columns core executors locale camera grading kinds bank figures question paper practice store "
-    "responses render cards export tradeoff classes web lint",
+    "render cards tradeoff classes lms web lint",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
 

@@ -14,8 +14,8 @@ from quizgen.cli.options import BankOptions, LanguageParam, bank_options
 from quizgen.core.errors import KeyFileError
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.grading.echo import safe_echo
+from quizgen.lms import MANIFEST_SUFFIX
 from quizgen.locale import FIRST, list_languages
-from quizgen.responses import SUFFIX
 
 if TYPE_CHECKING:
     from quizgen.paper.answer_form import FilledForm
@@ -78,7 +78,7 @@ def check(**options: Unpack[CheckOptions]) -> None:
     from quizgen.paper.answer_key import read_answer_key
 
     key, answers, lang = options["key"], options["answers"], options["lang"]
-    if key.name.endswith(SUFFIX):
+    if key.name.endswith(MANIFEST_SUFFIX):
         sys.exit(responses.check(key, answers, lang, options["bank"], options))
     paper = read_answer_key(key)
     _check_key_belongs(key.parent / PAGE, paper)

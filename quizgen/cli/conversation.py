@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TypedDict, Unpack
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
 
@@ -22,8 +22,9 @@ from quizgen.question.compose import QuestionPart
 from quizgen.question.formula_sheet import cite_formula
 from quizgen.question.solution import PartSolution
 from quizgen.render.text import blocks_to_plain_text, inlines_to_plain_text
-from quizgen.store import QuestionRef
-from quizgen.store.learner import LearnerProgress
+
+if TYPE_CHECKING:
+    from quizgen.store.learner import LearnerProgress
 
 COLOURS = {"correct": "green", "partial": "yellow", "wrong": "red"}
 
@@ -75,11 +76,13 @@ class Conversation:
     session : Session
     shelf : Shelf
         Where it is kept after every answer.
-    learning : Learning
-        Where every question is kept that is finished.
+    learning : Learning, optional
+        Where finished questions are kept; without it the session alone is.
     """
 
-    def __init__(self, session: Session, shelf: SessionStore, learning: LearnerProgress) -> None:
+    def __init__(
+        self, session: Session, shelf: SessionStore, learning: LearnerProgress | None
+    ) -> None:
         self.session, self.shelf, self.learning = session, shelf, learning
         self.words = load_practice_words(session.state.wish.lang)
 
@@ -99,8 +102,11 @@ class Conversation:
                     self._ask(task)
             self.session.finish(turn)
             self._keep()
-            which = QuestionRef(turn.question.template, turn.seed, turn.level)
-            self.learning.save_practice(which, turn.question.topic, turn.parts)
+            if self.learning is not None:
+                from quizgen.store import QuestionRef
+
+                which = QuestionRef(turn.question.template, turn.seed, turn.level)
+                self.learning.save_practice(which, turn.question.topic, turn.parts)
 
     def _keep(self) -> None:
         self.shelf.save(self.session.state)

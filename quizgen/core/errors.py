@@ -15,6 +15,7 @@
     |-- KeyFileError     a key or an answer file cannot be read
     |-- WorkerError      processes that did the work died, one after the other
     |-- ClassError       a class's roster or folder is wrong, or would be spoiled
+    |-- MissingExtraError  packages of an extra are not installed (says what to type)
     `-- ChoiceError      an argument is none of the values allowed (names them)
 
 Two more stand beside their subject: ``SceneError`` in ``camera.scene``, and ``ReadError`` in
@@ -26,6 +27,22 @@ What a student types never raises out of the checker: it becomes a verdict.
 """
 
 from collections.abc import Collection
+from importlib.util import find_spec
+
+# Extra of pyproject.toml to the modules that are imported of it. Without "image" the same pictures
+# are computed, only more slowly; "lms" and "anki" need no packages yet.
+EXTRA_MODULES = {
+    "web": (
+        "starlette", "uvicorn", "python_multipart", "sqlalchemy", "alembic", "fsrs", "argon2",
+    ),
+    "class": ("xlsxwriter",),
+    "lms": (),
+    "anki": (),
+    "print": ("pikepdf",),
+    "postgres": ("psycopg",),
+    "cluster": ("distributed",),
+    "image": ("cv2",),
+}  # fmt: skip
 
 
 class QuizgenError(Exception):
@@ -92,6 +109,21 @@ class ClassError(QuizgenError):
     """A class's roster or folder is wrong, or would be spoiled."""
 
 
+class MissingExtraError(QuizgenError):
+    """Packages of an extra are not installed.
+
+    Parameters
+    ----------
+    extra : str
+        Its name in ``pyproject.toml``.
+    feature : str
+        What needs it, as the user typed it.
+    """
+
+    def __init__(self, extra: str, feature: str) -> None:
+        super().__init__(f'{feature} needs more packages; type: pip install "quizgen[{extra}]"')
+
+
 class InvalidChoiceError(QuizgenError, ValueError):
     """An argument is none of the values allowed."""
 
@@ -107,3 +139,20 @@ def require_one_of(what: str, value: object, allowed: Collection[str]) -> str:
     if isinstance(value, str) and value in allowed:
         return value
     raise InvalidChoiceError(f"{what}: {value!r} (allowed: {', '.join(allowed)})")
+
+
+def has_extra(extra: str) -> bool:
+    """Whether the packages of an extra are installed; none of them is imported."""
+    return all(find_spec(module) is not None for module in EXTRA_MODULES[extra])
+
+
+def require_extra(extra: str, feature: str) -> None:
+    """Refuse a feature whose packages are not installed.
+
+    Raises
+    ------
+    MissingExtraError
+        Naming the feature and the line to type.
+    """
+    if not has_extra(extra):
+        raise MissingExtraError(extra, feature)

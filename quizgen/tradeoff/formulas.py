@@ -4,8 +4,6 @@ The distance to the difficulty is what a formula's subtraction leaves of 1: with
 sixteen digits are gone. Undistorting subtracts nothing that counts: there it is that to the fold.
 """
 
-
-
 from __future__ import annotations
 
 import math

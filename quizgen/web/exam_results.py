@@ -137,7 +137,9 @@ class MarkPaper:
         found = []
         for key, typed in zip(decode_json(self.keys, list[KeyQuestion]), self.typed, strict=True):
             marker = QuestionGrader(key, GradingOptions(self.lang))
-            found.append([_sent(marker.grade_part(*one)) for one in zip(key.parts, typed, strict=True)])
+            found.append(
+                [_sent(marker.grade_part(*one)) for one in zip(key.parts, typed, strict=True)]
+            )
         return pickle.dumps(found)
 
 

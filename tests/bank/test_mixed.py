@@ -51,7 +51,10 @@ def test_a_name_of_one_bank_alone_is_kept(both):
 
 def test_what_two_banks_call_the_same_is_told_apart(twins):
     assert list(twins.template_paths) == ["mechanics:push", "statics:push"]
-    assert [twins.origin(name) for name in twins.template_paths] == ["mechanics:push", "statics:push"]
+    assert [twins.origin(name) for name in twins.template_paths] == [
+        "mechanics:push",
+        "statics:push",
+    ]
     with pytest.raises(BankError, match="did you mean mechanics:push or statics:push"):
         twins.template("push")
 

@@ -56,7 +56,7 @@ def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
 @pytest.mark.parametrize("command", [
     "preview point-to-image-plane --seed 1",
     "cards --topic eye --format tsv --out cards",
-    "export gift --topic eye --variants 1 --out export",
+    "export moodle --topic eye --variants 1 --out export",
     "lint --only point-to-image-plane --seeds 3",
 ])  # fmt: skip
 def test_who_draws_figures_loads_matplotlib_and_nothing_of_its_windows(place, command):

@@ -1,7 +1,5 @@
 """Readers of a scene file's values: text with a unit, numbers, words, colours."""
 
-
-
 from __future__ import annotations
 
 import math
