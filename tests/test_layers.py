@@ -23,14 +23,13 @@ LAYERS = {
     "columns": "",
     "shapes": "",
     "executors": "errors",
-    "png": "",
     "locale": "errors shapes outside",
     "maths": "errors shapes outside",
     "arrays": "errors",
     "typeset": "errors shapes locale maths",
     "bank": "errors imports shapes outside files kept locale maths",
-    "camera": "errors outside files png maths arrays",
-    "figures": "errors imports kept shapes outside png locale maths arrays camera",
+    "camera": "errors outside files maths arrays",
+    "figures": "errors imports kept shapes outside locale maths arrays camera",
     "marking": "errors shapes outside locale maths",
     "question": "errors shapes outside locale maths typeset bank figures marking",
     "paper": "columns errors shapes outside files kept locale maths bank figures marking question",
@@ -41,10 +40,10 @@ LAYERS = {
     "export": "errors files locale maths typeset bank figures marking question paper responses render",
     "tradeoff": "errors shapes files locale maths arrays bank figures render",
     "classes": "errors executors shapes outside files locale maths bank figures marking question paper responses render",
-    "web": "errors executors shapes outside files png locale maths typeset bank camera figures marking question paper practice render "
+    "web": "errors executors shapes outside files locale maths typeset bank camera figures marking question paper practice render "
     "cards tradeoff classes",
     "audit": "errors outside files locale maths bank figures marking question paper render cards",
-    "cli": "columns errors executors outside files png locale maths bank camera figures marking question paper practice render cards "
+    "cli": "columns errors executors outside files locale maths bank camera figures marking question paper practice render cards "
     "responses export tradeoff classes audit web",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""

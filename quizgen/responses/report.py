@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from statistics import correlation, fmean
 
-from quizgen.columns import width
+from quizgen.columns import lay_out_table
 from quizgen.core.untrusted import escape_control_characters, format_csv
 from quizgen.locale import localise_numbers
 from quizgen.paper.grade_report import format_points, part_note
@@ -139,10 +139,10 @@ def as_json(one: Marked) -> dict[str, object]:
 def lines(marked: Sequence[Marked], lang: str) -> Iterator[str]:
     """A table of attempts and one of questions, their numbers as in a language."""
     found = [_row(one, lang) for one in marked]
-    yield from _table([("name", "id", "marks", "asked back", "to decide"), *found])
+    yield from _lay_out([("name", "id", "marks", "asked back", "to decide"), *found])
     yield ""
     found = [_question(one, lang) for one in statistics(marked)]
-    yield from _table([("question", "asked", "marks", "r", "most often"), *found])
+    yield from _lay_out([("question", "asked", "marks", "r", "most often"), *found])
 
 
 def _row(one: Marked, lang: str) -> tuple[str, ...]:
@@ -167,8 +167,5 @@ def _question(one: Statistics, lang: str) -> tuple[str, ...]:
     return (escape_control_characters(one.number), str(one.count), f"{one.share:.0%}", apart, notes)
 
 
-def _table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
-    sizes = [max(map(width, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        cells = (cell + " " * (size - width(cell)) for cell, size in zip(row, sizes, strict=True))
-        yield "  ".join(cells).rstrip()
+def _lay_out(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
+    return (line for lines in lay_out_table(rows) for line in lines)
