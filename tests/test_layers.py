@@ -15,7 +15,6 @@ ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "quizgen"
 
 LAYERS = {
-    "png": "",
     "columns": "",
     "core": "",
     "executors": "core",
@@ -23,11 +22,11 @@ LAYERS = {
     "maths": "core",
     "numerics": "",
     "typeset": "core locale maths",
-    "camera": "png core maths numerics",
+    "camera": "core maths numerics",
     "grading": "core locale maths",
     "kinds": "core locale maths typeset grading",
     "bank": "core locale maths kinds",
-    "figures": "png core locale maths camera kinds",
+    "figures": "core locale maths camera kinds",
     "question": "core locale maths typeset grading kinds bank figures",
     "paper": "columns core locale maths grading kinds bank question",
     "practice": "core locale grading kinds bank question paper",
@@ -36,11 +35,11 @@ LAYERS = {
     "cards": "core executors locale typeset bank figures question paper render",
     "tradeoff": "core locale maths numerics bank figures render",
     "classes": "core executors locale maths grading kinds bank figures paper render",
-    "lms": "columns core locale maths typeset grading bank figures question paper practice render classes",
-    "web": "png core executors locale maths typeset camera grading kinds bank figures question "
-    "paper practice store render cards tradeoff classes",
+    "lms": "columns core locale maths typeset grading kinds bank figures question paper practice render classes",
+    "web": "core executors locale maths typeset camera grading kinds bank figures question paper "
+    "practice store render cards tradeoff classes",
     "lint": "core locale maths grading kinds bank figures question paper render cards",
-    "cli": "png columns core executors locale camera grading kinds bank figures question paper practice store "
+    "cli": "columns core executors locale camera grading kinds bank figures question paper practice store "
     "render cards tradeoff classes lms web lint",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""

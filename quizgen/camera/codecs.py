@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
+import zlib
 from collections.abc import Callable
 from io import BytesIO
 from typing import TYPE_CHECKING, SupportsFloat
@@ -11,16 +12,32 @@ from typing import TYPE_CHECKING, SupportsFloat
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen import png
 from quizgen.camera.filters import opencv
 
 if TYPE_CHECKING:
     from PIL.Image import Exif
     from PIL.JpegImagePlugin import JpegImageFile
+    from PIL.PngImagePlugin import PngImageFile
 
+Codes = NDArray[np.uint8] | NDArray[np.uint16]
+
+MOST_MEGAPIXELS = 24
 _JPEG = b"\xff\xd8\xff"
+_PNG = b"\x89PNG\r\n\x1a\n"
+# How Pillow is to unpack the pixels of a PNG file. Of colours of 16 bits it keeps the leading
+# byte, which is the first; asked for the other order of bytes, it keeps the second. Grey and alpha
+# of 16 bits come as four bytes.
+_UNPACKINGS = {
+    **{raw: (raw,) for raw in ("L", "LA", "RGB", "RGBA", "I;16B")},
+    "RGB;16B": ("RGB;16B", "RGB;16L"),
+    "RGBA;16B": ("RGBA;16B", "RGBA;16L"),
+    "LA;16B": ("RGBA",),
+}
+# Zlib's effort, and its way of looking for runs only: after the difference from the pixel to the
+# left nothing else repeats in a photograph, and looking for it takes most of the time.
+_FAST, _RUNS = 1, 3
 _ORIENTATION = 0x0112
-_TURNED: dict[object, Callable[[png.Codes], png.Codes]] = {
+_TURNED: dict[object, Callable[[Codes], Codes]] = {
     2: lambda pixels: pixels[:, ::-1],
     3: lambda pixels: pixels[::-1, ::-1],
     4: lambda pixels: pixels[::-1],
@@ -39,10 +56,13 @@ _SHOT_WITH = {
 }
 """Settings of a camera by EXIF's numbers, and what makes base units of their values."""
 _QUALITY = 95
-_BROKEN = (OSError, SyntaxError, ArithmeticError, LookupError, struct.error, TypeError)
+# What Pillow raises for broken files, except for ValueError.
+_BROKEN = (
+    OSError, SyntaxError, ArithmeticError, LookupError, struct.error, TypeError, zlib.error,
+)  # fmt: skip
 
 
-def decode(data: bytes) -> png.Codes:
+def decode(data: bytes) -> Codes:
     """Pixels of a PNG or JPEG file, upright.
 
     Returns
@@ -53,17 +73,48 @@ def decode(data: bytes) -> png.Codes:
     Raises
     ------
     ValueError
-        If the file is neither, broken or larger than `png.MOST_MEGAPIXELS`.
+        If the file is neither, broken or larger than `MOST_MEGAPIXELS`.
     """
-    if not data.startswith(_JPEG):
-        return _upright(png.decode(data), png.exif(data))
+    if not data.startswith((_JPEG, _PNG)):
+        raise ValueError("not a PNG or JPEG file")
+    kind = "JPEG" if data.startswith(_JPEG) else "PNG"
     try:
-        file = _jpeg(data)
-        png.bounded(*file.size)
-        pixels = np.asarray(file if file.mode == "L" else file.convert("RGB"))
-        return _upright(pixels.reshape(*pixels.shape[:2], -1), file.getexif())
+        file = _open_file(data)
+        if math.prod(file.size) > MOST_MEGAPIXELS * 1_000_000:
+            raise ValueError(f"more than {MOST_MEGAPIXELS} megapixels")
+        pixels = _read_jpeg(file) if kind == "JPEG" else _read_png(data)
+        return _upright(pixels.reshape(*file.size[::-1], -1), _open_file(data).getexif())
     except _BROKEN as error:
-        raise ValueError("a broken JPEG file") from error
+        raise ValueError(f"a broken {kind} file") from error
+
+
+def _open_file(data: bytes) -> JpegImageFile | PngImageFile:
+    # Loaded for photographs only: most scenes are drawn.
+    from PIL.JpegImagePlugin import JpegImageFile
+    from PIL.PngImagePlugin import PngImageFile
+
+    return (JpegImageFile if data.startswith(_JPEG) else PngImageFile)(BytesIO(data))
+
+
+def _read_jpeg(file: JpegImageFile | PngImageFile) -> Codes:
+    return np.asarray(file if file.mode == "L" else file.convert("RGB"))
+
+
+def _read_png(data: bytes) -> Codes:
+    file = _open_file(data)
+    packing = str(file.tile[0].args) if file.tile else ""
+    if packing not in _UNPACKINGS:  # few bits become eight; a palette its colours, with alpha
+        return np.asarray(file.convert("L" if file.mode in {"1", "L"} else "RGBA"))
+    first, *second = (_unpack(data, way) for way in _UNPACKINGS[packing])
+    if second:
+        return first.astype(np.uint16) * 256 + second[0]
+    return first.view(">u2").astype(np.uint16) if packing == "LA;16B" else first
+
+
+def _unpack(data: bytes, way: str) -> Codes:
+    file = _open_file(data)
+    file.tile = [tile._replace(args=way) for tile in file.tile]
+    return np.asarray(file)
 
 
 def shot_with(data: bytes) -> dict[str, float]:
@@ -75,8 +126,7 @@ def shot_with(data: bytes) -> dict[str, float]:
         Of a file that `decode` can read.
     """
     try:
-        exif = _jpeg(data).getexif() if data.startswith(_JPEG) else png.exif(data)
-        said = exif.get_ifd(_SHOT)
+        said = _open_file(data).getexif().get_ifd(_SHOT)
     except _BROKEN:
         return {}
     found = {name: _positive(said.get(tag)) * unit for name, (tag, unit) in _SHOT_WITH.items()}
@@ -94,22 +144,30 @@ def _positive(value: object) -> float:
     return number if 0.0 < number < math.inf else 0.0
 
 
-def _jpeg(data: bytes) -> JpegImageFile:
-    from PIL.JpegImagePlugin import JpegImageFile
-
-    return JpegImageFile(BytesIO(data))
-
-
-def _upright(pixels: png.Codes, exif: Exif) -> png.Codes:
+def _upright(pixels: Codes, exif: Exif) -> Codes:
     turn = _TURNED.get(exif.get(_ORIENTATION))
     return pixels if turn is None else turn(pixels)
+
+
+def encode_photo(codes: NDArray[np.uint8]) -> bytes:
+    """Return a PNG file of a photograph; its pixels never vary, its bytes do with zlib.
+
+    Parameters
+    ----------
+    codes : ndarray of uint8, shape (H, W), (H, W, 3) or (H, W, 4)
+    """
+    from PIL import Image
+
+    stream = BytesIO()
+    Image.fromarray(codes).save(stream, "PNG", compress_level=_FAST, compress_type=_RUNS)
+    return stream.getvalue()
 
 
 def _png_file(codes: NDArray[np.uint8]) -> bytes:
     """By OpenCV, which takes half the time, or else by Pillow."""
     cv2 = opencv()
     if cv2 is None:
-        return png.compact(codes)
+        return encode_photo(codes)
     return bytes(cv2.imencode(".png", cv2.cvtColor(codes, cv2.COLOR_RGB2BGR))[1])
 
 

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from quizgen import png
 from quizgen.camera import codecs, effects
 from quizgen.camera.camera import Camera
 from quizgen.camera.codes import MEASURES
@@ -290,8 +289,8 @@ def _scene(file: _File, things: tuple[Thing, ...], precision: Precision | None) 
     values = file.read("scene", 0, file.tables.get("scene", {}))
     kind = values["precision"] = precision or values.get("precision", Scene.precision)
     pixels = values.get("width", Scene.width) * values.get("height", Scene.height)
-    if pixels > png.MOST_MEGAPIXELS * 1_000_000:
-        raise file.fail("scene", 0, "width", f"more than {png.MOST_MEGAPIXELS} megapixels")
+    if pixels > codecs.MOST_MEGAPIXELS * 1_000_000:
+        raise file.fail("scene", 0, "width", f"more than {codecs.MOST_MEGAPIXELS} megapixels")
     near, far = values.pop("depth_near", 1.0), values.pop("depth_far", math.inf)
     for key in ("image", "depth_map"):
         if key in values:
@@ -310,7 +309,7 @@ def _scene(file: _File, things: tuple[Thing, ...], precision: Precision | None) 
 _ROWS = 64
 
 
-def _depths(nearness: png.Codes, near: float, far: float, precision: Precision) -> Image:
+def _depths(nearness: codecs.Codes, near: float, far: float, precision: Precision) -> Image:
     """White is near, black is far, linear in 1/z; looked up for every code."""
     top = int(np.iinfo(nearness.dtype).max)
     share = np.arange(top + 1) / top
@@ -319,14 +318,14 @@ def _depths(nearness: png.Codes, near: float, far: float, precision: Precision) 
     return _looked_up(table, nearness[..., 0])
 
 
-def _linear(codes: png.Codes, precision: Precision) -> Image:
+def _linear(codes: codecs.Codes, precision: Precision) -> Image:
     """Radiance of every code, looked up."""
     top = int(np.iinfo(codes.dtype).max)
     table = np.asarray(srgb_decode(np.arange(top + 1) / top), precision)
     return _looked_up(table, codes)
 
 
-def _looked_up(table: Image, codes: png.Codes) -> Image:
+def _looked_up(table: Image, codes: codecs.Codes) -> Image:
     """A value for every code; some rows at once, as codes become larger numbers for it."""
     found = np.empty(codes.shape, table.dtype)
     for start in range(0, len(codes), _ROWS):
@@ -334,7 +333,7 @@ def _looked_up(table: Image, codes: png.Codes) -> Image:
     return found
 
 
-def _picture(file: _File, key: str, name: str) -> png.Codes:
+def _picture(file: _File, key: str, name: str) -> codecs.Codes:
     """Codes, shape (H, W, 3)."""
     path = file.path.parent / name
     try:

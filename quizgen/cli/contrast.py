@@ -115,9 +115,9 @@ def _render_page(
 
 
 def _render_figure(name: str, codes: Codes) -> str:
-    from quizgen import png
+    from quizgen.camera.codecs import encode_photo
 
-    data = b64encode(png.compact(codes)).decode()
+    data = b64encode(encode_photo(codes)).decode()
     source = f"data:image/png;base64,{data}"
     label = escape(name)
     return f'<figure><img src="{source}" alt="{label}"><figcaption>{label}</figcaption></figure>\n'

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
 
-from quizgen.cli.terminal import columns, wrapped
+from quizgen.cli.terminal import columns
+from quizgen.columns import wrap_lines
 from quizgen.core.files import write_all
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.figures import Figure
@@ -46,7 +47,7 @@ class Quit(Exception):
 
 def say(text: str, first: str = "", rest: str = "", **style: Unpack[Style]) -> None:
     """Print a text, broken between words at the width of the terminal."""
-    for line in wrapped(escape_control_characters(text), columns(), first, rest):
+    for line in wrap_lines(escape_control_characters(text), columns(), first, rest):
         click.secho(line, **style)
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from statistics import correlation, fmean
 
-from quizgen.columns import width
+from quizgen.columns import lay_out_table
 from quizgen.core.untrusted import escape_control_characters, format_csv
 from quizgen.lms.grading import GradedAttempt
 from quizgen.locale import localise_numbers
@@ -168,7 +168,4 @@ def _question_line(one: QuestionStatistics, lang: str) -> tuple[str, ...]:
 
 
 def _format_table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
-    sizes = [max(map(width, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        cells = (cell + " " * (size - width(cell)) for cell, size in zip(row, sizes, strict=True))
-        yield "  ".join(cells).rstrip()
+    return (line for lines in lay_out_table(rows) for line in lines)

@@ -199,9 +199,9 @@ def _encode_picture(values: Image) -> bytes:
 
 
 def _png_of(codes: NDArray[np.uint8]) -> bytes:
-    from quizgen import png
+    from quizgen.camera.codecs import encode_photo
 
-    return png.compact(codes)
+    return encode_photo(codes)
 
 
 @cache

@@ -177,6 +177,21 @@ def run_request(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes:
     return msgspec.json.encode(question_view(wanted, question, key, bank))
 
 
+_HELD: list[Bank] = []  # the bank of a worker process, whose files it reads once
+
+
+def prepare_process(bank: Bank) -> None:
+    """Hold the bank for every job of this process, and load what the first one needs."""
+    import numpy  # noqa: F401, ICN001
+
+    _HELD[:] = [bank]
+
+
+def make_from_held_bank(wanted: QuestionRequest | WorkerJob) -> bytes:
+    """Return what `make` gives of the bank that this process was prepared with."""
+    return run_request(_HELD[0], wanted)
+
+
 def make_papers(bank: Bank, code: str, blueprint: str, seed: int) -> dict[str, PaperView]:
     """A paper in each language of its own, by its code, or of a blueprint and a seed.
 

@@ -10,7 +10,6 @@ import scenes_at_random as at_random
 from click.testing import CliRunner
 from sweep import draws
 
-from quizgen import png
 from quizgen.camera import Camera, Prepared, Scene, SceneError
 from quizgen.camera.effects import EFFECTS
 from quizgen.camera.filters import everywhere_alike
@@ -19,6 +18,7 @@ from quizgen.camera.power import encode_number
 from quizgen.camera.reading import load
 from quizgen.camera.simulate import run
 from quizgen.cli.simulate import simulate
+from quizgen.figures.png import encode_png
 from quizgen.numerics.gamma import srgb_decode
 
 SCENE = Path(__file__).parents[2] / "quizgen/camera/scenes/texture.toml"
@@ -135,7 +135,7 @@ def test_the_command_says_what_float32_is_off_by(precision):
 
 def test_both_precisions_read_a_photograph_to_its_last_digit(tmp_path):
     codes = np.arange(6 * 4 * 3, dtype=np.uint8).reshape(6, 4, 3)
-    (tmp_path / "photo.png").write_bytes(png.encode(codes))
+    (tmp_path / "photo.png").write_bytes(encode_png(codes))
     file = tmp_path / "scene.toml"
     file.write_text('[scene]\nimage = "photo.png"\n', "utf-8")
     right = np.asarray(srgb_decode(codes / 255))

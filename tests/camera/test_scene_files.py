@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import zlib
 from base64 import b64decode
 from importlib import import_module
 from pathlib import Path
@@ -13,13 +14,13 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from quizgen import png
-from quizgen.camera import Prepared, SceneError, plan_everything
+from quizgen.camera import Prepared, SceneError, codecs, plan_everything
 from quizgen.camera.compare import amplify_difference
 from quizgen.camera.question import InvisibleEffectError
 from quizgen.camera.reading import load
 from quizgen.cli.simulate import SCENES, simulate
 from quizgen.cli.terminal import Progress
+from quizgen.figures.png import encode_png
 
 NAMES = sorted(path.stem for path in SCENES.glob("*.toml"))
 
@@ -90,8 +91,9 @@ def test_a_wrong_file_is_one_line_with_its_place(tmp_path, text, line, words):
 
 
 def a_picture(name):
-    data = png.encode(np.random.default_rng(3).integers(0, 256, (6, 5, 3), np.uint8))
-    huge = data[:16] + (20_000).to_bytes(4, "big") * 2 + data[24:]
+    data = encode_png(np.random.default_rng(3).integers(0, 256, (6, 5, 3), np.uint8))
+    header = b"IHDR" + (20_000).to_bytes(4, "big") * 2 + data[24:29]
+    huge = data[:12] + header + zlib.crc32(header).to_bytes(4, "big") + data[33:]
     return {"other": b"GIF89a", "short": data[:60], "none": b"", "huge": huge}[name]
 
 
@@ -112,7 +114,7 @@ def test_a_bad_picture_is_one_line_with_its_place(tmp_path, key, name, words):
 
 @pytest.mark.parametrize("size", [(1, 1), (1, 300), (300, 1)])
 def test_pictures_without_a_neighbour_are_refused(tmp_path, size):
-    (tmp_path / "line.png").write_bytes(png.encode(np.zeros((*size, 3), np.uint8)))
+    (tmp_path / "line.png").write_bytes(encode_png(np.zeros((*size, 3), np.uint8)))
     path = tmp_path / "scene.toml"
     path.write_text('[scene]\nimage = "line.png"\n', "utf-8")
     with pytest.raises(SceneError, match=r":2: line.png: .* at least 2 rows and columns"):
@@ -134,7 +136,7 @@ def test_a_blur_much_wider_than_the_picture_is_one_line(tmp_path):
 @pytest.mark.parametrize("key", ["width", "none"])
 def test_a_sensor_is_as_wide_as_the_picture_on_it(tmp_path, key):
     """A photograph brings its own width; 36 mm over 90 columns are 400 um each."""
-    (tmp_path / "photo.png").write_bytes(png.encode(np.zeros((6, 90, 3), np.uint8)))
+    (tmp_path / "photo.png").write_bytes(encode_png(np.zeros((6, 90, 3), np.uint8)))
     path = tmp_path / "scene.toml"
     width = "width = 30\n" if key == "width" else ""
     path.write_text(
@@ -176,10 +178,10 @@ def test_units_become_base_units(tmp_path):
 
 def test_a_picture_with_a_depth_map(tmp_path):
     codes = np.random.default_rng(0).integers(0, 256, (12, 16, 3), np.uint8)
-    (tmp_path / "photo.png").write_bytes(png.encode(codes))
+    (tmp_path / "photo.png").write_bytes(encode_png(codes))
     nearness = np.zeros((12, 16), np.uint8)
     nearness[:, 8:] = 255
-    (tmp_path / "near.png").write_bytes(png.encode(nearness))
+    (tmp_path / "near.png").write_bytes(encode_png(nearness))
     path = tmp_path / "scene.toml"
     path.write_text(
         '[scene]\nimage = "photo.png"\ndepth_map = "near.png"\ndepth_near = "2 m"\n'
@@ -193,7 +195,7 @@ def test_a_picture_with_a_depth_map(tmp_path):
     out = tmp_path / "out.png"
     result = CliRunner().invoke(simulate, [str(path), "--out", str(out)], catch_exceptions=False)
     assert result.exit_code == 0
-    assert np.array_equal(png.decode(out.read_bytes()), codes)
+    assert np.array_equal(codecs.decode(out.read_bytes()), codes)
 
 
 def invoke(*arguments):
@@ -208,7 +210,7 @@ def test_shipped_scenes(name, tmp_path):
     out = tmp_path / "photo.png"
     report = json.loads(invoke(name, "--json", "--out", str(out)))
     first = out.read_bytes()
-    assert png.decode(first).shape == (480, 640, 3)
+    assert codecs.decode(first).shape == (480, 640, 3)
     assert all(one["is_visible"] for one in report.get("seen", ()))
     invoke(name, "--json", "--out", str(out))
     assert out.read_bytes() == first
@@ -384,7 +386,7 @@ def test_a_page_shows_the_pictures_and_the_table(tmp_path):
     )
     images = [image.get("src") for image in tree.iter("img")]
     assert len(images) == 3
-    sizes = {png.decode(b64decode(source.partition("base64,")[2])).shape for source in images}
+    sizes = {codecs.decode(b64decode(source.partition("base64,")[2])).shape for source in images}
     assert sizes == {(480, 640, 3)}
     cells = [[cell.text or "" for cell in row] for row in tree.iter("tr")]
     assert [row[0] for row in cells][1:4] == ["projection", "defocus", "gamma"]

@@ -103,24 +103,6 @@ print(os.environ["OPENBLAS_NUM_THREADS"], len(os.listdir(tasks)) if os.path.isdi
     assert int(tasks) <= int(threads)
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="large pages are asked for on Linux alone")
-@pytest.mark.parametrize(("own", "large"), [(None, False), ("1", True)])
-def test_memory_is_taken_in_small_pages_unless_somebody_wants_large_ones(tmp_path, own, large):
-    code = """
-import sys
-from quizgen.__main__ import main
-sys.argv = ["quizgen", "templates", "--topic", "eye"]
-main()
-import numpy as np
-print(np._core.multiarray._get_madvise_hugepage())
-"""
-    home = {name: x for name, x in os.environ.items() if name != "NUMPY_MADVISE_HUGEPAGE"}
-    given = home if own is None else {**home, "NUMPY_MADVISE_HUGEPAGE": own}
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=given,
-                          capture_output=True, text=True, check=True)  # fmt: skip
-    assert done.stdout.split()[-1] == str(large)
-
-
 @pytest.mark.parametrize(
     "arguments",
     [["exam", "--topic", "\x1b]0;x\x07"], ["preview", "\x1b[31m"], ["mark", "\x1b[2J"],

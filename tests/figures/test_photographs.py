@@ -20,7 +20,7 @@ from quizgen.bank.variant import draw_variant as draw_question
 from quizgen.camera import pictures
 from quizgen.core.errors import BankError, QuizgenError
 from quizgen.figures import complete_parameters, svg
-from quizgen.png import encode
+from quizgen.figures.png import encode_png
 from quizgen.question.part_context import ask_part
 
 artefacts = module("artefacts")
@@ -41,13 +41,13 @@ def read_photos(name, values):
 @pytest.mark.parametrize("shape", [(5, 7), (1, 1), (5, 7, 3), (96, 144, 3)])
 def test_png_is_read_back_by_opencv(shape):
     codes = np.random.Generator(np.random.SFC64(3)).integers(0, 256, shape, np.uint8)
-    read = cv2.imdecode(np.frombuffer(encode(codes), np.uint8), cv2.IMREAD_UNCHANGED)
+    read = cv2.imdecode(np.frombuffer(encode_png(codes), np.uint8), cv2.IMREAD_UNCHANGED)
     assert np.array_equal(read if codes.ndim == 2 else read[..., ::-1], codes)
 
 
 def test_grey_pictures_are_stored_with_one_channel():
     codes = np.repeat(np.arange(20, dtype=np.uint8).reshape(4, 5, 1), 3, axis=2)
-    read = cv2.imdecode(np.frombuffer(encode(codes), np.uint8), cv2.IMREAD_UNCHANGED)
+    read = cv2.imdecode(np.frombuffer(encode_png(codes), np.uint8), cv2.IMREAD_UNCHANGED)
     assert np.array_equal(read, codes[..., 0])
 
 

@@ -23,6 +23,7 @@ from quizgen.camera.reading import load as load_scene
 from quizgen.camera.simulate import run as photograph
 from quizgen.cards.content import KINDS as CARDS
 from quizgen.cards.error_deck import deck_from_grades
+from quizgen.figures.png import encode_png
 from quizgen.paper.answer_form import read_filled_form
 from quizgen.paper.answer_key import read_answer_key, write_answer_key
 from quizgen.paper.blueprint import load_blueprint
@@ -30,7 +31,6 @@ from quizgen.paper.grade_report import format_table, write_class_csv
 from quizgen.paper.grading import grade_paper
 from quizgen.paper.paper import build_paper, single_question_paper
 from quizgen.paper.selection import count_papers, select_templates
-from quizgen.png import encode
 from quizgen.question.entry_prose import entry_blocks
 from quizgen.render import render_paper
 from quizgen.render.text import format_question
@@ -137,7 +137,7 @@ def scene(folder: Path, chance: Chance) -> None:
 def a_picture() -> bytes:
     import numpy as np
 
-    return encode(np.arange(12 * 16 * 3, dtype=np.uint8).reshape(12, 16, 3))
+    return encode_png(np.arange(12 * 16 * 3, dtype=np.uint8).reshape(12, 16, 3))
 
 
 def png(folder: Path, chance: Chance) -> None:

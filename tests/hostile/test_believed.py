@@ -13,6 +13,7 @@ from html.parser import HTMLParser
 import pytest
 
 from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.camera.codecs import decode
 from quizgen.camera.reading import load as load_scene
 from quizgen.camera.scene import SceneError
 from quizgen.cards import build_deck
@@ -33,7 +34,6 @@ from quizgen.core.untrusted import (
 )
 from quizgen.paper.answer_key import FORMAT, parse_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.png import decode
 
 TEMPLATE = """
 topic = "algebra"
