@@ -15,8 +15,9 @@ ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "quizgen"
 
 LAYERS = {
-    "errors": "",
-    "outside": "errors",
+    "core": "",
+    "errors": "core",
+    "outside": "core errors",
     "files": "errors outside",
     "kept": "",
     "imports": "",
@@ -24,27 +25,27 @@ LAYERS = {
     "shapes": "",
     "executors": "errors",
     "png": "",
-    "locale": "errors shapes outside",
-    "maths": "errors shapes outside",
+    "locale": "core errors shapes outside",
+    "maths": "core errors shapes outside",
     "arrays": "errors",
     "typeset": "errors shapes locale maths",
-    "bank": "errors imports shapes outside files kept locale maths",
+    "bank": "core errors imports shapes outside files kept locale maths",
     "camera": "errors outside files png maths arrays",
-    "figures": "errors imports kept shapes outside png locale maths arrays camera",
+    "figures": "core errors imports kept shapes outside png locale maths arrays camera",
     "marking": "errors shapes outside locale maths",
-    "question": "errors shapes outside locale maths typeset bank figures marking",
-    "paper": "columns errors shapes outside files kept locale maths bank figures marking question",
+    "question": "core errors shapes outside locale maths typeset bank figures marking",
+    "paper": "core columns errors shapes outside files kept locale maths bank figures marking question",
     "practice": "errors shapes outside files locale maths bank marking question paper",
     "responses": "columns errors shapes outside files locale maths marking question paper practice",
     "render": "errors outside files kept locale typeset bank figures question paper",
-    "cards": "errors executors shapes outside files locale maths typeset bank figures question paper render",
+    "cards": "core errors executors shapes outside files locale maths typeset bank figures question paper render",
     "export": "errors files locale maths typeset bank figures marking question paper responses render",
     "tradeoff": "errors shapes files locale maths arrays bank figures render",
     "classes": "errors executors shapes outside files locale maths bank figures marking question paper responses render",
     "web": "errors executors shapes outside files png locale maths typeset bank camera figures marking question paper practice render "
     "cards tradeoff classes",
-    "audit": "errors outside files locale maths bank figures marking question paper render cards",
-    "cli": "columns errors executors outside files png locale maths bank camera figures marking question paper practice render cards "
+    "audit": "core errors outside files locale maths bank figures marking question paper render",
+    "cli": "core columns errors executors outside files png locale maths bank camera figures marking question paper practice render cards "
     "responses export tradeoff classes audit web",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""

@@ -75,7 +75,7 @@ def _compute_code_digest(package: str) -> bytes:
 
 def _iter_code_files(package: str) -> Iterator[Path]:
     own = Path(__file__).parent.parent
-    for folder in ("bank", "maths"):
+    for folder in ("bank", "core", "maths"):
         yield from sorted((own / folder).rglob("*.py"))
     yield own / "outside.py"
     found = find_spec(package) if package else None

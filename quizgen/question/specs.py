@@ -8,7 +8,7 @@ from typing import Any, TypeAlias, TypeVar
 
 import msgspec
 
-from quizgen.bank.complaints import explain_validation_error
+from quizgen.bank.complaints import complaint_of
 from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
@@ -37,9 +37,10 @@ def authored_answer(drawn: Variant, index: int) -> Mapping[str, Any]:
     return drawn.template.rules.part[index].answer
 
 
-def part_error(drawn: Variant, index: int, what: str) -> BankError:
+def part_error(drawn: Variant, index: int, what: str, rule: str = "QG112") -> BankError:
     """An error that names the template and the part."""
-    return BankError(f"{drawn.template.file}: part {index + 1}: {what}")
+    said, place = f"part {index + 1}: {what}", ("part", index, "answer")
+    return BankError(said, rule=rule, file=drawn.template.file, place=place)
 
 
 def specification(shape: type[S], drawn: Variant, index: int, **given: object) -> S:
@@ -60,7 +61,7 @@ def specification(shape: type[S], drawn: Variant, index: int, **given: object) -
         with spec.known_units().activate():
             spec.validate()
     except (msgspec.ValidationError, FormulaError, ValueError) as error:
-        raise part_error(drawn, index, explain_validation_error(error, shape)) from error
+        raise part_error(drawn, index, complaint_of(error, shape).message) from error
     return spec
 
 
