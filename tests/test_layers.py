@@ -38,7 +38,7 @@ LAYERS = {
     "lms": "columns core locale maths typeset grading kinds bank figures question paper practice render classes",
     "web": "core executors locale maths typeset camera grading kinds bank figures question paper "
     "practice store render cards tradeoff classes",
-    "lint": "core locale maths grading kinds bank figures question paper render cards",
+    "lint": "core locale maths grading kinds bank figures question paper render",
     "cli": "columns core executors locale camera grading kinds bank figures question paper practice store "
     "render cards tradeoff classes lms web lint",
 }
@@ -47,7 +47,6 @@ LAYERS = {
 BELONGS = {
     "quizgen.bank.markdown": "typeset",
     "quizgen.question.inlines": "typeset",
-    "quizgen.bank.complaints": "shapes",
 }
 """Modules that know nothing of the package they lie in: pieces of prose, and what msgspec says."""
 

@@ -36,10 +36,11 @@ class PartChecker:
         rules = template.rules
         self.answer = rules.part[index].answer
         self.of = asked_quantities(self.answer)
-        place = f"{template.file}: part {index + 1}"
+        said, place = f"part {index + 1}", ("part", index, "answer")
         unknown = set(self.of) - {*template.chain.given, *template.chain.by_name}
         if unknown:
-            raise BankError(f"{place}: answer: of: unknown to the solver: {sorted(unknown)}")
+            what = f"{said}: answer: of: unknown to the solver: {sorted(unknown)}"
+            raise BankError(what, rule="QG116", file=template.file, place=(*place, "of"))
         self.known = {n for part in rules.part[:index] for n in asked_quantities(part.answer)}
         needed = frozenset().union(
             *(template.chain.required_steps(n, self.known - {n}) for n in self.of), frozenset()
@@ -57,7 +58,8 @@ class PartChecker:
         try:
             self.tolerances = _list_tolerances(self.answer, self.of)
         except (msgspec.ValidationError, ValueError) as error:
-            raise BankError(f"{place}: {error}") from None
+            what = f"{said}: {error}"
+            raise BankError(what, rule="QG113", file=template.file, place=place) from None
         bounds = self.answer.get("accept", ()) if self.of else ()
         self.accept = [_Bound(template, str(text)) for text in bounds]
         self.one_step = any(

@@ -22,7 +22,8 @@ import msgspec
 from quizgen.bank.compile_cache import CompileCache
 from quizgen.bank.markdown import LanguageFile, PictureLink, PlainText
 from quizgen.core.errors import BankError
-from quizgen.core.untrusted import is_identifier, read_bytes, read_text
+from quizgen.core.positions import TEXT
+from quizgen.core.untrusted import is_identifier, read_bytes
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -117,9 +118,9 @@ def read_pictures(folder: Path, texts: Mapping[str, LanguageFile]) -> dict[str, 
                 if link.file not in found:
                     found[link.file] = read_picture(folder, link.file)
             except BankError as error:
-                raise BankError(
-                    f"{_find_link_line(folder / f'{lang}.md', link.file)}: {error}"
-                ) from error
+                place = (TEXT, f"({link.file})")
+                file = folder / f"{lang}.md"
+                raise BankError(error.message, rule="QG156", file=file, place=place) from error
     return found
 
 
@@ -129,12 +130,6 @@ def _check_words(link: PictureLink) -> None:
             f"picture {link.file!r} has no words: describe the picture in words for those who "
             f"cannot see it, ![words]({link.file})"
         )
-
-
-def _find_link_line(path: Path, name: str) -> str:
-    lines = read_text(path, BankError).splitlines()
-    numbers = (number for number, line in enumerate(lines, 1) if f"({name})" in line)
-    return f"{path}:{next(numbers, 1)}"
 
 
 def read_picture(folder: Path, name: str) -> PictureFile:
@@ -161,7 +156,7 @@ def read_picture(folder: Path, name: str) -> PictureFile:
     try:
         return _PICTURES.get(data) or _PICTURES.put(pack(data), data)
     except BankError as error:
-        raise BankError(f"picture {name!r}: {error}") from error
+        raise BankError(f"picture {name!r}: {error.message}") from error
 
 
 def _fit_picture(data: bytes, kind: str, width: float, height: float) -> PictureFile:

@@ -238,9 +238,11 @@ def check_visible(seen: Visibility, *, grey: bool = False) -> None:
         With what it does, and how little of that is seen.
     """
     if not seen.is_visible:
-        raise InvisibleEffectError(f"{seen.kind} cannot be seen: {seen.explain()}")
+        what = f"{seen.kind} cannot be seen: {seen.explain()}"
+        raise InvisibleEffectError(what, rule="QG146")
     if grey and seen.needs_colour and seen.grey is not None:
-        raise InvisibleEffectError(f"{seen.kind} cannot be seen in grey: {seen.grey.explain()}")
+        what = f"{seen.kind} cannot be seen in grey: {seen.grey.explain()}"
+        raise InvisibleEffectError(what, rule="QG146")
 
 
 def photograph_question(

@@ -26,8 +26,16 @@ quizgen.
 What a student types never raises out of the checker: it becomes a verdict.
 """
 
+from __future__ import annotations
+
 from collections.abc import Collection
 from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from quizgen.core.diagnostics import Diagnostic
+    from quizgen.core.positions import Place
 
 # Extra of pyproject.toml to the modules that are imported of it. Without "image" the same pictures
 # are computed, only more slowly; "lms" and "anki" need no packages yet.
@@ -46,7 +54,59 @@ EXTRA_MODULES = {
 
 
 class QuizgenError(Exception):
-    """Base of all errors that the command line shows as one line."""
+    """Base of all errors that the command line shows as one line.
+
+    Whoever raises one knows the place in the file's own terms, and a reader further out knows the
+    file: it adds it (``outside.located``). The line is looked up when the error is shown.
+
+    Parameters
+    ----------
+    *args : object
+        The message.
+    rule : str
+        Code in docs/diagnostics.md of what is wrong.
+    file : pathlib.Path, optional
+        What it is about.
+    place : tuple of str or int
+        Where in the file, as ``core.positions`` finds it.
+    line : int
+        Where, if that is known; counted from 1.
+    """
+
+    rule: str
+    file: Path | None
+    place: Place
+    line: int
+
+    def __init__(
+        self,
+        *args: object,
+        rule: str = "",
+        file: Path | None = None,
+        place: Place = (),
+        line: int = 0,
+    ) -> None:
+        super().__init__(*args)
+        self.rule, self.file, self.place, self.line = rule, file, place, line
+
+    @property
+    def message(self) -> str:
+        """What is wrong, without the place."""
+        return Exception.__str__(self)
+
+    def __str__(self) -> str:
+        if self.file is None:
+            return self.message
+        found = self.diagnostic(self.file)
+        line = f":{found.span.line}" if found.span else ""
+        return f"{self.file}{line}: {self.message}"
+
+    def diagnostic(self, file: Path) -> Diagnostic:
+        """The same as lint says it, about this file unless the error knows a better one."""
+        from quizgen.core.diagnostics import DEFAULT, diagnose
+
+        own = self.file or file
+        return diagnose(self.rule or DEFAULT, own, self.message, self.place, line=self.line)
 
 
 class BankError(QuizgenError):

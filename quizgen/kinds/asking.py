@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import msgspec
 
-from quizgen.bank.complaints import explain_validation_error
+from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
 from quizgen.core.errors import FormulaError
 from quizgen.grading.judge import show_spec
@@ -53,7 +53,7 @@ def make_spec(shape: type[S], part: PartContext, **given: object) -> S:
         with spec.known_units().activate():
             spec.validate()
     except (msgspec.ValidationError, FormulaError, ValueError) as error:
-        raise part.error(explain_validation_error(error, shape)) from error
+        raise part.error(complaint_of(error, shape).message) from error
     return spec
 
 

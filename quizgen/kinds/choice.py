@@ -73,7 +73,7 @@ class AuthoredChoice(AuthoredPooled, kw_only=True, tag="choice", frozen=True):
         """The number of right options can only be asked of what is taken."""
         yield from super().find_problems()
         if self.right and not (self.take and 1 <= self.right[0] <= self.right[1]):
-            yield "answer.right", "is [least, most] right options among those that take names"
+            yield ("right",), "QG115", "is [least, most] right options among those that take names"
 
 
 class ChoiceSpec(WordSpec, kw_only=True, frozen=True):

@@ -32,6 +32,7 @@ import msgspec
 from flint import fmpq
 
 from quizgen.core.errors import BankError
+from quizgen.core.positions import Place
 from quizgen.grading.judge import show_spec
 from quizgen.grading.spec import AnySpec
 from quizgen.maths.constants import Scalar
@@ -51,8 +52,8 @@ Condition: TypeAlias = bool | str
 Formulas: TypeAlias = tuple[Scalar, Scalar]
 SymbolDomain: TypeAlias = Literal["real", "positive"] | tuple[Scalar, Scalar]
 
-FieldProblem: TypeAlias = tuple[str, str]
-"""Field and what is wrong in it."""
+FieldProblem: TypeAlias = tuple[Place, str, str]
+"""Where in the answer's table, the code of the diagnostic, and what is wrong."""
 
 
 class AuthoredAnswer(msgspec.Struct, kw_only=True, frozen=True, forbid_unknown_fields=True,
@@ -93,7 +94,7 @@ class AuthoredNumeric(AuthoredMeasured, kw_only=True, frozen=True):
         count = 1 if isinstance(self.of, str) else len(self.of)
         if not self.least <= count <= self.most:
             wanted = f"{self.least} to {self.most}" if self.most > 1 else "one"
-            yield "answer.of", f"names {count}, and this kind asks for {wanted}"
+            yield ("of",), "QG114", f"names {count}, and this kind asks for {wanted}"
 
 
 class AuthoredPooled(AuthoredAnswer, frozen=True):
@@ -112,10 +113,8 @@ class AuthoredPooled(AuthoredAnswer, frozen=True):
         yield from find_name_problems(self.listed, self.listed_names(), self.take)
         count = len(getattr(self, self.listed))
         if self.take and not 1 <= self.take <= min(MOST_OPTIONS, count):
-            yield (
-                "answer.take",
-                f"must be 1 to {MOST_OPTIONS} and at most the number of {self.listed}",
-            )
+            wrong = f"must be 1 to {MOST_OPTIONS} and at most the number of {self.listed}"
+            yield ("take",), "QG115", wrong
 
 
 def find_name_problems(
@@ -124,15 +123,15 @@ def find_name_problems(
     """What is wrong with a list of names, of which a variant takes some if ``take`` is not 0."""
     most = MOST_IN_POOL if take else MOST_OPTIONS
     if not least <= len(names) <= most:
-        yield f"answer.{field}", f"1 to {most} are needed"
+        yield (field,), "QG110", f"1 to {most} are needed"
     if len(set(names)) < len(names):
-        yield f"answer.{field}", "a name stands twice"
+        yield (field,), "QG110", "a name stands twice"
 
 
 def find_extra_problems(extra: int | None, spare: int) -> Iterator[FieldProblem]:
     """What is wrong with the number of distractors that are shown."""
     if extra is not None and not 0 <= extra <= spare:
-        yield "answer.extra", f"must be 0 to {spare}, the number of distractors"
+        yield ("extra",), "QG115", f"must be 0 to {spare}, the number of distractors"
 
 
 def asked_quantities(answer: Mapping[str, Any]) -> tuple[str, ...]:
@@ -338,8 +337,8 @@ class PartContext(Protocol):
     terms: Sequence[str]
     """Words of the bank's subject."""
 
-    def error(self, what: str) -> BankError:
-        """An error that names the template and the part."""
+    def error(self, what: str, rule: str = "QG112") -> BankError:
+        """An error that names the template and the part; ``rule`` is its diagnostic code."""
 
     def evaluate(self, formula: str) -> Value:
         """Value of a formula over the quantities in shown units."""

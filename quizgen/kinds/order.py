@@ -56,10 +56,10 @@ class AuthoredOrder(AuthoredPooled, kw_only=True, tag="order", frozen=True):
         yield from find_name_problems("distractors", self.distractors, self.take, 0)
         strangers = {name for pair in self.before for name in pair} - set(self.steps)
         if strangers:
-            yield "answer.before", f"names {sorted(strangers)}, which are not steps"
+            yield ("before",), "QG116", f"names {sorted(strangers)}, which are not steps"
         if self.take and self.before:
             wrong = "some of the steps can be taken only of one order, without before"
-            yield "answer.take", wrong
+            yield ("take",), "QG115", wrong
         yield from find_extra_problems(self.extra, len(self.distractors))
 
 

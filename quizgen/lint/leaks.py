@@ -65,12 +65,13 @@ _WORD = re.compile(r"[^\W\d_\u0980-\u09ff][\w'-]{3,}|[\u0980-\u09ff]{3,}")
 
 @dataclass(frozen=True)
 class Leak:
-    """A question tells what another one asks."""
+    """A question tells what another one asks, in a text of it if that can be shown."""
 
     teller: str
     asker: str
     label: str
     what: str
+    text: str = ""
 
 
 @dataclass
@@ -166,11 +167,11 @@ def find_bank_leaks(bank: Bank, questions: Sequence[QuestionContent]) -> dict[Le
         for teller in questions if asked else ():
             if teller is asker or teller.lang != asker.lang:
                 continue
-            what = [(one, said) for one in asked for said in _iter_leaks(one, teller.said)]
+            what = [(one, *said) for one in asked for said in _iter_leaks(one, teller.said)]
             names = teller.template, asker.template
             if what and not are_exclusive(bank, *names):
-                for secret, said in what:
-                    found.setdefault(Leak(*names, secret.label, said), teller.lang)
+                for secret, said, text in what:
+                    found.setdefault(Leak(*names, secret.label, said, text), teller.lang)
     return found
 
 
@@ -187,35 +188,39 @@ def find_paper_leaks(paper: Paper) -> list[Leak]:
                     if teller is not asker:
                         names = teller.keys[0].template, asker.keys[0].template
                         what = dict.fromkeys(_iter_leaks(secret, other))
-                        found |= dict.fromkeys(Leak(*names, secret.label, w) for w in what)
+                        found |= dict.fromkeys(Leak(*names, secret.label, *w) for w in what)
     return list(found)
 
 
-def _iter_leaks(secret: AskedContent, other: PrintedContent) -> Iterator[str]:
+def _iter_leaks(secret: AskedContent, other: PrintedContent) -> Iterator[tuple[str, str]]:
+    """What of a secret is told, and the text that tells it."""
     if not secret.formulas.keys().isdisjoint(other.formulas):
         for form in secret.formulas.keys() & other.formulas.keys():
-            yield f"formula {secret.formulas[form]} in ${other.formulas[form]}$"
+            text = f"${other.formulas[form]}$"
+            yield f"formula {secret.formulas[form]} in {text}", text
     if secret.numbers:
-        yield from (f"number {n}" for n in sorted(secret.numbers & other.numbers))
+        yield from ((f"number {n}", n) for n in sorted(secret.numbers & other.numbers))
     for sentence, needed, words in secret.words:
         if needed <= other.vocabulary and len(words & other.vocabulary) >= SAME * len(words):
             for line, others in other.words:
                 if needed <= others and len(words & others) >= SAME * len(words):
-                    yield f"'{sentence}' in {line!r}"
+                    yield f"'{sentence}' in {line!r}", line
     if secret.named:
         yield from _named_points(secret.named, other)
     places = [other.sentences.index(step) for step in secret.steps if step in other.sentences]
     if len(places) > 1 and places == sorted(places):
-        yield f"order of {len(places)} steps"
+        yield f"order of {len(places)} steps", other.sentences[places[0]]
 
 
-def _named_points(named: Mapping[str, Sequence[str]], other: PrintedContent) -> Iterator[str]:
+def _named_points(
+    named: Mapping[str, Sequence[str]], other: PrintedContent
+) -> Iterator[tuple[str, str]]:
     """Sentences that name several key points, and most of them."""
     there = [name for name, terms in named.items() if any(term in other.text for term in terms)]
     for sentence, line in other.lines if len(there) >= POINTS else ():
         found = [name for name in there if any(term in line for term in named[name])]
         if len(found) >= POINTS and 2 * len(found) > len(named):
-            yield f"key points {', '.join(found)} in {sentence!r}"
+            yield f"key points {', '.join(found)} in {sentence!r}", sentence
 
 
 def printed_content(question: Question, drawn: Variant) -> PrintedContent:

@@ -37,6 +37,7 @@ from typing import Any
 import msgspec
 
 from quizgen.core.decoding import convert
+from quizgen.core.diagnostics import Diagnostic, diagnose
 from quizgen.core.errors import QuizgenError, require_one_of
 from quizgen.locale import custom
 
@@ -159,7 +160,9 @@ def get_language(lang: str) -> Language:
         return convert(usual | _read_words(file), Language)
     except msgspec.ValidationError as error:
         what, _, key = str(error).partition(" - at `$.")
-        raise QuizgenError(f"{file}: {key.rstrip('`')}{': ' if key else ''}{what}") from error
+        key = key.rstrip("`")
+        said, place = f"{key}: {what}" if key else what, (key,) if key else ()
+        raise QuizgenError(said, rule="QG106", file=file, place=place) from error
 
 
 def localise_numbers(lang: str, text: str) -> str:
@@ -303,8 +306,8 @@ OPEN = frozenset({"letters", "greek", "names"})
 """Tables of ``speech`` that say only what is not called as it is written."""
 
 
-def check_translations(place: Path) -> Iterator[str]:
-    """What is wrong with the words that a bank brings: file, key and what is the matter.
+def check_translations(place: Path) -> Iterator[Diagnostic]:
+    """What is wrong with the words that a bank brings.
 
     Parameters
     ----------
@@ -316,7 +319,8 @@ def check_translations(place: Path) -> Iterator[str]:
         lang = file.parent.name
         try:
             if not custom.is_language_tag(lang):
-                yield f"{file}: {lang!r} is no language (call the folder fr, or pt-BR)"
+                what = f"{lang!r} is no language (call the folder fr, or pt-BR)"
+                yield diagnose("QG508", file, what)
             elif file.name == "language.toml":
                 get_language(lang)
             elif file.name in known:
@@ -324,11 +328,11 @@ def check_translations(place: Path) -> Iterator[str]:
                 for key, what in custom.check_translation(
                     english, custom.read_translation(file), OPEN
                 ):
-                    yield f"{file}: {key}: {what}"
+                    yield diagnose("QG507", file, f"{key}: {what}", tuple(key.split(".")))
             else:
-                yield f"{file}: is none of language.toml, {', '.join(known)}"
+                yield diagnose("QG508", file, f"is none of language.toml, {', '.join(known)}")
         except QuizgenError as error:
-            yield str(error)
+            yield error.diagnostic(file)
 
 
 def _find_words_file(lang: str, name: str) -> Path | None:

@@ -47,8 +47,9 @@ class VariantPart(PartContext):
         self.units, self.defined_units = template.units, template.about.units
         self.terms = template.about.terms
 
-    def error(self, what: str) -> BankError:
-        return BankError(f"{self.drawn.template.file}: part {self.index + 1}: {what}")
+    def error(self, what: str, rule: str = "QG112") -> BankError:
+        said, place = f"part {self.index + 1}: {what}", ("part", self.index, "answer")
+        return BankError(said, rule=rule, file=self.drawn.template.file, place=place)
 
     def evaluate(self, formula: str) -> Value:
         return self.drawn.evaluate(formula)

@@ -135,9 +135,9 @@ def test_no_question_of_the_built_in_bank_holds_definitions():
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        ('units = ["newton = N"]', r"bank\.toml: units: .*unknown unit 'N'"),
-        ('requires = ">=99"', r"bank\.toml: requires: quizgen >=99, and this is 0\.1"),
-        ('requires = "new"', r"bank\.toml: requires: 'new' is not like"),
+        ('units = ["newton = N"]', r"bank\.toml:1: units: .*unknown unit 'N'"),
+        ('requires = ">=99"', r"bank\.toml:1: requires: quizgen >=99, and this is 0\.1"),
+        ('requires = "new"', r"bank\.toml:1: requires: 'new' is not like"),
     ],
 )
 def test_what_bank_toml_cannot_hold_is_located(tmp_path, wrong, said):

@@ -43,7 +43,8 @@ def _build_asked_part(
     label = template.labels[index]
     body = _build_part_body(hidden, label, built.statements)
     if label and not body:
-        raise BankError(f"{template.path / hidden.lang}.md: section {label!r} is missing")
+        file = template.path / f"{hidden.lang}.md"
+        raise BankError(f"section {label!r} is missing", rule="QG157", file=file)
     return LevelPart(
         parse_written_number(template.rules.part[index].points),
         body,
