@@ -13,8 +13,8 @@ from html.parser import HTMLParser
 import pytest
 
 from quizgen.bank.bank import Bank, builtin_bank
-from quizgen.camera.reading import load as load_scene
-from quizgen.camera.scene import SceneError
+from quizgen.camera.scene_file import load_scene
+from quizgen.camera.setup.scene import SceneError
 from quizgen.cards import build_deck
 from quizgen.cards.delimited import write_csv, write_tsv
 from quizgen.cards.error_deck import deck_from_grades

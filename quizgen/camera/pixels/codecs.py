@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen import png
-from quizgen.camera.filters import opencv
+from quizgen.camera.pixels.filters import load_opencv
 
 if TYPE_CHECKING:
     from PIL.Image import Exif
@@ -42,7 +42,7 @@ _QUALITY = 95
 _BROKEN = (OSError, SyntaxError, ArithmeticError, LookupError, struct.error, TypeError)
 
 
-def decode(data: bytes) -> png.Codes:
+def decode_photo(data: bytes) -> png.Codes:
     """Pixels of a PNG or JPEG file, upright.
 
     Returns
@@ -66,13 +66,13 @@ def decode(data: bytes) -> png.Codes:
         raise ValueError("a broken JPEG file") from error
 
 
-def shot_with(data: bytes) -> dict[str, float]:
+def read_exif_settings(data: bytes) -> dict[str, float]:
     """Settings of the camera that took a photograph, in base units, as far as its EXIF says.
 
     Parameters
     ----------
     data : bytes
-        Of a file that `decode` can read.
+        Of a file that `decode_photo` can read.
     """
     try:
         exif = _jpeg(data).getexif() if data.startswith(_JPEG) else png.exif(data)
@@ -107,7 +107,7 @@ def _upright(pixels: png.Codes, exif: Exif) -> png.Codes:
 
 def _png_file(codes: NDArray[np.uint8]) -> bytes:
     """By OpenCV, which takes half the time, or else by Pillow."""
-    cv2 = opencv()
+    cv2 = load_opencv()
     if cv2 is None:
         return png.compact(codes)
     return bytes(cv2.imencode(".png", cv2.cvtColor(codes, cv2.COLOR_RGB2BGR))[1])
