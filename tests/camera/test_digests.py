@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from quizgen.camera import Prepared, SceneError, plan_budget
+from quizgen.camera import PreparedScene, SceneError, plan_budget
 from quizgen.camera.effects import EFFECTS
-from quizgen.camera.filters import everywhere_alike
-from quizgen.camera.reading import load
-from quizgen.camera.simulate import run
+from quizgen.camera.pixels.filters import numpy_only
+from quizgen.camera.scene_file import load_scene
+from quizgen.camera.simulation import run_plan
 
 STORED = Path(__file__).with_name("digests.txt")
 SCENES = Path(__file__).parents[2] / "quizgen" / "camera" / "scenes"
@@ -78,8 +78,8 @@ BAD = (
 
 def picture_digest(name: str) -> str:
     """One line per scene: its picture with every effect, computed without OpenCV."""
-    with everywhere_alike():
-        photo = run(Prepared(*load(SCENES / f"{name}.toml")))
+    with numpy_only():
+        photo = run_plan(PreparedScene(*load_scene(SCENES / f"{name}.toml")))
     return f"{name} everything {hashlib.sha256(photo.pixels().tobytes()).hexdigest()}"
 
 
@@ -90,7 +90,7 @@ def bad_file_messages() -> list[str]:
         for text in BAD:
             path.write_text(text, "utf-8")
             with pytest.raises(SceneError) as caught:
-                load(path)
+                load_scene(path)
             found.append("bad " + str(caught.value).removeprefix(str(path)))
     return found
 
@@ -106,7 +106,7 @@ def test_pictures_are_the_stored_ones(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_effect_runs_is_left_out_or_is_absent(name):
-    made = plan_budget(Prepared(*load(SCENES / f"{name}.toml")))
+    made = plan_budget(PreparedScene(*load_scene(SCENES / f"{name}.toml")))
     told = [*(choice.effect for choice in (*made.steps, *made.left_out)), *made.absent]
     assert sorted(told) == sorted(effect.name for effect in EFFECTS)
 

@@ -14,10 +14,11 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from quizgen.camera import Prepared, SceneError, codecs, plan_everything
-from quizgen.camera.compare import amplify_difference
-from quizgen.camera.question import InvisibleEffectError
-from quizgen.camera.reading import load
+from quizgen.camera import PreparedScene, SceneError, plan_budget
+from quizgen.camera.comparison import amplify_difference
+from quizgen.camera.pixels import codecs
+from quizgen.camera.question_photo import InvisibleEffectError
+from quizgen.camera.scene_file import load_scene
 from quizgen.cli.simulate import SCENES, simulate
 from quizgen.cli.terminal import Progress
 from quizgen.figures.png import encode_png
@@ -83,7 +84,7 @@ def test_a_wrong_file_is_one_line_with_its_place(tmp_path, text, line, words):
     path = tmp_path / "scene.toml"
     path.write_text(text, "utf-8")
     with pytest.raises(SceneError) as caught:
-        load(path)
+        load_scene(path)
     message = str(caught.value)
     assert message.startswith(f"{path}:{line}: ")
     assert words in message
@@ -108,7 +109,7 @@ def test_a_bad_picture_is_one_line_with_its_place(tmp_path, key, name, words):
     path = tmp_path / "scene.toml"
     path.write_text(f'[scene]\nseed = 1\n{key} = "bad.png"\n', "utf-8")
     with pytest.raises(SceneError) as caught:
-        load(path)
+        load_scene(path)
     assert str(caught.value) == f"{path}:3: bad.png: {words}"
 
 
@@ -118,7 +119,7 @@ def test_pictures_without_a_neighbour_are_refused(tmp_path, size):
     path = tmp_path / "scene.toml"
     path.write_text('[scene]\nimage = "line.png"\n', "utf-8")
     with pytest.raises(SceneError, match=r":2: line.png: .* at least 2 rows and columns"):
-        load(path)
+        load_scene(path)
 
 
 def test_a_blur_much_wider_than_the_picture_is_one_line(tmp_path):
@@ -130,7 +131,7 @@ def test_a_blur_much_wider_than_the_picture_is_one_line(tmp_path):
         "utf-8",
     )
     with pytest.raises(SceneError, match=r"a blur of 4.84e\+03 px is more than 800 px"):
-        plan_everything(Prepared(*load(path)))
+        plan_budget(PreparedScene(*load_scene(path)))
 
 
 @pytest.mark.parametrize("key", ["width", "none"])
@@ -144,14 +145,14 @@ def test_a_sensor_is_as_wide_as_the_picture_on_it(tmp_path, key):
         'sensor_width = "36 mm"\n',
         "utf-8",
     )
-    assert load(path)[1].given["pixel_pitch"] == pytest.approx(400e-6)
+    assert load_scene(path)[1].given["pixel_pitch"] == pytest.approx(400e-6)
 
 
 def test_broken_toml_and_missing_files_are_named(tmp_path):
     (tmp_path / "a.toml").write_text("[scene\n", "utf-8")
     for name in ("a.toml", "b.toml"):
         with pytest.raises(SceneError, match=name):
-            load(tmp_path / name)
+            load_scene(tmp_path / name)
 
 
 def test_units_become_base_units(tmp_path):
@@ -164,7 +165,7 @@ def test_units_become_base_units(tmp_path):
         'colour = "#bcbcbc"\nvelocity = ["1 m/s", "2 px/s"]\n',
         "utf-8",
     )
-    scene, camera = load(path)
+    scene, camera = load_scene(path)
     assert camera.given == {
         "focal_length": 0.05, "f_number": 2.8, "focus_distance": 3.0, "shutter": 0.004,
         "smear": 0.02, "velocity": (3.0, -1.0), "full_well": 20000.0,
@@ -188,14 +189,14 @@ def test_a_picture_with_a_depth_map(tmp_path):
         'depth_far = "10 m"\n[camera]\ngamma = "srgb"\n',
         "utf-8",
     )
-    scene, _ = load(path)
+    scene, _ = load_scene(path)
     assert (scene.width, scene.height) == (16, 12)
     assert scene.depth[0, 0] == pytest.approx(10)
     assert scene.depth[0, 15] == pytest.approx(2)
     out = tmp_path / "out.png"
     result = CliRunner().invoke(simulate, [str(path), "--out", str(out)], catch_exceptions=False)
     assert result.exit_code == 0
-    assert np.array_equal(codecs.decode(out.read_bytes()), codes)
+    assert np.array_equal(codecs.decode_photo(out.read_bytes()), codes)
 
 
 def invoke(*arguments):
@@ -210,7 +211,7 @@ def test_shipped_scenes(name, tmp_path):
     out = tmp_path / "photo.png"
     report = json.loads(invoke(name, "--json", "--out", str(out)))
     first = out.read_bytes()
-    assert codecs.decode(first).shape == (480, 640, 3)
+    assert codecs.decode_photo(first).shape == (480, 640, 3)
     assert all(one["is_visible"] for one in report.get("seen", ()))
     invoke(name, "--json", "--out", str(out))
     assert out.read_bytes() == first
@@ -302,7 +303,7 @@ def test_the_old_place_of_a_question_is_an_error(tmp_path):
     path = tmp_path / "s.toml"
     path.write_text('[scene]\nquestion = ["gamma"]\n', "utf-8")
     with pytest.raises(SceneError, match=r"s.toml:2: unknown key 'question' in scene"):
-        load(path)
+        load_scene(path)
 
 
 def test_both_times_are_measured_in_turns():
@@ -386,7 +387,9 @@ def test_a_page_shows_the_pictures_and_the_table(tmp_path):
     )
     images = [image.get("src") for image in tree.iter("img")]
     assert len(images) == 3
-    sizes = {codecs.decode(b64decode(source.partition("base64,")[2])).shape for source in images}
+    sizes = {
+        codecs.decode_photo(b64decode(source.partition("base64,")[2])).shape for source in images
+    }
     assert sizes == {(480, 640, 3)}
     cells = [[cell.text or "" for cell in row] for row in tree.iter("tr")]
     assert [row[0] for row in cells][1:4] == ["projection", "defocus", "gamma"]
@@ -434,7 +437,7 @@ def test_a_setting_that_does_something_is_not_named():
 
 
 def test_a_broken_promise_is_said_with_exit_code_1(monkeypatch):
-    monkeypatch.setattr(import_module("quizgen.camera.simulate"), "is_within", lambda *_: False)
+    monkeypatch.setattr(import_module("quizgen.camera.simulation"), "is_within", lambda *_: False)
     result = CliRunner().invoke(simulate, ["pinhole", "--everything"])
     assert result.exit_code == 1
     assert "broken" in result.stderr

@@ -36,7 +36,7 @@ PLACES = [
     ("quizgen.bank.bank", "module.Bank.template", ["preview", "rgb-to-hsv"]),
     ("quizgen.lint.doctor", "module.checks", ["doctor"]),
     ("quizgen.tradeoff.report", "module.measure", ["tradeoff"]),
-    ("quizgen.camera.reading", "module.load", ["simulate", "flat"]),
+    ("quizgen.camera.scene_file", "module.load_scene", ["simulate", "flat"]),
     ("quizgen.paper.answer_key", "module.read_key", ["check", "key.json", "answers.toml"]),
     ("quizgen.cards", "module.build", ["cards"]),
     ("quizgen.kinds.grade", "module.grade_answer", ["mark", "{}", "1"]),

@@ -17,7 +17,7 @@ from skimage.color import hsv2rgb, rgb2hsv, rgb2lab
 from svg_reader import read_labels, read_parts, read_pictures
 
 from quizgen.bank.variant import draw_variant as draw_question
-from quizgen.camera import pictures
+from quizgen.camera import picture_sets
 from quizgen.core.errors import BankError, QuizgenError
 from quizgen.figures import complete_parameters, svg
 from quizgen.figures.png import encode_png
@@ -343,8 +343,10 @@ def read_edits(**values):
 def test_hsv_edits_are_the_cameras(values):
     shown = read_edits(**dict(zip(("a", "b", "delta"), values, strict=True)))
     original = (shown["original"] / 255).astype(np.float32)
-    for ours, theirs in zip(shown.values(), pictures.hsv_edits(original, *values), strict=True):
-        assert np.abs(ours - pictures.codes(theirs).astype(float)).max() <= 1
+    for ours, theirs in zip(
+        shown.values(), picture_sets.make_hsv_edits(original, *values), strict=True
+    ):
+        assert np.abs(ours - picture_sets.to_codes(theirs).astype(float)).max() <= 1
 
 
 @pytest.mark.parametrize("order", [0, 13, 23])

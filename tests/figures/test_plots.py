@@ -10,7 +10,7 @@ from scipy.stats import norm
 from svg_reader import read_labels, read_parts, read_pictures
 
 from quizgen.bank.variant import draw_variant as draw_numbers
-from quizgen.camera import pictures
+from quizgen.camera import picture_sets
 from quizgen.core.errors import BankError
 from quizgen.numerics import luminosity
 from quizgen.question.part_context import ask_part
@@ -314,7 +314,7 @@ def test_clamping_gathers_what_lies_above():
     levels = image * 255
     assert levels.min() == pytest.approx(60)
     assert levels.max() == pytest.approx(180)
-    _, before, after = pictures.normalised(image, 60 / 255, 140 / 255, normalisation.BINS)
+    _, before, after = picture_sets.make_normalised(image, 60 / 255, 140 / 255, normalisation.BINS)
     assert before.sum() == after.sum() == image.size
     # the last bin holds what is clamped, and what fell into it anyway
     last = 60 + (140 - 60) * (normalisation.BINS - 1) / normalisation.BINS

@@ -17,10 +17,10 @@ from quizgen.bank import sampler as planning
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.entries import load_entries as load_cards
 from quizgen.bank.entries import localised_fields
-from quizgen.camera import Prepared, plan_budget
-from quizgen.camera.question import take_photographs
-from quizgen.camera.reading import load as load_scene
-from quizgen.camera.simulate import run as photograph
+from quizgen.camera import PreparedScene, plan_budget
+from quizgen.camera.question_photo import take_question_photo
+from quizgen.camera.scene_file import load_scene
+from quizgen.camera.simulation import run_plan as photograph
 from quizgen.cards.content import KINDS as CARDS
 from quizgen.cards.error_deck import deck_from_grades
 from quizgen.figures.png import encode_png
@@ -127,10 +127,10 @@ def scene(folder: Path, chance: Chance) -> None:
     file.write_text(toml(mutated(table, chance)), "utf-8")
     given, camera = load_scene(file)
     if given.width * given.height <= SMALL:
-        prepared = Prepared(given, camera)
+        prepared = PreparedScene(given, camera)
         photograph(prepared, plan_budget(prepared).names)
         if given.question:
-            take_photographs(given, camera)
+            take_question_photo(given, camera)
 
 
 @cache

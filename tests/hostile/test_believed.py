@@ -14,9 +14,9 @@ from html.parser import HTMLParser
 import pytest
 
 from quizgen.bank.bank import Bank, builtin_bank
-from quizgen.camera.codecs import decode
-from quizgen.camera.reading import load as load_scene
-from quizgen.camera.scene import SceneError
+from quizgen.camera.pixels.codecs import decode_photo
+from quizgen.camera.scene_file import load_scene
+from quizgen.camera.setup.scene import SceneError
 from quizgen.cards import build_deck
 from quizgen.cards.delimited import write_csv, write_tsv
 from quizgen.cards.error_deck import deck_from_grades
@@ -288,7 +288,7 @@ def test_a_picture_that_inflates_to_more_than_its_size_is_read_no_further():
     data = (
         b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", packed) + chunk(b"IEND", b"")
     )
-    assert decode(data).shape == (4, 4, 3)
+    assert decode_photo(data).shape == (4, 4, 3)
 
 
 @pytest.mark.parametrize(

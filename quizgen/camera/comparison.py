@@ -10,10 +10,10 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.codes import rounded
-from quizgen.camera.prepared import GREY_LEVELS, Prepared
-from quizgen.camera.scene import Image
-from quizgen.camera.simulate import Photo, measure_difference, run
+from quizgen.camera.pixels.codes import GREY_LEVELS, to_8bit
+from quizgen.camera.planner import PreparedScene
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.simulation import Photo, measure_difference, run_plan
 
 Codes = NDArray[np.uint8]
 
@@ -37,38 +37,35 @@ def amplify_difference(one: Image, other: Image) -> tuple[int, Codes]:
     there = apart[apart >= 1.0 / GREY_LEVELS]
     bright = float(np.quantile(there if there.size else apart, 0.98))
     scale = next((scale for scale in _SCALES if scale * bright <= 1.0), 1)
-    return scale, rounded(apart * (scale * GREY_LEVELS))
+    return scale, to_8bit(apart * (scale * GREY_LEVELS))
 
 
-def side_by_side(*pictures: Codes) -> Codes:
+def concatenate_pictures(*pictures: Codes) -> Codes:
     """Pictures of one height in a row, white between them."""
     gap = np.full((pictures[0].shape[0], _GAP, 3), 255, np.uint8)
     parts = [part for picture in pictures for part in (picture, gap)]
     return np.concatenate(parts[:-1], axis=1)
 
 
-def measure_each(
-    prepared: Prepared, photo: Photo, names: Collection[str], told: Callable[[str], None]
+def measure_effects(
+    prepared: PreparedScene, photo: Photo, names: Collection[str], told: Callable[[str], None]
 ) -> dict[str, float]:
     """What each present effect really changes, in grey levels: with it against without it.
 
     Parameters
     ----------
-    prepared : Prepared
+    prepared : PreparedScene
     photo : Photo
         Taken with the effects of these names.
     names : collection of str
     told : callable
         Gets the name of each effect before it is tried.
     """
-    units: dict[str, set[str]] = {}
-    for effect in prepared.present:
-        if effect.prepare is None:
-            units.setdefault(effect.pair or effect.name, set()).add(effect.name)
+    units = (prepared.find_unit(one) for one in prepared.present if one.prepare is None)
     found: dict[str, float] = {}
-    for members in units.values():
+    for members in dict.fromkeys(units):
         told(min(members))
-        other = run(prepared, set(names) ^ members)
+        other = run_plan(prepared, set(names) ^ set(members))
         found.update(dict.fromkeys(members, measure_difference(photo, other)))
     return found
 
@@ -104,12 +101,12 @@ _LONGEST = 6.0
 """Seconds after which three turns are enough."""
 
 
-def time_in_turns(prepared: Prepared, first: Collection[str], second: Collection[str]) -> Race:
+def time_in_turns(prepared: PreparedScene, first: Collection[str], second: Collection[str]) -> Race:
     """Run two sets of effects one after the other, `TURNS` times after a turn that is not counted.
 
     Parameters
     ----------
-    prepared : Prepared
+    prepared : PreparedScene
     first, second : collection of str
         Names of effects.
     """
@@ -119,7 +116,7 @@ def time_in_turns(prepared: Prepared, first: Collection[str], second: Collection
         order = (0, 1) if turn % 2 else (1, 0)  # none always follows the other
         for which in order:
             started = perf_counter()
-            run(prepared, (first, second)[which])
+            run_plan(prepared, (first, second)[which])
             times[which].append((perf_counter() - started) * 1e3)
         if turn >= 3 and perf_counter() - began > _LONGEST:
             break

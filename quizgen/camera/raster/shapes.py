@@ -9,20 +9,20 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.kernels import disc_area_below
-from quizgen.camera.scene import Thing
+from quizgen.camera.pixels.kernels import disc_area_below
+from quizgen.camera.setup.scene import SceneObject
 
-Plane = NDArray[np.float64]
-Share = Plane | NDArray[np.bool_]
-Shape = Callable[[Thing, Plane, Plane], Plane]
-Texture = Callable[[Thing, Plane, Plane], Share]
+Coordinates = NDArray[np.float64]
+Coverage = Coordinates | NDArray[np.bool_]
+ShapeFunction = Callable[[SceneObject, Coordinates, Coordinates], Coordinates]
+TextureFunction = Callable[[SceneObject, Coordinates, Coordinates], Coverage]
 
 
-def _box(thing: Thing, x: Plane, y: Plane) -> Plane:
+def _box(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     return np.maximum(np.abs(x) - thing.width.value / 2, np.abs(y) - thing.height.value / 2)
 
 
-def _disc(thing: Thing, x: Plane, y: Plane) -> Plane:
+def _disc(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     """Of one smaller than a pixel what gives each pixel its exact share: an edge would be wider."""
     radius = thing.radius.value
     if radius >= 1.0:
@@ -35,11 +35,11 @@ def _disc(thing: Thing, x: Plane, y: Plane) -> Plane:
     return np.asarray(0.5 - radius**2 * (corners[3] - corners[2] - corners[1] + corners[0]))
 
 
-def _from_rim(thing: Thing, x: Plane, y: Plane) -> Plane:
+def _from_rim(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     return np.hypot(x, y) - thing.radius.value
 
 
-def _ellipse(thing: Thing, x: Plane, y: Plane) -> Plane:
+def _ellipse(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     half_width, half_height = thing.width.value / 2, thing.height.value / 2
     level = np.hypot(x / half_width, y / half_height)
     slope = np.hypot(x / half_width**2, y / half_height**2)
@@ -47,14 +47,14 @@ def _ellipse(thing: Thing, x: Plane, y: Plane) -> Plane:
     return np.asarray((level - 1.0) * np.maximum(level, middle) / np.maximum(slope, middle))
 
 
-def _grid(thing: Thing, x: Plane, y: Plane) -> Plane:
-    def to_line(position: Plane) -> Plane:
+def _grid(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    def to_line(position: Coordinates) -> Coordinates:
         return np.abs(position - thing.cell.value * np.round(position / thing.cell.value))
 
     return np.minimum(to_line(x), to_line(y)) - thing.stroke.value / 2
 
 
-def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
+def _blades(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     step = 2.0 * math.pi / thing.count
     turn = np.arctan2(y, x)
     turn -= step * np.round(turn / step)
@@ -64,7 +64,7 @@ def _blades(thing: Thing, x: Plane, y: Plane) -> Plane:
     return np.asarray(np.minimum(blade, distance - thing.stroke.value * 0.8))
 
 
-def _polygon(thing: Thing, x: Plane, y: Plane, reach: float = 1.0) -> Plane:
+def _polygon(thing: SceneObject, x: Coordinates, y: Coordinates, reach: float = 1.0) -> Coordinates:
     """Distances beyond the soft edge are not computed: only near a side does its own one count."""
     shape = np.broadcast_shapes(x.shape, y.shape)
     distance, inside = np.full(shape, np.inf), np.zeros(shape, bool)
@@ -89,28 +89,28 @@ def _polygon(thing: Thing, x: Plane, y: Plane, reach: float = 1.0) -> Plane:
     return np.where(inside, -distance, distance)
 
 
-def _ends(plane: Plane, axis: int) -> tuple[Plane, Plane]:
+def _ends(plane: Coordinates, axis: int) -> tuple[Coordinates, Coordinates]:
     """Smallest and largest value of every row or column."""
     return plane.min(axis=axis), plane.max(axis=axis)
 
 
-def _near(ends: tuple[Plane, Plane], start: float, stop: float, reach: float) -> slice:
+def _near(ends: tuple[Coordinates, Coordinates], start: float, stop: float, reach: float) -> slice:
     """Rows or columns from the first to the last that is so near to a side."""
     low, high = ends
     near = np.flatnonzero((high >= min(start, stop) - reach) & (low <= max(start, stop) + reach))
     return slice(near[0], near[-1] + 1) if near.size else slice(0, 0)
 
 
-def _of(rows: slice, plane: Plane) -> slice:
+def _of(rows: slice, plane: Coordinates) -> slice:
     """These rows of a plane, or the only one that stands for all."""
     return rows if len(plane) > 1 else slice(None)
 
 
-def _full(thing: Thing, x: Plane, y: Plane) -> Plane:
+def _full(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     return np.full(np.broadcast_shapes(x.shape, y.shape), -np.inf)
 
 
-SHAPES: dict[str, Shape] = {
+SHAPES: dict[str, ShapeFunction] = {
     "box": _box,
     "disc": _disc,
     "ellipse": _ellipse,
@@ -122,13 +122,13 @@ SHAPES: dict[str, Shape] = {
 """Signed distance to the outline in px, negative inside."""
 
 
-def _closest_of_ellipse(thing: Thing, x: Plane, y: Plane) -> Plane:
+def _closest_of_ellipse(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     half_width, half_height = thing.width.value / 2, thing.height.value / 2
     level = np.hypot(x / half_width, y / half_height)
     return np.asarray((level - 1.0) * min(half_width, half_height))
 
 
-CLOSEST: dict[str, Shape] = {
+CLOSEST: dict[str, ShapeFunction] = {
     **SHAPES,
     "disc": _from_rim,
     "ellipse": _closest_of_ellipse,
@@ -149,26 +149,26 @@ SIZES = {
 """What each shape needs."""
 
 
-def _checker(thing: Thing, x: Plane, y: Plane) -> Share:
+def _checker(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
     return _odd(x / thing.cell.value) != _odd(y / thing.cell.value)
 
 
-def _odd(place: Plane) -> NDArray[np.bool_]:
+def _odd(place: Coordinates) -> NDArray[np.bool_]:
     """Whether the whole number below is odd: a remainder of NumPy's takes three times as long."""
     half = np.floor(place, out=place)
     half *= 0.5
     return np.asarray(half != np.floor(half))
 
 
-def _stripes(thing: Thing, x: Plane, y: Plane) -> Share:
+def _stripes(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
     return _wave(2.0 * math.pi * x / thing.cell.value)
 
 
-def _ramp(thing: Thing, x: Plane, y: Plane) -> Share:
+def _ramp(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
     return np.clip(x / max(thing.width.value, 1e-9) + 0.5, 0.0, 1.0)
 
 
-def _rings(thing: Thing, x: Plane, y: Plane) -> Share:
+def _rings(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
     """Rings whose period shrinks to ``cell`` at ``radius`` (a zone plate)."""
     scale = math.pi / (thing.cell.value * max(thing.radius.value, 1.0))
     squared = x * x + y * y
@@ -176,14 +176,14 @@ def _rings(thing: Thing, x: Plane, y: Plane) -> Share:
     return _wave(squared)
 
 
-def _wave(phase: Plane) -> Share:
+def _wave(phase: Coordinates) -> Coverage:
     """From 0 to 1 and back; over the phase, which nobody else needs."""
     np.cos(phase, out=phase)
     phase *= 0.5
     return np.subtract(0.5, phase, out=phase)
 
 
-TEXTURES: dict[str, Texture | None] = {
+TEXTURES: dict[str, TextureFunction | None] = {
     "plain": None,
     "checker": _checker,
     "stripes": _stripes,

@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Image = NDArray[np.floating]
+from quizgen.camera.setup.scene import Image
 
-SIDES = 64, 128
+TILE_SIDES = 64, 128
 """Rows and columns of a tile."""
-BLOCK = 3 * SIDES[0] * SIDES[1]
+TILE_VALUES = 3 * TILE_SIDES[0] * TILE_SIDES[1]
 """Values of the largest tile: whole colours, 96 KiB."""
 
 
@@ -34,31 +34,31 @@ class Tile(NamedTuple):
         return math.prod(part.stop - part.start for part in self.place)
 
 
-Work = Callable[[Image, Tile], None]
+TileOperation = Callable[[Image, Tile], None]
 """Changes the values of a tile, which lie behind each other, in place."""
 
 
-def pieces(length: int, size: int) -> Iterator[tuple[int, int]]:
+def split_range(length: int, size: int) -> Iterator[tuple[int, int]]:
     """Start and stop of consecutive pieces of [0, length), the last one maybe smaller."""
     for start in range(0, length, size):
         yield start, min(start + size, length)
 
 
-def tiles(shape: tuple[int, ...]) -> Iterator[Tile]:
+def iter_tiles(shape: tuple[int, ...]) -> Iterator[Tile]:
     """The tiles of a picture of shape (H, W, C), row by row, or pieces of a row of values."""
     if len(shape) == 1:
-        for number, part in enumerate(pieces(shape[0], BLOCK)):
+        for number, part in enumerate(split_range(shape[0], TILE_VALUES)):
             yield Tile(number, (slice(*part),))
         return
-    rows, columns = (list(pieces(*sides)) for sides in zip(shape, SIDES, strict=False))
+    rows, columns = (list(split_range(*sides)) for sides in zip(shape, TILE_SIDES, strict=False))
     places = ((slice(*down), slice(*across)) for down in rows for across in columns)
     for number, place in enumerate(places):
         yield Tile(number, place)
 
 
-def in_turn(
+def apply_tilewise(
     values: Image,
-    works: Sequence[Work],
+    works: Sequence[TileOperation],
     *,
     into: Image | None = None,
     among: Iterable[Tile] | None = None,
@@ -85,26 +85,21 @@ def in_turn(
     """
     seen = values if values.ndim == 3 else np.ascontiguousarray(values).reshape(-1)
     result = np.empty(seen.shape, seen.dtype) if into is None else into.reshape(seen.shape)
-    scratch, clock = np.empty(BLOCK, seen.dtype), np.zeros(len(works))
-    for tile in tiles(seen.shape) if among is None else among:
+    scratch, clock = np.empty(TILE_VALUES, seen.dtype), np.zeros(len(works))
+    for tile in iter_tiles(seen.shape) if among is None else among:
         source = seen[tile.place]
         part = scratch[: source.size]
         part.reshape(source.shape)[...] = source
-        clock += _done(part, tile, works)
+        ticks = [perf_counter()]
+        for work in works:
+            work(part, tile)
+            ticks.append(perf_counter())
+        clock += np.diff(ticks)
         result[tile.place] = part.reshape(source.shape)
     return result.reshape(values.shape), clock
 
 
-def _done(part: Image, tile: Tile, works: Sequence[Work]) -> NDArray[np.float64]:
-    """Do all of it, and say how long each took, s."""
-    ticks = [perf_counter()]
-    for work in works:
-        work(part, tile)
-        ticks.append(perf_counter())
-    return np.diff(ticks)
-
-
-def times(factor: float) -> Work:
+def multiply_by(factor: float) -> TileOperation:
     """Multiply everything."""
     scale = float(factor)  # a number of Python takes the precision of the picture
 
@@ -114,7 +109,7 @@ def times(factor: float) -> Work:
     return work
 
 
-def at_pixels(factors: Image) -> Work:
+def multiply_by_map(factors: Image) -> TileOperation:
     """Multiply every pixel's three channels by a factor of its own, shape (H, W, 1)."""
 
     def work(part: Image, tile: Tile) -> None:

@@ -2,59 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from typing import Literal
 
 import msgspec
 
-from quizgen.camera.blocks import Work, in_turn
-from quizgen.camera.raster.draw import Layer, Stack, composite
-from quizgen.camera.scene import Image, Scene
+from quizgen.camera.pixels.tiles import TileOperation, apply_tilewise
+from quizgen.camera.raster.rasterizer import Layer, LayerStack, composite_layers
+from quizgen.camera.setup.scene import Image, Scene
 from quizgen.camera.setup.settings import AnySetting
-from quizgen.camera.view import Signal, View
+from quizgen.camera.setup.view import Signal, View
 
-Stage = Literal["scene", "optics", "sensor", "processing", "edit"]
-
-
-Run = Callable[[Stack, View], Stack]
-Bound = Callable[[Signal, View], float]
-Carry = Callable[[float, Signal, View], float]
+EffectRun = Callable[[LayerStack, View], LayerStack]
 
 
-def _bound_nothing(signal: Signal, view: View) -> float:
-    """Nothing is known: leaving it out may change everything."""
-    return float("inf")
-
-
-def keep_error(error: float, signal: Signal, view: View) -> float:
-    """Differences pass through unchanged (averages, shifts, additions)."""
-    return error
-
-
-def keep_range(signal: Signal, view: View) -> Signal:
-    """No value leaves the range (averages, shifts)."""
-    return signal
-
-
-def look_nowhere(view: View) -> tuple[float, float]:
-    """Every pixel comes from inside the picture."""
-    return 0.0, 0.0
-
-
-def keep_stack(stack: Stack, view: View) -> Stack:
-    """Nothing is left to do once the scene is drawn."""
-    return stack
-
-
-def _accept(view: View) -> None:
-    """Nothing can be wrong with it."""
-
-
-def on_picture(work: Callable[[Image, View], Image]) -> Run:
+def on_composite(work: Callable[[Image, View], Image]) -> EffectRun:
     """Work on one picture: the layers are laid over each other first."""
 
-    def run(stack: Stack, view: View) -> Stack:
-        return (Layer(work(composite(stack), view)),)
+    def run(stack: LayerStack, view: View) -> LayerStack:
+        return (Layer(work(composite_layers(stack), view)),)
 
     return run
 
@@ -67,15 +33,15 @@ class LayerByLayer(msgspec.Struct, frozen=True):
 
     Parameters
     ----------
-    work : callable
-        ``work(layer, view)`` gives the layer afterwards.
+    operation : callable
+        ``operation(layer, view)`` gives the layer afterwards.
     """
 
-    work: Callable[[Layer, View], Layer]
+    operation: Callable[[Layer, View], Layer]
 
-    def __call__(self, stack: Stack, view: View) -> Stack:
+    def __call__(self, stack: LayerStack, view: View) -> LayerStack:
         """Run it alone."""
-        return tuple(self.work(layer, view) for layer in stack)
+        return tuple(self.operation(layer, view) for layer in stack)
 
 
 class PointByPoint(msgspec.Struct, frozen=True):
@@ -85,18 +51,18 @@ class PointByPoint(msgspec.Struct, frozen=True):
 
     Parameters
     ----------
-    work : callable
-        ``work(view)`` gives what changes a piece in place, see `quizgen.camera.blocks`.
+    operation : callable
+        ``operation(view)`` gives what changes a piece in place, see `quizgen.camera.pixels.tiles`.
     """
 
-    work: Callable[[View], Work]
+    operation: Callable[[View], TileOperation]
 
-    def __call__(self, stack: Stack, view: View) -> Stack:
+    def __call__(self, stack: LayerStack, view: View) -> LayerStack:
         """Run it alone."""
-        return (Layer(in_turn(composite(stack), [self.work(view)])[0]),)
+        return (Layer(apply_tilewise(composite_layers(stack), [self.operation(view)])[0]),)
 
 
-class Size(msgspec.Struct, frozen=True):
+class EffectSize(msgspec.Struct, frozen=True):
     """What an effect does to a picture, in its own terms, and from where on a person sees it.
 
     Parameters
@@ -121,8 +87,6 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     ----------
     name : str
         The field's term; the module is called so too, and the stream of its random numbers.
-    stage : str
-        Up to ``optics`` layers are kept apart.
     answers : tuple of str
         Kinds of question whose answer is this effect.
     settings : tuple of Setting
@@ -130,16 +94,16 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     is_present : callable
         Whether the camera's settings differ from the identity.
     run : callable
-        ``run(stack, view) -> stack``; see `on_picture` and `PointByPoint`.
+        ``run(stack, view) -> stack``; see `on_composite` and `PointByPoint`.
     omission_bound : callable
         ``omission_bound(signal, view)``: no value of a picture changes by more if it is left out
         (1 = white; ``signal`` is what comes in). By default anything, so that it never is.
     carry_error : callable
         ``carry_error(error, signal, view)``: how far two pictures are apart after it that were so
-        far apart before.
+        far apart before. By default as far, as after averages, shifts and additions.
     range_after : callable
-        ``range_after(signal, view)``: the `Signal` of what comes out.
-    size : Size, optional
+        ``range_after(signal, view)``: the `Signal` of what comes out, by default of what comes in.
+    size : EffectSize, optional
         What it does, in its own terms; without one only differences in grey levels are told.
     speckles : bool
         Whether it is seen by the spread of single pixels, as noise is.
@@ -147,9 +111,10 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
         Effects without which its picture is wrong, such as vignetting before a flat field.
     pair : str
         Effects with the same pair run together or not at all.
-    outside : callable
-        How far outside a view the light of its pixels can come from, across and down, px.
-    check : callable
+    margin : callable
+        How far outside a view the light of its pixels can come from, across and down, px; by
+        default from nowhere else.
+    check_camera : callable
         Raises `SceneError` if it cannot be computed for a camera before a picture of this size.
     prepare : callable, optional
         ``prepare(scene, view) -> scene``, before anything is drawn.
@@ -160,20 +125,19 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     """
 
     name: str
-    stage: Stage
     answers: tuple[str, ...]
     settings: tuple[AnySetting, ...] = ()
     is_present: Callable[[View], bool]
-    run: Run
-    omission_bound: Bound = _bound_nothing
-    carry_error: Carry = keep_error
-    range_after: Callable[[Signal, View], Signal] = keep_range
-    size: Size | None = None
+    run: EffectRun
+    omission_bound: Callable[[Signal, View], float] = lambda *_: math.inf
+    carry_error: Callable[[float, Signal, View], float] = lambda error, *_: error
+    range_after: Callable[[Signal, View], Signal] = lambda signal, _: signal
+    size: EffectSize | None = None
     speckles: bool = False
     needs_effects: tuple[str, ...] = ()
     pair: str = ""
-    outside: Callable[[View], tuple[float, float]] = look_nowhere
-    check: Callable[[View], None] = _accept
+    margin: Callable[[View], tuple[float, float]] = lambda _: (0.0, 0.0)
+    check_camera: Callable[[View], object] = lambda _: None
     prepare: Callable[[Scene, View], Scene] | None = None
     always: str = ""
     needs: str = ""

@@ -1,7 +1,7 @@
 """Convolution and resampling: OpenCV when the extra ``image`` is installed, NumPy otherwise.
 
-Both ways compute the same weights in single precision or better and agree within `AGREEMENT` of
-the largest value. OpenCV below 5 rounds sampling positions to 1/32 px (up to 4 grey levels on an
+Both ways compute the same weights in single precision or better and agree within 2e-5 of the
+largest value. OpenCV below 5 rounds sampling positions to 1/32 px (up to 4 grey levels on an
 edge); it is tried once and not used for resampling when it does.
 """
 
@@ -16,12 +16,8 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.blocks import pieces
-
-Image = NDArray[np.floating]
-
-AGREEMENT = 2e-5
-"""Largest difference between the OpenCV and the NumPy path, relative to the largest value."""
+from quizgen.camera.pixels.tiles import split_range
+from quizgen.camera.setup.scene import Image
 
 _SHIFT_TAPS = 49
 _ROWS = 64
@@ -32,12 +28,12 @@ _DIRECT_AREA = 129
 _DIRECT_TAPS = 190
 
 
-_everywhere_alike: ContextVar[bool] = ContextVar("everywhere alike", default=False)
+_numpy_only: ContextVar[bool] = ContextVar("numpy only", default=False)
 
 
-def opencv() -> ModuleType | None:
+def load_opencv() -> ModuleType | None:
     """OpenCV if it can be imported and may be used here, else None."""
-    return None if _everywhere_alike.get() else _imported()
+    return None if _numpy_only.get() else _imported()
 
 
 @cache
@@ -50,18 +46,18 @@ def _imported() -> ModuleType | None:
 
 
 @contextmanager
-def everywhere_alike() -> Iterator[None]:
+def numpy_only() -> Iterator[None]:
     """Compute with NumPy alone, so that a picture is the same with and without OpenCV."""
-    before = _everywhere_alike.set(True)
+    before = _numpy_only.set(True)
     try:
         yield
     finally:
-        _everywhere_alike.reset(before)
+        _numpy_only.reset(before)
 
 
 @cache
 def _opencv_remap_is_exact() -> bool:
-    cv2 = opencv()
+    cv2 = load_opencv()
     if cv2 is None:
         return False
     ramp = np.array([[0.0, 1.0], [0.0, 1.0]], np.float32)
@@ -69,15 +65,9 @@ def _opencv_remap_is_exact() -> bool:
     return bool(abs(cv2.remap(ramp, where, where, cv2.INTER_LINEAR)[0, 0] - 0.3) < 1e-6)
 
 
-def _can_remap(image: Image) -> bool:
-    """Whether OpenCV reads a picture of this kind well: it takes places in single precision."""
-    single = image.dtype == np.float32
-    return single and max(image.shape[:2]) < 2**15 and _opencv_remap_is_exact()
-
-
 def warm_up() -> None:
     """Load OpenCV and try it, so that no effect is timed with its import."""
-    if opencv() is not None:
+    if load_opencv() is not None:
         _opencv_remap_is_exact()
 
 
@@ -91,14 +81,14 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     kernel : numpy.ndarray
         Odd-sized, non-negative.
     """
-    cv2 = opencv()
+    cv2 = load_opencv()
     kernel = _folded(_folded(kernel, image.shape[0]).T, image.shape[1]).T
     if kernel.size == 1:
         return image
-    if cv2 is not None and goes_by_slabs(kernel):
+    if cv2 is not None and is_direct_sum_faster(kernel):
         return _convolve_by_slabs(cv2, image, kernel)
     if cv2 is not None:
-        return _like(cv2.filter2D(image, -1, kernel, borderType=cv2.BORDER_REPLICATE), image)
+        return cv2.filter2D(image, -1, kernel, borderType=cv2.BORDER_REPLICATE).reshape(image.shape)
     if np.count_nonzero(kernel) <= _SHIFT_TAPS:
         return _convolve_by_shifts(image, kernel)
     return _convolve_by_fourier(image, kernel)
@@ -115,11 +105,7 @@ def _folded(kernel: NDArray[np.float64], length: int) -> NDArray[np.float64]:
     return inner
 
 
-def _like(result: Image, image: Image) -> Image:
-    return result.reshape(image.shape)
-
-
-def goes_by_slabs(kernel: NDArray[np.float64]) -> bool:
+def is_direct_sum_faster(kernel: NDArray[np.float64]) -> bool:
     """Whether summing few taps directly beats OpenCV's transform."""
     if kernel.size <= _DIRECT_AREA or kernel.shape[1] > _DIRECT_AREA:
         return False
@@ -129,7 +115,7 @@ def goes_by_slabs(kernel: NDArray[np.float64]) -> bool:
 def _convolve_by_slabs(cv2: ModuleType, image: Image, kernel: NDArray[np.float64]) -> Image:
     """A few kernel rows at a time, so few that OpenCV sums directly."""
     result, reach = np.empty_like(image), kernel.shape[0] // 2
-    for start, stop in pieces(len(image), _BAND):
+    for start, stop in split_range(len(image), _BAND):
         rows = _rows(image, start - reach, stop + reach)
         result[start:stop] = _by_slabs(cv2, rows, kernel, stop - start)
     return result
@@ -150,7 +136,7 @@ def _by_slabs(cv2: ModuleType, rows: Image, kernel: NDArray[np.float64], count: 
         slab = kernel[top : top + high]
         taken = rows[top : top + len(slab) - 1 + count]
         found = cv2.filter2D(taken, -1, slab, borderType=cv2.BORDER_REPLICATE)
-        total += _like(found, taken)[len(slab) // 2 :][:count]
+        total += found.reshape(taken.shape)[len(slab) // 2 :][:count]
     return total
 
 
@@ -208,7 +194,7 @@ def _smooth(side: int) -> int:
         side += 1
 
 
-def sample(image: Image, x: Image, y: Image) -> Image:
+def sample_bilinear(image: Image, x: Image, y: Image) -> Image:
     """Read an image at fractional positions, bilinearly; outside, the nearest edge pixel counts.
 
     Parameters
@@ -218,14 +204,15 @@ def sample(image: Image, x: Image, y: Image) -> Image:
     x, y : numpy.ndarray
         Shape (H', W'), positions in px from the centre of the first pixel.
     """
-    cv2 = opencv()
-    if cv2 is not None and _can_remap(image):
+    cv2 = load_opencv()
+    single = image.dtype == np.float32 and max(image.shape[:2]) < 2**15
+    if cv2 is not None and single and _opencv_remap_is_exact():
         flags = {"borderMode": cv2.BORDER_REPLICATE}
         found = cv2.remap(image, x, y, cv2.INTER_LINEAR, **flags)
         return np.asarray(found.reshape(*x.shape, image.shape[2]))
     result = np.empty((*x.shape, image.shape[2]), image.dtype)
     image = np.ascontiguousarray(image)
-    for start, stop in pieces(len(result), _ROWS):
+    for start, stop in split_range(len(result), _ROWS):
         result[start:stop] = _sample_rows(image, x[start:stop], y[start:stop])
     return result
 
@@ -277,7 +264,7 @@ def sample_grid(
     left, right, across = _split(x.astype(channel.dtype), channel.shape[1])
     top, bottom, down = _split(y.astype(channel.dtype), channel.shape[0])
     rest = 1 - across
-    for start, stop in pieces(y.size, _GRID_ROWS):
+    for start, stop in split_range(y.size, _GRID_ROWS):
         part, share = slice(start, stop), down[start:stop, None]
         rows, below = channel[top[part]], channel[bottom[part]]
         rows *= 1 - share

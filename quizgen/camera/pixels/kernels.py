@@ -13,11 +13,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.scene import SceneError
+from quizgen.camera.setup.scene import SceneError
 
-Kernel = NDArray[np.float64]
+BlurKernel = NDArray[np.float64]
 
-_UNMOVED: Kernel = np.ones((1, 1))
+_UNMOVED: BlurKernel = np.ones((1, 1))
 
 SAMPLES = 64
 _ROWS = 64
@@ -26,7 +26,7 @@ LARGEST_BLUR = 800.0
 """Pixels of the widest blur: a kernel needs memory by its square."""
 
 
-def check(size: float) -> None:
+def check_kernel_size(size: float) -> None:
     """Refuse a blur that is too wide.
 
     Raises
@@ -38,11 +38,11 @@ def check(size: float) -> None:
         raise SceneError(f"a blur of {size:.3g} px is more than {LARGEST_BLUR:g} px")
 
 
-def _half_chord_integral(x: Kernel) -> Kernel:
+def _half_chord_integral(x: BlurKernel) -> BlurKernel:
     return (x * np.sqrt(np.maximum(0.0, 1.0 - x * x)) + np.arcsin(np.clip(x, -1.0, 1.0))) / 2.0
 
 
-def disc_area_below(x: Kernel, y: Kernel) -> Kernel:
+def disc_area_below(x: BlurKernel, y: BlurKernel) -> BlurKernel:
     """Area of the unit disc left of x and below y, both in [-1, 1] (closed form)."""
     corner = np.sqrt(np.maximum(0.0, 1.0 - y * y))
     chord = _half_chord_integral
@@ -58,14 +58,14 @@ def disc_area_below(x: Kernel, y: Kernel) -> Kernel:
     )
 
 
-def _tents(positions: Kernel) -> Kernel:
+def _tents(positions: BlurKernel) -> BlurKernel:
     """Bilinear weight of every position (px) on every integer pixel, shape (pixels, positions)."""
     reach = int(np.ceil(np.abs(positions).max()))
     pixels = np.arange(-reach, reach + 1)[:, None]
     return np.asarray(np.maximum(0.0, 1.0 - np.abs(positions[None, :] - pixels)))
 
 
-def _sharing(positions: Kernel) -> Callable[[Kernel], Kernel]:
+def _sharing(positions: BlurKernel) -> Callable[[BlurKernel], BlurKernel]:
     """What shares rows at ascending positions (px, > 0) between the pixels before and after each.
 
     There are some in every pixel up to the last. Sums in one thread and in one order: a product of
@@ -76,7 +76,7 @@ def _sharing(positions: Kernel) -> Callable[[Kernel], Kernel]:
     share = (positions - np.floor(positions))[:, None]
     rest = 1.0 - share
 
-    def shared(rows: Kernel) -> Kernel:
+    def shared(rows: BlurKernel) -> BlurKernel:
         found = np.zeros((reach + 1, rows.shape[1]))
         found[:-1] = np.add.reduceat(rows * rest, starts)
         found[1:] += np.add.reduceat(rows * share, starts)
@@ -86,7 +86,7 @@ def _sharing(positions: Kernel) -> Callable[[Kernel], Kernel]:
 
 
 @lru_cache(maxsize=64)
-def disc(diameter: float) -> Kernel:
+def disc_kernel(diameter: float) -> BlurKernel:
     """Blur of a circular aperture.
 
     Parameters
@@ -99,7 +99,7 @@ def disc(diameter: float) -> Kernel:
     numpy.ndarray
         Odd-sized square kernel, sums to 1, symmetric in both axes.
     """
-    check(diameter)
+    check_kernel_size(diameter)
     radius = abs(diameter) / 2.0
     if radius == 0.0:
         return np.ones((1, 1))
@@ -108,13 +108,13 @@ def disc(diameter: float) -> Kernel:
 
 
 @lru_cache(maxsize=16)
-def _centres(count: int) -> Kernel:
+def _centres(count: int) -> BlurKernel:
     """Middles of the upper half of so many cells on [-1, 1]."""
     return np.asarray((np.arange(count // 2, count) + 0.5) * (2.0 / count) - 1.0)
 
 
 @lru_cache(maxsize=8)
-def _disc_quarter(count: int) -> Kernel:
+def _disc_quarter(count: int) -> BlurKernel:
     """Exact area of a unit disc inside each cell of a count x count grid on [-1, 1]^2.
 
     One quarter: the cells of [0, 1]^2.
@@ -130,7 +130,7 @@ def _disc_quarter(count: int) -> Kernel:
     return cells
 
 
-def _splatted(cells: Kernel, centres: Kernel) -> Kernel:
+def _splatted(cells: BlurKernel, centres: BlurKernel) -> BlurKernel:
     """Light at a grid of positions (px along both axes, > 0) on the pixels, sum 1, symmetric.
 
     One quarter stands for all: the light in the middle row and column comes from both sides.
@@ -150,19 +150,19 @@ DARK_RINGS = (3.8317059702075125, 16.470630050877634)
 """First and fifth zero of the Bessel function J1."""
 
 
-def _bessel_j1(x: Kernel) -> Kernel:
+def _bessel_j1(x: BlurKernel) -> BlurKernel:
     """J1(x) = mean of cos(t - x sin t); whole turns make the midpoint rule exact (|x| < 60)."""
     angles = (np.arange(96) + 0.5) * (math.pi / 96)
     return np.asarray(sum(np.cos(angle - x * math.sin(angle)) for angle in angles) / 96)
 
 
 def airy_radius(scale: float) -> float:
-    """Radius of the fifth dark ring, px, of a `scale` as of `airy`."""
+    """Radius of the fifth dark ring, px, of a `scale` as of `airy_kernel`."""
     return DARK_RINGS[1] * scale / math.pi
 
 
 @lru_cache(maxsize=64)
-def airy(scale: float) -> Kernel:
+def airy_kernel(scale: float) -> BlurKernel:
     """Blur by diffraction at a round aperture: (2 J1(x)/x)^2 with x = pi r/scale.
 
     It is cut at the fifth dark ring, within which 96 % of the light lie, and shares out the rest.
@@ -178,7 +178,7 @@ def airy(scale: float) -> Kernel:
         Odd-sized square kernel, sums to 1, symmetric in both axes.
     """
     radius = airy_radius(scale)
-    check(2.0 * radius)
+    check_kernel_size(2.0 * radius)
     if radius < 1e-6:
         return np.ones((1, 1))
     count = max(2 * SAMPLES, min(16 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
@@ -189,7 +189,7 @@ def airy(scale: float) -> Kernel:
 
 
 @lru_cache(maxsize=64)
-def line(across: float, down: float) -> Kernel:
+def motion_kernel(across: float, down: float) -> BlurKernel:
     """Blur of a straight, uniform motion.
 
     Parameters
@@ -203,7 +203,7 @@ def line(across: float, down: float) -> Kernel:
         Odd-sized kernel (height, width), sums to 1, symmetric about its centre. The variance along
         the path is L^2/12 plus that of the pixel grid (errata E40: a box, not a Gaussian).
     """
-    check(max(abs(across), abs(down)))
+    check_kernel_size(max(abs(across), abs(down)))
     count = max(SAMPLES, 16 * math.ceil(max(abs(across), abs(down))))
     times = (np.arange(count) + 0.5) / count - 0.5
     kernel = _tents(down * times) @ _tents(across * times).T / count
@@ -211,7 +211,7 @@ def line(across: float, down: float) -> Kernel:
     return np.asarray(kernel / kernel.sum())
 
 
-def moved_share(one: Kernel, other: Kernel = _UNMOVED) -> float:
+def moved_share(one: BlurKernel, other: BlurKernel = _UNMOVED) -> float:
     """Share of the light that two kernels bring to different places: at most so many steps of 1.
 
     Parameters
@@ -223,6 +223,6 @@ def moved_share(one: Kernel, other: Kernel = _UNMOVED) -> float:
     return float(np.abs(_widened(one, sides) - _widened(other, sides)).sum() / 2.0)
 
 
-def _widened(kernel: Kernel, sides: list[int]) -> Kernel:
+def _widened(kernel: BlurKernel, sides: list[int]) -> BlurKernel:
     margins = [((side - had) // 2,) * 2 for side, had in zip(sides, kernel.shape, strict=True)]
     return np.pad(kernel, margins)

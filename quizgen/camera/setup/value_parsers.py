@@ -7,14 +7,14 @@ import re
 from collections.abc import Callable
 from typing import TypeVar
 
-from quizgen.camera.scene import Colour, Length
+from quizgen.camera.setup.scene import Colour, Length
 from quizgen.core.errors import FormulaError
 from quizgen.maths.numbers import parse_written_number
 from quizgen.maths.units import Dimension, get_unit
 from quizgen.numerics.gamma import srgb_decode
 
 T = TypeVar("T")
-Reader = Callable[[object], T]
+ValueParser = Callable[[object], T]
 """Takes what TOML gives; raises ValueError with what was expected."""
 
 LARGEST = 1e12
@@ -48,7 +48,7 @@ def _measure(text: object) -> tuple[float, Dimension]:
     return value * turn, found.dimension
 
 
-def quantity(name: str) -> Reader[float]:
+def quantity_parser(name: str) -> ValueParser[float]:
     """Reader of a number with a unit of the same dimension as ``name``."""
     expected = get_unit(name).dimension
 
@@ -63,7 +63,7 @@ def quantity(name: str) -> Reader[float]:
     return read
 
 
-def length(per: str = "") -> Reader[Length]:
+def length_parser(per: str = "") -> ValueParser[Length]:
     """Reader of a length in px or m, or of one per time."""
 
     def read(text: object) -> Length:
@@ -76,35 +76,35 @@ def length(per: str = "") -> Reader[Length]:
     return read
 
 
-def number(value: object) -> float:
+def parse_plain_number(value: object) -> float:
     """A plain number."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise ValueError("expected a number")
     return _meant(float(value))
 
 
-def whole(value: object) -> int:
+def parse_integer(value: object) -> int:
     """A whole number."""
     if isinstance(value, bool) or not isinstance(value, int):
         raise ValueError("expected a whole number")
     return value
 
 
-def truth(value: object) -> bool:
+def parse_bool(value: object) -> bool:
     """True or false."""
     if not isinstance(value, bool):
         raise ValueError("expected true or false")
     return value
 
 
-def words(value: object) -> str:
+def parse_text(value: object) -> str:
     """Text."""
     if not isinstance(value, str):
         raise ValueError("expected text in quotes")
     return value
 
 
-def one_of(*allowed: str) -> Reader[str]:
+def choice_parser(*allowed: str) -> ValueParser[str]:
     """Reader of one of the given words."""
 
     def read(value: object) -> str:
@@ -115,7 +115,7 @@ def one_of(*allowed: str) -> Reader[str]:
     return read
 
 
-def several(part: Reader[T], count: int | None = None) -> Reader[tuple[T, ...]]:
+def list_parser(part: ValueParser[T], count: int | None = None) -> ValueParser[tuple[T, ...]]:
     """Reader of a list."""
 
     def read(value: object) -> tuple[T, ...]:
@@ -126,29 +126,29 @@ def several(part: Reader[T], count: int | None = None) -> Reader[tuple[T, ...]]:
     return read
 
 
-def pair(part: Reader[T]) -> Reader[tuple[T, T]]:
+def pair_parser(part: ValueParser[T]) -> ValueParser[tuple[T, T]]:
     """Reader of a list of two."""
 
     def read(value: object) -> tuple[T, T]:
-        first, second = several(part, 2)(value)
+        first, second = list_parser(part, 2)(value)
         return first, second
 
     return read
 
 
-def triple(value: object) -> Colour:
+def parse_triple(value: object) -> Colour:
     """Three numbers, for red, green and blue."""
-    red, green, blue = several(number, 3)(value)
+    red, green, blue = list_parser(parse_plain_number, 3)(value)
     return red, green, blue
 
 
-def colour(value: object) -> Colour:
+def parse_colour(value: object) -> Colour:
     """``#rrggbb`` in sRGB, or three linear radiances."""
     if isinstance(value, str) and re.fullmatch(r"#[0-9a-fA-F]{6}", value):
         codes = [int(value[place : place + 2], 16) / 255.0 for place in (1, 3, 5)]
         red, green, blue = (float(light) for light in srgb_decode(codes))
         return red, green, blue
-    red, green, blue = triple(value)
+    red, green, blue = parse_triple(value)
     if min(red, green, blue) < 0.0:
         raise ValueError("radiance cannot be negative")
     if max(red, green, blue) > BRIGHTEST:

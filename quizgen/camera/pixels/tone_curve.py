@@ -15,10 +15,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.blocks import Tile, Work, in_turn
-from quizgen.camera.scene import Precision
-
-Image = NDArray[np.floating]
+from quizgen.camera.pixels.tiles import Tile, TileOperation
+from quizgen.camera.setup.scene import Image
 
 SRGB_KNEE = 0.0031308
 
@@ -74,8 +72,17 @@ def _curve(gamma: str | float) -> tuple[Image, Image]:
     return whole
 
 
-def by_lines(gamma: str | float) -> Work:
-    """`encode`: offset plus slope times value (all cells exist: ``wrap`` is the fastest check)."""
+def encode_piecewise(gamma: str | float) -> TileOperation:
+    """Encode linear light for display, by a straight line in each cell.
+
+    Values are clipped to [0, 1] first; subnormal ones count as 0. Within 3e-7 of the true value.
+
+    Parameters
+    ----------
+    gamma : str or float
+        ``srgb`` (IEC 61966-2-1: 12.92 x below 0.0031308, else 1.055 x^(1/2.4) - 0.055), or an
+        exponent g >= 1 for x^(1/g).
+    """
     if gamma == "linear":
         return _clip
     offsets, slopes = _curve(gamma)
@@ -83,6 +90,7 @@ def by_lines(gamma: str | float) -> Work:
     def work(part: Image, _: Tile) -> None:
         values = np.clip(part, 0.0, 1.0)
         cell = np.right_shift(values.view(np.int32), _SHIFT).astype(np.intp)
+        # all cells exist: to wrap around is the fastest check
         np.take(slopes, cell, out=part, mode="wrap")
         part *= values
         np.take(offsets, cell, out=values, mode="wrap")
@@ -95,8 +103,8 @@ def _clip(part: Image, _: Tile) -> None:
     np.clip(part, 0.0, 1.0, out=part)
 
 
-def by_powers(gamma: str | float) -> Work:
-    """`encode` in double precision, by the library's powers."""
+def encode_exact(gamma: str | float) -> TileOperation:
+    """The same in double precision, by the library's powers."""
     if gamma == "linear":
         return _clip
 
@@ -111,27 +119,8 @@ def by_powers(gamma: str | float) -> Work:
     return work
 
 
-def encoder(gamma: str | float, precision: Precision) -> Work:
-    """The tone curve in the precision of a picture."""
-    return by_lines(gamma) if precision == "float32" else by_powers(gamma)
-
-
-def encode(values: Image, gamma: str | float) -> Image:
-    """Encode linear light for display, within 3e-7 of the true value.
-
-    Parameters
-    ----------
-    values : numpy.ndarray
-        Linear, any shape, taken in float32; clipped to [0, 1] first. Subnormal values count as 0.
-    gamma : str or float
-        ``srgb`` (IEC 61966-2-1: 12.92 x below 0.0031308, else 1.055 x^(1/2.4) - 0.055), or an
-        exponent g >= 1 for x^(1/g).
-    """
-    return in_turn(values.astype(np.float32, copy=False), [by_lines(gamma)])[0]
-
-
-def encode_number(value: float, gamma: str | float) -> float:
-    """`encode` of one number in double precision, as the bounds need it."""
+def encode_value(value: float, gamma: str | float) -> float:
+    """One number encoded in double precision, as the bounds need it."""
     if not 0.0 <= value <= 1.0:
         value = min(max(value, 0.0), 1.0)
     if gamma == "srgb":

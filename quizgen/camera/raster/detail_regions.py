@@ -10,13 +10,14 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Iterator
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.raster.draw import Box, Layer, content
-from quizgen.camera.scene import Image
+from quizgen.camera.raster.rasterizer import Layer, PixelBox, bounding_box, intersect_boxes
+from quizgen.camera.setup.scene import Image
 
 Squares = NDArray[np.bool_]
 """Whether each square is meant: rows and columns of squares."""
@@ -29,7 +30,7 @@ _CALL = 4096
 """Pixels that could be worked on in the time that one more box takes."""
 
 
-class Places(NamedTuple):
+class Regions(NamedTuple):
     """Boxes outside of which an effect changes nothing; they may overlap.
 
     Parameters
@@ -39,11 +40,11 @@ class Places(NamedTuple):
         Rows above and below each that may be looked at.
     """
 
-    boxes: list[Box]
+    boxes: list[PixelBox]
     reach: int
 
 
-def places(layer: Layer, reach: tuple[float, float]) -> Places:
+def sampled_regions(layer: Layer, reach: tuple[float, float]) -> Regions:
     """Where values are read at places between pixels, nearest or mixed.
 
     Parameters
@@ -54,31 +55,35 @@ def places(layer: Layer, reach: tuple[float, float]) -> Places:
     """
     sides = layer.colour.shape[1::-1]
     across, down = (math.ceil(min(far, side)) + 1 for far, side in zip(reach, sides, strict=True))
-    return Places(_boxes(layer, (down, across), (0, 0)), down)
+    return Regions(_boxes(layer, (down, across), (0, 0)), down)
 
 
-def blurred_places(layer: Layer, kernel: NDArray[np.float64]) -> Places:
+def blurred_regions(layer: Layer, kernel: NDArray[np.float64]) -> Regions:
     """Where a layer is convolved: around a box so much is read that small ones are dear."""
     reach = kernel.shape[0] // 2, kernel.shape[1] // 2
-    return Places(_boxes(layer, reach, reach), reach[0])
+    return Regions(_boxes(layer, reach, reach), reach[0])
 
 
-def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[Box]:
+def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[PixelBox]:
     """What lies within so many rows and columns of something uneven."""
-    seen = extent(layer)
+    seen = content_box(layer)
     squares = _uneven(layer, seen)
     down, across = (-(-far // SQUARE) for far in reach)
     squares = _near(_near(squares, down).T, across).T
-    most = wider(seen, reach, layer.colour.shape)
-    return _in_px(_merged(squares, read), most)
+    most = grow_box(seen, reach, layer.colour.shape)
+    boxes = (
+        (slice(top * SQUARE, bottom * SQUARE), slice(left * SQUARE, right * SQUARE))
+        for top, bottom, left, right in _merged(squares, read)
+    )
+    return [part for box in boxes if (part := intersect_boxes(box, most)) is not None]
 
 
-def extent(layer: Layer) -> Box:
+def content_box(layer: Layer) -> PixelBox:
     """Where anything of a layer is."""
-    return whole(layer.colour.shape) if layer.cover is None else content(layer.cover)
+    return full_box(layer.colour.shape) if layer.cover is None else bounding_box(layer.cover)
 
 
-def wider(box: Box, far: tuple[int, int], shape: tuple[int, ...]) -> Box:
+def grow_box(box: PixelBox, far: tuple[int, int], shape: tuple[int, ...]) -> PixelBox:
     """A box, unless it is empty, with so many more rows and columns on each side as there are."""
     if not box[0].stop:
         return box
@@ -89,12 +94,12 @@ def wider(box: Box, far: tuple[int, int], shape: tuple[int, ...]) -> Box:
     return rows, columns
 
 
-def whole(shape: tuple[int, ...]) -> Box:
+def full_box(shape: tuple[int, ...]) -> PixelBox:
     """All rows and columns."""
     return slice(0, shape[0]), slice(0, shape[1])
 
 
-def _uneven(layer: Layer, seen: Box) -> Squares:
+def _uneven(layer: Layer, seen: PixelBox) -> Squares:
     """Squares that have more than one colour or cover; there is nothing but in a box."""
     if layer.cover is None:
         return _squares(layer.colour)
@@ -169,8 +174,10 @@ def _merged(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
     """Rectangles around all squares that are meant, one instead of two where that is cheaper."""
     done: list[_Frame] = []
     above: list[_Frame] = []
-    for number, row in enumerate(squares.tolist()):
-        runs = _in_row((_Frame(number, number + 1, *run) for run in _runs(row)), read)
+    edges = np.diff(squares.astype(np.int8), axis=1, prepend=0, append=0)
+    for number, row in enumerate(edges):
+        ends = np.flatnonzero(row).reshape(-1, 2).tolist()  # where runs of squares begin and end
+        runs = _in_row((_Frame(number, number + 1, *run) for run in ends), read)
         rights, more = [run.right for run in runs], list(runs)
         for frame in above:
             below = bisect_right(rights, frame.left)  # others have no column in common with it
@@ -180,10 +187,11 @@ def _merged(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
                 done.append(frame)
         above = more
     done += above
-    everything = _around(done)
-    if everything and everything.cost(read) <= sum(frame.cost(read) for frame in done):
-        return [everything]
-    return done
+    if not done:
+        return []
+    everything = reduce(_Frame.around, done)
+    whole = everything.cost(read) <= sum(frame.cost(read) for frame in done)
+    return [everything] if whole else done
 
 
 def _together(one: _Frame, other: _Frame, read: tuple[int, int]) -> bool:
@@ -199,36 +207,3 @@ def _in_row(frames: Iterator[_Frame], read: tuple[int, int]) -> list[_Frame]:
         else:
             found.append(frame)
     return found
-
-
-def _around(frames: list[_Frame]) -> _Frame | None:
-    if not frames:
-        return None
-    tops, bottoms, lefts, rights = zip(*frames, strict=True)
-    return _Frame(min(tops), max(bottoms), min(lefts), max(rights))
-
-
-def _runs(row: list[bool]) -> Iterator[tuple[int, int]]:
-    """First and last (exclusive) of the places beside each other that are meant."""
-    first = 0
-    for place, now in enumerate([*row, False]):
-        if not now:
-            if first < place:
-                yield first, place
-            first = place + 1
-
-
-def _in_px(frames: list[_Frame], most: Box) -> list[Box]:
-    """Rectangles in px, as far as something is there."""
-    found = (
-        tuple(
-            slice(max(first * SQUARE, part.start), min(last * SQUARE, part.stop))
-            for (first, last), part in zip((frame[:2], frame[2:]), most, strict=True)
-        )
-        for frame in frames
-    )
-    return [
-        (rows, columns)
-        for rows, columns in found
-        if rows.start < rows.stop and columns.start < columns.stop
-    ]

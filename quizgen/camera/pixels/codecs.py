@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, SupportsFloat
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.filters import opencv
+from quizgen.camera.pixels.filters import load_opencv
 
 if TYPE_CHECKING:
     from PIL.Image import Exif
@@ -62,7 +62,7 @@ _BROKEN = (
 )  # fmt: skip
 
 
-def decode(data: bytes) -> Codes:
+def decode_photo(data: bytes) -> Codes:
     """Pixels of a PNG or JPEG file, upright.
 
     Returns
@@ -117,13 +117,13 @@ def _unpack(data: bytes, way: str) -> Codes:
     return np.asarray(file)
 
 
-def shot_with(data: bytes) -> dict[str, float]:
+def read_exif_settings(data: bytes) -> dict[str, float]:
     """Settings of the camera that took a photograph, in base units, as far as its EXIF says.
 
     Parameters
     ----------
     data : bytes
-        Of a file that `decode` can read.
+        Of a file that `decode_photo` can read.
     """
     try:
         said = _open_file(data).getexif().get_ifd(_SHOT)
@@ -165,7 +165,7 @@ def encode_photo(codes: NDArray[np.uint8]) -> bytes:
 
 def _png_file(codes: NDArray[np.uint8]) -> bytes:
     """By OpenCV, which takes half the time, or else by Pillow."""
-    cv2 = opencv()
+    cv2 = load_opencv()
     if cv2 is None:
         return encode_photo(codes)
     return bytes(cv2.imencode(".png", cv2.cvtColor(codes, cv2.COLOR_RGB2BGR))[1])

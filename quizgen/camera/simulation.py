@@ -11,16 +11,19 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from quizgen.camera.blocks import BLOCK, in_turn, pieces
-from quizgen.camera.camera import Camera
-from quizgen.camera.codes import rounded
-from quizgen.camera.effects.effect import Effect, LayerByLayer, PointByPoint
-from quizgen.camera.filters import warm_up
-from quizgen.camera.prepared import GREY_LEVELS, Prepared
-from quizgen.camera.raster.draw import Layer, Sheet, Stack, composite, lay_over, sheets
-from quizgen.camera.raster.layers import cropped, moved_together
-from quizgen.camera.scene import Image, Scene
-from quizgen.camera.view import View
+from quizgen.camera.effect import Effect, LayerByLayer, PointByPoint
+from quizgen.camera.padding import crop_in_place, crop_layer
+from quizgen.camera.pixels.codes import GREY_LEVELS, to_8bit
+from quizgen.camera.pixels.filters import warm_up
+from quizgen.camera.pixels.tiles import TILE_VALUES, apply_tilewise, split_range
+from quizgen.camera.planner import PreparedScene
+from quizgen.camera.raster.rasterizer import (
+    Layer,
+    composite_layers,
+    composite_over,
+)
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.view import View
 from quizgen.core.untrusted import error_context
 
 
@@ -51,19 +54,19 @@ class Photo(msgspec.Struct, frozen=True):
         """8-bit codes, halves rounded upward."""
         flat = self.values.reshape(-1)
         codes = np.empty(flat.shape, np.uint8)
-        for start, stop in pieces(flat.size, BLOCK):
-            codes[start:stop] = rounded(flat[start:stop] * GREY_LEVELS)
+        for start, stop in split_range(flat.size, TILE_VALUES):
+            codes[start:stop] = to_8bit(flat[start:stop] * GREY_LEVELS)
         return codes.reshape(self.values.shape)
 
 
-def silent(name: str) -> None:
+def ignore_progress(name: str) -> None:
     """Nobody wants to know what is done now."""
 
 
-def run(
-    prepared: Prepared,
+def run_plan(
+    prepared: PreparedScene,
     names: Collection[str] | None = None,
-    told: Callable[[str], None] = silent,
+    told: Callable[[str], None] = ignore_progress,
     *,
     last: bool = False,
 ) -> Photo:
@@ -71,7 +74,7 @@ def run(
 
     Parameters
     ----------
-    prepared : Prepared
+    prepared : PreparedScene
     names : collection of str, optional
         Of present effects; by default all of them.
     told : callable
@@ -89,7 +92,7 @@ _Step = tuple[Effect, View]
 class _Run:
     """One run: the layers, whether the picture may be written over, and the times."""
 
-    def __init__(self, prepared: Prepared, told: Callable[[str], None], *, last: bool) -> None:
+    def __init__(self, prepared: PreparedScene, told: Callable[[str], None], *, last: bool) -> None:
         self.frame, self.told = prepared.view, told
         self.present = list(zip(prepared.present, prepared.views, strict=True))
         self.times = dict(prepared.prepared_ms)
@@ -117,14 +120,14 @@ class _Run:
                     self._run_one(step)
         self._crop(self.frame)
         times = {effect.name: self.times.get(effect.name, 0.0) for effect, _ in steps}
-        return Photo(composite(tuple(self.stack)), times, self.drawn_ms)
+        return Photo(composite_layers(tuple(self.stack)), times, self.drawn_ms)
 
     def _count(self, effect: Effect, started: float) -> None:
         spent = (perf_counter() - started) * 1e3
         self.times[effect.name] = self.times.get(effect.name, 0.0) + spent
 
     def _crop(self, view: View) -> None:
-        self.stack = [cropped(layer, view) for layer in self.stack]
+        self.stack = [crop_layer(layer, view) for layer in self.stack]
 
     def _run_one(self, step: _Step) -> None:
         effect, view = step
@@ -139,14 +142,14 @@ class _Run:
 
         Each effect gets no more than it and the later ones need, the last leaves what comes then.
         """
-        self.told(_names(steps))
+        self.told(", ".join(effect.name for effect, _ in steps))
         picture: Image | None = None
         while self.stack:
             drawn = self.stack.pop(0)
-            layer, even = replace(drawn, own=self._is_ours(drawn.colour)), drawn.even
+            layer, even = replace(drawn, own=self._is_ours(drawn.colour)), drawn.is_uniform
             for effect, view in steps:
                 started = perf_counter()
-                layer = cropped(layer, view)
+                layer = crop_layer(layer, view)
                 if not even:
                     (layer,) = effect.run((layer,), view)
                 self._count(effect, started)
@@ -155,11 +158,11 @@ class _Run:
 
     def _lay(self, layer: Layer, behind: Image | None, view: View) -> Image:
         if behind is None and self._is_ours(layer.colour):
-            return moved_together(layer.colour, view)
-        layer = cropped(layer, view)
+            return crop_in_place(layer.colour, view)
+        layer = crop_layer(layer, view)
         if behind is None:
             return layer.colour
-        return lay_over(layer, behind if self._is_ours(behind) else behind.copy())
+        return composite_over(layer, behind if self._is_ours(behind) else behind.copy())
 
     def _is_ours(self, picture: Image) -> bool:
         others = (other for other in self.kept if other is not None)
@@ -167,44 +170,20 @@ class _Run:
 
     def _run_points(self, steps: list[_Step]) -> None:
         """Effects that look at one pixel only, while a tile of the picture is at hand."""
-        self.told(_names(steps))
+        self.told(", ".join(effect.name for effect, _ in steps))
         started, view = perf_counter(), steps[-1][1]
         self._crop(view)
-        picture = composite(tuple(self.stack))
+        picture = composite_layers(tuple(self.stack))
         self.stack = []
         own = picture.flags.c_contiguous and self._is_ours(picture)
-        works = [one.run.work(view) for one, _ in steps if isinstance(one.run, PointByPoint)]
-        result, clock = in_turn(picture, works, into=picture if own else np.empty_like(picture))
+        works = [one.run.operation(view) for one, _ in steps if isinstance(one.run, PointByPoint)]
+        result, clock = apply_tilewise(
+            picture, works, into=picture if own else np.empty_like(picture)
+        )
         each = (perf_counter() - started) * 1e3 / (float(clock.sum()) or 1.0)
         for (effect, _), took in zip(steps, clock.tolist(), strict=True):
             self.times[effect.name] = each * took
         self.stack = [Layer(result)]
-
-
-def _names(steps: list[_Step]) -> str:
-    return ", ".join(effect.name for effect, _ in steps)
-
-
-def simulate_everything(scene: Scene, camera: Camera) -> Photo:
-    """Photograph a scene with every present effect."""
-    return run(Prepared(scene, camera), last=True)
-
-
-def photographs(scene: Scene, *cameras: Camera) -> tuple[Photo, ...]:
-    """One scene by several cameras, every present effect.
-
-    Cameras that see the same layers share them, so that they are drawn once.
-    """
-    drawn: dict[tuple[tuple[Sheet, ...], tuple[int, int]], Stack] = {}
-    photos = []
-    for camera in cameras:
-        prepared = Prepared(scene, camera)
-        view = (*prepared.views, prepared.view)[0]
-        seen = sheets(view), view.margin
-        prepared.stack = drawn.get(seen) or prepared.stack
-        drawn[seen] = prepared.stack
-        photos.append(run(prepared))
-    return tuple(photos)
 
 
 def measure_difference(one: Photo, other: Photo) -> float:

@@ -17,22 +17,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.camera import effects
-from quizgen.camera.blocks import pieces
 from quizgen.camera.camera import Camera
-from quizgen.camera.codes import MEASURES
-from quizgen.camera.filters import opencv
-from quizgen.camera.planning import (
+from quizgen.camera.pixels.codes import GREY_LEVELS, MEASURES
+from quizgen.camera.pixels.filters import load_opencv
+from quizgen.camera.pixels.tiles import split_range
+from quizgen.camera.planner import (
     NO_SELECTION,
+    EffectSelection,
     Plan,
-    Selection,
+    PreparedScene,
     describe_size,
     plan_budget,
     plan_question,
 )
-from quizgen.camera.prepared import GREY_LEVELS, Prepared
-from quizgen.camera.scene import Image, Question, Reading, Scene, SceneError
-from quizgen.camera.simulate import Photo, run, silent
-from quizgen.camera.view import View
+from quizgen.camera.setup.scene import Image, PictureQuestion, Reading, Scene, SceneError
+from quizgen.camera.setup.view import View
+from quizgen.camera.simulation import Photo, ignore_progress, run_plan
 from quizgen.core.untrusted import error_context
 
 LEAST_LEVELS = 8.0
@@ -111,7 +111,8 @@ class Visibility:
 
     def explain(self) -> str:
         """One sentence: what it does, and what of that is seen."""
-        does = f"{' and '.join(map(conjugate, self.says))}; " if self.says else ""
+        does = " and ".join(says.replace(" ", "s ", 1) for says in self.says)  # blur: it blurs
+        does += "; " if does else ""
         if self.too_small:
             return f"{does}{self.too_small}"
         if self.speckles:
@@ -156,12 +157,6 @@ class QuestionPhoto:
         return any(one.needs_colour for one in self.seen)
 
 
-def conjugate(says: str) -> str:
-    """A phrase that begins with a verb, of somebody who does it."""
-    verb, _, rest = says.partition(" ")
-    return f"{verb}s {rest}"
-
-
 def measure_visibility(
     shown: Image | NDArray[np.uint8], plain: Image | NDArray[np.uint8], kind: str = "", *,
     speckles: bool = False,
@@ -178,7 +173,7 @@ def measure_visibility(
         Whether noise is looked for.
     """
     found, gray = _Differences(), _Differences()
-    for start, stop in pieces(len(shown), _ROWS):
+    for start, stop in split_range(len(shown), _ROWS):
         apart = _codes(shown[start:stop]) - _codes(plain[start:stop])
         found.add(np.abs(apart))
         if apart.shape[2] > 1:
@@ -252,8 +247,8 @@ def photograph_question(
     reads: Mapping[str, Reading] | None = None,
     *,
     grey: bool = False,
-    chosen: Selection = NO_SELECTION,
-    told: Callable[[str], None] = silent,
+    chosen: EffectSelection = NO_SELECTION,
+    told: Callable[[str], None] = ignore_progress,
 ) -> QuestionPhoto:
     """Photograph a scene for a question and measure that it shows what is asked.
 
@@ -264,12 +259,12 @@ def photograph_question(
     scene : Scene
     camera : Camera
     asks : str or iterable of str
-        Kinds of question (`quizgen.camera.effects.questions`); by default the scene's own.
+        Kinds of question (`quizgen.camera.effects.question_kinds`); by default the scene's own.
     reads : mapping of str to Reading, optional
         What is read off the picture; by default the scene's own.
     grey : bool
         Whether what is asked must also be seen in a greyscale print.
-    chosen : Selection
+    chosen : EffectSelection
         Effects that are chosen by name.
     told : callable
         Gets the names of effects before they run.
@@ -283,20 +278,20 @@ def photograph_question(
         that it should have.
     """
     with error_context(scene.file):
-        taken = take_photographs(scene, camera, asks, reads, chosen=chosen, told=told)
+        taken = take_question_photo(scene, camera, asks, reads, chosen=chosen, told=told)
         for seen in taken.seen:
             check_visible(seen, grey=grey)
     return taken
 
 
-def take_photographs(
+def take_question_photo(
     scene: Scene,
     camera: Camera,
     asks: str | Iterable[str] = (),
     reads: Mapping[str, Reading] | None = None,
     *,
-    chosen: Selection = NO_SELECTION,
-    told: Callable[[str], None] = silent,
+    chosen: EffectSelection = NO_SELECTION,
+    told: Callable[[str], None] = ignore_progress,
 ) -> QuestionPhoto:
     """What `photograph_question` gives, whether or not it can be seen what is asked.
 
@@ -305,9 +300,9 @@ def take_photographs(
     scene, camera, asks, reads, chosen, told
         As for `photograph_question`.
     """
-    own = scene.question or Question(())
+    own = scene.question or PictureQuestion(())
     kinds = (asks,) if isinstance(asks, str) else tuple(asks)
-    asked = Question(kinds or own.asks, own.reads if reads is None else reads)
+    asked = PictureQuestion(kinds or own.asks, own.reads if reads is None else reads)
     key = _find_key(scene, camera, asked, chosen)
     if key is None:
         return _take(scene, camera, asked, chosen, told)
@@ -322,36 +317,38 @@ _KEPT: OrderedDict[Hashable, QuestionPhoto] = OrderedDict()
 _MOST_KEPT, _MOST_PIXELS = 64, 1 << 16
 
 
-def _find_key(scene: Scene, camera: Camera, asked: Question, chosen: Selection) -> Hashable | None:
+def _find_key(
+    scene: Scene, camera: Camera, asked: PictureQuestion, chosen: EffectSelection
+) -> Hashable | None:
     """What a picture depends on; None where it is large, or a photograph, and not kept."""
     if scene.image is not None or scene.width * scene.height > _MOST_PIXELS:
         return None
     drawn = scene.things, scene.background, scene.background_depth, scene.width, scene.height
-    rest = scene.seed, scene.precision, opencv() is None
+    rest = scene.seed, scene.precision, load_opencv() is None
     return drawn, rest, camera, asked.asks, tuple(asked.reads.items()), chosen
 
 
 def _take(
     scene: Scene,
     camera: Camera,
-    asked: Question,
-    chosen: Selection,
+    asked: PictureQuestion,
+    chosen: EffectSelection,
     told: Callable[[str], None],
 ) -> QuestionPhoto:
-    whole = Prepared(scene, camera)
+    whole = PreparedScene(scene, camera)
     plan = plan_question(whole, asked.asks, chosen)
-    prepared = Prepared(scene, camera, plan.names)
+    prepared = PreparedScene(scene, camera, plan.names)
     large = scene.width * scene.height > 2 * _MEGAPIXEL  # layers are let go and drawn again
 
     def run_without(names: Collection[str]) -> Photo:
         rest = [name for name in plan.names if name not in names]
-        again = Prepared(scene, camera, plan.names) if large else prepared
-        return run(again, rest, told, last=large)
+        again = PreparedScene(scene, camera, plan.names) if large else prepared
+        return run_plan(again, rest, told, last=large)
 
     groups = _group_asked(plan, asked.asks, chosen)
     plain = {kind: run_without(names) for kind, names in groups.items()} if not large else {}
     thin = {kind: _thin(run_without(names).values) for kind, names in groups.items() if large}
-    photo = run(prepared, told=told, last=large and not asked.reads)
+    photo = run_plan(prepared, told=told, last=large and not asked.reads)
     readings = {}
     for name, reading in asked.reads.items():
         if added := _find_needed(whole, plan, photo, reading):
@@ -374,22 +371,19 @@ def _thin(values: Image) -> Image:
 
 
 def _group_asked(
-    plan: Plan, kinds: tuple[str, ...], chosen: Selection
+    plan: Plan, kinds: tuple[str, ...], chosen: EffectSelection
 ) -> dict[str, tuple[str, ...]]:
     """Effects of every kind of question; those chosen by name each for itself."""
     if chosen.only:
         return {name: (name,) for name in plan.asked}
-    return {kind: _asked_by(plan, kind) for kind in kinds}
-
-
-def _asked_by(plan: Plan, kind: str) -> tuple[str, ...]:
-    return tuple(name for name in plan.asked if kind in effects.by_name(name).answers)
+    answers = {name: effects.get_effect(name).answers for name in plan.asked}
+    return {kind: tuple(name for name in answers if kind in answers[name]) for kind in kinds}
 
 
 def _measure(
     kind: str, names: Collection[str], view: View, shown: Image, plain: Image
 ) -> Visibility:
-    asked = [effects.by_name(name) for name in names]
+    asked = [effects.get_effect(name) for name in names]
     says = tuple(filter(None, (describe_size(one, view) for one in asked)))
     small = [one.size for one in asked if one.size and one.size.of(view) < one.size.least]
     too_small = f"{small[0].least:g} would be seen" if small and len(small) == len(asked) else ""
@@ -411,16 +405,13 @@ def read_value(image: Image, reading: Reading) -> float:
     return float(measure(levels))
 
 
-def _find_needed(whole: Prepared, plan: Plan, photo: Photo, reading: Reading) -> str:
+def _find_needed(whole: PreparedScene, plan: Plan, photo: Photo, reading: Reading) -> str:
     """An effect left out without which what is read is wrong, and with which it is right."""
-    if reading.value is None or _is_right(photo, reading):
+    if _is_right(photo, reading):
         return ""
-    for choice in plan.left_out:
-        if choice.why == "not asked" and _is_right(
-            run(whole, (*plan.names, choice.effect)), reading
-        ):
-            return choice.effect
-    return ""
+    others = (choice.effect for choice in plan.left_out if choice.why == "not asked")
+    right = (one for one in others if _is_right(run_plan(whole, (*plan.names, one)), reading))
+    return next(right, "")
 
 
 def _is_right(photo: Photo, reading: Reading) -> bool:
@@ -429,7 +420,7 @@ def _is_right(photo: Photo, reading: Reading) -> bool:
 
 
 def _check_reading(
-    prepared: Prepared, plan: Plan, photo: Photo, name: str, reading: Reading
+    prepared: PreparedScene, plan: Plan, photo: Photo, name: str, reading: Reading
 ) -> float:
     """What is read off, if that is right and nothing besides moves it."""
     value = read_value(photo.values, reading)
@@ -441,7 +432,7 @@ def _check_reading(
         if step.why != "wanted" or reading.value is not None:
             continue
         others = [other for other in plan.names if other != step.effect]
-        moved = abs(read_value(run(prepared, others).values, reading) - value)
+        moved = abs(read_value(run_plan(prepared, others).values, reading) - value)
         if moved > reading.tolerance:
             raise MovedReadingError(
                 f"{step.effect} moves {name} by {moved:.3g}, more than {reading.tolerance:g}"
@@ -460,7 +451,7 @@ def simulate(scene: Scene, camera: Camera, budget: str | float = 0.5) -> Photo:
     scene : Scene
     camera : Camera
     budget : float or str
-        Grey levels, see `quizgen.camera.planning.plan_budget`.
+        Grey levels, see `quizgen.camera.planner.plan_budget`.
     """
-    prepared = Prepared(scene, camera)
-    return run(prepared, plan_budget(prepared, budget).names, last=True)
+    prepared = PreparedScene(scene, camera)
+    return run_plan(prepared, plan_budget(prepared, budget).names, last=True)

@@ -54,13 +54,13 @@ NONE, CELL, STROKE = Length(0.0), Length(16.0), Length(2.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Thing:
+class SceneObject:
     """One drawn object.
 
     Parameters
     ----------
     shape : str
-        A key of `quizgen.camera.raster.outlines.SHAPES`.
+        A key of `quizgen.camera.raster.shapes.SHAPES`.
     x, y, width, height, radius, cell, stroke : Length
         Place and size in px, or in m at the object's depth.
     depth : float
@@ -68,7 +68,7 @@ class Thing:
     colour, other : (float, float, float)
         Linear radiance, 1 = white; lamps may exceed 1. ``other`` is the texture's second colour.
     texture : str
-        A key of `quizgen.camera.raster.outlines.TEXTURES`.
+        A key of `quizgen.camera.raster.shapes.TEXTURES`.
     angle : float
         Rotation in rad, clockwise as seen.
     velocity : (Length, Length)
@@ -100,22 +100,22 @@ class Thing:
     points: tuple[tuple[float, float], ...] = ()
 
     @property
-    def metric(self) -> bool:
+    def is_metric(self) -> bool:
         """Whether any length is in metres, so that the object must be projected."""
-        lengths = (getattr(self, name) for name in _lengths())
-        return any(one.metric for one in (*lengths, *self.velocity))
+        return any(one.metric for one in (*self.lengths().values(), *self.velocity))
 
     def lengths(self) -> dict[str, Length]:
         """Every length field by name."""
-        return {name: getattr(self, name) for name in _lengths()}
+        return {name: getattr(self, name) for name in length_fields()}
 
 
 @cache
-def _lengths() -> tuple[str, ...]:
-    return tuple(item.name for item in fields(Thing) if isinstance(item.default, Length))
+def length_fields() -> tuple[str, ...]:
+    """Names of the fields of an object that are lengths."""
+    return tuple(item.name for item in fields(SceneObject) if isinstance(item.default, Length))
 
 
-Measure = Callable[[NDArray[np.floating]], float]
+PictureMeasure = Callable[[NDArray[np.floating]], float]
 """Reads a number off the grey levels of a picture, shape (H, W, 3)."""
 
 
@@ -126,20 +126,20 @@ class Reading:
     Parameters
     ----------
     measure : str or callable
-        A name in `quizgen.camera.codes.MEASURES`, or a function of the grey levels.
+        A name in `quizgen.camera.pixels.codes.MEASURES`, or a function of the grey levels.
     tolerance : float
         How far what is read may be from the key.
     value : float or None
         The key, by formula; None if it is what the picture shows.
     """
 
-    measure: str | Measure
+    measure: str | PictureMeasure
     tolerance: float
     value: float | None = None
 
 
 @dataclass(frozen=True)
-class Question:
+class PictureQuestion:
     """What is asked about a picture.
 
     Parameters
@@ -162,7 +162,7 @@ class Scene:
     ----------
     width, height : int
         Size in px.
-    things : tuple of Thing
+    things : tuple of SceneObject
         In any order; farther things are drawn first.
     background : (float, float, float)
         Linear radiance behind everything.
@@ -172,7 +172,7 @@ class Scene:
         Shape (height, width, 3), linear radiance; replaces the background.
     depth : float or numpy.ndarray
         Distance of the picture in m, shape (height, width) if a map.
-    question : Question or None
+    question : PictureQuestion or None
         What is asked about the picture.
     seed : int
         Seed of every random effect.
@@ -188,12 +188,12 @@ class Scene:
 
     width: int = 640
     height: int = 480
-    things: tuple[Thing, ...] = ()
+    things: tuple[SceneObject, ...] = ()
     background: Colour = (0.0, 0.0, 0.0)
     background_depth: float = math.inf
     image: Image | None = None
     depth: float | Image = math.inf
-    question: Question | None = None
+    question: PictureQuestion | None = None
     seed: int = 0
     title: str = ""
     exif: Mapping[str, float] = field(default_factory=dict)
@@ -201,12 +201,12 @@ class Scene:
     file: Path | None = None
 
     @cached_property
-    def metric(self) -> bool:
+    def is_metric(self) -> bool:
         """Whether anything is given in metres."""
-        return any(thing.metric for thing in self.things)
+        return any(thing.is_metric for thing in self.things)
 
     @cached_property
-    def range(self) -> tuple[float, float]:
+    def radiance_range(self) -> tuple[float, float]:
         """Smallest and largest radiance that can occur, from the colours or the picture."""
         seen = [thing.other for thing in self.things if thing.texture != "plain"]
         seen.extend(thing.colour for thing in self.things)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+GREY_LEVELS = 255.0
+
 Numbers = NDArray[np.integer] | NDArray[np.floating]
 
 
-def rounded(values: NDArray[np.floating]) -> NDArray[np.uint8]:
+def to_8bit(values: NDArray[np.floating]) -> NDArray[np.uint8]:
     """8-bit codes of values in [0, 255]: clipped, halves rounded upward (as OpenCV's demosaicing).
 
     Nothing is truncated (errata EC8) and nothing wraps (errata E21).
@@ -16,7 +18,7 @@ def rounded(values: NDArray[np.floating]) -> NDArray[np.uint8]:
     return np.asarray(np.clip(values + 0.5, 0, 255), np.uint8)  # which leaves out the fraction
 
 
-def histogram(image: Numbers, bins: int = 256, top: float = 1.0) -> NDArray[np.int64]:
+def count_histogram(image: Numbers, bins: int = 256, top: float = 1.0) -> NDArray[np.int64]:
     """Counts of values in equal bins over [0, top]; values outside fall into the end bins.
 
     Parameters
@@ -37,24 +39,20 @@ def _bins(values: Numbers, bins: int, top: float) -> NDArray[np.int64]:
     return np.clip(index, 0, bins - 1)
 
 
-def _patches(levels: NDArray[np.floating]) -> list[NDArray[np.floating]]:
-    """The four corners of a picture, each a sixteenth of its sides."""
-    rows, columns = (max(1, side // 16) for side in levels.shape[:2])
-    sides = [levels[:rows], levels[-rows:]]
-    return [part for side in sides for part in (side[:, :columns], side[:, -columns:])]
-
-
-def _centre(levels: NDArray[np.floating]) -> NDArray[np.floating]:
+def _patch(levels: NDArray[np.floating], down: float, across: float) -> float:
+    """Mean of a sixteenth of the sides, so far (0 to 1) from the first row and column."""
     height, width = levels.shape[:2]
     rows, columns = max(1, height // 16), max(1, width // 16)
-    top, left = (height - rows) // 2, (width - columns) // 2
-    return levels[top : top + rows, left : left + columns]
+    top, left = int((height - rows) * down), int((width - columns) * across)
+    return float(levels[top : top + rows, left : left + columns].mean())
 
+
+_CORNERS = (0, 0), (0, 1), (1, 0), (1, 1)
 
 MEASURES = {
     "mean": lambda levels: float(levels.mean()),
-    "centre": lambda levels: float(_centre(levels).mean()),
-    "corner": lambda levels: float(np.mean([part.mean() for part in _patches(levels)])),
+    "centre": lambda levels: _patch(levels, 0.5, 0.5),
+    "corner": lambda levels: float(np.mean([_patch(levels, *place) for place in _CORNERS])),
     "deviation": lambda levels: float(levels.std(axis=(0, 1)).mean()),
     "darkest": lambda levels: float(levels.min()),
     "brightest": lambda levels: float(levels.max()),

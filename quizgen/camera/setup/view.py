@@ -9,15 +9,15 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.scene import Image, Precision, Scene, SceneError
-from quizgen.camera.setup.body import (
+from quizgen.camera.setup.scene import Image, Precision, Scene, SceneError
+from quizgen.camera.setup.settings import (
     FOCAL_LENGTH,
     FOCUS_DISTANCE,
     PINHOLE,
     PIXEL_PITCH,
-    aperture,
+    CameraSettings,
+    aperture_diameter,
 )
-from quizgen.camera.setup.settings import Settings
 
 
 class View(msgspec.Struct, frozen=True):
@@ -26,13 +26,13 @@ class View(msgspec.Struct, frozen=True):
     Parameters
     ----------
     scene : Scene
-    camera : Settings
+    camera : CameraSettings
     margin : (int, int)
-        Columns and rows seen beyond the frame on each side, see `quizgen.camera.prepared.views`.
+        Columns and rows seen beyond the frame on each side, see `quizgen.camera.padding`.
     """
 
     scene: Scene
-    camera: Settings
+    camera: CameraSettings
     margin: tuple[int, int] = (0, 0)
 
     @property
@@ -49,11 +49,6 @@ class View(msgspec.Struct, frozen=True):
     def precision(self) -> Precision:
         """What the picture is computed in."""
         return self.scene.precision
-
-    @property
-    def megapixels(self) -> float:
-        """Pixels in millions."""
-        return self.width * self.height / 1e6
 
     @property
     def focal(self) -> float:
@@ -74,7 +69,7 @@ class View(msgspec.Struct, frozen=True):
     @property
     def f_number(self) -> float:
         """Focal length over aperture; infinite for a point."""
-        length, opening = self.camera[FOCAL_LENGTH], aperture(self.camera)
+        length, opening = self.camera[FOCAL_LENGTH], aperture_diameter(self.camera)
         return math.inf if length is None or opening is None else length / opening
 
     @property
@@ -112,7 +107,7 @@ class View(msgspec.Struct, frozen=True):
             lens d (1 + f/z), never sharp.
         """
         length, pitch = self.camera[FOCAL_LENGTH], self.camera[PIXEL_PITCH]
-        opening, distance = aperture(self.camera), self.camera[FOCUS_DISTANCE]
+        opening, distance = aperture_diameter(self.camera), self.camera[FOCUS_DISTANCE]
         if opening is None or length is None or pitch is None:
             return np.zeros_like(depth) if isinstance(depth, np.ndarray) else 0.0
         if self.camera[PINHOLE] is not None:
@@ -154,6 +149,10 @@ class Signal(msgspec.Struct, frozen=True):
         return Signal(
             min(self.low * least, self.low * most), max(self.high * least, self.high * most)
         )
+
+    def including(self, low: float, high: float) -> Signal:
+        """With two more values in it."""
+        return Signal(min(self.low, low), max(self.high, high))
 
     def clipped(self, low: float, high: float) -> Signal:
         """Cut at two values."""

@@ -4,81 +4,85 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from quizgen.camera import codecs, effects
+from quizgen.camera import effects
 from quizgen.camera.camera import Camera
-from quizgen.camera.codes import MEASURES
-from quizgen.camera.raster.outlines import SHAPES, SIZES, TEXTURES
-from quizgen.camera.scene import (
+from quizgen.camera.pixels import codecs
+from quizgen.camera.pixels.codes import MEASURES
+from quizgen.camera.raster.shapes import SHAPES, SIZES, TEXTURES
+from quizgen.camera.setup.scene import (
     PRECISIONS,
     Image,
     Length,
+    PictureQuestion,
     Precision,
-    Question,
     Reading,
     Scene,
     SceneError,
+    SceneObject,
     SettingError,
-    Thing,
+    length_fields,
 )
-from quizgen.camera.setup.settings import nearest
-from quizgen.camera.setup.values import (
-    Reader,
-    colour,
-    length,
-    number,
-    one_of,
-    pair,
-    quantity,
-    several,
-    truth,
-    whole,
-    words,
+from quizgen.camera.setup.settings import suggest_setting
+from quizgen.camera.setup.value_parsers import (
+    ValueParser,
+    choice_parser,
+    length_parser,
+    list_parser,
+    pair_parser,
+    parse_bool,
+    parse_colour,
+    parse_integer,
+    parse_plain_number,
+    parse_text,
+    quantity_parser,
 )
-from quizgen.camera.view import View
+from quizgen.camera.setup.view import View
 from quizgen.core.untrusted import LARGEST_PICTURE, parse_toml, read_bytes, read_text
 from quizgen.numerics.gamma import srgb_decode
 
 MOST_THINGS = 1000
 """Things of a scene, corners of a polygon and blades of a propeller."""
 
-Readers = Mapping[str, Reader[Any]]
+TableParsers = Mapping[str, ValueParser[Any]]
 """Readers of the keys of one table; each gives the type of its own field."""
 
 
 def _depth(value: object) -> float:
-    depth = quantity("m")(value)
+    depth = quantity_parser("m")(value)
     if depth <= 0.0:
         raise ValueError("a depth must be positive")
     return depth
 
 
-def _between(least: int, most: int) -> Reader[int]:
+def _between(least: int, most: int) -> ValueParser[int]:
     """Reader of a whole number in a range."""
 
     def read(value: object) -> int:
-        if not least <= whole(value) <= most:
+        if not least <= parse_integer(value) <= most:
             raise ValueError(f"expected {least} to {most}")
-        return whole(value)
+        return parse_integer(value)
 
     return read
 
 
 def _corners(value: object) -> tuple[tuple[float, float], ...]:
-    corners = several(pair(number))(value)
+    corners = list_parser(pair_parser(parse_plain_number))(value)
     if len(corners) > MOST_THINGS:
         raise ValueError(f"expected at most {MOST_THINGS} corners")
     return corners
 
 
 def _asks(value: object) -> tuple[str, ...]:
-    kinds = several(one_of(*effects.questions()))([value] if isinstance(value, str) else value)
+    kinds = list_parser(choice_parser(*effects.question_kinds()))(
+        [value] if isinstance(value, str) else value
+    )
     if not kinds:
         raise ValueError("expected a kind of question")
     return kinds
@@ -88,52 +92,43 @@ def _reads(value: object) -> dict[str, Reading]:
     table = value if isinstance(value, dict) else {}
     if not table:
         raise ValueError("expected a table such as { corner = 3 }")
-    return {name: _read_one(name, told) for name, told in table.items()}
-
-
-def _read_one(name: str, told: object) -> Reading:
-    """A tolerance, or a table with the key besides."""
-    measure = one_of(*MEASURES)(name)
-    table = told if isinstance(told, dict) else {"tolerance": told}
-    if "tolerance" not in table or table.keys() - {"tolerance", "value"}:
-        raise ValueError(f"{name}: expected a tolerance, and maybe a value")
-    values = {key: number(part) for key, part in table.items()}
-    if values["tolerance"] <= 0.0:
-        raise ValueError(f"{name}: a tolerance must be positive")
-    return Reading(measure, **values)
+    found = {}
+    for name, told in table.items():  # a tolerance, or a table with the key as well
+        measure = choice_parser(*MEASURES)(name)
+        fields = told if isinstance(told, dict) else {"tolerance": told}
+        if "tolerance" not in fields or fields.keys() - {"tolerance", "value"}:
+            raise ValueError(f"{name}: expected a tolerance, and maybe a value")
+        values = {key: parse_plain_number(part) for key, part in fields.items()}
+        if values["tolerance"] <= 0.0:
+            raise ValueError(f"{name}: a tolerance must be positive")
+        found[name] = Reading(measure, **values)
+    return found
 
 
 SIDES = 2, 2**15
 """Pixels of the shortest and the longest side: a mosaic has tiles of two."""
 
-_SIDE = _between(*SIDES)
-
-SCENE: Readers = {
-    "title": words, "width": _SIDE, "height": _SIDE, "background": colour,
-    "background_depth": _depth, "image": words, "depth": _depth, "depth_map": words,
-    "depth_near": _depth, "depth_far": _depth, "seed": _between(0, 2**63),
-    "precision": one_of(*PRECISIONS),
-}  # fmt: skip
-
-THING: Readers = {
-    "shape": one_of(*SHAPES), "x": length(), "y": length(), "width": length(),
-    "height": length(), "radius": length(), "cell": length(), "stroke": length(),
-    "depth": _depth, "colour": colour, "other": colour, "texture": one_of(*TEXTURES),
-    "angle": quantity("deg"), "velocity": pair(length("/s")), "spin": quantity("deg/s"),
+_KEYS: Mapping[str, TableParsers] = {"scene": {
+    **dict.fromkeys(("title", "image", "depth_map"), parse_text),
+    **dict.fromkeys(("width", "height"), _between(*SIDES)),
+    **dict.fromkeys(("background_depth", "depth", "depth_near", "depth_far"), _depth),
+    "background": parse_colour, "seed": _between(0, 2**63), "precision": choice_parser(*PRECISIONS),
+}, "question": {"asks": _asks, "reads": _reads}, "thing": {
+    **dict.fromkeys(length_fields(), length_parser()),
+    "shape": choice_parser(*SHAPES), "depth": _depth, "colour": parse_colour, "other": parse_colour,
+    "texture": choice_parser(*TEXTURES), "angle": quantity_parser("deg"),
+    "velocity": pair_parser(length_parser("/s")), "spin": quantity_parser("deg/s"),
     "count": _between(1, MOST_THINGS), "points": _corners,
-}  # fmt: skip
-
-QUESTION: Readers = {"asks": _asks, "reads": _reads}
-
-TABLES = ("scene", "question", "camera", "thing")
+}}  # fmt: skip
+TABLES = (*_KEYS, "camera")
 
 
-def _readers(table: str) -> Readers:
-    """Readers of one table; those of the camera come from the effects."""
+def _table_keys(table: str) -> TableParsers:
+    """Parsers of one table; those of the camera come from the effects."""
     if table != "camera":
-        return {"scene": SCENE, "question": QUESTION, "thing": THING}[table]
-    named = {name: setting.read for name, setting in effects.settings().items()}
-    return {"sensor_width": quantity("m"), "exif": truth, **named}
+        return _KEYS[table]
+    named = {name: setting.read for name, setting in effects.all_settings().items()}
+    return {"sensor_width": quantity_parser("m"), "exif": parse_bool, **named}
 
 
 _HEADER = re.compile(r"\s*\[\[?\s*([\w-]+)\s*\]\]?")
@@ -168,23 +163,22 @@ class _File:
         return SceneError(f"{self.path}:{line}: {message}")
 
     def read(self, table: str, which: int, values: Mapping[str, object]) -> dict[str, Any]:
-        known = _readers(table)
-        return {key: self._value(table, which, key, value, known) for key, value in values.items()}
-
-    def _value(self, table: str, which: int, key: str, value: object, known: Readers) -> object:
-        if key not in known:
-            hint = nearest(key, known)
-            raise self.fail(table, which, key, f"unknown key {key!r} in {table}{hint}")
-        try:
-            return known[key](value)
-        except (ValueError, OverflowError) as error:
-            raise self.fail(table, which, key, f"{key}: {error}") from error
+        known, found = _table_keys(table), {}
+        for key, value in values.items():
+            if key not in known:
+                hint = suggest_setting(key, known)
+                raise self.fail(table, which, key, f"unknown key {key!r} in {table}{hint}")
+            try:
+                found[key] = known[key](value)
+            except (ValueError, OverflowError) as error:
+                raise self.fail(table, which, key, f"{key}: {error}") from error
+        return found
 
     def check_tables(self) -> None:
         for name in self.tables:
             if name not in TABLES:
                 line = self.lines.get((name, 0, "")) or self.lines.get(("", 0, name), 1)
-                hint = nearest(name, TABLES)
+                hint = suggest_setting(name, TABLES)
                 raise SceneError(f"{self.path}:{line}: unknown table {name!r}{hint}")
         for name in ("scene", "question", "camera"):
             if not isinstance(self.tables.get(name, {}), dict):
@@ -196,7 +190,7 @@ class _File:
             raise self.fail("thing", 0, "", f"more than {MOST_THINGS} things")
 
 
-def load(path: str | Path, precision: Precision | None = None) -> tuple[Scene, Camera]:
+def load_scene(path: str | Path, precision: Precision | None = None) -> tuple[Scene, Camera]:
     """Read a scene and its camera.
 
     Parameters
@@ -225,13 +219,13 @@ def load(path: str | Path, precision: Precision | None = None) -> tuple[Scene, C
     return scene, camera
 
 
-def _question(file: _File) -> Question | None:
+def _question(file: _File) -> PictureQuestion | None:
     if "question" not in file.tables:
         return None
     values = file.read("question", 0, file.tables["question"])
     if "asks" not in values:
         raise file.fail("question", 0, "", "a question needs asks")
-    return Question(**values)
+    return PictureQuestion(**values)
 
 
 def _shot_with(file: _File, given: Mapping[str, object]) -> dict[str, float]:
@@ -243,7 +237,9 @@ def _shot_with(file: _File, given: Mapping[str, object]) -> dict[str, float]:
     name = file.tables.get("scene", {}).get("image")
     if name is None:
         raise file.fail("camera", 0, "exif", "exif needs an image")
-    said = codecs.shot_with(read_bytes(file.path.parent / name, SceneError, LARGEST_PICTURE))
+    said = codecs.read_exif_settings(
+        read_bytes(file.path.parent / name, SceneError, LARGEST_PICTURE)
+    )
     sized = "pixel_pitch" in given or "sensor_width" in given
     needs = {"f_number": sized and "pinhole" not in given, "iso": "light_value" in given}
     taken = {key: x for key, x in said.items() if needs.get(key, True) and key not in given}
@@ -265,17 +261,17 @@ def _camera(file: _File, values: dict[str, Any], columns: int) -> Camera:
 
 def _check_effects(file: _File, view: View) -> None:
     """Name the line of what cannot be computed."""
-    for effect in effects.present(view):
+    for effect in effects.present_effects(view):
         try:
-            effect.check(view)
+            effect.check_camera(view)
         except SceneError as error:
             given = (item.name for item in effect.settings if item.name in view.camera.given)
             raise file.fail("camera", 0, next(given, ""), str(error)) from error
 
 
-def _thing(file: _File, which: int, table: Mapping[str, object]) -> Thing:
+def _thing(file: _File, which: int, table: Mapping[str, object]) -> SceneObject:
     values = file.read("thing", which, table)
-    thing = Thing(**values)
+    thing = SceneObject(**values)
     for size in SIZES[thing.shape]:
         given = getattr(thing, size)
         if not given or (isinstance(given, Length) and given.value <= 0.0):
@@ -285,7 +281,7 @@ def _thing(file: _File, which: int, table: Mapping[str, object]) -> Thing:
     return thing
 
 
-def _scene(file: _File, things: tuple[Thing, ...], precision: Precision | None) -> Scene:
+def _scene(file: _File, things: tuple[SceneObject, ...], precision: Precision | None) -> Scene:
     values = file.read("scene", 0, file.tables.get("scene", {}))
     kind = values["precision"] = precision or values.get("precision", Scene.precision)
     pixels = values.get("width", Scene.width) * values.get("height", Scene.height)
@@ -296,37 +292,30 @@ def _scene(file: _File, things: tuple[Thing, ...], precision: Precision | None) 
         if key in values:
             values[key] = _picture(file, key, values[key])
     if "image" in values:
-        values["image"] = _linear(values["image"], kind)
+        values["image"] = _look_up(srgb_decode, values["image"], kind)  # linear radiance
         values["height"], values["width"] = values["image"].shape[:2]
     if (nearness := values.pop("depth_map", None)) is not None:
         shape = (values.get("height"), values.get("width"))
         if nearness.shape[:2] != shape:
             raise file.fail("scene", 0, "depth_map", "a depth map needs an image of its size")
-        values["depth"] = _depths(nearness, near, far, kind)
+        values["depth"] = _look_up(
+            # white is near, black is far, linear in 1/z
+            lambda share: 1.0 / np.maximum(share / near + (1.0 - share) / far, 1e-9),
+            nearness[..., 0], kind,
+        )  # fmt: skip
     return Scene(things=things, file=file.path, **values)
 
 
 _ROWS = 64
 
 
-def _depths(nearness: codecs.Codes, near: float, far: float, precision: Precision) -> Image:
-    """White is near, black is far, linear in 1/z; looked up for every code."""
-    top = int(np.iinfo(nearness.dtype).max)
-    share = np.arange(top + 1) / top
-    inverse = share / near + (1.0 - share) / far
-    table = np.asarray(1.0 / np.maximum(inverse, 1e-9), precision)
-    return _looked_up(table, nearness[..., 0])
+def _look_up(value: Callable[[Any], Any], codes: codecs.Codes, precision: Precision) -> Image:
+    """A value for the share of white of every code, from a table of all codes.
 
-
-def _linear(codes: codecs.Codes, precision: Precision) -> Image:
-    """Radiance of every code, looked up."""
+    Some rows at once, as codes become larger numbers for it.
+    """
     top = int(np.iinfo(codes.dtype).max)
-    table = np.asarray(srgb_decode(np.arange(top + 1) / top), precision)
-    return _looked_up(table, codes)
-
-
-def _looked_up(table: Image, codes: codecs.Codes) -> Image:
-    """A value for every code; some rows at once, as codes become larger numbers for it."""
+    table = np.asarray(value(np.arange(top + 1) / top), precision)
     found = np.empty(codes.shape, table.dtype)
     for start in range(0, len(codes), _ROWS):
         found[start : start + _ROWS] = table[codes[start : start + _ROWS]]
@@ -337,7 +326,7 @@ def _picture(file: _File, key: str, name: str) -> codecs.Codes:
     """Codes, shape (H, W, 3)."""
     path = file.path.parent / name
     try:
-        pixels = codecs.decode(read_bytes(path, SceneError, LARGEST_PICTURE))
+        pixels = codecs.decode_photo(read_bytes(path, SceneError, LARGEST_PICTURE))
         if min(pixels.shape[:2]) < SIDES[0]:
             raise ValueError(f"a picture has at least {SIDES[0]} rows and columns")
     except SceneError as error:

@@ -13,29 +13,36 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from quizgen.camera import kernels
-from quizgen.camera.blocks import pieces
-from quizgen.camera.filters import convolve
-from quizgen.camera.kernels import Kernel, disc, moved_share
-from quizgen.camera.raster.draw import Box, Layer, Sheet, blend, content, sheets
-from quizgen.camera.raster.layers import Field, blurred, farthest
-from quizgen.camera.raster.uneven import wider
-from quizgen.camera.scene import Image
-from quizgen.camera.view import View
+from quizgen.camera.pixels import kernels
+from quizgen.camera.pixels.filters import convolve
+from quizgen.camera.pixels.kernels import BlurKernel, disc_kernel, moved_share
+from quizgen.camera.pixels.tiles import split_range
+from quizgen.camera.raster.detail_regions import grow_box
+from quizgen.camera.raster.layers import Field, blur_layer, bound_layers, largest_margin
+from quizgen.camera.raster.rasterizer import (
+    Layer,
+    LayerSpec,
+    PixelBox,
+    blend_into,
+    bounding_box,
+    layer_specs,
+)
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.view import Signal, View
 
 MAX_SLICES = 24
 
 
-def defocused(layer: Layer, view: View, shift: float = 0.0) -> Layer:
+def blur_by_depth(layer: Layer, view: View, shift: float = 0.0) -> Layer:
     """Blur a layer by its circle of confusion, depth by depth where it has a map."""
     if isinstance(layer.depth, np.ndarray):
-        middles = slices(_extremes(layer.depth, view, shift))
+        middles = slice_diameters(_extremes(layer.depth, view, shift))
         index = _slice_of(layer.depth, middles, view, shift)
         return replace(layer, colour=_blurred_by_depth(layer.colour, index, middles))
-    return blurred(layer, disc(float(view.blur_diameter(layer.depth)) + shift))
+    return blur_layer(layer, disc_kernel(float(view.blur_diameter(layer.depth)) + shift))
 
 
-def in_channels(layer: Layer, view: View, shifts: Mapping[int, float]) -> Layer:
+def blur_channels(layer: Layer, view: View, shifts: Mapping[int, float]) -> Layer:
     """Blur some channels of a layer, each by the discs of its own shift."""
     colour, cover = layer.colour.copy(), layer.cover
     if cover is not None:  # a cover for each colour
@@ -45,14 +52,14 @@ def in_channels(layer: Layer, view: View, shifts: Mapping[int, float]) -> Layer:
         seen = None if cover is None else np.ascontiguousarray(cover[..., own])
         light = np.ascontiguousarray(colour[..., own])
         part = replace(layer, colour=light, cover=seen, own=False)
-        blurry = defocused(part, view, shift)
+        blurry = blur_by_depth(part, view, shift)
         colour[..., own] = blurry.colour
         if cover is not None and blurry.cover is not None:
             cover[..., own] = blurry.cover
     return replace(layer, colour=colour, cover=cover, own=True)
 
 
-def slices(diameters: tuple[float, float]) -> Field:
+def slice_diameters(diameters: tuple[float, float]) -> Field:
     """Blur diameters of the slices of a depth map, px, ascending.
 
     Multiples of one step, so that what is in focus stays sharp: uniform in the signed circle of
@@ -73,7 +80,7 @@ def _slice_of(depth: Image, middles: Field, view: View, shift: float) -> NDArray
     """Number of the slice that each pixel of a depth map is in."""
     step = float(middles[1] - middles[0]) if len(middles) > 1 else math.inf
     index = np.empty(depth.shape, np.uint8)
-    for start, stop in pieces(len(depth), _ROWS):
+    for start, stop in split_range(len(depth), _ROWS):
         apart = view.blur_diameter(depth[start:stop]) + shift - float(middles[0])
         index[start:stop] = np.clip(np.rint(apart / step), 0, len(middles) - 1)
     return index
@@ -93,25 +100,25 @@ def _blurred_by_depth(sharp: Image, index: NDArray[np.uint8], middles: Field) ->
     """
     picture, farthest = sharp.copy(), int(index.max())
     for number in range(farthest, -1, -1):
-        for part, blurry in _bands(sharp, index, number, disc(float(middles[number]))):
+        for part, blurry in _bands(sharp, index, number, disc_kernel(float(middles[number]))):
             colour, cover = blurry[..., :-1], blurry[..., -1:]
             if number == farthest:
                 seen = cover > 1e-3
                 np.copyto(picture[part], colour / np.where(seen, cover, 1.0), where=seen)
             else:
-                blend(picture[part], 1.0 - cover, colour)
+                blend_into(picture[part], 1.0 - cover, colour)
     return picture
 
 
 def _bands(
-    sharp: Image, index: NDArray[np.uint8], number: int, kernel: Kernel
-) -> Iterator[tuple[Box, Image]]:
+    sharp: Image, index: NDArray[np.uint8], number: int, kernel: BlurKernel
+) -> Iterator[tuple[PixelBox, Image]]:
     """Where light of a slice gets, and its blurred colour and coverage there, band by band."""
     reach = kernel.shape[0] // 2
-    for start, stop in pieces(len(sharp), max(_BAND, 8 * reach)):
+    for start, stop in split_range(len(sharp), max(_BAND, 8 * reach)):
         first = max(start - reach, 0)
         there = (index[first : stop + reach] == number)[..., None]
-        rows, columns = wider(content(there), (reach, reach), there.shape)
+        rows, columns = grow_box(bounding_box(there), (reach, reach), there.shape)
         top, bottom = max(first + rows.start, start), min(first + rows.stop, stop)
         if top >= bottom:
             continue
@@ -129,53 +136,63 @@ def _masked(image: Image, there: NDArray[np.bool_]) -> Image:
     return found
 
 
-def outside(view: View, shifts: tuple[float, ...]) -> tuple[float, float]:
+def blur_margin(view: View, shifts: tuple[float, ...]) -> tuple[float, float]:
     """Discs bring light from as far as their radius."""
 
-    def reach(sheet: Sheet) -> tuple[float, float]:
-        radius = max(abs(_diameter(sheet, view) + shift) / 2.0 for shift in shifts)
+    def reach(spec: LayerSpec) -> tuple[float, float]:
+        radius = max(abs(_diameter(spec, view) + shift) / 2.0 for shift in shifts)
         return radius + bool(radius), radius + bool(radius)
 
-    return farthest(view, reach)
+    return largest_margin(view, reach)
 
 
-def check(view: View) -> None:
+def check_blur_width(view: View) -> None:
     """No disc may be too wide."""
-    for sheet in sheets(view):
-        if not is_by_depth(sheet, view):
-            kernels.check(_diameter(sheet, view))
+    for spec in layer_specs(view):
+        if not has_depth_map(spec, view):
+            kernels.check_kernel_size(_diameter(spec, view))
 
 
-def disc_of(sheet: Sheet, view: View, shift: float = 0.0) -> Kernel:
-    """Blur of a sheet at one depth."""
-    return disc(_diameter(sheet, view) + shift)
-
-
-def _diameter(sheet: Sheet, view: View) -> float:
-    return view.blur_diameter(math.inf if sheet.depth is None else sheet.depth)
+def _diameter(spec: LayerSpec, view: View) -> float:
+    return view.blur_diameter(math.inf if spec.depth is None else spec.depth)
 
 
 def widest_disc(view: View) -> float:
     """Diameter of the largest disc that anything in the frame is blurred by, px."""
     widest = 0.0
-    for sheet in sheets(view):
-        if is_by_depth(sheet, view):
+    for spec in layer_specs(view):
+        if has_depth_map(spec, view):
             ends = _extremes(np.asarray(view.scene.depth), view, 0.0)
             widest = max(widest, *(abs(end) for end in ends))
         else:
-            widest = max(widest, abs(_diameter(sheet, view)))
+            widest = max(widest, abs(_diameter(spec, view)))
     return widest
 
 
-def is_by_depth(sheet: Sheet, view: View) -> bool:
-    """Whether every pixel of a sheet has a depth of its own."""
-    return sheet.opaque and view.has_depth_map
+def has_depth_map(spec: LayerSpec, view: View) -> bool:
+    """Whether every pixel of a layer has a depth of its own."""
+    return spec.opaque and view.has_depth_map
 
 
-def share_by_depth(view: View, shift: float) -> float:
+def bound_discs(signal: Signal, view: View, shift: float | None = None) -> float:
+    """How far a picture can be from one in which no layer is blurred, or all without a shift."""
+
+    def share(spec: LayerSpec) -> float:
+        if has_depth_map(spec, view):
+            shifts = (0.0,) if shift is None else (0.0, shift)
+            return sum(_share_by_depth(view, one) for one in shifts)
+        plain = disc_kernel(_diameter(spec, view))
+        if shift is None:
+            return moved_share(plain)
+        return moved_share(plain, disc_kernel(_diameter(spec, view) + shift))
+
+    return bound_layers(signal, view, share)
+
+
+def _share_by_depth(view: View, shift: float) -> float:
     """Share of the light that leaves its place where every pixel has a depth of its own.
 
     Slices are divided by their own blurred coverage, so that of several any may be all.
     """
-    middles = slices(_extremes(np.asarray(view.scene.depth), view, shift))
-    return moved_share(disc(float(middles[0]))) if len(middles) == 1 else 1.0
+    middles = slice_diameters(_extremes(np.asarray(view.scene.depth), view, shift))
+    return moved_share(disc_kernel(float(middles[0]))) if len(middles) == 1 else 1.0

@@ -12,9 +12,9 @@ from types import ModuleType
 import numpy as np
 from numpy.typing import DTypeLike
 
-from quizgen.camera.blocks import BLOCK, Tile, Work, in_turn
-from quizgen.camera.filters import opencv
-from quizgen.camera.scene import Image
+from quizgen.camera.pixels.filters import load_opencv
+from quizgen.camera.pixels.tiles import TILE_VALUES, Tile, TileOperation, apply_tilewise
+from quizgen.camera.setup.scene import Image
 
 
 def rgb_to_hsv(image: Image) -> Image:
@@ -32,12 +32,12 @@ def rgb_to_hsv(image: Image) -> Image:
     def work(part: Image, _: Tile) -> None:
         part.reshape(-1, 3)[...] = _hsv_part(part.reshape(-1, 3))
 
-    return in_turn(image.reshape(-1), [work])[0].reshape(image.shape)
+    return apply_tilewise(image.reshape(-1), [work])[0].reshape(image.shape)
 
 
 def _of_opencv(image: Image) -> ModuleType | None:
     """OpenCV where it takes such a picture: it has no colours in double precision."""
-    return opencv() if image.ndim == 3 and image.dtype == np.float32 else None
+    return load_opencv() if image.ndim == 3 and image.dtype == np.float32 else None
 
 
 def _hsv_part(colours: Image) -> Image:
@@ -84,30 +84,29 @@ def edit_hsv(image: Image, hue: float = 0.0, saturation: float = 1.0, value: flo
         Factors; results are clipped to 1. Value stays when only hue or saturation change, the
         luminance does not (errata E04, E05).
     """
-    return in_turn(image, [hsv_work(hue, saturation, value, image.dtype)])[0]
+    return apply_tilewise(image, [hsv_operation(hue, saturation, value, image.dtype)])[0]
 
 
-def hsv_work(hue: float, saturation: float, value: float, kind: DTypeLike) -> Work:
+def hsv_operation(hue: float, saturation: float, value: float, kind: DTypeLike) -> TileOperation:
     """`edit_hsv` of a piece."""
     steps = (
         _colours(1.0, saturation, value, kind),
         _colours(math.fmod(math.fmod(hue, 360.0) + 360.0, 360.0), 0.0, 0.0, kind),
         _colours(math.inf, 1.0, 1.0, kind),
     )
-    return lambda part, _: _edit_part(part, steps)
+
+    def work(part: Image, _: Tile) -> None:
+        edited = rgb_to_hsv(np.clip(part, 0.0, 1.0).reshape(1, -1, 3))
+        flat = edited.reshape(-1)
+        factors, shift, most = (step[: flat.size] for step in steps)
+        flat *= factors
+        flat += shift
+        np.minimum(flat, most, out=flat)
+        part[...] = _to_rgb(edited).reshape(-1)
+
+    return work
 
 
 def _colours(first: float, second: float, third: float, kind: DTypeLike) -> Image:
     """One colour, repeated to the length of a piece."""
-    return np.tile(np.asarray([first, second, third], kind), BLOCK // 3)
-
-
-def _edit_part(part: Image, steps: tuple[Image, Image, Image]) -> None:
-    colours = np.clip(part, 0.0, 1.0).reshape(1, -1, 3)
-    edited = rgb_to_hsv(colours)
-    flat = edited.reshape(-1)
-    factors, shift, most = (step[: flat.size] for step in steps)
-    flat *= factors
-    flat += shift
-    np.minimum(flat, most, out=flat)
-    part[...] = _to_rgb(edited).reshape(-1)
+    return np.tile(np.asarray([first, second, third], kind), TILE_VALUES // 3)
