@@ -15,6 +15,7 @@
     |-- KeyFileError     a key or an answer file cannot be read
     |-- WorkerError      processes that did the work died, one after the other
     |-- ClassError       a class's roster or folder is wrong, or would be spoiled
+    |-- AttemptFinishedError  a part in practice is answered again after it has ended
     `-- ChoiceError      an argument is none of the values allowed (names them)
 
 Two more stand beside their subject: ``SceneError`` in ``camera.scene``, and ``ReadError`` in
@@ -90,6 +91,10 @@ class WorkerError(QuizgenError):
 
 class ClassError(QuizgenError):
     """A class's roster or folder is wrong, or would be spoiled."""
+
+
+class AttemptFinishedError(QuizgenError):
+    """A part in practice is answered, given up or judged again after it has ended."""
 
 
 class InvalidChoiceError(QuizgenError, ValueError):

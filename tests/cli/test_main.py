@@ -48,12 +48,10 @@ def run(code, cwd):
                           text=True, check=False)  # fmt: skip
 
 
-CATCHING = ("lint", "preview", "cards")
-"""Commands that turn some errors of their own into messages."""
 STOPS = [
     pytest.param(
         *place, how, id=f"{place[2][0]}-{name}",
-        marks=[pytest.mark.slow] * (how is SWALLOWED and place[2][0] not in CATCHING),
+        marks=[pytest.mark.slow] * (place[2][0] != "templates"),
     )
     for place in PLACES for name, how in (("raised", RAISED), ("as another error", SWALLOWED))
 ]  # fmt: skip
@@ -103,6 +101,7 @@ print(os.environ["OPENBLAS_NUM_THREADS"], len(os.listdir(tasks)) if os.path.isdi
     assert int(tasks) <= int(threads)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="large pages are asked for on Linux alone")
 @pytest.mark.parametrize(("own", "large"), [(None, False), ("1", True)])
 def test_memory_is_taken_in_small_pages_unless_somebody_wants_large_ones(tmp_path, own, large):
