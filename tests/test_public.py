@@ -59,6 +59,7 @@ def test_importing_it_loads_nothing_heavy():
     assert not {"numpy", "sympy", "matplotlib", "flint", "msgspec"} & set(loaded.stdout.split())
 
 
+@pytest.mark.slow
 def test_a_type_checker_accepts_right_calls_and_refuses_wrong_ones():
     command = [sys.executable, "-m", "mypy", "--strict", "tests/typing/api.py"]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)

@@ -35,6 +35,7 @@ def built(uv, tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_wheel_and_sdist_hold_the_bank(built):
     wheel = next(built.glob("*.whl"))
     names = zipfile.ZipFile(wheel).namelist()
@@ -54,6 +55,7 @@ print(len(list(folder.builtin())), folder.__file__, *sys.modules)
 """
 
 
+@pytest.mark.slow
 def test_a_wheel_brings_what_its_bank_comes_to(built, tmp_path):
     """Where nothing can be kept: solvers were run, and prose was read, when it was built."""
     zipfile.ZipFile(next(built.glob("*.whl"))).extractall(tmp_path)

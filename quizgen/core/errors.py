@@ -16,6 +16,7 @@
     |-- WorkerError      processes that did the work died, one after the other
     |-- ClassError       a class's roster or folder is wrong, or would be spoiled
     |-- MissingExtraError  packages of an extra are not installed (says what to type)
+    |-- AttemptFinishedError  a part in practice is answered again after it has ended
     `-- ChoiceError      an argument is none of the values allowed (names them)
 
 Two more stand beside their subject: ``SceneError`` in ``camera.scene``, and ``ReadError`` in
@@ -182,6 +183,10 @@ class MissingExtraError(QuizgenError):
 
     def __init__(self, extra: str, feature: str) -> None:
         super().__init__(f'{feature} needs more packages; type: pip install "quizgen[{extra}]"')
+
+
+class AttemptFinishedError(QuizgenError):
+    """A part in practice is answered, given up or judged again after it has ended."""
 
 
 class InvalidChoiceError(QuizgenError, ValueError):

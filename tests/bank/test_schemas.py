@@ -14,6 +14,7 @@ from random import Random
 import msgspec
 import pytest
 from jsonschema import Draft202012Validator
+from sweep import draws
 
 from quizgen.bank.json_schema import build_json_schema
 from quizgen.bank.metadata import read_metadata
@@ -27,7 +28,7 @@ SHAPE = re.compile(r"stands there|unknown key|is missing|is not allowed")
 """What is said of a value of another type, of a key that there is not, and of one that lacks."""
 OTHERS = ("text", 7, 2.5, 3.0, True, [], ["one"], [1, 2], {}, {"some": "table"}, [[]], [{}])
 """What is put in the place of something else; 3.0 is a whole number to schemas."""
-CHANGES = 500
+CHANGES = [100, pytest.param(draws(1000), marks=pytest.mark.slow)]
 
 
 @cache
@@ -104,18 +105,19 @@ def test_real_files_fit_their_schema(kind):
         assert [f"{path}: {error.message}" for error in found] == []
 
 
+@pytest.mark.parametrize("changes", CHANGES)
 @pytest.mark.parametrize("kind", READ)
-def test_schema_and_loader_refuse_the_same(tmp_path, kind):
+def test_schema_and_loader_refuse_the_same(tmp_path, kind, changes):
     by, sources = Random(16), [tomllib.loads(path.read_text("utf-8")) for path in files(kind)]
     refused = 0
-    for number in range(CHANGES):
+    for number in range(changes):
         table = changed(by.choice(sources), by)
         said, wrong = verdicts(tmp_path, kind, table)
         assert bool(said) >= bool(wrong), (number, "only the schema refuses", wrong, table)
         assert wrong or not SHAPE.search(said), (number, "only the loader refuses", said, table)
         assert not said or re.match(rf"{tmp_path}/{kind}\.toml(:\d+)?: ", said), said
         refused += bool(wrong)
-    assert CHANGES / 4 < refused < CHANGES
+    assert changes / 4 < refused < changes
 
 
 @pytest.mark.parametrize("kind", READ)

@@ -295,6 +295,7 @@ def written(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 
+@pytest.mark.slow
 def test_many_papers_are_the_same_whatever_the_number_of_processes(tmp_path):
     few = ("--blueprint", "trial", "--seed", "4", "--count", "3", "--format", "html")
     for jobs in ("1", "2"):

@@ -97,6 +97,7 @@ ENDLESS = {
 """Solvers that never end; the other one catches all that goes wrong."""
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there is no clock to stop them")
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_what_never_ends_is_given_up_and_stops_no_other(bank, tmp_path, jobs):
@@ -163,6 +164,7 @@ def test_a_problem_says_where_and_what_to_do(tmp_path):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", [("--seeds", "2", "--teach"), ("--seeds", "2")])
 def test_any_number_of_processes_finds_the_same(tmp_path, what):
     """But for the time that a draw took."""

@@ -86,15 +86,14 @@ def test_hostile_input_costs_next_to_nothing(kind):
         assert min(timed(kind, text)[1] for _ in range(3)) < LIMIT, text[:40]
 
 
-@pytest.mark.parametrize("name", HOSTILE)
 @pytest.mark.parametrize("kind", SPECS)
-def test_hostile_input_is_answered_quickly_and_never_right(kind, name):
-    text = HOSTILE[name]
-    verdict, seconds = timed(kind, text)
-    assert seconds < HANGS
-    assert len(verdict.message) < 600
-    assert "<img" not in verdict._repr_html_()
-    assert len(verdict.read_as) < 700
+def test_hostile_input_is_answered_quickly_and_never_right(kind):
+    for name, text in HOSTILE.items():
+        verdict, seconds = timed(kind, text)
+        assert seconds < HANGS, name
+        assert len(verdict.message) < 600, name
+        assert "<img" not in verdict._repr_html_(), name
+        assert len(verdict.read_as) < 700, name
 
 
 @pytest.mark.parametrize("kind", SPECS)
@@ -153,8 +152,8 @@ def strings(count):
         yield kinds[number % len(kinds)], text
 
 
-def test_five_thousand_strings_raise_nothing():
-    for kind, text in strings(5_000):
+def test_a_thousand_strings_raise_nothing():
+    for kind, text in strings(1_000):
         verdict, seconds = timed(kind, text)
         assert 0 <= verdict.credit <= 1
         assert seconds < HANGS, (kind, text)
@@ -169,7 +168,7 @@ def test_many_strings_raise_nothing_and_cost_next_to_nothing():
             assert min(timed(kind, text)[1] for _ in range(3)) < LIMIT, (kind, text)
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(
     st.text(max_size=220),
     st.sampled_from(sorted(SPECS)),

@@ -41,6 +41,39 @@ def test_a_tie_in_too_few_figures_counts_either_way():
         "figures-asked", "figures-asked", ""]  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("typed", "verdict"), [("12.5 %", "correct"), ("12.50 %", "partial"), ("13.5 %", "wrong")]
+)
+def test_a_percentage_has_two_decimals_more_as_a_share(typed, verdict):
+    """12.5 % is 0.125: three decimals, as asked."""
+    spec = {"kind": "number", "value": "1/8", "decimals": 3, "strict": True}
+    assert mark(spec, typed).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [("20/3 = 6.667", "6.667"), ("6.667 = 20/3", "20/3"), ("20/3 = 6.667 = 6.67", "6.67")],
+)
+def test_of_equal_things_that_are_all_right_the_last_is_what_was_meant(typed, meant):
+    verdict = mark({"kind": "number", "value": "20/3", "rel": "0.001"}, typed)
+    assert (verdict.verdict, verdict.read_as) == ("correct", meant)
+
+
+@pytest.mark.parametrize(
+    ("values", "typed"),
+    [
+        (["6", "0", "2"], "(3; 0; 1)"),
+        (["0", "580", "-2"], "(0; -290; 1)"),
+        (["1000", "1000", "0.1"], "(100; 100; 0.01)"),
+        (["840", "580", "2"], "(420; 290; 1.0005)"),
+    ],
+)
+def test_homogeneous_coordinates_are_compared_by_their_largest(values, typed):
+    """A coordinate of zero cannot be scaled to, and a small one carries a larger error."""
+    spec = {"kind": "point", "values": values, "up_to_scale": True, "rel": "0.001"}
+    assert mark(spec, typed).verdict == "correct"
+
+
 def chain() -> Chain:
     """u = a + b, then v = 10 u + 3."""
     steps = (ChainStep("u", parse_formula("a + b")), ChainStep("v", parse_formula("10*u + 3")))

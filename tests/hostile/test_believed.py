@@ -390,6 +390,7 @@ def test_a_title_that_is_a_formula_is_none_in_the_deck(tmp_path):
     assert not [cell for row in rows for cell in row if cell.lstrip()[:1] in set("=+-@")]
 
 
+@pytest.mark.slow
 def test_our_own_deck_has_no_cell_that_a_spreadsheet_runs():
     rows = list(csv.reader(io.StringIO(write_csv(build_deck("both")).decode("utf-8-sig"))))
     assert not [cell for row in rows for cell in row if cell.lstrip()[:1] in set("=+-@'")]

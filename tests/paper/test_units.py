@@ -10,6 +10,7 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
+from sweep import spread
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.grading.options import GradingOptions
@@ -157,7 +158,7 @@ def _asks(question, label: str, lang: str) -> str:
 
 
 @pytest.mark.parametrize("lang", ["en", "bn"])
-@pytest.mark.parametrize("name", MEASURED)
+@pytest.mark.parametrize("name", spread(MEASURED, 16))
 def test_where_the_question_names_the_unit_a_bare_number_has_full_marks(name, lang):
     question, key, _ = keyed(name, lang)
     for part, spec in zip(question.parts, key.specs, strict=True):
@@ -189,7 +190,7 @@ def _answers(printed: str) -> list[str]:
 
 
 @pytest.mark.parametrize("lang", ["en", "bn"])
-@pytest.mark.parametrize("name", MEASURED)
+@pytest.mark.parametrize("name", spread(MEASURED, 16))
 def test_every_printed_number_with_its_unit_without_and_in_words(name, lang):
     _, key, question_key = keyed(name, lang)
     marker = QuestionGrader(question_key, GradingOptions(lang))

@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 import sympy
 from models import DIGITS, model, near, solved, symbols
+from sweep import spread
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.markdown import ListBlock, Paragraph
@@ -32,7 +33,7 @@ CALCULATING = [
 SEEDS = [range(2), pytest.param(range(2, 4), marks=pytest.mark.slow)]
 
 
-@pytest.fixture(scope="module", params=CALCULATING)
+@pytest.fixture(scope="module", params=spread(CALCULATING, 16))
 def template(request):
     return builtin_bank().template(request.param)
 

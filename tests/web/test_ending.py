@@ -17,6 +17,8 @@ from quizgen.web.job_cache import WorkerPool
 from quizgen.web.question_view import QuestionRequest
 from quizgen.web.settings import ServerSettings
 
+pytestmark = pytest.mark.slow  # servers in processes of their own
+
 
 @pytest.fixture
 def workers():
