@@ -171,10 +171,15 @@ def _print_json(marked: list[GradedForm], key: AnswerKey) -> None:
     import msgspec
 
     tables = [
-        {"file": one.file, "name": one.name, "matriculation": one.matriculation,
-         **one.result.as_json(), "banks": msgspec.to_builtins(key.banks)}
+        {
+            "file": one.file,
+            "name": one.name,
+            "matriculation": one.matriculation,
+            **one.result.as_json(),
+            "banks": msgspec.to_builtins(key.banks),
+        }
         for one in marked
-    ]  # fmt: skip
+    ]
     shown = tables[0] if len(tables) == 1 else tables
     click.echo(json.dumps(shown, ensure_ascii=False, indent=1))
 

@@ -107,8 +107,11 @@ def _find_pale_colours(figure: Figure) -> Iterator[str]:
 
 def _alike_on_grey(figure: Figure) -> Iterator[str]:
     """Coloured lines of one kind that a grey print cannot tell apart."""
-    strokes = {Stroke(p["stroke"], p.get("stroke-dasharray", "")) for p in _iter_path_attributes(figure)
-               if p.get("stroke", "").startswith("#")}  # fmt: skip
+    strokes = {
+        Stroke(p["stroke"], p.get("stroke-dasharray", ""))
+        for p in _iter_path_attributes(figure)
+        if p.get("stroke", "").startswith("#")
+    }
     coloured = sorted(stroke for stroke in strokes if _is_coloured(stroke.colour))
     if figure.needs_colour or len({stroke.colour for stroke in coloured}) > MOST_COLOURS:
         return

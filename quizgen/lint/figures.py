@@ -85,8 +85,11 @@ def _given_away(shown: Sequence[tuple[Variant, set[str]]]) -> Iterator[Diagnosti
     template = shown[0][0].template
     for place, part in enumerate(template.rules.part, 1):
         for name in asked_quantities(part.answer):
-            secret = [(leading_digits(one.shown_values[name]), numbers) for one, numbers in shown
-                      if leading_digits(one.shown_values[name]) not in _collect_stated_numbers(one)]  # fmt: skip
+            secret = [
+                (leading_digits(one.shown_values[name]), numbers)
+                for one, numbers in shown
+                if leading_digits(one.shown_values[name]) not in _collect_stated_numbers(one)
+            ]
             different = {answer for answer, _ in secret}
             if len(different) >= FEWEST and all(answer in seen for answer, seen in secret):
                 example = secret[0][0]

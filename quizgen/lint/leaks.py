@@ -134,8 +134,14 @@ class AskedContent:
     @cached_property
     def words(self) -> list[tuple[str, frozenset[str], frozenset[str]]]:
         """Each sentence, what of its words must be told, and all of them, if they are enough."""
-        found = [(f"{must} {may}".strip(), _extract_word_stems(must), _extract_word_stems(f"{must} {may}"))
-                 for must, may in self.sentences]  # fmt: skip
+        found = [
+            (
+                f"{must} {may}".strip(),
+                _extract_word_stems(must),
+                _extract_word_stems(f"{must} {may}"),
+            )
+            for must, may in self.sentences
+        ]
         return [one for one in found if len(one[2]) >= WORDS]
 
 

@@ -228,8 +228,13 @@ def solution_html(
     key = replace(item.key, solution=replace(whole, parts=tuple(solutions)))
     question = replace(item.question, parts=tuple(parts))
     shown = PaperItem(question.number, (question,), (key,))
-    page = render_html_fragment("worked.html.j2", _manner.get(), item=shown, figure=item.solution_figure,
-                    draw=lambda figure: image_tag(figure, source))  # fmt: skip
+    page = render_html_fragment(
+        "worked.html.j2",
+        _manner.get(),
+        item=shown,
+        figure=item.solution_figure,
+        draw=lambda figure: image_tag(figure, source),
+    )
     return Markup(_STYLING.sub("", page))  # noqa: S704 - a page without some attributes
 
 

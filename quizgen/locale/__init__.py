@@ -137,8 +137,12 @@ def default_language(held: tuple[str, ...]) -> str:
 
 @cache
 def _find_languages(places: tuple[Path, ...], heard: tuple[str, ...]) -> tuple[str, ...]:
-    found = {entry.name for place in places for entry in place.iterdir()
-             if (entry / "language.toml").is_file() and custom.is_language_tag(entry.name)}  # fmt: skip
+    found = {
+        entry.name
+        for place in places
+        for entry in place.iterdir()
+        if (entry / "language.toml").is_file() and custom.is_language_tag(entry.name)
+    }
     found.update(heard)
     return tuple(sorted(found, key=lambda lang: (lang != FIRST, get_language(lang).order, lang)))
 

@@ -84,8 +84,10 @@ def compose_sheet(bank: Bank, choice: str, topics: Sequence[str] = ()) -> Formul
         )
     asked = templates_by_formula(bank)
     order = dict.fromkeys((*bank.topics, *(entry.topic for entry in wanted)))
-    made = {topic: [_build_sheet_line(bank, e, langs, asked[e.id]) for e in wanted if e.topic == topic]
-            for topic in order}  # fmt: skip
+    made = {
+        topic: [_build_sheet_line(bank, e, langs, asked[e.id]) for e in wanted if e.topic == topic]
+        for topic in order
+    }
     groups = (
         SheetTopic(topic, {lang: bank.topic_title(topic, lang) for lang in langs}, tuple(lines))
         for topic, lines in made.items()

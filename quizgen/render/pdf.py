@@ -82,10 +82,21 @@ class _Sheet:
         )
         gap = "#v(1.1em)"
         return "\n".join(
-            [head, *others, gap, facts, *self._typeset_printing_note(), gap,
-             *(f"{line}\n#v(0.5em)" for line in lines), gap, f"#notice[{rules}]", "#v(0.8em)",
-             self._typeset_mark_table(), "#pagebreak(weak: true)"]
-        )  # fmt: skip
+            [
+                head,
+                *others,
+                gap,
+                facts,
+                *self._typeset_printing_note(),
+                gap,
+                *(f"{line}\n#v(0.5em)" for line in lines),
+                gap,
+                f"#notice[{rules}]",
+                "#v(0.8em)",
+                self._typeset_mark_table(),
+                "#pagebreak(weak: true)",
+            ]
+        )
 
     def _typeset_printing_note(self) -> list[str]:
         """Which questions have to be printed in colour."""
@@ -151,9 +162,13 @@ class _Sheet:
         main, many = self.langs[:1], self.langs
         heads = [
             translate_all(langs, f"paper.{name}")
-            for name, langs in (("question", many), ("page_of", main), ("points_of", main),
-                                ("reached", main))
-        ]  # fmt: skip
+            for name, langs in (
+                ("question", many),
+                ("page_of", main),
+                ("points_of", main),
+                ("reached", main),
+            )
+        ]
         total = f"[{format_amount(self.paper.points, self.main)}]"
         return (
             f"#overview({', '.join(f'[{head}]' for head in heads)}, "

@@ -97,8 +97,8 @@ def describe_picture(pixels: np.ndarray) -> str:
 @pytest.mark.parametrize("name", NAMES)
 def test_a_picture_with_every_effect_is_the_kept_one(snapshots, name):
     """Without OpenCV, whose results differ in the last digit from one version to the next."""
-    with everywhere_alike():
-        photo = run(Prepared(*load(SCENES / f"{name}.toml")))
+    with numpy_only():
+        photo = run_plan(PreparedScene(*load_scene(SCENES / f"{name}.toml")))
     snapshots.check(f"camera/{name}.txt", describe_picture(photo.pixels()))
 
 
@@ -118,6 +118,6 @@ def test_what_is_said_of_wrong_files(snapshots, tmp_path):
     for text in BAD:
         path.write_text(text, "utf-8")
         with pytest.raises(SceneError) as caught:
-            load(path)
+            load_scene(path)
         found.append(f"{text}\n    {str(caught.value).replace(str(path), path.name)}\n")
     snapshots.check("camera/wrong-files.txt", "\n".join(found))

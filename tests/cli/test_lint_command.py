@@ -192,8 +192,8 @@ def test_any_number_of_processes_finds_the_same(tmp_path, what):
         ("quizgen.render.pdf.render", "exam pdf"),
         ("quizgen.cards.kinds.question.of_template", "cards"),
         ("quizgen.web.question_view.make", "practice"),
-        ("quizgen.export.moodle.write", "export moodle"),
-        ("quizgen.export.canvas.write", "export canvas"),
+        ("quizgen.lms.moodle.write_moodle", "export moodle"),
+        ("quizgen.lms.canvas.write_canvas", "export canvas"),
     ],
 )
 def test_what_fails_in_one_output_alone_is_told_of_its_template(bank, monkeypatch, broken, output):

@@ -47,7 +47,7 @@ def test_a_tie_in_too_few_figures_counts_either_way():
 def test_a_percentage_has_two_decimals_more_as_a_share(typed, verdict):
     """12.5 % is 0.125: three decimals, as asked."""
     spec = {"kind": "number", "value": "1/8", "decimals": 3, "strict": True}
-    assert mark(spec, typed).verdict == verdict
+    assert grade_answer(spec, typed).verdict == verdict
 
 
 @pytest.mark.parametrize(
@@ -55,7 +55,7 @@ def test_a_percentage_has_two_decimals_more_as_a_share(typed, verdict):
     [("20/3 = 6.667", "6.667"), ("6.667 = 20/3", "20/3"), ("20/3 = 6.667 = 6.67", "6.67")],
 )
 def test_of_equal_things_that_are_all_right_the_last_is_what_was_meant(typed, meant):
-    verdict = mark({"kind": "number", "value": "20/3", "rel": "0.001"}, typed)
+    verdict = grade_answer({"kind": "number", "value": "20/3", "rel": "0.001"}, typed)
     assert (verdict.verdict, verdict.read_as) == ("correct", meant)
 
 
@@ -71,7 +71,7 @@ def test_of_equal_things_that_are_all_right_the_last_is_what_was_meant(typed, me
 def test_homogeneous_coordinates_are_compared_by_their_largest(values, typed):
     """A coordinate of zero cannot be scaled to, and a small one carries a larger error."""
     spec = {"kind": "point", "values": values, "up_to_scale": True, "rel": "0.001"}
-    assert mark(spec, typed).verdict == "correct"
+    assert grade_answer(spec, typed).verdict == "correct"
 
 
 def chain() -> Chain:

@@ -87,8 +87,9 @@ def _iter_task_blocks(drawn: Variant, lang: str, usual: LevelQuestion) -> Iterat
     )
     kinds = [part.answer["kind"] for part in drawn.template.rules.part]
     bodies = [
-        tuple(map(without_bold_questions, part.body)) for part, kind in zip(usual.parts, kinds, strict=True)
+        tuple(map(without_bold_questions, part.body))
+        for part, kind in zip(usual.parts, kinds, strict=True)
         if kind in NUMERIC and part.body
-    ]  # fmt: skip
+    ]
     if bodies:
         yield ListBlock(tuple(bodies))
