@@ -207,7 +207,7 @@ def _find_indistinguishable(
 def _is_within_widths(
     a: tuple[float, ...], b: tuple[float, ...], widths: tuple[float, ...]
 ) -> bool:
-    for x, y, width in zip(a, b, widths, strict=True):
+    for x, y, width in zip(a, b, widths, strict=True):  # noqa: SIM110 - asked for every draw
         if not abs(x - y) <= width:
             return False
     return True

@@ -240,7 +240,7 @@ def check_visible(seen: Visibility, *, grey: bool = False) -> None:
         raise InvisibleEffectError(what, rule="QG146")
 
 
-def photograph_question(
+def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some each
     scene: Scene,
     camera: Camera,
     asks: str | Iterable[str] = (),

@@ -328,7 +328,7 @@ def _picture(file: _File, key: str, name: str) -> codecs.Codes:
     try:
         pixels = codecs.decode_photo(read_bytes(path, SceneError, LARGEST_PICTURE))
         if min(pixels.shape[:2]) < SIDES[0]:
-            raise ValueError(f"a picture has at least {SIDES[0]} rows and columns")
+            raise ValueError(f"a picture has at least {SIDES[0]} rows and columns")  # noqa: TRY301
     except SceneError as error:
         raise file.fail("scene", 0, key, str(error)) from error
     except ValueError as error:

@@ -173,7 +173,7 @@ def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False)
     anonymous : bool
         Leave name and id out.
     """
-    assert line.marks is not None
+    assert line.marks is not None  # noqa: S101 - see above
     marks = line.marks
     lang = fallback_language(marks.lang)
     who = "" if anonymous else ", ".join(filter(None, (line.student.name, line.student.id)))

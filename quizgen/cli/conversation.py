@@ -41,7 +41,7 @@ class Style(TypedDict, total=False):
     dim: bool
 
 
-class Quit(Exception):
+class Quit(Exception):  # noqa: N818 - a wish, not a failure
     """The learner wants to stop for now."""
 
 

@@ -60,7 +60,7 @@ def draw_sheet(
         Keep the size of the figure, whatever is drawn.
     """
     with _LOCK, HouseStyle():
-        sheet = pickle.loads(_empty_axes(*size)) if axes else Sheet(*size)
+        sheet = pickle.loads(_empty_axes(*size)) if axes else Sheet(*size)  # noqa: S301 - our own
         draw(sheet.axes[0] if axes else sheet)
         renderer = SvgRenderer(sheet.bbox.height, decimal)
         sheet.draw(renderer)

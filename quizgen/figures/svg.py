@@ -22,7 +22,7 @@ from math import ceil, cos, floor, inf, radians, sin
 from pathlib import Path as FilePath
 from typing import Any
 
-import quizgen.figures.font_list
+import quizgen.figures.font_list  # noqa: F401 - before all that sets text
 
 # isort: split
 import msgspec
@@ -338,7 +338,7 @@ class SvgRenderer(RendererBase):
 
     # Paths
 
-    def draw_path(self, gc: Any, path: Path, transform: Any, rgbFace: Any = None) -> None:
+    def draw_path(self, gc: Any, path: Path, transform: Any, rgbFace: Any = None) -> None:  # noqa: N803
         filled = rgbFace is not None and (len(rgbFace) < 4 or rgbFace[3] > 0)
         width = gc.get_linewidth()
         stroked = width > 0 and gc.get_rgb()[3] > 0
@@ -396,7 +396,7 @@ class SvgRenderer(RendererBase):
 
     def draw_markers(
         self, gc: Any, marker_path: Path, marker_trans: Any, path: Path, trans: Any,
-        rgbFace: Any = None,
+        rgbFace: Any = None,  # noqa: N803
     ) -> None:  # fmt: skip
         """All markers of a line as one path; those outside the axes are left out and counted."""
         shape = marker_trans.transform_path(marker_path)

@@ -124,7 +124,7 @@ class Question(msgspec.Struct, frozen=True):
     def _repr_html_(self) -> str:
         """The question as a notebook shows it."""
         head = Markup("<h3>{}. {}</h3>").format(self.number, self.title)
-        picture = Markup(self.figure.inline_svg.decode()) if self.figure else Markup("")
+        picture = Markup(self.figure.inline_svg.decode()) if self.figure else Markup("")  # noqa: S704
         parts = (part.to_html(self.lang) for part in self.parts)
         return str(Markup("").join((head, blocks_to_html(self.stem, self.lang), picture, *parts)))
 

@@ -141,7 +141,7 @@ class Database:
             with self._writer.begin() as connection:
                 ends = [one.run(connection) for one in together]
                 _check_open(connection)
-        except BaseException as error:
+        except BaseException as error:  # noqa: BLE001 - raised again by each who waits
             for one in together:
                 one.set_exception(error)
         else:

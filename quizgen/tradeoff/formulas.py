@@ -336,7 +336,7 @@ FORMULAS = (
         "I low high a b",
         "(I - low)*(b - a)/(high - low) + a",
         _draw_range_inputs,
-        lambda I, low, high, a, b: np.abs((2 * I - low - high) / (high - low)),
+        lambda I, low, high, a, b: np.abs((2 * I - low - high) / (high - low)),  # noqa: E741
         lambda u: [
             100 + 60 * u,
             _fill_column(40, u),
