@@ -126,7 +126,7 @@ class MathError(QuizgenError, ValueError):
     """A formula has no finite real value for these numbers."""
 
 
-class UndecidedError(MathError):  # noqa: N818 - a state of knowledge, not a failure
+class UndecidedError(MathError):
     """A comparison could not be certified at the working precision."""
 
 
