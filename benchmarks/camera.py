@@ -22,12 +22,13 @@ from typing import Any
 
 import numpy as np
 
-from quizgen.camera import Camera, Prepared, Scene, View, effects, filters, plan_question
-from quizgen.camera.compare import time_in_turns
+from quizgen.camera import Camera, PreparedScene, Scene, View, effects, plan_question
+from quizgen.camera.comparison import time_in_turns
+from quizgen.camera.effect import Effect
 from quizgen.camera.effects import distortion, mosaic, vignetting
-from quizgen.camera.effects.effect import Effect
-from quizgen.camera.raster.draw import Layer
-from quizgen.camera.reading import load
+from quizgen.camera.pixels import filters
+from quizgen.camera.raster.rasterizer import Layer
+from quizgen.camera.scene_file import load_scene
 from quizgen.cli.simulate import SCENES
 
 SIZES = {"640x480": (640, 480), "12 MP": (4000, 3000)}
@@ -72,7 +73,7 @@ def points(repeats: int) -> None:
         image = look.scene.image
         copy = best(image.copy, 5)
         print(f"\n{name}: copy {copy:.2f} ms")
-        for effect in effects.present(look):
+        for effect in effects.present_effects(look):
             stack = (Layer(mosaic.run(image, look) if effect.name == "demosaicing" else image),)
             time = best(lambda: fresh(effect, stack, look), repeats)  # noqa: B023
             print(f"  {effect.name:16}{time:10.2f} ms{time / copy:8.1f} copies")
@@ -81,7 +82,7 @@ def points(repeats: int) -> None:
 def fresh(effect: Effect, stack: tuple[Layer, ...], look: View) -> None:
     """Run an effect without what an earlier run has left."""
     vignetting._fall_off_map.cache_clear()
-    distortion.quadrant.cache_clear()
+    distortion.ratio_quadrant.cache_clear()
     distortion._kept.cache_clear()
     effect.run(stack, look)
 
@@ -89,7 +90,7 @@ def fresh(effect: Effect, stack: tuple[Layer, ...], look: View) -> None:
 def scenes() -> None:
     """What a question costs, and what everything would."""
     for path in sorted(SCENES.glob("*.toml")):
-        prepared = Prepared(*load(path))
+        prepared = PreparedScene(*load_scene(path))
         question = prepared.given.scene.question
         if question is not None:
             asked = plan_question(prepared, question.asks).names

@@ -38,7 +38,7 @@ from quizgen.classes.grading_run import grade_class
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.roster import RosterStudent
 from quizgen.executors import Here, workers
-from quizgen.grading.mark import show_key
+from quizgen.kinds.grade import show_key
 from quizgen.paper.answer_key import AnswerKey
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import ProgressCallback, silent

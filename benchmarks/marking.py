@@ -12,7 +12,8 @@ from typing import Any
 
 from flint import fmpq
 
-from quizgen.grading.mark import QuestionContext, mark
+from quizgen.grading.options import QuestionContext
+from quizgen.kinds.grade import grade_answer
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse_formula
 
@@ -108,13 +109,13 @@ def rate(
     Every round has other numbers; the key formulas and terms repeat, as in a class of students.
     """
     for spec, typed in tasks(range(1, 20)):
-        mark(spec, typed, context=context)
+        grade_answer(spec, typed, context=context)
     best = 0.0
     for turn in range(1, 4):
         work = list(tasks(range(turn * 10_000, turn * 10_000 + count)))
         start = time.process_time()
         for spec, typed in work:
-            mark(spec, typed, context=context)
+            grade_answer(spec, typed, context=context)
         best = max(best, count / (time.process_time() - start))
     return best
 

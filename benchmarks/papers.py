@@ -60,8 +60,13 @@ def made(seed: int, *, figures: bool = True):  # noqa: ANN201
     from quizgen.paper.paper import build_paper
 
     slots = tuple(SlotRule(templates=(name,)) for name in FIGURES + PLAIN)
-    return build_paper(builtin_bank(), Blueprint({"en": "Benchmark"}, slots, name="bench"), seed, "en",
-                 figures=figures)  # fmt: skip
+    return build_paper(
+        builtin_bank(),
+        Blueprint({"en": "Benchmark"}, slots, name="bench"),
+        seed,
+        "en",
+        figures=figures,
+    )
 
 
 def paper_bytes(seed: int) -> int:

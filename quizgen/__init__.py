@@ -15,9 +15,9 @@ Examples
 'Perspective projection of a point'
 >>> key.solution.parts[0].answer
 '(4; 6)'
->>> quizgen.mark(key.specs[0], "(4; 6)").verdict
+>>> quizgen.grade_answer(key.specs[0], "(4; 6)").verdict
 'correct'
->>> quizgen.mark(key.specs[0], "(6; 4)").note
+>>> quizgen.grade_answer(key.specs[0], "(6; 4)").note
 'trap:swapped'
 """
 
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from quizgen.bank.template import Template
     from quizgen.core.errors import QuizgenError
     from quizgen.figures import Figure
-    from quizgen.grading.mark import mark, show_key
     from quizgen.grading.verdict import Verdict
+    from quizgen.kinds.grade import grade_answer, show_key
     from quizgen.lint.template_checks import lint_template
     from quizgen.maths.model import Model, Step
     from quizgen.paper.answer_key import make_answer_key
@@ -61,8 +61,8 @@ HOMES = {
     "make_answer_key": "paper.answer_key",
     "render_paper": "render",
     "Verdict": "grading.verdict",
-    "mark": "grading.mark",
-    "show_key": "grading.mark",
+    "grade_answer": "kinds.grade",
+    "show_key": "kinds.grade",
     "PaperResult": "paper.grading",
     "grade_paper": "paper.grading",
     "lint_template": "lint.template_checks",
@@ -88,7 +88,7 @@ __all__ = [  # noqa: RUF022 - in the order of the line
     "make_answer_key",
     "render_paper",
     "Verdict",
-    "mark",
+    "grade_answer",
     "show_key",
     "PaperResult",
     "grade_paper",

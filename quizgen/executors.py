@@ -25,10 +25,11 @@ from concurrent.futures import (
 )
 from contextlib import contextmanager
 from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnProcess
 from multiprocessing.reduction import ForkingPickler
 from typing import Any, ParamSpec, TypeVar, cast
 
-from quizgen.core.errors import InvalidChoiceError, WorkerError
+from quizgen.core.errors import InvalidChoiceError, WorkerError, require_extra
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -53,19 +54,45 @@ class Here(Executor):
 
 
 class Processes(ThreadPoolExecutor):
-    """Processes of which each has a thread here, so that one that dies takes no other with it.
+    """Processes, each with a thread here, so that one that dies takes no other with it.
 
     Parameters
     ----------
     count : int
+    initializer : callable, optional
+        What each process calls before its first job.
+    initargs : tuple
+        What it is called with.
+    longest : float, optional
+        Seconds after which a process is taken to hang at its job, and killed.
     """
 
-    def __init__(self, count: int) -> None:
+    def __init__(
+        self,
+        count: int,
+        initializer: Callable[..., object] | None = None,
+        initargs: tuple[Any, ...] = (),
+        *,
+        longest: float | None = None,
+    ) -> None:
         super().__init__(count)
-        self._own = threading.local()
-        self._all: list[_Worker] = []
+        self._initial = (initializer, initargs)
+        self._longest = longest
+        self._workers: list[_Worker] = []
+        # The last one that was at work has most of what a job needs in its memory.
+        self._idle: list[_Worker] = []
         self._stopped = False
         self._changing = threading.Lock()
+
+    def start_all(self) -> None:
+        """Begin all processes now, not each with the first job that finds no other idle."""
+        with self._changing:
+            self._idle += [self._begin_worker() for _ in range(self._max_workers)]
+
+    @property
+    def processes(self) -> list[SpawnProcess]:
+        """All that were begun; one that has died is replaced when its turn comes."""
+        return [worker.process for worker in self._workers]
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         """Do it in a process that is free."""
@@ -74,28 +101,36 @@ class Processes(ThreadPoolExecutor):
     def _elsewhere(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> T:
         job = bytes(ForkingPickler.dumps((fn, args, kwargs)))
         for _ in range(TRIES):
-            answer = self._worker().answer(job)
+            worker = self._take_worker()
+            answer = worker.answer(job, self._longest)
             if answer is not None:
+                self._idle.append(worker)
                 return cast("T", _value(answer))
-            self._own.worker = None
+            self._discard(worker)
         raise WorkerError(f"{TRIES} processes died of the same work (is there memory enough?)")
 
-    def _worker(self) -> _Worker:
-        """The process of this thread, begun anew if it has died."""
+    def _take_worker(self) -> _Worker:
         with self._changing:
             if self._stopped:
                 raise WorkerError("the work was stopped")
-            if getattr(self._own, "worker", None) is None:
-                self._own.worker = _Worker()
-                self._all.append(self._own.worker)
-        found: _Worker = self._own.worker
-        return found
+            return self._idle.pop() if self._idle else self._begin_worker()
+
+    def _begin_worker(self) -> _Worker:
+        worker = _Worker(*self._initial)
+        self._workers.append(worker)
+        return worker
+
+    def _discard(self, worker: _Worker) -> None:
+        with self._changing:
+            worker.process.kill()
+            self._workers.remove(worker)
+        worker.close()
 
     def stop(self) -> None:
         """End all processes, whatever they do."""
         with self._changing:
             self._stopped = True
-            for worker in self._all:
+            for worker in self._workers:
                 worker.process.kill()
         self.shutdown(cancel_futures=True)
 
@@ -103,31 +138,35 @@ class Processes(ThreadPoolExecutor):
         """End all processes once their work is done."""
         super().shutdown(wait, cancel_futures=cancel_futures)
         if wait:
-            for worker in self._all:
+            for worker in self._workers:
                 worker.close()
 
 
 class _Worker:
     """A process that does one job after another, told over a pipe.
 
-    A pipe ends with the process, even amid an answer; the queue of a ``ProcessPoolExecutor``, whose
-    other end is open here too, leaves who reads such an answer waiting for the rest for ever.
+    A pipe ends with the process, even amid an answer. A ``ProcessPoolExecutor`` waits for ever for
+    the rest of such an answer, because the other end of its queue is open here, too; it also gives
+    up all jobs where one process dies, and leaves semaphores where it is killed itself.
     """
 
-    def __init__(self) -> None:
+    def __init__(
+        self, initializer: Callable[..., object] | None, initargs: tuple[Any, ...]
+    ) -> None:
         self._line, there = _SPAWN.Pipe()
         self.process = _SPAWN.Process(
-            target=_work, args=(there, gc.get_threshold()), daemon=True
+            target=_work, args=(there, gc.get_threshold(), initializer, initargs), daemon=True
         )  # fmt: skip
         with uninterrupted():
             self.process.start()
         there.close()
 
-    def answer(self, job: bytes) -> bytes | None:
-        """What comes of a job, or nothing if the process died of it."""
+    def answer(self, job: bytes, longest: float | None) -> bytes | None:
+        """What comes of a job, or nothing if the process died of it or took too long."""
         with contextlib.suppress(EOFError, OSError):
             self._line.send_bytes(job)
-            return self._line.recv_bytes()
+            if self._line.poll(longest):
+                return self._line.recv_bytes()
         return None
 
     def close(self) -> None:
@@ -152,9 +191,16 @@ def uninterrupted() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _work(line: Connection, threshold: tuple[int, int, int]) -> None:
+def _work(
+    line: Connection,
+    threshold: tuple[int, int, int],
+    initializer: Callable[..., object] | None,
+    initargs: tuple[Any, ...],
+) -> None:
     """Do jobs until there are none."""
     _begin(*threshold)
+    if initializer:
+        initializer(*initargs)
     with contextlib.suppress(EOFError, OSError):
         while True:
             line.send_bytes(_answer(line.recv_bytes()))
@@ -181,9 +227,9 @@ def _end_with_parent() -> None:
 def _answer(job: bytes) -> bytes:
     """What a job gives, or the error that it ends in, as it goes over the line."""
     try:
-        work, args, kwargs = pickle.loads(job)
+        work, args, kwargs = pickle.loads(job)  # noqa: S301 - from the parent
         return bytes(ForkingPickler.dumps((True, work(*args, **kwargs))))
-    except Exception as error:
+    except Exception as error:  # noqa: BLE001 - raised again by who asked
         error.add_note(traceback.format_exc())
         return _error(error)
 
@@ -192,14 +238,14 @@ def _error(error: Exception) -> bytes:
     """An error as it goes over the line: in words if it cannot be taken apart and put together."""
     try:
         told = bytes(ForkingPickler.dumps((False, error)))
-        pickle.loads(told)
-    except Exception:
+        pickle.loads(told)  # noqa: S301 - made here
+    except Exception:  # noqa: BLE001 - whatever its own code raises
         return bytes(ForkingPickler.dumps((False, RuntimeError(traceback.format_exc()))))
     return told
 
 
 def _value(answer: bytes) -> Any:
-    good, value = pickle.loads(answer)
+    good, value = pickle.loads(answer)  # noqa: S301 - from our own process
     if not good:
         raise value
     return value
@@ -238,10 +284,9 @@ def workers(count: int, scheduler: str = "") -> Iterator[tuple[Executor, int]]:
 
 @contextmanager
 def _cluster(scheduler: str) -> Iterator[tuple[Executor, int]]:
-    try:
-        from distributed import Client
-    except ImportError:
-        raise InvalidChoiceError("a scheduler needs Dask: install quizgen[cluster]") from None
+    require_extra("cluster", "--scheduler")
+    from distributed import Client
+
     try:
         client = Client(scheduler, timeout=10, set_as_default=False)
     except (OSError, ValueError) as error:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import sys
+from collections.abc import Iterable
+from itertools import islice
+from pathlib import Path
 
 import pytest
 from needed import installed
@@ -15,6 +19,63 @@ from quizgen.core import cache
 # SymPy and all the rest again, two seconds each.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+
+
+SNAPSHOTS = Path(__file__).parent / "snapshots"
+LINES_OF_A_DIFFERENCE = 60
+
+
+def pytest_addoption(parser):
+    parser.addoption(
+        "--snapshot-update",
+        action="store_true",
+        help="write what is made now to tests/snapshots; the diff is then to be reviewed",
+    )
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Mark what opens a browser, whether or not its author thought of it."""
+    for item in items:
+        if {"browser", "chromium", "firefox"} & {*getattr(item, "fixturenames", ())}:
+            item.add_marker(pytest.mark.browser)
+
+
+class Snapshots:
+    """What users get, kept as text under ``tests/snapshots`` so that a change is read in a diff."""
+
+    def __init__(self, *, update: bool) -> None:
+        self._update = update
+
+    def check(self, name: str, made: str) -> None:
+        """Compare a text with the one kept under a name, or keep it with ``--snapshot-update``."""
+        path = SNAPSHOTS / name
+        if self._update:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(made, "utf-8")
+        if not path.is_file():
+            pytest.fail(f"there is no tests/snapshots/{name}: pytest --snapshot-update writes it")
+        kept = path.read_text("utf-8")
+        if made != kept:
+            lines = difflib.unified_diff(
+                kept.splitlines(), made.splitlines(), f"kept {name}", "made now", lineterm="", n=2
+            )
+            shown = "\n".join(islice(lines, LINES_OF_A_DIFFERENCE))
+            pytest.fail(f"{shown}\nif this is meant: pytest --snapshot-update", pytrace=False)
+
+    def check_names(self, folder: str, names: Iterable[str]) -> None:
+        """Compare the files of a folder with those there should be; an update deletes the others."""
+        wanted, found = {*names}, {path.name for path in (SNAPSHOTS / folder).iterdir()}
+        if self._update:
+            for name in found - wanted:
+                (SNAPSHOTS / folder / name).unlink()
+        else:
+            assert found == wanted
+
+
+@pytest.fixture(scope="session")
+def snapshots(request) -> Snapshots:
+    return Snapshots(update=request.config.getoption("--snapshot-update"))
 
 
 @pytest.fixture(scope="session")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import doctest
 import re
+import tomllib
 from pathlib import Path
 
 import click
@@ -15,7 +16,7 @@ import quizgen
 from quizgen import typeset
 from quizgen.bank.rules import Rules
 from quizgen.cli.main import COMMANDS, root_group
-from quizgen.locale import list_languages, load_words
+from quizgen.locale import SHIPPED, list_languages
 from quizgen.maths import model
 
 ROOT = Path(__file__).parent.parent
@@ -74,7 +75,11 @@ def blanks(text):
 @pytest.mark.parametrize("lang", sorted({*list_languages()} - {"en"}))
 @pytest.mark.parametrize("file", ["interface", "messages", "web", "classes", "cards"])
 def test_every_word_has_the_same_blanks_in_every_language(file, lang):
-    english, other = (dict(words(load_words(one, file))) for one in ("en", lang))
+    # From the files: a word that a language lacks is said in English.
+    english, other = (
+        dict(words(tomllib.loads((SHIPPED / one / f"{file}.toml").read_text("utf-8"))))
+        for one in ("en", lang)
+    )
     assert english.keys() == other.keys()
     for name, text in english.items():
         assert blanks(str(text)) == blanks(str(other[name])), name
@@ -142,33 +147,22 @@ def test_links_of_the_readme_lead_somewhere():
 
 NOT_RUN = {
     "uv run pytest": "these very tests",
-    "uv run quizgen check tests/responses/moodle/quiz.keys.jsonl "
-    "tests/responses/moodle/responses.csv": "tests/cli/test_check_responses.py",
+    "uv run quizgen check tests/lms/moodle/quiz.keys.jsonl "
+    "tests/lms/moodle/responses.csv": "tests/cli/test_check_responses.py",
 }
-LONG = (
-    "uv run quizgen cards --lang both",
-    "uv run quizgen cards --seed 2",
-    "uv run quizgen cards --format apkg,tsv,csv",
-    "uv run quizgen exam --topic noise --minutes 9 --format html --out noise",
-    "uv run quizgen check noise/key.json noise/answers.toml --json > marks.json",
-    "uv run quizgen cards --from-marks marks.json",
-    "uv run python -m quizgen.cards.update_versions",
-    "uv run quizgen tradeoff --out precision",
-)
-"""Commands that take long and prepare nothing for the others: run with the slow tests."""
 FOLLOWED = [page for page in consoles.PAGES if consoles.steps(page)]
 
 
-@pytest.mark.parametrize("long", [False, pytest.param(True, marks=pytest.mark.slow)])
+@pytest.mark.slow
 @pytest.mark.parametrize("page", FOLLOWED, ids=lambda page: page.stem)
-def test_a_page_can_be_followed_from_top_to_bottom(page, long, tmp_path):
+def test_a_page_can_be_followed_from_top_to_bottom(page, tmp_path):
     folder = consoles.checkout(tmp_path)
     for step in consoles.steps(page):
         if step.file:
             (folder / step.file).write_text(step.text, "utf-8")
             continue
         command = consoles.typed(step)
-        if command in NOT_RUN or (command in LONG and not long):
+        if command in NOT_RUN:
             continue
         done = consoles.run(step.text, folder)
         place = f"{page.name}:{step.line}: {command}"
@@ -181,7 +175,7 @@ def test_commands_of_the_documents_begin_as_they_are_typed():
              if not step.file]  # fmt: skip
     assert len(found) >= 20
     assert not [command for command in found if not command.startswith("uv run ")]
-    assert not {*NOT_RUN, *LONG} - {*found}
+    assert not {*NOT_RUN} - {*found}
     assert not [p.name for p in consoles.PAGES if {"sh", "bash", "shell"} & consoles.languages(p)]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from quizgen.camera.scene import SceneError
+from quizgen.camera.setup.scene import SceneError
 from quizgen.core import errors
 from quizgen.core.errors import (
     BankError,

@@ -59,6 +59,7 @@ def test_importing_it_loads_nothing_heavy():
     assert not {"numpy", "sympy", "matplotlib", "flint", "msgspec"} & set(loaded.stdout.split())
 
 
+@pytest.mark.slow
 def test_a_type_checker_accepts_right_calls_and_refuses_wrong_ones():
     command = [sys.executable, "-m", "mypy", "--strict", "tests/typing/api.py"]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
@@ -73,7 +74,7 @@ def asked():
 
 def test_values_show_themselves_in_one_short_line(asked):
     question, key = asked
-    verdict = quizgen.mark(key.specs[0], "(440; 160)")
+    verdict = quizgen.grade_answer(key.specs[0], "(440; 160)")
     paper = quizgen.build_paper(
         quizgen.builtin_bank(), quizgen.load_blueprint("trial"), 5, figures=False
     )
@@ -101,7 +102,7 @@ def test_notebooks_show_question_figure_and_verdict_as_html(asked):
     assert "<svg" in shown
     assert "440" not in shown
     assert question.figure._repr_html_().startswith("<svg")
-    verdict = quizgen.mark(key.specs[0], "<b>5</b>")
+    verdict = quizgen.grade_answer(key.specs[0], "<b>5</b>")
     assert "<b>" not in verdict._repr_html_()
     parsed(verdict._repr_html_())
 
@@ -116,4 +117,4 @@ def test_notebooks_show_question_figure_and_verdict_as_html(asked):
 )
 def test_wrong_arguments_of_marking_are_named(asked, change, message):
     with pytest.raises((ValueError, TypeError), match=message):
-        quizgen.mark(asked[1].specs[0], **{"typed": "1", **change})
+        quizgen.grade_answer(asked[1].specs[0], **{"typed": "1", **change})

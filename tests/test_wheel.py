@@ -35,6 +35,7 @@ def built(uv, tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_wheel_and_sdist_hold_the_bank(built):
     wheel = next(built.glob("*.whl"))
     names = zipfile.ZipFile(wheel).namelist()
@@ -54,6 +55,7 @@ print(len(list(folder.builtin())), folder.__file__, *sys.modules)
 """
 
 
+@pytest.mark.slow
 def test_a_wheel_brings_what_its_bank_comes_to(built, tmp_path):
     """Where nothing can be kept: solvers were run, and prose was read, when it was built."""
     zipfile.ZipFile(next(built.glob("*.whl"))).extractall(tmp_path)
@@ -69,7 +71,7 @@ def test_a_wheel_brings_what_its_bank_comes_to(built, tmp_path):
 def test_what_decides_the_bytes_of_a_pdf_is_fixed_for_who_installs_it():
     fixed = {needed for needed in TABLE["project"]["dependencies"] if "==" in needed}
     names = {needed.partition("==")[0] for needed in fixed}
-    assert names == {"matplotlib", "typst", "fontpkg-hind-siliguri", "ziamath"}
+    assert names == {"matplotlib", "typst", "fontpkg-hind-siliguri"}
     assert fixed <= set(PINS)
 
 
@@ -98,6 +100,10 @@ def test_a_wheel_in_an_empty_environment_makes_the_same_paper(uv, built, tmp_pat
     assert made["wheel"].keys() == made["checkout"].keys()
     for name, data in made["wheel"].items():
         assert data == made["checkout"][name], name
+    for extra, command in (("web", "serve"), ("class", "class code . x")):
+        done = subprocess.run([str(python), "-m", "quizgen", *command.split()],
+                              capture_output=True, text=True, cwd=tmp_path, check=False)  # fmt: skip
+        assert f'type: pip install "quizgen[{extra}]"' in done.stderr
 
 
 def test_a_wheel_is_built_with_what_a_checkout_runs_with():

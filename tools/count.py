@@ -20,12 +20,12 @@ from flint import fmpq
 
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.variant import Variant, draw_variant
-from quizgen.grading.mark import mark, show_key
 from quizgen.grading.spec import AnySpec
+from quizgen.kinds.grade import grade_answer, show_key
 from quizgen.maths.numbers import round_to, to_rational
 from quizgen.maths.precision import working_precision
 from quizgen.maths.values import Value
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 from quizgen.tradeoff.questions import Counted
 from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, solve_in
 
@@ -68,7 +68,7 @@ def is_wrong(drawn: Variant, system: str) -> bool:
 
 def specs(drawn: Variant) -> list[AnySpec]:
     """What each part of a question is marked by."""
-    return [build(drawn, index).spec for index in range(len(drawn.template.rules.part))]
+    return [ask_part(drawn, index).spec for index in range(len(drawn.template.rules.part))]
 
 
 def faults(drawn: Variant, name: str) -> set[str]:
@@ -104,12 +104,12 @@ def _compared(drawn: Variant, index: int, right: AnySpec, other: AnySpec) -> set
 
 
 def _correct(spec: AnySpec, typed: str) -> bool:
-    return mark(spec, typed, decimal="point").verdict == "correct"
+    return grade_answer(spec, typed, decimal="point").verdict == "correct"
 
 
 def _mistaken(drawn: Variant, index: int) -> Iterator[str]:
     """What those type who make a known mistake."""
-    for spec in build(drawn, index).mistakes.values():
+    for spec in ask_part(drawn, index).mistakes.values():
         yield show_key(spec)
 
 

@@ -1,4 +1,4 @@
-"""Draw the built-in figures anew: kept drawings for the tests, pictures for ``docs/figures.md``."""
+"""Draw the pictures of ``docs/figures.md`` again."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from quizgen.figures import Figure, draw_figure
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "figures"))
 
-import snapshots  # noqa: E402
 from documented import VALUES, load_examples  # noqa: E402
 from figure_cases import FIGURES, REFERENCE, draw  # noqa: E402
 
@@ -29,16 +28,6 @@ COLOURS = 160
 """Of a sheet, which is then a fifth as large."""
 
 Named = Sequence[tuple[str, Figure]]
-
-
-def write_snapshots() -> None:
-    """Keep each figure as its solution shows it, and nothing of figures that are gone."""
-    snapshots.FOLDER.mkdir(parents=True, exist_ok=True)
-    for file in snapshots.FOLDER.glob("*.svg"):
-        file.unlink()
-    for name in FIGURES:
-        text = snapshots.write_snapshot(name)
-        (snapshots.FOLDER / f"{name}.svg").write_text(text, encoding="utf-8")
 
 
 def write_sheet(figures: Named, file: Path) -> None:
@@ -61,8 +50,7 @@ def write_sheet(figures: Named, file: Path) -> None:
 
 
 def main() -> None:
-    """Write the kept drawings, the sheet of documented figures and those of all built-in ones."""
-    write_snapshots()
+    """Write the sheet of documented figures and those of all built-in ones."""
     SHEETS.mkdir(exist_ok=True)
     for old in SHEETS.glob("*.png"):
         old.unlink()

@@ -32,10 +32,15 @@ MATHS_RANGE = [
 """Every character that the formula printer can put into a page."""
 
 
+def maths_file() -> Path:
+    """STIX Two Math, whole, as a package of the dev group brings it."""
+    return next(fonts.package_folder("ziamath").rglob("STIXTwoMath-Regular.ttf"))
+
+
 def sources() -> dict[Path, tuple[Path, list[int]]]:
     """Packed file to the font that it is made from, and the characters in it."""
     return {
-        fonts.packed_font_path(fonts.MATHS): (fonts.maths_file(), MATHS_RANGE),
+        fonts.packed_font_path(fonts.MATHS): (maths_file(), MATHS_RANGE),
         **{
             fonts.packed_font_path(fonts.BANGLA[weight]): (fonts.bangla_file(weight), BANGLA_RANGE)
             for weight in fonts.BANGLA

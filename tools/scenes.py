@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from quizgen.camera.codecs import WRITERS
-from quizgen.camera.reading import load
-from quizgen.camera.simulate import simulate_everything
+from quizgen.camera import PreparedScene, run_plan
+from quizgen.camera.pixels.codecs import WRITERS
+from quizgen.camera.scene_file import load_scene
 from quizgen.cli.simulate import SCENES
 
 TARGET = Path(__file__).parent.parent / "docs" / "scenes.jpg"
@@ -20,7 +20,7 @@ COLUMNS = 4
 def main() -> None:
     """Photograph each scene with every effect, small, four in a row."""
     taken = [
-        Image.fromarray(simulate_everything(*load(path)).pixels()).resize(
+        Image.fromarray(run_plan(PreparedScene(*load_scene(path))).pixels()).resize(
             SIZE, Image.Resampling.BOX
         )
         for path in sorted(SCENES.glob("*.toml"))

@@ -33,7 +33,7 @@ from quizgen.bank.rules import Rules
 from quizgen.bank.solvers import import_module_file, load_chain, unload_modules
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.core.cache import compute_digest
-from quizgen.core.errors import BankError, QuizgenError
+from quizgen.core.errors import BankError
 from quizgen.core.untrusted import NAMES, error_context, is_identifier, read_bytes
 from quizgen.locale import list_languages, register_languages, resolve_language_choice
 from quizgen.locale.custom import TAG
@@ -252,13 +252,22 @@ class Bank:
             self._chains[name] = load_chain(self._solver_folder, name)
         return self._chains[name]
 
+    def _solver_file(self, name: str) -> Path | None:
+        """The module of a solver, this bank's or the built-in one's."""
+        if not name:
+            return None
+        root = self.root if self._has_own_solver(name) else builtin_root()
+        return root / SOLVERS / f"{name}.py"
+
     def _has_own_solver(self, name: str) -> bool:
         """Whether a solver is one of this bank, not of the built-in one."""
         if not all(map(is_identifier, name.split("/"))):
-            raise _MissingError(f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')")
+            what = f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')"
+            raise _MissingError(what, rule="QG108", place=("solver",))
         file = self._solver_folder / f"{name}.py"
         if not file.exists() and self.root == builtin_root():
-            raise _MissingError(f"solver {name!r}: no such solver")
+            what = f"solver {name!r}: no such solver"
+            raise _MissingError(what, rule="QG126", place=("solver",))
         if file.exists():
             self._must_be_trusted(file)
         return file.exists()
@@ -287,7 +296,8 @@ class Bank:
             return file
         if name not in builtin_bank().figures:
             known = sorted({*self.figures, *builtin_bank().figures})
-            raise _MissingError(f"unknown figure {name!r}; there are {', '.join(known)}")
+            what = f"unknown figure {name!r}; there are {', '.join(known)}"
+            raise _MissingError(what, rule="QG127", place=("figure", "name"))
         return builtin_bank().figure_file(name)
 
     def _figure_of(self, name: str) -> Path | None:
@@ -297,13 +307,15 @@ class Bank:
             return self.figure_file(rule.name) if rule else None
         file = self.folder_of(name) / f"{OWN_FIGURE}.py"
         if not file.is_file():
-            raise _MissingError(f"[figure] has no name, and there is no {file.name} beside it")
+            what = f"[figure] has no name, and there is no {file.name} beside it"
+            raise _MissingError(what, rule="QG127", place=("figure",))
         self._must_be_trusted(file)
         return file
 
     def _must_be_trusted(self, file: Path) -> None:
         if not self.trusted:
-            raise BankError(f"{file}: this bank brings its own Python; allow it with --trust")
+            what = "this bank brings its own Python; allow it with --trust"
+            raise BankError(what, rule="QG128", file=file)
 
     def rules(self, name: str) -> Rules:
         """Checked ``template.toml`` of a template, without loading solver or prose."""
@@ -313,7 +325,8 @@ class Bank:
             rules = read_rules(path)
             if rules.topic not in (self.metadata.topics or {rules.topic}):
                 allowed = ", ".join(self.metadata.topics)
-                raise BankError(f"{path}: topic {rules.topic!r} is not in bank.toml ({allowed})")
+                what = f"topic {rules.topic!r} is not in bank.toml ({allowed})"
+                raise BankError(what, rule="QG129", file=path, place=("topic",))
             self._rules[name] = rules
         return self._rules[name]
 
@@ -408,12 +421,9 @@ class Bank:
         figure = self._figure_of(name)
         template = Template(
             name, rules, chain, ordered, digest, folder, self.metadata, quantities, figure,
-            read_pictures(folder, ordered),
+            self._solver_file(rules.solver), read_pictures(folder, ordered),
         )  # fmt: skip
-        try:
-            check_against_chain(template)
-        except QuizgenError as error:
-            raise BankError(str(error)) from error
+        check_against_chain(template)
         return template
 
     def __iter__(self) -> Iterator[Template]:

@@ -185,7 +185,11 @@ class CombinedBank(Bank):
 
     def _suggest_template(self, name: str) -> str:
         clashing = [names[name] for names in self._template_names_by_bank.values() if name in names]
-        return f"; did you mean {' or '.join(clashing)}?" if clashing else super()._suggest_template(name)
+        return (
+            f"; did you mean {' or '.join(clashing)}?"
+            if clashing
+            else super()._suggest_template(name)
+        )
 
     @cached_property
     def blueprints(self) -> dict[str, Path]:

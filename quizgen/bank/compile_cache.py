@@ -73,9 +73,8 @@ def _compute_code_digest(package: str) -> bytes:
 
 def _iter_code_files(package: str) -> Iterator[Path]:
     own = Path(__file__).parent.parent
-    for folder in ("bank", "maths"):
+    for folder in ("bank", "core", "kinds", "maths"):
         yield from sorted((own / folder).rglob("*.py"))
-    yield own / "core" / "untrusted.py"
     found = find_spec(package) if package else None
     if found is not None and found.origin is not None:
         yield Path(found.origin).with_name(_VERSIONS[package])

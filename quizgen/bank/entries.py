@@ -5,22 +5,26 @@ Each file is one array of tables, ``[[entry]]``. Errors name the file, the entry
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
+from pathlib import Path
 from typing import Literal, TypeVar
 
 import msgspec
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.complaints import explain_validation_error
 from quizgen.bank.qualified_names import qualify_names
+from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BankError
+from quizgen.core.positions import Place
 from quizgen.core.untrusted import parse_toml, read_text
 
 Tier = Literal["A", "B", "C", "D"]
 
-_FROM = "/file"
-"""Under what name an entry is told its file; no key of a file is taken for it."""
+_FROM, _INDEX = "/file", "/index"
+"""Under what names an entry is told its file and place in it; no key is taken for them."""
 
 Passage = dict[str, str]
 """One sentence or passage: language to text."""
@@ -35,11 +39,23 @@ class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=Tru
     section: str
     refs: tuple[str, ...] = ()
     file: str = msgspec.field(default="", name=_FROM)
+    index: int = msgspec.field(default=0, name=_INDEX)
 
-    @property
-    def place(self) -> str:
-        """Where it stands, for errors."""
-        return f"{self.file}: entry {self.id!r}"
+    def fault(self, what: str, rule: str, *keys: str) -> BankError:
+        """An error about it, or about one of its keys."""
+        place: Place = ("entry", self.index, *keys)
+        return BankError(f"entry {self.id!r}: {what}", rule=rule, file=Path(self.file), place=place)
+
+    @contextmanager
+    def located(self, *keys: str) -> Iterator[None]:
+        """Have errors about what it says name it."""
+        try:
+            yield
+        except BankError as error:
+            error.args = (f"entry {self.id!r}: {error.message}",)
+            if error.file is None:
+                error.file, error.place = Path(self.file), ("entry", self.index, *keys)
+            raise
 
 
 E = TypeVar("E", bound=Entry)
@@ -66,31 +82,39 @@ def load_entries(
     BankError
         Naming file, entry and key.
     """
-    table = parse_toml(source, where, BankError)
+    file = Path(where)
+    table = parse_toml(source, file, BankError)
     rows = table.get("entry")
     if set(table) != {"entry"} or not isinstance(rows, list):
-        raise BankError(f"{where}: expected [[entry]] and nothing else, found {sorted(table)}")
-    for place, row in enumerate(rows, 1):
+        what = f"expected [[entry]] and nothing else, found {sorted(table)}"
+        raise BankError(what, rule="QG106", file=file, place=(next(iter(table), ""),))
+    for index, row in enumerate(rows):
         if not isinstance(row, dict):
-            raise BankError(f"{where}: entry {place} is no table")
-    found = tuple(_read_entry(row, kind, where, langs) for row in rows)
+            what = f"entry {index + 1} is no table"
+            raise BankError(what, rule="QG106", file=file, place=("entry", index))
+    found = tuple(_read_entry(row, kind, where, index, langs) for index, row in enumerate(rows))
     names = [entry.id for entry in found]
-    for name in names:
-        if names.count(name) > 1:
-            raise BankError(f"{where}: two entries have the id {name!r}")
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            what, place = f"two entries have the id {name!r}", ("entry", index, "id")
+            raise BankError(what, rule="QG125", file=file, place=place)
     return found
 
 
-def _read_entry(row: dict[str, object], kind: type[E], where: str, langs: tuple[str, ...]) -> E:
+def _read_entry(
+    row: dict[str, object], kind: type[E], where: str, index: int, langs: tuple[str, ...]
+) -> E:
     try:
-        entry = convert({**row, _FROM: where}, kind)
+        entry = convert({**row, _FROM: where, _INDEX: index}, kind)
     except msgspec.ValidationError as error:
-        place = f"{where}: entry {row.get('id', '?')!r}"
-        raise BankError(f"{place}: {explain_validation_error(error, kind)}") from error
+        fault = complaint_of(error, kind, row)
+        fault.args = (f"entry {row.get('id', '?')!r}: {fault.message}",)
+        fault.file, fault.place = Path(where), ("entry", index, *fault.place)
+        raise fault from error
     for name in filter(row.__contains__, localised_fields(kind)):
         for lang in langs:
             if lang not in getattr(entry, name):
-                raise BankError(f"{where}: entry {entry.id!r}: {name}.{lang} is missing")
+                raise entry.fault(f"{name}.{lang} is missing", "QG105", name)
     return entry
 
 

@@ -2,26 +2,34 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
+from functools import reduce
 from importlib.resources import files
+from operator import or_
 from typing import Any
 
 import msgspec
 
-from quizgen.bank.answers import ANSWERS, AnyAnswer
 from quizgen.bank.metadata import BankMetadata
 from quizgen.bank.rules import Rules
+from quizgen.kinds import KINDS
 
 SCHEMAS: dict[str, type[msgspec.Struct]] = {"template": Rules, "bank": BankMetadata}
 """File without its suffix to what stands in it."""
 REF = "#/$defs/{name}"
 _TOLD = "told.toml"
-"""What is said of each key, beside this module."""
+"""What is said of each key whose field says nothing itself, beside this module."""
+# Editors show these names: they are the schema's own, whatever the classes are called.
+_NAMES = {"AuthoredTrueFalse": "Truth", "ParametricCurve": "Curve"}
+_CLASS = re.compile(r'(?<=["/])(?:Authored\w+|ParametricCurve)(?=")')
 
 
 def build_json_schema(name: str) -> bytes:
     """The schema of ``template.toml`` or ``bank.toml``, as JSON."""
-    shapes = [SCHEMAS[name], AnyAnswer] if name == "template" else [SCHEMAS[name]]
+    shapes: list[Any] = [SCHEMAS[name]]
+    if name == "template":
+        shapes.append(reduce(or_, (kind.authored for kind in KINDS.values())))
     (whole, *others), parts = msgspec.json.schema_components(shapes, ref_template=REF)
     for answers in others:  # a part holds a table of any keys, which its kind knows
         parts["PartRule"]["properties"]["answer"] = answers
@@ -32,13 +40,19 @@ def build_json_schema(name: str) -> bytes:
         **whole,
         "$defs": parts,
     }
-    return msgspec.json.format(msgspec.json.encode(table), indent=1) + b"\n"
+    text = _CLASS.sub(_named, msgspec.json.encode(table).decode())
+    return msgspec.json.format(text, indent=1).encode() + b"\n"
+
+
+def _named(found: re.Match[str]) -> str:
+    return _NAMES.get(found[0], found[0].removeprefix("Authored"))
 
 
 def _add_key_descriptions(parts: dict[str, dict[str, Any]]) -> None:
     """Say of each key what it means."""
     told = tomllib.loads((files(__package__) / _TOLD).read_text("utf-8"))
-    answers = {shape.__name__ for shape in ANSWERS.values()}
+    answers = {kind.authored.__name__ for kind in KINDS.values()}
     for name, part in parts.items():
+        table = told["Answer" if name in answers else _NAMES.get(name, name)]
         for key, value in part["properties"].items():
-            value["description"] = told["Answer" if name in answers else name][key]
+            value.setdefault("description", table.get(key))

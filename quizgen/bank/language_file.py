@@ -27,6 +27,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from itertools import accumulate
 from pathlib import Path
 
 from quizgen.bank.compile_cache import CompileCache
@@ -60,41 +61,46 @@ def read_language_file(path: Path) -> LanguageFile:
     source = untrusted.read_text(path, BankError)
     if control := untrusted.CONTROLS.search(source):
         line = source.count("\n", 0, control.start()) + 1
-        raise BankError(
-            f"{path}:{line}: {untrusted.escape_control_characters(control[0])} in a text"
-        )
-    try:
+        what = f"{untrusted.escape_control_characters(control[0])} in a text"
+        raise BankError(what, rule="QG102", file=path, line=line)
+    with untrusted.error_context(path, BankError):
         found = _TEXTS.get(source.encode())
         return found or _TEXTS.put(parse_language_file(source), source.encode())
-    except BankError as error:
-        raise BankError(f"{path}: {error}") from error
 
 
 def parse_language_file(source: str) -> LanguageFile:
     """Parse the content of a language file."""
     title, body = _split_title(source)
     pieces = re.split(r"^## +(\S.*)$", body, flags=re.MULTILINE)
+    # The body begins where the source ends with it; each piece where those before it end.
+    begins = accumulate(map(_breaks, pieces), initial=_breaks(source) - _breaks(body))
+    lines = [begin + 1 for begin in begins]
     sections: dict[str, tuple[Block, ...]] = {}
     listed: dict[str, list[tuple[str, ConditionalSentence]]] = {}
-    for heading, whole in zip(pieces[1::2], pieces[2::2], strict=True):
+    for heading, whole, line in zip(pieces[1::2], pieces[2::2], lines[2::2], strict=False):
         name = heading.strip()
         content, labelled = _by_label(whole) if name == "why" else (whole, "")
         if labelled:
-            listed[name] = list(_iter_named_sentences(name, labelled))
+            listed[name] = list(_iter_named_sentences(name, labelled, line + _breaks(content)))
         if name in NAMED_SECTIONS:
-            listed[name] = list(_iter_named_sentences(name, content))
+            listed[name] = list(_iter_named_sentences(name, content, line))
         elif name in PROSE_SECTIONS or re.fullmatch(r"[a-j]", name):
-            sections[name] = parse_blocks(content)
+            sections[name] = parse_blocks(content, line)
         else:
             allowed = ", ".join(sorted(NAMED_SECTIONS | PROSE_SECTIONS))
-            raise BankError(f"section {name!r} is unknown (allowed: a, b, ..., {allowed})")
+            what = f"section {name!r} is unknown (allowed: a, b, ..., {allowed})"
+            raise BankError(what, rule="QG150", line=line)
     named = {section: {n: said for n, (_, said) in found} for section, found in listed.items()}
-    stem = parse_blocks(pieces[0])
+    stem = parse_blocks(pieces[0], lines[0])
     told = [stem, *sections.values(), *(said for of in listed.values() for _, (_, said) in of)]
     pictures = [leaf for parts in told for leaf in leaves(parts) if isinstance(leaf, PictureLink)]
     return LanguageFile(
         title, stem, sections, named, _index_conditional_sentences(listed), tuple(pictures)
     )
+
+
+def _breaks(text: str) -> int:
+    return text.count("\n")
 
 
 def _by_label(content: str) -> tuple[str, str]:
@@ -117,24 +123,27 @@ def _index_conditional_sentences(
 def _split_title(source: str) -> tuple[str, str]:
     head, _, body = source.lstrip("\ufeff\n").partition("\n")
     if not head.startswith("# "):
-        raise BankError("the first line must be the title: '# ...'")
+        raise BankError("the first line must be the title: '# ...'", rule="QG151", line=1)
     return head[2:].strip(), body
 
 
 _CASE = re.compile(r"(?P<name>[^\[]*?)(?:\s*\[(?P<condition>[^\]]*)\])?\s*")
 
 
-def _iter_named_sentences(section: str, content: str) -> Iterator[tuple[str, ConditionalSentence]]:
+def _iter_named_sentences(
+    section: str, content: str, line: int
+) -> Iterator[tuple[str, ConditionalSentence]]:
+    """Names and sentences of a list that begins in a line."""
     for entry in re.split(r"^- ", content, flags=re.MULTILINE):
+        begin, line = line, line + _breaks(entry)
         if not entry.strip():
             continue
         name, colon, sentence = entry.partition(":")
         if not colon:
-            raise BankError(f"section {section!r}: {entry.strip()!r} lacks 'name: sentence'")
+            what = f"section {section!r}: {entry.strip()!r} lacks 'name: sentence'"
+            raise BankError(what, rule="QG152", line=begin)
         found = _CASE.fullmatch(name)
         if found is None:
-            raise BankError(f"section {section!r}: {name.strip()!r} is not 'name [condition]'")
-        yield (
-            found["name"].strip(),
-            (found["condition"] or "", parse_inlines(" ".join(sentence.split()))),
-        )
+            what = f"section {section!r}: {name.strip()!r} is not 'name [condition]'"
+            raise BankError(what, rule="QG152", line=begin)
+        yield found["name"].strip(), (found["condition"] or "", parse_inlines(sentence, begin))

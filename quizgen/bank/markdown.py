@@ -187,22 +187,72 @@ def _make_inline_rule(pattern: re.Pattern[str], kind: str) -> Callable[[Any, boo
     return match
 
 
-def parse_blocks(source: str) -> tuple[Block, ...]:
+def parse_blocks(source: str, line: int = 0) -> tuple[Block, ...]:
     """Parse prose.
+
+    Parameters
+    ----------
+    source : str
+    line : int
+        The line of its file that it begins in, for errors; 0 if it has none.
 
     Raises
     ------
     BankError
         If it holds anything but the subset.
     """
-    tokens = _build_markdown_parser().parse(source)
-    return tuple(_iter_blocks(iter(tokens), None))
+    try:
+        return tuple(_iter_blocks(iter(_build_markdown_parser().parse(source)), None))
+    except BankError as error:
+        error.line = error.line + line - 1 if line else 0
+        raise
 
 
-def parse_inlines(source: str) -> tuple[Inline, ...]:
-    """Parse one sentence."""
+def parse_inlines(source: str, line: int = 0) -> tuple[Inline, ...]:
+    """Parse one sentence, however it is broken into lines; ``line`` as for ``blocks``."""
+    try:
+        return _sentence(" ".join(source.split()))
+    except BankError as error:
+        error.line = line and line + _breaks_before_fault(source.strip("\n "))
+        raise
+
+
+def _sentence(source: str) -> tuple[Inline, ...]:
     tokens = _build_markdown_parser().parseInline(source)
-    return tuple(_iter_inlines(iter(tokens[0].children or ()), None)) if tokens else ()
+    return _inline(tokens[0]) if tokens else ()
+
+
+def _breaks_before_fault(source: str) -> int:
+    try:
+        _sentence(source)
+    except BankError as error:
+        return error.line - 1
+    return 0
+
+
+class _Pieces:
+    """Pieces of a sentence, one by one, and how many ends of lines have come."""
+
+    def __init__(self, token: Any) -> None:
+        self._rest = iter(token.children or ())
+        self.breaks = token.map[0] if token.map else 0
+
+    def __iter__(self) -> Iterator[Any]:
+        return self
+
+    def __next__(self) -> Any:
+        piece = next(self._rest)
+        self.breaks += piece.type in {"softbreak", "hardbreak"}
+        return piece
+
+
+def _inline(token: Any) -> tuple[Inline, ...]:
+    pieces = _Pieces(token)
+    try:
+        return tuple(_iter_inlines(pieces, None))
+    except BankError as error:
+        error.line = pieces.breaks + 1
+        raise
 
 
 def _iter_blocks(tokens: Iterator[Any], until: str | None) -> Iterator[Block]:
@@ -212,7 +262,7 @@ def _iter_blocks(tokens: Iterator[Any], until: str | None) -> Iterator[Block]:
         if token.type == "paragraph_open":
             inline = next(tokens)
             next(tokens)
-            yield Paragraph(tuple(_iter_inlines(iter(inline.children or ()), None)))
+            yield Paragraph(_inline(inline))
         elif token.type in {"bullet_list_open", "ordered_list_open"}:
             close = token.type.replace("open", "close")
             yield ListBlock(
@@ -223,7 +273,9 @@ def _iter_blocks(tokens: Iterator[Any], until: str | None) -> Iterator[Block]:
         elif token.type == "table_open":
             yield _parse_table(tokens)
         else:
-            raise BankError(f"Markdown {token.type!r} is not part of the subset")
+            line = token.map[0] + 1 if token.map else 1
+            what = f"Markdown {token.type!r} is not part of the subset"
+            raise BankError(what, rule="QG153", line=line)
 
 
 def _iter_list_items(tokens: Iterator[Any], until: str) -> Iterator[tuple[Block, ...]]:
@@ -242,7 +294,7 @@ def _parse_table(tokens: Iterator[Any]) -> TableBlock:
         if token.type == "tr_open":
             row = []
         elif token.type == "inline":
-            row.append(tuple(_iter_inlines(iter(token.children or ()), None)))
+            row.append(_inline(token))
         elif token.type == "tr_close":
             rows.append(tuple(row))
     return TableBlock(rows[0], tuple(rows[1:]))
@@ -261,15 +313,17 @@ def _iter_inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
             style = token.type.removesuffix("_open")
             yield Emphasis(style, tuple(_iter_inlines(tokens, f"{style}_close")))
         else:
-            raise BankError(f"Markdown {token.type!r} is not part of the subset")
+            raise BankError(f"Markdown {token.type!r} is not part of the subset", rule="QG153")
 
 
 def _iter_words_and_numbers(text: str) -> Iterator[Inline]:
     """Words; a number such as ``6e-8`` in them is set as mathematics."""
     if "![" in text:
-        raise BankError(f"a picture is not like ![words](file.png), without blanks, in {text!r}")
+        what = f"a picture is not like ![words](file.png), without blanks, in {text!r}"
+        raise BankError(what, rule="QG156")
     if _BANNED.search(text):
-        raise BankError(f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}")
+        what = f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}"
+        raise BankError(what, rule="QG154")
     pieces = _POWER.split(text)
     for index, piece in enumerate(pieces):
         if index % 2:
@@ -280,11 +334,12 @@ def _iter_words_and_numbers(text: str) -> Iterator[Inline]:
 
 def _parse_prose_formula(text: str) -> InlineFormula:
     if text.lstrip().startswith("+"):
-        raise BankError(f"mathematics ${text}$: a sign + in front is not printed: set it as words")
+        what = f"mathematics ${text}$: a sign + in front is not printed: set it as words"
+        raise BankError(what, rule="QG155")
     try:
         return InlineFormula(parse_formula(text))
     except FormulaError as error:
-        raise BankError(f"mathematics ${text}$: {error}") from error
+        raise BankError(f"mathematics ${text}$: {error}", rule="QG155") from error
 
 
 def leaves(parts: Iterable[Block | Inline]) -> Iterator[Block | Inline]:

@@ -12,10 +12,10 @@ from typing import TypeVar
 
 import msgspec
 
-from quizgen.bank.complaints import explain_validation_error
+from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BankError, FormulaError
-from quizgen.core.untrusted import parse_toml, read_text
+from quizgen.core.untrusted import error_context, parse_toml, read_text
 from quizgen.locale import FIRST
 from quizgen.locale.custom import is_language_tag
 from quizgen.maths.units import UnitRegistry, build_unit_registry
@@ -96,10 +96,12 @@ def read_optional(path: Path, kind: type[S]) -> S:
     """
     if not path.exists():
         return kind()
+    table = parse_toml(read_text(path, BankError), path, BankError)
     try:
-        return convert(parse_toml(read_text(path, BankError), path, BankError), kind)
+        return convert(table, kind)
     except msgspec.ValidationError as error:
-        raise BankError(f"{path}: {explain_validation_error(error, kind)}") from error
+        with error_context(path, BankError):
+            raise complaint_of(error, kind, table) from error
 
 
 def read_metadata(path: Path) -> BankMetadata:
@@ -111,19 +113,32 @@ def read_metadata(path: Path) -> BankMetadata:
         Naming the file and the key, also where this version of quizgen is none it works with.
     """
     about = read_optional(path, BankMetadata)
-    for lang in about.languages:
-        if not is_language_tag(lang):
-            raise BankError(f'{path}: languages: {lang!r} is no language (write "fr", or "pt-BR")')
-    try:
-        build_unit_registry(about.units)
-    except FormulaError as error:
-        raise BankError(f"{path}: units: {error}") from error
-    if about.requires:
-        _check_version(path, about.requires)
+    with error_context(path, BankError):
+        for index, lang in enumerate(about.languages):
+            if not is_language_tag(lang):
+                what = f'languages: {lang!r} is no language (write "fr", or "pt-BR")'
+                raise BankError(what, rule="QG108", place=("languages", index))
+        try:
+            build_unit_registry(about.units)
+        except FormulaError as error:
+            place = ("units", _first_unsound(about.units))
+            raise BankError(f"units: {error}", rule="QG122", place=place) from error
+        if about.requires:
+            _check_version(about.requires)
     return about
 
 
-def _check_version(path: Path, requires: str) -> None:
+def _first_unsound(units: tuple[str, ...]) -> int:
+    """Which definition cannot be read with those before it."""
+    for count in range(len(units)):
+        try:
+            build_unit_registry(units[: count + 1])
+        except FormulaError:
+            return count
+    return 0
+
+
+def _check_version(requires: str) -> None:
     from importlib.metadata import version
 
     from packaging.specifiers import InvalidSpecifier, SpecifierSet
@@ -132,9 +147,11 @@ def _check_version(path: Path, requires: str) -> None:
     try:
         fits = SpecifierSet(requires).contains(here, prereleases=True)
     except InvalidSpecifier as error:
-        raise BankError(f'{path}: requires: {requires!r} is not like ">=0.1"') from error
+        what = f'requires: {requires!r} is not like ">=0.1"'
+        raise BankError(what, rule="QG124", place=("requires",)) from error
     if not fits:
-        raise BankError(f"{path}: requires: quizgen {requires}, and this is {here}")
+        what = f"requires: quizgen {requires}, and this is {here}"
+        raise BankError(what, rule="QG124", place=("requires",))
 
 
 def pick_language(texts: Mapping[str, str], lang: str, otherwise: str) -> str:

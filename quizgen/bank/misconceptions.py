@@ -15,6 +15,7 @@ from flint import fmpq
 
 from quizgen.bank.template import Template
 from quizgen.core.errors import BankError
+from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep, CompiledSteps
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.number_systems import compile_expr, float64_system
@@ -28,26 +29,19 @@ APART = 2.0
 """Two values count as different when more than this many tolerances lie between them."""
 
 
-def answer_names(answer: Mapping[str, Any]) -> tuple[str, ...]:
-    """Chain quantities that an answer consists of."""
-    of = answer.get("of", ())
-    if isinstance(of, str):
-        return (of,)
-    return tuple(of.values()) if isinstance(of, Mapping) else tuple(of)
-
-
 class PartChecker:
     """What must hold for one part so that no wrong method scores."""
 
     def __init__(self, template: Template, index: int) -> None:
         rules = template.rules
         self.answer = rules.part[index].answer
-        self.of = answer_names(self.answer)
-        place = f"{template.file}: part {index + 1}"
+        self.of = asked_quantities(self.answer)
+        said, place = f"part {index + 1}", ("part", index, "answer")
         unknown = set(self.of) - {*template.chain.given, *template.chain.by_name}
         if unknown:
-            raise BankError(f"{place}: answer: of: unknown to the solver: {sorted(unknown)}")
-        self.known = {n for part in rules.part[:index] for n in answer_names(part.answer)}
+            what = f"{said}: answer: of: unknown to the solver: {sorted(unknown)}"
+            raise BankError(what, rule="QG116", file=template.file, place=(*place, "of"))
+        self.known = {n for part in rules.part[:index] for n in asked_quantities(part.answer)}
         needed = frozenset().union(
             *(template.chain.required_steps(n, self.known - {n}) for n in self.of), frozenset()
         )
@@ -64,7 +58,8 @@ class PartChecker:
         try:
             self.tolerances = _list_tolerances(self.answer, self.of)
         except (msgspec.ValidationError, ValueError) as error:
-            raise BankError(f"{place}: {error}") from None
+            what = f"{said}: {error}"
+            raise BankError(what, rule="QG113", file=template.file, place=place) from None
         bounds = self.answer.get("accept", ()) if self.of else ()
         self.accept = [_Bound(template, str(text)) for text in bounds]
         self.one_step = any(
@@ -212,7 +207,7 @@ def _find_indistinguishable(
 def _is_within_widths(
     a: tuple[float, ...], b: tuple[float, ...], widths: tuple[float, ...]
 ) -> bool:
-    for x, y, width in zip(a, b, widths, strict=True):
+    for x, y, width in zip(a, b, widths, strict=True):  # noqa: SIM110 - asked for every draw
         if not abs(x - y) <= width:
             return False
     return True

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from quizgen.core.errors import BankError
-from quizgen.core.untrusted import require_identifier
+from quizgen.core.untrusted import error_context, require_identifier
 
 
 def find_template_folders(templates: Path, beside: Collection[str]) -> dict[str, list[Path]]:
@@ -36,7 +36,9 @@ def check_name(folders: Sequence[Path]) -> None:
     """
     folder, *others = folders
     file = folder / "template.toml"
-    require_identifier(folder.name, f"{file}: folder", BankError)
+    with error_context(file, BankError):
+        require_identifier(folder.name, "folder", BankError)
     if others:
         also = ", ".join(map(str, others))
-        raise BankError(f"{file}: two templates share the name {folder.name!r}: also {also}")
+        what = f"two templates share the name {folder.name!r}: also {also}"
+        raise BankError(what, rule="QG125", file=file)

@@ -22,7 +22,8 @@ import msgspec
 from quizgen.bank.compile_cache import CompileCache
 from quizgen.bank.markdown import LanguageFile, PictureLink, PlainText
 from quizgen.core.errors import BankError
-from quizgen.core.untrusted import is_identifier, read_bytes, read_text
+from quizgen.core.positions import TEXT
+from quizgen.core.untrusted import is_identifier, read_bytes
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -117,9 +118,9 @@ def read_pictures(folder: Path, texts: Mapping[str, LanguageFile]) -> dict[str, 
                 if link.file not in found:
                     found[link.file] = read_picture(folder, link.file)
             except BankError as error:
-                raise BankError(
-                    f"{_find_link_line(folder / f'{lang}.md', link.file)}: {error}"
-                ) from error
+                place = (TEXT, f"({link.file})")
+                file = folder / f"{lang}.md"
+                raise BankError(error.message, rule="QG156", file=file, place=place) from error
     return found
 
 
@@ -129,12 +130,6 @@ def _check_words(link: PictureLink) -> None:
             f"picture {link.file!r} has no words: describe the picture in words for those who "
             f"cannot see it, ![words]({link.file})"
         )
-
-
-def _find_link_line(path: Path, name: str) -> str:
-    lines = read_text(path, BankError).splitlines()
-    numbers = (number for number, line in enumerate(lines, 1) if f"({name})" in line)
-    return f"{path}:{next(numbers, 1)}"
 
 
 def read_picture(folder: Path, name: str) -> PictureFile:
@@ -161,7 +156,7 @@ def read_picture(folder: Path, name: str) -> PictureFile:
     try:
         return _PICTURES.get(data) or _PICTURES.put(pack(data), data)
     except BankError as error:
-        raise BankError(f"picture {name!r}: {error}") from error
+        raise BankError(f"picture {name!r}: {error.message}") from error
 
 
 def _fit_picture(data: bytes, kind: str, width: float, height: float) -> PictureFile:
@@ -214,12 +209,12 @@ _SVG = "http://www.w3.org/2000/svg"
 _HREF = ("href", "{http://www.w3.org/1999/xlink}href")
 _SPACE = "{http://www.w3.org/XML/1998/namespace}space"
 _ELEMENTS = frozenset(
-    "svg g defs symbol use switch path rect circle ellipse line polyline polygon text tspan "
+    "svg g defs symbol use switch path rect circle ellipse line polyline polygon text tspan "  # noqa: SIM905 - better read so
     "textPath title desc linearGradient radialGradient stop clipPath mask pattern marker image "
     "style".split()
 )
 _ATTRIBUTES = frozenset(
-    "id class style x y x1 y1 x2 y2 cx cy r rx ry fx fy fr d points width height viewBox transform "
+    "id class style x y x1 y1 x2 y2 cx cy r rx ry fx fy fr d points width height viewBox transform "  # noqa: SIM905
     "preserveAspectRatio gradientTransform gradientUnits spreadMethod offset patternUnits "
     "patternTransform patternContentUnits clipPathUnits maskUnits maskContentUnits markerWidth "
     "markerHeight markerUnits refX refY orient dx dy rotate textLength lengthAdjust startOffset "
@@ -247,7 +242,7 @@ def _pack_svg(data: bytes) -> PictureFile:
     if "<!ENTITY" in text:
         raise BankError("defines entities; save it as plain SVG")
     try:
-        root = ET.fromstring(text)
+        root = ET.fromstring(text)  # noqa: S314 - without entities
     except ET.ParseError as error:
         raise BankError(f"cannot be read as SVG ({error})") from None
     if root.tag != f"{{{_SVG}}}svg":

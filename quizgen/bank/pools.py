@@ -154,8 +154,9 @@ def _right_counts(drawn: Variant, index: int, right: int, wrong: int) -> list[in
     least, most = answer.get("right", (1, take)) if answer["kind"] == "multi" else (1, 1)
     found = list(range(max(least, take - wrong), min(most, right, take) + 1))
     if not found:
-        place = f"{drawn.template.path / 'template.toml'}: part {index + 1}"
-        raise BankError(f"{place}: take: {right} right and {wrong} wrong options are too few")
+        what = f"part {index + 1}: take: {right} right and {wrong} wrong options are too few"
+        file, at = drawn.template.file, ("part", index, "answer", "take")
+        raise BankError(what, rule="QG115", file=file, place=at)
     return found
 
 

@@ -21,6 +21,7 @@ import msgspec
 
 from quizgen.bank.compile_cache import CompileCache
 from quizgen.bank.markdown import Inline, parse_inlines
+from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BankError
 from quizgen.core.untrusted import error_context, parse_toml, read_text
@@ -68,7 +69,8 @@ def read_quantities(paths: Iterable[Path]) -> dict[str, QuantityNames]:
             read = _FILES.put(_read_quantities(path, source), source.encode())
         for solver in read:
             if solver in found:
-                raise BankError(f"{path}: solver {solver!r} stands twice")
+                what = f"solver {solver!r} stands twice"
+                raise BankError(what, rule="QG125", file=path, place=(solver,))
         found |= read
     return found
 
@@ -78,7 +80,8 @@ def _read_quantities(path: Path, source: str) -> dict[str, QuantityNames]:
     try:
         read = convert(table, dict[str, _Written])
     except msgspec.ValidationError as error:
-        raise BankError(f"{path}: {error}") from error
+        with error_context(path, BankError):
+            raise complaint_of(error, dict[str, _Written], table) from error
     with error_context(path, BankError):
         return {solver: _parse_quantity_names(written) for solver, written in read.items()}
 

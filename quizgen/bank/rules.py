@@ -96,6 +96,7 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     beyond: bool = False
     precision: tuple[str, ...] = ()
     levels: tuple[DerivedLevel, ...] = ("guided", "transfer")
+    ignore: tuple[str, ...] = ()
 
 
 def get_claim(rules: Rules, name: str) -> ClaimRule:

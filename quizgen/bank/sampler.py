@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, cached_property, partial
+from pathlib import Path
 from typing import Any, TypeVar
 
 import msgspec
@@ -37,7 +38,7 @@ def shuffle(key: str, items: Sequence[T]) -> list[T]:
 class _Variable(msgspec.Struct, frozen=True):
     """One drawn quantity: its candidates, or the formula that derives it (or its phrase)."""
 
-    place: str
+    file: Path
     name: str
     choices: tuple[fmpq, ...]
     words: tuple[str, ...]
@@ -47,10 +48,10 @@ class _Variable(msgspec.Struct, frozen=True):
         """Set the quantity, or the phrase at the place that the formula counts from 0."""
         value = self._compute_value(shown)
         if isinstance(value, bool):
-            raise BankError(f"{self.place}: a condition, where a number is needed")
+            raise self._fault("a condition, where a number is needed")
         if self.words:
             if not isinstance(value, fmpq):
-                raise BankError(f"{self.place}: by: the place of a phrase is a rational number")
+                raise self._fault("by: the place of a phrase is a rational number")
             words[self.name] = self.words[int(value.floor()) % len(self.words)]
         else:
             shown[self.name] = value
@@ -59,7 +60,11 @@ class _Variable(msgspec.Struct, frozen=True):
         try:
             return self.formula(shown) if self.formula else fmpq(0)
         except (MathError, ZeroDivisionError, OverflowError) as error:
-            raise BankError(f"{self.place}: {error}") from error
+            raise self._fault(str(error)) from error
+
+    def _fault(self, what: str) -> BankError:
+        said = f"draw.{self.name}: {what}"
+        return BankError(said, rule="QG120", file=self.file, place=("draw", self.name))
 
 
 class _Condition(msgspec.Struct, frozen=True):
@@ -94,8 +99,9 @@ class Sampler:
             source = rule.formula or rule.by
             unknown = names_in(self.template.parse_formula(source)) - known if source else set()
             if unknown:
-                place = f"{self.template.file}: draw.{name}"
-                raise BankError(f"{place}: uses {sorted(unknown)}, not drawn before it")
+                what = f"draw.{name}: uses {sorted(unknown)}, not drawn before it"
+                file, place = self.template.file, ("draw", name)
+                raise BankError(what, rule="QG130", file=file, place=place)
             known.add(name)
 
     def compile_formula(self, formula: str) -> CompiledFormula:
@@ -111,10 +117,11 @@ class Sampler:
         source = rule.formula or rule.by
         formula = self.compile_formula(source) if source else None
         listed = () if source else list_candidates(rule.pick, rule.range, rule.skip)
-        place = f"{self.template.file}: draw.{name}"
+        file = self.template.file
         if not (source or listed or rule.words):
-            raise BankError(f"{place}: no value is left")
-        return _Variable(place, name, listed, rule.words, formula)
+            what, place = f"draw.{name}: no value is left", ("draw", name)
+            raise BankError(what, rule="QG120", file=file, place=place)
+        return _Variable(file, name, listed, rule.words, formula)
 
     def _iter_conditions(self) -> Iterator[_Condition]:
         for text in self.template.rules.where:
@@ -232,7 +239,7 @@ def sampler_for(template: Template) -> Sampler:
 
 
 @working_precision()
-def test_candidate(
+def solve_candidate(
     plan: Sampler, shown: Mapping[str, fmpq], *, lenient: bool = False
 ) -> tuple[dict[str, Value], tuple[tuple[str, ...], ...]] | str:
     """Solve a candidate; its values and traps per part, or the reason to reject it."""

@@ -166,7 +166,7 @@ def _compile_solver(folder: Path, name: str) -> Chain:
     model = getattr(import_module_file(folder, name), "MODEL", None)
     file = folder / f"{name}.py"
     if not isinstance(model, Model):
-        raise BankError(f"{file}: no MODEL in this solver")
+        raise BankError("no MODEL in this solver", rule="QG132", file=file)
     with author_error_context(file):
         return model.chain()
 
@@ -187,6 +187,17 @@ def _is_pure(source: bytes) -> bool:
     return True
 
 
+_CODES = (
+    (ModuleNotFoundError, "QG134"),
+    (NameError, "QG135"),
+    (SyntaxError, "QG136"),
+    (AttributeError, "QG137"),
+    (RecursionError, "QG138"),
+    (SystemExit, "QG139"),
+)
+"""What an author's Python raises, to its code."""
+
+
 @contextmanager
 def author_error_context(file: Path) -> Iterator[None]:
     """Run an author's Python: whatever goes wrong in it is one line that names the place.
@@ -199,12 +210,15 @@ def author_error_context(file: Path) -> Iterator[None]:
     try:
         yield
     except BankError as error:
-        raise BankError(f"{file}: {error}") from error
+        error.file = error.file or file
+        raise
     except (Exception, SystemExit) as error:  # an author's Python may raise anything
         whole = file.resolve()  # as Python names it, wherever one stands
         lines = [at.lineno for at in traceback.extract_tb(error.__traceback__)
                  if Path(at.filename).resolve() == whole]  # fmt: skip
         number = getattr(error, "lineno", None) if isinstance(error, SyntaxError) else None
         number = number or (lines[-1] if lines else None)
-        place = f"{file}:{number}" if number else f"{file}"
-        raise BankError(f"{place}: {type(error).__name__}: {error}") from error
+        known = next((code for kind, code in _CODES if isinstance(error, kind)), "QG133")
+        rule = getattr(error, "rule", "") or known
+        what = f"{type(error).__name__}: {error}"
+        raise BankError(what, rule=rule, file=file, line=number or 0) from error

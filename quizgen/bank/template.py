@@ -18,16 +18,17 @@ import msgspec
 from flint import fmpq
 
 from quizgen.bank.compile_cache import CompileCache
-from quizgen.bank.complaints import explain_validation_error
 from quizgen.bank.metadata import BankMetadata
 from quizgen.bank.pictures import PictureFile
 from quizgen.bank.quantities import QuantityNames
 from quizgen.bank.rules import Rules, suggested_minutes
 from quizgen.bank.solvers import import_module_file
 from quizgen.bank.validation import find_malformed_answers, find_problems
+from quizgen.core.complaints import complaint_of, written_place
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BankError, FormulaError
-from quizgen.core.untrusted import parse_toml, read_text
+from quizgen.core.positions import TEXT
+from quizgen.core.untrusted import error_context, parse_toml, read_text
 from quizgen.maths.chain import Chain
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.tree import Expr, names_in
@@ -61,8 +62,8 @@ class Template:
     quantities : Quantities
         What the letters of its solver mean; only forms made from the chain say so, which is why
         ``digest`` leaves it out.
-    figure_file : pathlib.Path, optional
-        What draws its figure.
+    figure_file, solver_file : pathlib.Path, optional
+        What draws its figure, and what its chain was read from.
     pictures : mapping of str to PictureFile
         The files that its words show, by their names.
     """
@@ -76,6 +77,7 @@ class Template:
     about: BankMetadata = field(default=BankMetadata())
     quantities: QuantityNames = field(default=QuantityNames())
     figure_file: Path | None = None
+    solver_file: Path | None = None
     pictures: Mapping[str, PictureFile] = field(default_factory=dict)
 
     def __getstate__(self) -> dict[str, object]:
@@ -155,13 +157,15 @@ class Template:
         try:
             expr = parse_formula(text, symbols=tuple(self.units))
         except FormulaError as error:
-            raise BankError(f"{self.file}: formula {_quote_formula(text)}: {error}") from error
+            raise self._unreadable(text, f": {error}") from error
         unknown = names_in(expr) - set(self.units)
         if unknown:
-            raise BankError(
-                f"{self.file}: formula {_quote_formula(text)} uses unknown {sorted(unknown)}"
-            )
+            raise self._unreadable(text, f" uses unknown {sorted(unknown)}")
         return expr
+
+    def _unreadable(self, formula: str, what: str) -> BankError:
+        said = f"formula {_quote_formula(formula)}{what}"
+        return BankError(said, rule="QG121", file=self.file, place=(TEXT, formula))
 
 
 def _quote_formula(formula: str) -> str:
@@ -184,14 +188,18 @@ def read_rules(path: Path) -> Rules:
 
 def _read_rules(path: Path, source: str) -> Rules:
     try:
-        shape = convert(parse_toml(source, path, BankError, _whole_or(float)), Rules)
-        for place, problem in find_malformed_answers(shape):
-            raise BankError(f"{path}: {place}: {problem}")
-        exact = parse_toml(source, path, BankError, _whole_or(str))
-        rules = convert(exact, Rules)
+        table = parse_toml(source, path, BankError, _whole_or(float))
+        shape = convert(table, Rules)
+        with error_context(path, BankError):
+            for fault in find_malformed_answers(shape):
+                raise fault
+        table = parse_toml(source, path, BankError, _whole_or(str))
+        rules = convert(table, Rules)
     except msgspec.ValidationError as error:
-        raise BankError(f"{path}: {explain_validation_error(error, Rules)}") from error
-    _check_draws(path, rules)
+        with error_context(path, BankError):
+            raise complaint_of(error, Rules, table) from error
+    with error_context(path, BankError):
+        _check_draws(rules)
     return rules
 
 
@@ -200,13 +208,14 @@ def _whole_or(kind: type) -> Callable[[str], object]:
     return lambda text: int(text[:-2]) if _WHOLE.fullmatch(text) else kind(text)
 
 
-def _check_draws(path: Path, rules: Rules) -> None:
-    for place, problem in find_problems(rules):
-        raise BankError(f"{path}: {place}: {problem}")
+def _check_draws(rules: Rules) -> None:
+    for place, code, what in find_problems(rules):
+        raise BankError(f"{written_place(place)}: {what}", rule=code, place=place)
     for name, rule in rules.draw.items():
         ways = [w for w in ("pick", "range", "words", "formula") if getattr(rule, w)]
         if len(ways) != 1:
-            raise BankError(f"{path}: draw.{name}: give exactly one of pick, range, words, is")
+            what = f"draw.{name}: give exactly one of pick, range, words, is"
+            raise BankError(what, rule="QG118", place=("draw", name))
 
 
 def check_against_chain(template: Template) -> None:
@@ -217,26 +226,43 @@ def check_against_chain(template: Template) -> None:
     BankError
         If a drawn or kept quantity is unknown, or a given one is not drawn.
     """
-    path, rules = template.file, template.rules
+    with error_context(template.file, BankError):
+        _check_units(template)
+        _check_names(template)
+
+
+def _check_units(template: Template) -> None:
+    rules = template.rules
     for name, unit in template.units.items():
         try:
             template.unit_factor(unit)
         except FormulaError as error:
-            place = f"draw.{name}" if name in rules.draw else f"solver {rules.solver!r}: {name}"
-            raise BankError(f"{path}: {place}: {error}") from error
+            drawn = name in rules.draw
+            said = f"draw.{name}" if drawn else f"solver {rules.solver!r}: {name}"
+            place = ("draw", name) if drawn else ("solver",)
+            raise BankError(f"{said}: {error}", rule="QG122", place=place) from error
+
+
+def _check_names(template: Template) -> None:
+    rules = template.rules
     missing = set(template.chain.given) - set(rules.draw)
     if missing:
-        raise BankError(f"{path}: draw lacks {sorted(missing)}, given in solver {rules.solver!r}")
+        what = f"draw lacks {sorted(missing)}, given in solver {rules.solver!r}"
+        raise BankError(what, rule="QG123", place=("draw",))
     unknown = set(rules.keep) - set(template.units)
     if unknown:
-        raise BankError(f"{path}: keep names unknown {sorted(unknown)}")
-    for listed in (rules.may_vanish, rules.drop):
+        place = ("keep", min(unknown))
+        raise BankError(f"keep names unknown {sorted(unknown)}", rule="QG116", place=place)
+    for key, listed in (("may_vanish", rules.may_vanish), ("drop", rules.drop)):
         strangers = set(listed) - set(template.chain.traps)
         if strangers:
-            raise BankError(f"{path}: {sorted(strangers)} is not a trap of {rules.solver!r}")
+            what = f"{sorted(strangers)} is not a trap of {rules.solver!r}"
+            raise BankError(what, rule="QG116", place=(key,))
     strangers = set(rules.precision) - set(template.chain.by_name)
     if strangers:
-        raise BankError(f"{path}: precision names {sorted(strangers)}, which are not steps")
+        what = f"precision names {sorted(strangers)}, which are not steps"
+        raise BankError(what, rule="QG116", place=("precision",))
     for name in rules.reference or {}:
         if name not in rules.draw:
-            raise BankError(f"{path}: reference names {name!r}, which is not drawn")
+            what = f"reference names {name!r}, which is not drawn"
+            raise BankError(what, rule="QG116", place=("reference", name))

@@ -11,21 +11,21 @@ from fractions import Fraction
 
 import msgspec
 
-from quizgen.bank.answers import ANSWERS, Choice, Match, Numeric, Order, Pooled
-from quizgen.bank.complaints import explain_validation_error
-from quizgen.bank.most import (
+from quizgen.bank.rules import DrawRule, KeepRule, Rules, Source
+from quizgen.core.complaints import complaint_of, written_place
+from quizgen.core.decoding import convert
+from quizgen.core.diagnostics import CODES, can_be_ignored
+from quizgen.core.errors import BankError, FormulaError
+from quizgen.core.positions import Place
+from quizgen.core.untrusted import NAMES, is_identifier
+from quizgen.kinds import KINDS
+from quizgen.kinds.contract import (
     MOST_CHOICES,
     MOST_FORMULAS,
-    MOST_IN_POOL,
     MOST_MINUTES,
-    MOST_OPTIONS,
     MOST_PARTS,
     MOST_POINTS,
 )
-from quizgen.bank.rules import DrawRule, KeepRule, Rules, Source
-from quizgen.core.decoding import convert
-from quizgen.core.errors import FormulaError
-from quizgen.core.untrusted import NAMES, is_identifier
 from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import parse_written_number
 from quizgen.maths.tolerance import MOST_DIGITS
@@ -33,8 +33,8 @@ from quizgen.maths.tolerance import MOST_DIGITS
 LARGEST = 10**100
 """Largest size of an authored number, and of its inverse."""
 
-FieldProblems = Iterator[tuple[str, str]]
-"""Field and what is wrong in it."""
+FieldProblems = Iterator[tuple[Place, str, str]]
+"""Where the field stands, the code of what is wrong in it, and the same in words."""
 
 
 def parse_authored_number(text: Scalar) -> Fraction:
@@ -56,45 +56,61 @@ def find_problems(rules: Rules) -> FieldProblems:
     yield from _check_names(rules)
     yield from _check_figure_reads(rules)
     yield from _check_sizes(rules)
+    yield from _ignored(rules)
     yield from _check_claims(rules)
     for name, rule in rules.draw.items():
-        yield from ((f"draw.{name}.{field}", what) for field, what in _check_draw_rule(rule))
+        yield from _below(("draw", name), _check_draw_rule(rule))
     for name, keep in rules.keep.items():
-        yield from ((f"keep.{name}.{field}", what) for field, what in _check_keep_rule(keep))
+        yield from _below(("keep", name), _check_keep_rule(keep))
     for name, value in (rules.reference or {}).items():
         if not rules.draw.get(name) or not rules.draw[name].words:
-            yield from _check_numbers_readable(f"reference.{name}", (value,))
-    for place, part in enumerate(rules.part, 1):
-        yield from ((f"part {place}: {field}", what) for field, what in _check_answer(part.answer))
-        yield from _out_of(f"part {place}: points", part.points, MOST_POINTS)
+            yield from _check_numbers_readable(("reference", name), (value,))
+    for index, part in enumerate(rules.part):
+        yield from _below(("part", index, "answer"), _check_answer(part.answer))
+        yield from _out_of(("part", index, "points"), part.points, MOST_POINTS)
+
+
+def _below(place: Place, found: FieldProblems) -> FieldProblems:
+    return (((*place, *field), code, what) for field, code, what in found)
 
 
 def _check_names(rules: Rules) -> FieldProblems:
     figure = rules.figure.name if rules.figure else ""
-    single = {"topic": rules.topic, "formerly": rules.formerly or "-", "figure.name": figure or "-"}
-    listed = {"apart": rules.apart, "covers": rules.covers}
     folders = rules.solver.split("/") if rules.solver else ()
-    pairs = [*single.items(), *(("solver", folder) for folder in folders)]
-    pairs += [(field, name) for field, names in listed.items() for name in names]
-    for field, name in pairs:
+    places: list[tuple[Place, str]] = [(("topic",), rules.topic)]
+    places += [(("formerly",), rules.formerly or "-"), (("figure", "name"), figure or "-")]
+    places += [(("solver",), folder) for folder in folders]
+    places += [(("apart",), name) for name in rules.apart]
+    places += [(("covers",), name) for name in rules.covers]
+    for place, name in places:
         if not is_identifier(name):
-            yield field, f"{name!r} is no name (allowed: {NAMES})"
+            yield place, "QG108", f"{name!r} is no name (allowed: {NAMES})"
 
 
 def _check_figure_reads(rules: Rules) -> FieldProblems:
     """What is said to be read in the figure, and cannot be."""
+    place = ("figure", "reads")
     if rules.figure is None or not rules.figure.reads:
         return
     if not rules.figure.quiz:
-        yield "figure.reads", "nothing is read in a figure with quiz = false"
+        yield place, "QG117", "nothing is read in a figure with quiz = false"
     for name in rules.figure.reads:
         if name not in rules.draw or rules.draw[name].words:
-            yield "figure.reads", f"{name!r} is no drawn number (write it under [draw])"
+            yield place, "QG117", f"{name!r} is no drawn number (write it under [draw])"
+
+
+def _ignored(rules: Rules) -> FieldProblems:
+    """Codes that are none, and those that say what stops a paper."""
+    for index, code in enumerate(rules.ignore):
+        if code not in CODES:
+            yield ("ignore", index), "QG119", f"there is no code {code!r}"
+        elif not can_be_ignored(code):
+            yield ("ignore", index), "QG119", f"{code} cannot be ignored: it stops a paper"
 
 
 def _check_sizes(rules: Rules) -> FieldProblems:
     if not 1 <= len(rules.part) <= MOST_PARTS:
-        yield "part", f"1 to {MOST_PARTS} tables [[part]] are needed"
+        yield ("part",), "QG110", f"1 to {MOST_PARTS} tables [[part]] are needed"
     whole = (
         ("minutes", rules.minutes, MOST_MINUTES),
         ("version", rules.version, 10**6),
@@ -102,13 +118,14 @@ def _check_sizes(rules: Rules) -> FieldProblems:
     )
     for field, value, most in whole:
         if value is not None and not 1 <= value <= most:
-            yield field, f"{value} is not between 1 and {'10^100' if most == LARGEST else most}"
+            said = "10^100" if most == LARGEST else most
+            yield (field,), "QG109", f"{value} is not between 1 and {said}"
     for field, several in (("draw", rules.draw), ("keep", rules.keep), ("where", rules.where)):
         if len(several) > MOST_FORMULAS:
-            yield field, f"more than {MOST_FORMULAS} entries"
+            yield (field,), "QG110", f"more than {MOST_FORMULAS} entries"
     for name, source in (rules.figure.values if rules.figure else {}).items():
         if _count_entries(source) > MOST_CHOICES:
-            yield f"figure.values.{name}", f"more than {MOST_CHOICES} entries"
+            yield ("figure", "values", name), "QG110", f"more than {MOST_CHOICES} entries"
 
 
 def _count_entries(source: Source) -> int:
@@ -118,11 +135,10 @@ def _count_entries(source: Source) -> int:
 def _check_draw_rule(rule: DrawRule) -> FieldProblems:
     for field in ("pick", "range", "skip", "words"):
         if len(getattr(rule, field)) > MOST_CHOICES:
-            yield field, f"more than {MOST_CHOICES} entries"
+            yield (field,), "QG110", f"more than {MOST_CHOICES} entries"
+    fields = ("pick", "range", "skip")
     wrong = [
-        (f, what)
-        for f in ("pick", "range", "skip")
-        for f, what in _check_numbers_readable(f, getattr(rule, f))
+        one for field in fields for one in _check_numbers_readable((field,), getattr(rule, field))
     ]
     yield from wrong
     if rule.range and not wrong:
@@ -130,119 +146,76 @@ def _check_draw_rule(rule: DrawRule) -> FieldProblems:
 
 
 def _check_range(*span: Scalar) -> FieldProblems:
+    place = ("range",)
     if len(span) != len(("first", "last", "step")):
-        yield "range", "is [first, last, step]"
+        yield place, "QG111", "is [first, last, step]"
         return
     first, last, step = map(parse_authored_number, span)
     if step == 0 or (last - first) / step < 0:
-        yield "range", "the step does not lead from the first to the last value"
+        yield place, "QG111", "the step does not lead from the first to the last value"
     elif (last - first) / step >= MOST_CHOICES:
-        yield "range", f"more than {MOST_CHOICES} values"
+        yield place, "QG110", f"more than {MOST_CHOICES} values"
 
 
 def _check_keep_rule(rule: KeepRule) -> FieldProblems:
     for field in ("min", "max", "multiple"):
         yield from _check_numbers_readable(
-            field, [v for v in (getattr(rule, field),) if v is not None]
+            (field,), [v for v in (getattr(rule, field),) if v is not None]
         )
-    yield from _check_numbers_readable("skip", rule.skip)
+    yield from _check_numbers_readable(("skip",), rule.skip)
     if (
         rule.multiple is not None
-        and not list(_check_numbers_readable("", [rule.multiple]))
+        and not list(_check_numbers_readable((), [rule.multiple]))
         and not parse_authored_number(rule.multiple)
     ):
-        yield "multiple", "of 0 is only 0"
+        yield ("multiple",), "QG109", "of 0 is only 0"
     if not 0 <= (rule.decimals or 0) <= MOST_DIGITS:
-        yield "decimals", f"must be 0 to {MOST_DIGITS}"
+        yield ("decimals",), "QG109", f"must be 0 to {MOST_DIGITS}"
     if rule.denominator is not None and rule.denominator < 1:
-        yield "denominator", "must be 1 or more"
+        yield ("denominator",), "QG109", "must be 1 or more"
 
 
-def _check_numbers_readable(field: str, values: Iterable[Scalar]) -> FieldProblems:
+def _check_numbers_readable(place: Place, values: Iterable[Scalar]) -> FieldProblems:
     for value in values:
         try:
             parse_authored_number(value)
         except ValueError as error:
-            yield field, str(error)
+            yield place, "QG109", str(error)
 
 
-def _out_of(field: str, value: Scalar, most: int) -> FieldProblems:
-    wrong = list(_check_numbers_readable(field, (value,)))
+def _out_of(place: Place, value: Scalar, most: int) -> FieldProblems:
+    wrong = list(_check_numbers_readable(place, (value,)))
     yield from wrong
     if not wrong and not 0 < parse_authored_number(value) <= most:
-        yield field, f"{value} is not more than 0 and at most {most}"
+        yield place, "QG109", f"{value} is not more than 0 and at most {most}"
 
 
-def find_malformed_answers(rules: Rules) -> FieldProblems:
+def find_malformed_answers(rules: Rules) -> Iterator[BankError]:
     """Answers of no kind, and with keys or types of values that their kind does not have."""
-    for place, part in enumerate(rules.part, 1):
-        kind = part.answer.get("kind", "")
+    for index, part in enumerate(rules.part):
+        kind, place = part.answer.get("kind", ""), ("part", index, "answer")
+        said = written_place(place)
         if "kind" not in part.answer:
-            yield f"part {place}: answer", "the key 'kind' is missing"
-        elif not isinstance(kind, str) or kind not in ANSWERS:
-            yield f"part {place}", f"unknown kind {kind!r} (allowed: {', '.join(sorted(ANSWERS))})"
+            yield BankError(f"{said}: the key 'kind' is missing", rule="QG105", place=place)
+        elif not isinstance(kind, str) or kind not in KINDS:
+            what = f"part {index + 1}: unknown kind {kind!r} (allowed: {', '.join(sorted(KINDS))})"
+            yield BankError(what, rule="QG107", place=(*place, "kind"))
         else:
             try:
-                convert(part.answer, ANSWERS[kind])
+                convert(part.answer, KINDS[kind].authored)
             except msgspec.ValidationError as error:
-                yield f"part {place}: answer", explain_validation_error(error, ANSWERS[kind])
-
-
-LISTS = "options", "pairs", "steps", "gaps", "points"
-"""Keys of an answer that hold names, of which there is at least one."""
+                yield complaint_of(error, KINDS[kind].authored, part.answer, place)
 
 
 def _check_answer(table: Mapping[str, object]) -> FieldProblems:
-    answer = convert(table, ANSWERS[str(table["kind"])])
-    most = MOST_IN_POOL if table.get("take") else MOST_OPTIONS
-    shown = {name: getattr(answer, name) for name in LISTS if name in answer.__struct_fields__}
-    if isinstance(answer, Match | Order):
-        shown["distractors"] = answer.distractors
-    if isinstance(answer, Order):
-        shown["steps"] = (*answer.steps, *answer.distractors)
-    for field, names in shown.items():
-        if len(names) > most or (field in LISTS and not names):
-            yield f"answer.{field}", f"1 to {most} are needed"
-        if len(set(names)) < len(names):
-            yield f"answer.{field}", "a name stands twice"
-    if isinstance(answer, Numeric):
-        yield from _check_asked_count(answer)
-    if isinstance(answer, Order):
-        strangers = {name for pair in answer.before for name in pair} - set(answer.steps)
-        if strangers:
-            yield "answer.before", f"names {sorted(strangers)}, which are not steps"
-    if isinstance(answer, Pooled):
-        yield from _check_pool_sizes(answer)
-
-
-def _check_asked_count(answer: Numeric) -> FieldProblems:
-    count = 1 if isinstance(answer.of, str) else len(answer.of)
-    if not answer.least <= count <= answer.most:
-        wanted = f"{answer.least} to {answer.most}" if answer.most > 1 else "one"
-        yield "answer.of", f"names {count}, and this kind asks for {wanted}"
-
-
-def _check_pool_sizes(answer: Pooled) -> FieldProblems:
-    field = next(field for field in LISTS if field in answer.__struct_fields__)
-    if answer.take and not 1 <= answer.take <= min(MOST_OPTIONS, len(getattr(answer, field))):
-        yield "answer.take", f"must be 1 to {MOST_OPTIONS} and at most the number of {field}"
-    if isinstance(answer, Order) and answer.take and answer.before:
-        yield "answer.take", "some of the steps can be taken only of one order, without before"
-    right = answer.right if isinstance(answer, Choice) else None
-    if right and not (answer.take and 1 <= right[0] <= right[1]):
-        yield "answer.right", "is [least, most] right options among those that take names"
-    if isinstance(answer, Match | Order):
-        others = {*answer.pairs.values()} if isinstance(answer, Match) and answer.take else ()
-        spare = len(answer.distractors) + len(others)
-        if answer.extra is not None and not 0 <= answer.extra <= spare:
-            yield "answer.extra", f"must be 0 to {spare}, the number of distractors"
+    yield from convert(table, KINDS[str(table["kind"])].authored).find_problems()
 
 
 def _check_claims(rules: Rules) -> FieldProblems:
     taking = [part.answer for part in rules.part if "from" in part.answer]
     if len(taking) > len(rules.claims):
-        yield "claims", f"{len(rules.claims)} are too few for {len(taking)} parts"
+        yield ("claims",), "QG115", f"{len(rules.claims)} are too few for {len(taking)} parts"
     if rules.claims and not taking:
-        yield "claims", 'no part has from = "claims"'
+        yield ("claims",), "QG115", 'no part has from = "claims"'
     if len(rules.claims) > MOST_FORMULAS:
-        yield "claims", f"more than {MOST_FORMULAS} entries"
+        yield ("claims",), "QG110", f"more than {MOST_FORMULAS} entries"

@@ -16,9 +16,10 @@ import msgspec
 from flint import fmpq
 
 from quizgen.bank.rules import Scalar
-from quizgen.bank.sampler import Sampler, sampler_for, test_candidate
+from quizgen.bank.sampler import Sampler, sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.core.errors import SamplingError
+from quizgen.core.positions import TEXT, Place
 from quizgen.core.untrusted import error_context
 from quizgen.maths.canonical import CanonicalForm
 from quizgen.maths.chain import ChainStep
@@ -176,15 +177,22 @@ def _find_admissible_variant(plan: Sampler, seed: str, slot: str) -> Variant:
     for attempt in range(MAX_TRIES):
         with working_precision():
             shown, words = plan.propose(stem, attempt)
-            result = test_candidate(plan, shown)
+            result = solve_candidate(plan, shown)
         if not isinstance(result, str):
             values, traps = result
             return Variant(template, seed, slot, attempt + 1, shown, words, values, traps)
         reasons[result] += 1
     worst, count = reasons.most_common(1)[0]
-    raise SamplingError(
-        f"no admissible draw in {MAX_TRIES} tries; {worst!r} rejected {count} of them"
-    )
+    what = f"no admissible draw in {MAX_TRIES} tries; {worst!r} rejected {count} of them"
+    raise SamplingError(what, rule="QG140", place=_culprit(worst, template))
+
+
+def _culprit(condition: str, template: Template) -> Place:
+    """Where the condition stands that was met least: all of ``[draw]`` if it is no one's."""
+    if condition in template.rules.where:
+        return (TEXT, condition)
+    kept = condition.removeprefix("keep.")
+    return ("keep", kept) if kept in template.rules.keep else ("draw",)
 
 
 def reference_variant(template: Template) -> Variant:
@@ -213,8 +221,9 @@ def _build_reference_variant(plan: Sampler, given: Mapping[str, Scalar]) -> Vari
             shown[variable.name] = to_rational(str(given[variable.name]))
         elif variable.formula is not None:
             variable.derive(shown, words)
-    result = test_candidate(plan, shown, lenient=True)
+    result = solve_candidate(plan, shown, lenient=True)
     if isinstance(result, str):
-        raise SamplingError(f"reference instance: {result}")
+        what = f"reference instance: {result}"
+        raise SamplingError(what, rule="QG140", place=("reference",))
     values, traps = result
     return Variant(template, "reference", "0", 1, shown, words, values, traps)

@@ -4,34 +4,30 @@ In: a scene and a camera, as plain values or as a TOML file, and what is asked, 
 levels. Out: a picture, and what ran, what was left out and why, and what was measured. Must never
 know: templates, languages, figures.
 
-``scene`` holds plain values, ``effects`` one module per effect, ``planning`` decides, ``simulate``
-runs, ``question`` measures. Pictures are arrays (H, W, 3) of the scene's precision, linear until
-``gamma``; importing needs NumPy only.
+``setup`` holds plain values, ``effects`` one module per effect, ``planner`` decides,
+``simulation`` runs, ``question_photo`` measures. Pictures are arrays (H, W, 3) of the scene's
+precision, linear until ``gamma``; importing needs NumPy only.
 """
 
 from quizgen.camera.camera import Camera
-from quizgen.camera.planning import Plan, plan_budget, plan_everything, plan_question
-from quizgen.camera.prepared import Prepared
-from quizgen.camera.question import simulate
-from quizgen.camera.scene import Length, Scene, SceneError, Thing
-from quizgen.camera.simulate import Photo, photographs, run, simulate_everything
-from quizgen.camera.view import View
+from quizgen.camera.planner import Plan, PreparedScene, plan_budget, plan_question
+from quizgen.camera.question_photo import simulate
+from quizgen.camera.setup.scene import Length, Scene, SceneError, SceneObject
+from quizgen.camera.setup.view import View
+from quizgen.camera.simulation import Photo, run_plan
 
 __all__ = [
     "Camera",
     "Length",
     "Photo",
     "Plan",
-    "Prepared",
+    "PreparedScene",
     "Scene",
     "SceneError",
-    "Thing",
+    "SceneObject",
     "View",
-    "photographs",
     "plan_budget",
-    "plan_everything",
     "plan_question",
-    "run",
+    "run_plan",
     "simulate",
-    "simulate_everything",
 ]

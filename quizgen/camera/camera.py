@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from quizgen.camera import effects
-from quizgen.camera.scene import SceneError, SettingError
-from quizgen.camera.setup.settings import Settings, nearest
+from quizgen.camera.setup.scene import SceneError, SettingError
+from quizgen.camera.setup.settings import CameraSettings, suggest_setting
 
 
-class Camera(Settings):
+class Camera(CameraSettings):
     """A camera; every default is absent, not multiplied by one.
 
     Parameters
@@ -21,7 +21,7 @@ class Camera(Settings):
     focus_distance : float
         Distance in perfect focus, m, may be infinite.
     **more : object
-        Any other setting of `quizgen.camera.setup.body` or of an effect, in base units, such as
+        Any other setting of `quizgen.camera.setup.settings` or of an effect, in base units, such as
         ``k1=-0.2``, ``full_well=2e4`` or ``gamma="srgb"``.
 
     Raises
@@ -44,14 +44,14 @@ class Camera(Settings):
             "f_number": f_number,
             "focus_distance": focus_distance,
         }
-        known, given = effects.settings(), lens | more
+        known, given = effects.all_settings(), lens | more
         for name in more.keys() - known.keys():
-            raise SceneError(f"unknown key {name!r} in camera{nearest(name, known)}")
+            raise SceneError(f"unknown key {name!r} in camera{suggest_setting(name, known)}")
         super().__init__({name: x for name, x in given.items() if x != known[name].identity})
         for setting in (setting for name, setting in known.items() if name in self.given):
-            for fault in setting.faults(self):
+            for fault in setting.find_faults(self):
                 raise SettingError(setting.name, fault)
 
-    def but(self, **changes: object) -> Camera:
+    def replace(self, **changes: object) -> Camera:
         """The same camera with other values of some settings."""
         return Camera(**{**self.given, **changes})  # type: ignore[arg-type]

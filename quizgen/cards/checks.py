@@ -12,6 +12,7 @@ from quizgen.cards.content import read_card_entries
 from quizgen.cards.kinds import KINDS
 from quizgen.cards.request import DeckRequest
 from quizgen.cards.versions import FILE, read_versions
+from quizgen.core.diagnostics import Diagnostic, diagnose
 from quizgen.core.errors import QuizgenError
 from quizgen.question.formula_sheet import draw_sketch
 
@@ -19,37 +20,40 @@ DRAWN = "question"
 """The kind that is made of templates, which are examined by themselves."""
 
 
-def check_cards(bank: Bank) -> Iterator[str]:
-    """What is wrong with the files of ``templates/cards``, with file and entry."""
+def check_cards(bank: Bank) -> Iterator[Diagnostic]:
+    """What is wrong with the files of ``templates/cards``."""
     if not bank.cards:
         return
     for name, file in bank.cards.items():
         if name not in {*FILES, FILE}:
-            yield f"{file}: no cards are made of this file; there are {', '.join(FILES)}"
-    read = [problem for kind in FILES.values() for problem in _check_card_file(bank, kind)]
-    yield from read or _check_notes_and_sketches(bank)
+            what = f"no cards are made of this file; there are {', '.join(FILES)}"
+            yield diagnose("QG504", file, what)
+    read = [problem for kind in FILES.values() for problem in _misread(bank, kind)]
+    yield from read or _unmade(bank)
     try:
-        stale = [key for key in read_versions(bank) if _is_stale_key(bank, key)]
+        stale = [key for key in read_versions(bank) if _stale(bank, key)]
     except QuizgenError as error:
-        yield str(error)
+        yield error.diagnostic(bank.folder)
         return
-    yield from (f"{bank.cards[FILE]}: {key!r} is of no template" for key in stale)
+    for key in stale:
+        yield diagnose("QG506", bank.cards[FILE], f"{key!r} is of no template", (key,))
 
 
-def _check_card_file(bank: Bank, kind: type[Entry]) -> Iterator[str]:
+def _misread(bank: Bank, kind: type[Entry]) -> Iterator[Diagnostic]:
     """Why a file cannot be read, or which of its topics there are not."""
     try:
         found = read_card_entries(bank, kind)
     except QuizgenError as error:
-        yield str(error)
+        yield error.diagnostic(bank.folder)
         return
     known = ", ".join(bank.topics)
     for entry in found:
         if entry.topic not in bank.topics:
-            yield f"{entry.place}: topic {entry.topic!r} is not in bank.toml ({known})"
+            what = f"topic {entry.topic!r} is not in bank.toml ({known})"
+            yield entry.fault(what, "QG129", "topic").diagnostic(bank.folder)
 
 
-def _check_notes_and_sketches(bank: Bank) -> Iterator[str]:
+def _unmade(bank: Bank) -> Iterator[Diagnostic]:
     """Why the notes of a kind cannot be made, or the sketch of a formula cannot be drawn."""
     wish = DeckRequest(bank.languages, bank=bank)
     for name, notes in KINDS.items():
@@ -57,14 +61,14 @@ def _check_notes_and_sketches(bank: Bank) -> Iterator[str]:
             for _ in notes(wish) if name != DRAWN else ():
                 pass
         except QuizgenError as error:
-            yield str(error)
+            yield error.diagnostic(bank.folder)
     for entry in read_formulas(bank):
         try:
             draw_sketch(bank, entry, bank.languages)
         except QuizgenError as error:
-            yield str(error)
+            yield error.diagnostic(bank.folder)
 
 
-def _is_stale_key(bank: Bank, key: str) -> bool:
+def _stale(bank: Bank, key: str) -> bool:
     kind, _, name = key.partition("/")
     return kind == DRAWN and name not in {bank.origin(one) for one in bank.template_paths}

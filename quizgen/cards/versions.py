@@ -19,9 +19,10 @@ import msgspec
 from quizgen.bank.bank import Bank
 from quizgen.bank.template import Template
 from quizgen.cards.note import Note
+from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BankError
-from quizgen.core.untrusted import parse_toml, read_text
+from quizgen.core.untrusted import error_context, parse_toml, read_text
 from quizgen.locale import FIRST
 
 BASE = 1_577_836_800
@@ -44,10 +45,12 @@ def read_versions(bank: Bank) -> Registry:
     if FILE not in bank.cards:
         return {}
     path = bank.cards[FILE]
+    table = parse_toml(read_text(path, BankError), path, BankError)
     try:
-        return convert(parse_toml(read_text(path, BankError), path, BankError), Registry)
+        return convert(table, Registry)
     except msgspec.ValidationError as error:
-        raise BankError(f"{path}: {error}") from error
+        with error_context(path, BankError):
+            raise complaint_of(error, Registry, table) from error
 
 
 def note_version(note: Note, bank: Bank) -> int:

@@ -20,9 +20,9 @@ from quizgen.classes.rulings import (
     fold_answer,
 )
 from quizgen.core.errors import ClassError, KeyFileError
-from quizgen.grading.kinds.choice import LETTERS
-from quizgen.grading.mark import load_spec
 from quizgen.grading.options import GradingOptions
+from quizgen.kinds.asking import LETTERS
+from quizgen.kinds.grade import load_spec
 from quizgen.locale import fallback_language
 from quizgen.maths.tolerance import RULES
 from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion

@@ -28,15 +28,16 @@ from quizgen.classes.rulings import (
 from quizgen.core.errors import ClassError, FormulaError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import format_csv
+from quizgen.grading.judge import explain_verdict, judge_answer
 from quizgen.grading.judging.spelling import (
     allowed_typos,
     fold_word,
     is_another_word,
     typo_distance,
 )
-from quizgen.grading.kinds.text import Spec as Text
-from quizgen.grading.mark import explain_verdict, judge_answer, load_spec
 from quizgen.grading.options import GradingOptions
+from quizgen.kinds.grade import load_spec
+from quizgen.kinds.text import TextSpec as Text
 from quizgen.maths.numbers import parse_written_number
 from quizgen.paper.answer_key import AnswerKey, KeyPart
 from quizgen.paper.grading import round_to_quarters
@@ -175,13 +176,18 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
     if not isinstance(spec, Text):
         return DecisionCase(answer, spec.show_in(lang), verdict.message)
     found = tuple(map(str, _require_names(verdict.fields.get("found"))))
-    needed = spec.needed or len(spec.groups())
+    needed = spec.needed or len(spec.key_points())
     suggested = round_to_quarters(
         Fraction(answer.worth) * min(Fraction(len(found), needed), Fraction(1))
     )
     shown = f"{len(found)} / {needed}: {', '.join(found)}" if found else f"0 / {needed}"
     return DecisionCase(
-        answer, spec.show_in(lang), shown, suggested, sentence=True, spots=spec.spots(answer.typed)
+        answer,
+        spec.show_in(lang),
+        shown,
+        suggested,
+        sentence=True,
+        spots=spec.keyword_positions(answer.typed),
     )
 
 

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 
 from quizgen.classes.class_folder import PAPERS, ClassFolder
 from quizgen.classes.roster import RosterStudent
-from quizgen.core.errors import InvalidChoiceError
+from quizgen.core.errors import require_extra
 from quizgen.core.files import PRIVATE, write_all
 
 PRINT = "print.pdf"
@@ -19,13 +19,12 @@ def write_print_file(folder: ClassFolder, students: Sequence[RosterStudent]) -> 
 
     Raises
     ------
-    ChoiceError
+    MissingExtraError
         If pikepdf is not installed.
     """
-    try:
-        import pikepdf
-    except ImportError:
-        raise InvalidChoiceError("one file for the printer needs pikepdf: quizgen[print]") from None
+    require_extra("print", "one file for the printer")
+    import pikepdf
+
     out = io.BytesIO()
     with ExitStack() as opened:
         whole = opened.enter_context(pikepdf.new())

@@ -14,8 +14,8 @@ from quizgen.cli.options import BankOptions, LanguageParam, bank_options
 from quizgen.core.errors import KeyFileError
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.grading.echo import safe_echo
+from quizgen.lms import MANIFEST_SUFFIX
 from quizgen.locale import FIRST, list_languages
-from quizgen.responses import SUFFIX
 
 if TYPE_CHECKING:
     from quizgen.paper.answer_form import FilledForm
@@ -78,7 +78,7 @@ def check(**options: Unpack[CheckOptions]) -> None:
     from quizgen.paper.answer_key import read_answer_key
 
     key, answers, lang = options["key"], options["answers"], options["lang"]
-    if key.name.endswith(SUFFIX):
+    if key.name.endswith(MANIFEST_SUFFIX):
         sys.exit(responses.check(key, answers, lang, options["bank"], options))
     paper = read_answer_key(key)
     _check_key_belongs(key.parent / PAGE, paper)
@@ -147,7 +147,8 @@ def _grade_form(key: AnswerKey, path: Path, lang: str | None, *, settle: bool) -
     form = read_filled_form(path)
     if form.code and key.code and form.code != key.code:
         raise KeyFileError(
-            f"{path}: code {safe_echo(form.code)} belongs to another paper; the key is for {key.code}"
+            f"{path}: code {safe_echo(form.code)} belongs "
+            f"to another paper; the key is for {key.code}"
         )
     if form.paper and key.paper and form.paper != key.paper:
         raise KeyFileError(
@@ -171,10 +172,15 @@ def _print_json(marked: list[GradedForm], key: AnswerKey) -> None:
     import msgspec
 
     tables = [
-        {"file": one.file, "name": one.name, "matriculation": one.matriculation,
-         **one.result.as_json(), "banks": msgspec.to_builtins(key.banks)}
+        {
+            "file": one.file,
+            "name": one.name,
+            "matriculation": one.matriculation,
+            **one.result.as_json(),
+            "banks": msgspec.to_builtins(key.banks),
+        }
         for one in marked
-    ]  # fmt: skip
+    ]
     shown = tables[0] if len(tables) == 1 else tables
     click.echo(json.dumps(shown, ensure_ascii=False, indent=1))
 

@@ -41,7 +41,7 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
     from quizgen.executors import workers
 
     found = ClassFolder(folder)
-    found.settings
+    found.settings  # noqa: B018 - no answers are copied into a folder that is none of a class
     lost = store_submissions(folder, files)
     with workers(jobs, scheduler) as (executor, ahead):
         run = grade_class(found, executor, ahead)

@@ -19,7 +19,7 @@ from quizgen.cli.options import (
     worthwhile_processes,
 )
 from quizgen.cli.terminal import Progress, many, one_line, tell
-from quizgen.core.errors import ClassError
+from quizgen.core.errors import ClassError, require_extra
 from quizgen.locale import default_language
 
 if TYPE_CHECKING:
@@ -38,6 +38,7 @@ A_PAPER = 0.5
 @click.group("class")
 def class_() -> None:
     """Examine a class: one folder from the roster to the grades."""
+    require_extra("class", "quizgen class")
 
 
 class ClassMakeOptions(BankOptions):
@@ -78,6 +79,8 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     from quizgen.classes.roster import read_roster
     from quizgen.executors import workers
 
+    if options["one_file"]:
+        require_extra("print", "quizgen class make --one-file")
     unread: list[str] = []
     students = read_roster(options["roster"], _parse_columns(options["columns"]), unread.append)
     folder = ClassFolder(options["out"])
@@ -118,10 +121,10 @@ def take(keys: Path, reports: tuple[Path, ...], out: Path) -> None:
     reads them. A later report adds who is new.
     """
     from quizgen.classes.class_folder import ClassFolder
-    from quizgen.classes.quiz import import_quiz as take_quiz
+    from quizgen.lms.class_import import import_quiz
 
     lost: list[str] = []
-    found = take_quiz(ClassFolder(out), keys, reports, lost.append)
+    found = import_quiz(ClassFolder(out), keys, reports, lost.append)
     for line in lost:
         tell(one_line(line))
     tell(f"{out}: {found.people} on the roster, answers of {found.new} new. "

@@ -12,8 +12,8 @@ from quizgen.core.errors import InvalidChoiceError
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from quizgen.camera.compare import Codes
-    from quizgen.camera.simulate import Photo
+    from quizgen.camera.comparison import Codes
+    from quizgen.camera.simulation import Photo
 
 _STYLE = """
 body { font: 16px/1.4 system-ui, sans-serif; margin: 1.5em; color: #1b1f24; background: #fff }
@@ -39,7 +39,7 @@ def check_target(target: Path | None) -> None:
     ChoiceError
         If the file is neither a picture nor a page.
     """
-    from quizgen.camera.codecs import WRITERS
+    from quizgen.camera.pixels.codecs import WRITERS
 
     endings = (*WRITERS, ".html")
     if target is not None and target.suffix.lower() not in endings:
@@ -68,14 +68,14 @@ def comparison_file(
     notes : iterable of str
         Sentences below it.
     """
-    from quizgen.camera.codecs import WRITERS
-    from quizgen.camera.compare import amplify_difference, side_by_side
+    from quizgen.camera.comparison import amplify_difference, concatenate_pictures
+    from quizgen.camera.pixels.codecs import WRITERS
 
     one, other = photos.values()
     scale, apart = amplify_difference(one.values, other.values)
     pictures = one.pixels(), other.pixels(), _write_on(apart, f"difference x {scale}")
     if target.suffix.lower() != ".html":
-        return WRITERS[target.suffix.lower()](side_by_side(*pictures))
+        return WRITERS[target.suffix.lower()](concatenate_pictures(*pictures))
     names = *photos, f"difference × {scale}"
     return _render_page(title, zip(names, pictures, strict=True), told, notes).encode()
 
@@ -115,9 +115,9 @@ def _render_page(
 
 
 def _render_figure(name: str, codes: Codes) -> str:
-    from quizgen import png
+    from quizgen.camera.pixels.codecs import encode_photo
 
-    data = b64encode(png.compact(codes)).decode()
+    data = b64encode(encode_photo(codes)).decode()
     source = f"data:image/png;base64,{data}"
     label = escape(name)
     return f'<figure><img src="{source}" alt="{label}"><figcaption>{label}</figcaption></figure>\n'

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TypedDict, Unpack
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
 
-from quizgen.cli.terminal import columns, wrapped
+from quizgen.cli.terminal import columns
+from quizgen.columns import wrap_lines
 from quizgen.core.files import write_all
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.figures import Figure
@@ -22,8 +23,9 @@ from quizgen.question.compose import QuestionPart
 from quizgen.question.formula_sheet import cite_formula
 from quizgen.question.solution import PartSolution
 from quizgen.render.text import blocks_to_plain_text, inlines_to_plain_text
-from quizgen.store import QuestionRef
-from quizgen.store.learner import LearnerProgress
+
+if TYPE_CHECKING:
+    from quizgen.store.learner import LearnerProgress
 
 COLOURS = {"correct": "green", "partial": "yellow", "wrong": "red"}
 
@@ -39,13 +41,13 @@ class Style(TypedDict, total=False):
     dim: bool
 
 
-class Quit(Exception):
+class Quit(Exception):  # noqa: N818 - a wish, not a failure
     """The learner wants to stop for now."""
 
 
 def say(text: str, first: str = "", rest: str = "", **style: Unpack[Style]) -> None:
     """Print a text, broken between words at the width of the terminal."""
-    for line in wrapped(escape_control_characters(text), columns(), first, rest):
+    for line in wrap_lines(escape_control_characters(text), columns(), first, rest):
         click.secho(line, **style)
 
 
@@ -75,11 +77,13 @@ class Conversation:
     session : Session
     shelf : Shelf
         Where it is kept after every answer.
-    learning : Learning
-        Where every question is kept that is finished.
+    learning : Learning, optional
+        Where finished questions are kept; without it the session alone is.
     """
 
-    def __init__(self, session: Session, shelf: SessionStore, learning: LearnerProgress) -> None:
+    def __init__(
+        self, session: Session, shelf: SessionStore, learning: LearnerProgress | None
+    ) -> None:
         self.session, self.shelf, self.learning = session, shelf, learning
         self.words = load_practice_words(session.state.wish.lang)
 
@@ -99,8 +103,11 @@ class Conversation:
                     self._ask(task)
             self.session.finish(turn)
             self._keep()
-            which = QuestionRef(turn.question.template, turn.seed, turn.level)
-            self.learning.save_practice(which, turn.question.topic, turn.parts)
+            if self.learning is not None:
+                from quizgen.store import QuestionRef
+
+                which = QuestionRef(turn.question.template, turn.seed, turn.level)
+                self.learning.save_practice(which, turn.question.topic, turn.parts)
 
     def _keep(self) -> None:
         self.shelf.save(self.session.state)

@@ -23,12 +23,12 @@ from quizgen.cli.options import (
 )
 from quizgen.cli.terminal import Progress
 from quizgen.core.errors import InvalidChoiceError
-from quizgen.export import FORMATS, TEX, exporter
+from quizgen.lms import FORMATS, MANIFEST_SUFFIX, TEX_FORMATS, get_exporter
 from quizgen.locale import default_language
 
 if TYPE_CHECKING:
     from quizgen.bank.bank import Bank
-    from quizgen.export.items import Item
+    from quizgen.lms.items import ExportItem
 
 MOST = 1000
 """Most variants of a question in one file."""
@@ -65,37 +65,40 @@ class ExportOptions(BankOptions):
               help="File to write. [default: in the folder export]")  # fmt: skip
 @bank_options
 def export(**options: Unpack[ExportOptions]) -> None:
-    """Write questions for a system for courses, with variants to draw from.
+    """Write questions for a learning management system, with variants to draw from.
 
-    FORMAT is moodle (Moodle XML), gift (plain text of Moodle), qti21 or qti3 (packages of QTI 2.1
-    and 3.0), or canvas (a package of QTI 1.2 as Canvas reads it). Parts that the system cannot mark
-    become essays; which and why is told, and stands in a file beside it. Another file beside it
-    holds what quizgen check needs to mark the responses; it has all the answers.
+    FORMAT is moodle (Moodle XML), qti21 or qti3 (packages of QTI 2.1 and 3.0), or canvas (a package
+    of QTI 1.2 as Canvas reads it). Parts that the system cannot mark become essays; a report next
+    to the file says which and why. Another file next to it holds what quizgen check needs to mark
+    the responses; it has all the answers.
     """
     from quizgen.core.files import PRIVATE, write_all
-    from quizgen.export.kept import kept
-    from quizgen.export.wording import formulas
+    from quizgen.lms.items import manual_parts
+    from quizgen.lms.manifest import write_manifest
+    from quizgen.lms.manifest_writer import manifest_entry
+    from quizgen.lms.markup import formula_dialect
     from quizgen.paper.provenance import record_banks
-    from quizgen.responses import SUFFIX
-    from quizgen.responses.keys import written
 
     target = options["target"]
-    if options["maths"] == "tex" and target not in TEX:
-        raise InvalidChoiceError(f"--maths tex: not for {target}, only for {', '.join(TEX)}")
+    if options["maths"] == "tex" and target not in TEX_FORMATS:
+        raise InvalidChoiceError(
+            f"--maths tex: not for {target}, only for {', '.join(TEX_FORMATS)}"
+        )
     path = options["out"] or Path("export") / FORMATS[target]
-    made = exporter(target)
-    with Progress("export") as tell, formulas(options["maths"]):
+    exporter = get_exporter(target)
+    with Progress("export") as tell, formula_dialect(options["maths"]):
         bank = open_bank(options)
         items = list(_iter_requested_items(bank, options, tell))
-        data = made.write(items)
+        data = exporter.write(items)
         banks = record_banks(bank, {item.key.template for item in items})
-        keys = written((kept(item, made.kept(item)) for item in items), banks)
+        entries = (manifest_entry(item, exporter.list_questions(item)) for item in items)
+        manifest = write_manifest(entries, banks)
     lines = [
         f"{item.id}: {field} exported as essay: {why}"
         for item in items
-        for field, why in made.by_hand(item)
+        for field, why in manual_parts(item)
     ]
-    contents = {path.name + SUFFIX: keys, path.name: data}
+    contents = {path.name + MANIFEST_SUFFIX: manifest, path.name: data}
     if lines:
         contents = {f"{path.name}.report.txt": _encode_lines(lines), **contents}
     for file in write_all(path.parent, contents, PRIVATE):
@@ -107,7 +110,9 @@ def _encode_lines(lines: list[str]) -> bytes:
     return "".join(f"{line}\n" for line in lines).encode()
 
 
-def _iter_requested_items(bank: Bank, options: ExportOptions, tell: Progress) -> Iterator[Item]:
+def _iter_requested_items(
+    bank: Bank, options: ExportOptions, tell: Progress
+) -> Iterator[ExportItem]:
     """The questions that are asked for.
 
     Raises
@@ -115,7 +120,7 @@ def _iter_requested_items(bank: Bank, options: ExportOptions, tell: Progress) ->
     ChoiceError
         If they are named in two ways.
     """
-    from quizgen.export.items import of_blueprint, of_templates
+    from quizgen.lms.items import items_from_blueprint, items_from_templates
     from quizgen.paper.blueprint import default_blueprint_name, load_blueprint
 
     named = [options[key] for key in ("blueprint", "topic", "templates")]
@@ -126,9 +131,9 @@ def _iter_requested_items(bank: Bank, options: ExportOptions, tell: Progress) ->
     langs = bank.resolve_languages(options["lang"] or default_language(bank.languages))
     if options["topic"] is None and options["templates"] is None:
         plan = load_blueprint(options["blueprint"] or default_blueprint_name(bank), bank)
-        made = partial(of_blueprint, bank, plan)
+        made = partial(items_from_blueprint, bank, plan)
     else:
-        made = partial(of_templates, bank, _list_requested_templates(options, bank))
+        made = partial(items_from_templates, bank, _list_requested_templates(options, bank))
     return made(options["seed"], options["variants"], langs, tell)
 
 
@@ -149,7 +154,7 @@ def _list_requested_templates(options: ExportOptions, bank: Bank) -> list[str]:
     return [name for name in bank.template_paths if bank.rules(name).topic == topic]
 
 
-def _print_summary(items: list[Item], lines: list[str]) -> None:
+def _print_summary(items: list[ExportItem], lines: list[str]) -> None:
     """How many questions there are, and what a person marks of them, most frequent reason first."""
     slots, parts = {item.category for item in items}, sum(len(item.parts) for item in items)
     click.echo(f"questions: {len(items)}, slots: {len(slots)}, parts: {parts}")

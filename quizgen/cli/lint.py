@@ -27,13 +27,13 @@ from quizgen.executors import in_order, workers
 
 if TYPE_CHECKING:
     from quizgen.bank.bank import Bank
+    from quizgen.core.diagnostics import Diagnostic
     from quizgen.lint.leaks import QuestionContent
-    from quizgen.lint.located import Problem
     from quizgen.lint.template_checks import TemplateReport
     from quizgen.paper.blueprint import Blueprint
 
 HEAD = ("template", "draws", "distinct", "kept", "ms/draw", "problems", "answers")
-TEACH_HEAD = ("template", "part", "level", "finding")
+TEACH_HEAD = ("template", "part", "level", "code", "finding")
 NOTHING = ("0", "", "", "", "1", "")
 """Cells of a template that could not be examined."""
 
@@ -149,12 +149,13 @@ def _advise_on_words(bank: Bank) -> None:
 
 def _examine_templates(
     bank: Bank, names: tuple[str, ...], options: LintOptions
-) -> tuple[list[tuple[str, ...]], list[Problem]]:
+) -> tuple[list[tuple[str, ...]], list[Diagnostic]]:
     """Rows of the table of templates, and all problems."""
-    from quizgen.lint.located import told_problems
+    from quizgen.lint.bank_checks import check_leaks
 
     limit, seeds, debug = _compute_time_limit(options), options["seeds"], options["debug"]
-    rows, broken, heard = [], _of_bank(bank, limit), list["QuestionContent"]()
+    rows, heard = [], list["QuestionContent"]()
+    broken = _of_bank(bank, limit, whole=len(names) == len(bank.template_paths))
     examine = partial(_examine_template, bank, seeds=seeds, limit=limit, debug=debug)
     with (
         Progress("lint", len(names)) as progress,
@@ -165,21 +166,25 @@ def _examine_templates(
             rows.append((name, *row))
             broken += problems
             heard += said
-    broken += told_problems(bank, heard)
+    broken += check_leaks(bank, heard)
     return rows, broken
 
 
-def _of_bank(bank: Bank, limit: float) -> list[Problem]:
-    """What is wrong with the files that belong to no template."""
+def _of_bank(bank: Bank, limit: float, *, whole: bool) -> list[Diagnostic]:
+    """What is wrong with the files that belong to no template; of all of it, also the sheet."""
+    from quizgen.cards.checks import check_cards
+    from quizgen.cli.lint_outputs import check_sheet
+    from quizgen.lint.bank_checks import check_bank_files
     from quizgen.lint.cpu_limit import CpuLimitExceeded, cpu_limit
-    from quizgen.lint.located import bank_problems, located
 
-    found: list[Problem] = []
+    found: list[Diagnostic] = []
     try:
         with cpu_limit(limit):
-            found += bank_problems(bank)
-    except CpuLimitExceeded as error:
-        found.append(located(bank, "", _describe_stop(bank, error)))
+            found += check_bank_files(bank)
+            found += check_cards(bank)
+            found += check_sheet(bank) if whole and not found else ()
+    except (QuizgenError, CpuLimitExceeded) as error:
+        found.append(_stopped(bank, bank.folder / "bank.toml", error))
     return found
 
 
@@ -216,8 +221,9 @@ def _build_teaching_rows(bank: Bank, seeds: int, limit: float, name: str) -> lis
         with cpu_limit(limit):
             found = review_template(bank.template(name), seeds)
     except (QuizgenError, CpuLimitExceeded) as error:
-        return [(name, "", "error", _describe_stop(bank, error))]
-    return [(one.template, one.label, one.level, one.what) for one in found]
+        stopped = _stopped(bank, bank.template_paths[name] / "template.toml", error)
+        return [(name, "", "error", stopped.code, f"{stopped.file}: {stopped.message}")]
+    return [(one.template, one.label, one.level, one.code, one.what) for one in found]
 
 
 def _print_leaks(bank: Bank, count: int, jobs: int | None) -> int:
@@ -269,10 +275,9 @@ def _compute_time_limit(options: LintOptions) -> float:
 
 def _examine_template(
     bank: Bank, name: str, seeds: int, limit: float, *, debug: bool = False
-) -> tuple[tuple[str, ...], list[Problem], list[QuestionContent]]:
+) -> tuple[tuple[str, ...], list[Diagnostic], list[QuestionContent]]:
     """Cells of a template's row, its problems, and what it says and asks."""
     from quizgen.lint.cpu_limit import CpuLimitExceeded, cpu_limit
-    from quizgen.lint.located import located
 
     try:  # an author's Python may print, and not into our JSON
         with cpu_limit(limit), redirect_stdout(sys.stderr):
@@ -282,45 +287,65 @@ def _examine_template(
             raise KeyboardInterrupt from error
         if debug:
             traceback.print_exception(error)
-        return NOTHING, [located(bank, name, _describe_stop(bank, error))], []
-    problems = [located(bank, name, problem) for problem in report.problems]
-    return _format_report_cells(report), problems, report.heard
+        return NOTHING, [_stopped(bank, bank.template_paths[name] / "template.toml", error)], []
+    return _format_report_cells(report), report.problems, report.heard
 
 
 def _build_template_report(bank: Bank, name: str, seeds: int) -> TemplateReport:
     """What was found for a template and for the formulas of its solver."""
     from quizgen.bank.formulas import find_missing_formulas, find_unnamed_formulas
+    from quizgen.cli.lint_outputs import check_outputs
+    from quizgen.core.diagnostics import can_be_ignored, diagnose
     from quizgen.lint.template_checks import lint_template
 
-    report = lint_template(bank.template(name), seeds, bank.languages)
-    report.problems += [
-        f"solver: formula {formula!r}, which templates/cards/formulas.toml lacks"
+    template = bank.template(name)
+    report = lint_template(template, seeds, bank.languages)
+    file = template.solver_file or template.file
+    found = [
+        diagnose(
+            "QG216",
+            file,
+            f"formula {formula!r}, which templates/cards/formulas.toml lacks",
+            ("formulas", formula),
+        )
         for formula in find_missing_formulas(bank, name)
     ]
-    report.problems += [
-        f"solver: step {step!r} has the form of {', '.join(forms)} and names no formula"
+    found += [
+        diagnose(
+            "QG217",
+            file,
+            f"step {step!r} has the form of {', '.join(forms)} and names no formula",
+            ("Step", step),
+        )
         for step, forms in find_unnamed_formulas(bank, name).items()
     ]
+    report.problems += [one for one in found if one.code not in template.rules.ignore]
+    # What cannot be drawn or has no words fails in every output; once is enough.
+    if report.seeds and all(can_be_ignored(one.code) for one in report.problems):
+        report.problems += check_outputs(bank, template)
     return report
 
 
-def _describe_stop(bank: Bank, error: BaseException) -> str:
-    """What stopped the examination: the place in the bank, else in quizgen, and the last line."""
+def _stopped(bank: Bank, file: Path, error: BaseException) -> Diagnostic:
+    """What stopped the examination: the place in the bank, else in quizgen."""
+    from quizgen.core.diagnostics import diagnose
     from quizgen.lint.cpu_limit import CpuLimitExceeded
 
     if isinstance(error, QuizgenError):
-        return str(error)
+        return error.diagnostic(file)
     root = bank.root.resolve()
     frames = [
         (Path(frame.f_code.co_filename), line)
         for frame, line in traceback.walk_tb(error.__traceback__)
     ]
-    own = [(file, line) for file, line in frames if file.resolve().is_relative_to(root)]
+    own = [(one, line) for one, line in frames if one.resolve().is_relative_to(root)]
     if isinstance(error, CpuLimitExceeded):  # in whatever of quizgen it was just then
-        place = [f"{bank.root / one.resolve().relative_to(root)}:{line}: " for one, line in own]
-        return f"{''.join(place[-1:])}{error}"
-    file, line = (own or frames)[-1]
-    return f"{type(error).__name__}: {error} (in {file}:{line}; --debug shows the way there)"
+        place, line = own[-1] if own else (file, 0)
+        place = bank.root / place.resolve().relative_to(root) if own else file
+        return diagnose("QG602", place, str(error), line=line)
+    at, line = (own or frames)[-1]
+    what = f"{type(error).__name__}: {error} (in {at}:{line}; --debug shows the way there)"
+    return diagnose("QG603", file, what)
 
 
 def _format_report_cells(report: TemplateReport) -> tuple[str, ...]:

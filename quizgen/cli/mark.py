@@ -49,7 +49,7 @@ def mark(
         raise click.UsageError("give SPEC and TYPED, or --batch")
     import json
 
-    from quizgen.grading.mark import mark as mark_one
+    from quizgen.kinds.grade import grade_answer as mark_one
 
     verdict = mark_one(
         _parse_inline_spec(spec), typed, lang=options["lang"] or FIRST, decimal=options["decimal"],
@@ -71,9 +71,9 @@ def _parse_inline_spec(text: str) -> Mapping[str, object]:
 
 
 def _grade_batch() -> None:
-    from quizgen.grading.batch import marked
+    from quizgen.kinds.batch import grade_lines
 
     out = sys.stdout.buffer
-    for line in marked(sys.stdin.buffer):
+    for line in grade_lines(sys.stdin.buffer):
         out.write(line + b"\n")
         out.flush()

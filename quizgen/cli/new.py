@@ -43,8 +43,15 @@ def new() -> None:
 
 @new.command()
 @click.argument("folder", type=click.Path(path_type=Path))
-@click.option("--lang", "langs", type=LanguageParam(), multiple=True, default=("en",), show_default=True,
-              help="A language that it is to be written in (may be repeated).")  # fmt: skip
+@click.option(
+    "--lang",
+    "langs",
+    type=LanguageParam(),
+    multiple=True,
+    default=("en",),
+    show_default=True,
+    help="A language that it is to be written in (may be repeated).",
+)
 def bank(folder: Path, langs: tuple[str, ...]) -> None:
     """Write a bank with one question into FOLDER."""
     name = folder.resolve().name

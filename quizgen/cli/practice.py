@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
@@ -18,6 +19,7 @@ from quizgen.cli.options import (
     open_bank,
     resolve_topic,
 )
+from quizgen.core.errors import MissingExtraError, has_extra
 from quizgen.locale import default_language
 
 if TYPE_CHECKING:
@@ -72,7 +74,7 @@ def practice(**options: Unpack[PracticeOptions]) -> None:
     bank = open_bank(options)
     wish = _build_request(options, bank)
     learning = _open_learning(bank, options["database"])
-    session = _open_session(learning, wish, shelf, fresh=options["fresh"])
+    session = _open_session(bank, learning, wish, shelf, fresh=options["fresh"])
     conversation = Conversation(session, shelf, learning)
     try:
         conversation.hold()
@@ -90,8 +92,19 @@ def state_folder() -> Path:
     return Path(click.get_app_dir("quizgen")) / "practice"
 
 
-def _open_learning(bank: Bank, database: str) -> LearnerProgress:
-    """What has been learnt, here and in the browser."""
+def _open_learning(bank: Bank, database: str) -> LearnerProgress | None:
+    """What has been learnt, here and in the browser; nothing without the packages for it.
+
+    Raises
+    ------
+    MissingExtraError
+        If a database was named that cannot be opened without them.
+    """
+    if not has_extra("web"):
+        source = click.get_current_context().get_parameter_source("database")
+        if source is not click.core.ParameterSource.DEFAULT:
+            raise MissingExtraError("web", "quizgen practice --database")
+        return None
     from quizgen.store import Store
     from quizgen.store.learner import LearnerProgress
 
@@ -100,23 +113,31 @@ def _open_learning(bank: Bank, database: str) -> LearnerProgress:
 
 
 def _open_session(
-    learning: LearnerProgress, wish: PracticeRequest, shelf: SessionStore, *, fresh: bool
+    bank: Bank,
+    learning: LearnerProgress | None,
+    wish: PracticeRequest,
+    shelf: SessionStore,
+    *,
+    fresh: bool,
 ) -> Session:
     """The session that a wish has begun, or a new one."""
     from quizgen.grading.feedback import load_practice_words
     from quizgen.practice.session import Session
     from quizgen.practice.session_state import new_session
 
-    def due(names: Sequence[str]) -> tuple[str, str]:
-        which = learning.next_question(names)
-        return which.template, which.seed
-
     if fresh:
         shelf.delete(wish)
     state = shelf.load(wish)
     if state is not None:
         click.echo(load_practice_words(wish.lang)["resumed"].format(seed=state.seed))
-    return Session(learning.bank, state or new_session(wish), None if wish.seed else due)
+    choose = None if wish.seed or learning is None else partial(_next_due, learning)
+    return Session(bank, state or new_session(wish), choose)
+
+
+def _next_due(learning: LearnerProgress, names: Sequence[str]) -> tuple[str, str]:
+    """The template and the seed of the question that is due."""
+    which = learning.next_question(names)
+    return which.template, which.seed
 
 
 def _build_request(options: PracticeOptions, bank: Bank) -> PracticeRequest:
@@ -151,7 +172,9 @@ def _build_request(options: PracticeOptions, bank: Bank) -> PracticeRequest:
     return wish
 
 
-def _print_summary(session: Session, learning: LearnerProgress, words: dict[str, str]) -> None:
+def _print_summary(
+    session: Session, learning: LearnerProgress | None, words: dict[str, str]
+) -> None:
     """Say how the session went, how the last ones did, and what to practise."""
     from quizgen.cli.conversation import head, say
     from quizgen.practice.topic_results import RECENT, summarise_by_topic, weak_topics
@@ -159,8 +182,10 @@ def _print_summary(session: Session, learning: LearnerProgress, words: dict[str,
     head(words["summary"])
     _print_topic_results(session, session.summary(), words)
     there = session.bank.topics
-    past = [outcome for outcome in learning.outcomes() if outcome.topic in there]
-    skipped = [outcome for outcome in session.state.outcomes if outcome.skipped]  # kept nowhere
+    done = session.state.outcomes
+    skipped = [outcome for outcome in done if outcome.skipped]  # kept nowhere
+    kept = learning.outcomes() if learning else [one for one in done if not one.skipped]
+    past = [outcome for outcome in kept if outcome.topic in there]
     results = summarise_by_topic([*past, *skipped], RECENT)
     if len(past) > len(session.state.outcomes):
         head(words["so-far"])

@@ -13,7 +13,7 @@ from quizgen.core.untrusted import escape_control_characters
 from quizgen.locale import FIRST
 
 if TYPE_CHECKING:
-    from quizgen.responses.marks import Marked
+    from quizgen.lms.grading import GradedAttempt
 
 
 def check(
@@ -30,18 +30,18 @@ def check(
     KeyFileError
         If the keys cannot be read.
     """
-    from quizgen.responses.files import attempts
-    from quizgen.responses.keys import read
-    from quizgen.responses.marks import marked
+    from quizgen.lms.grading import grade_attempts
+    from quizgen.lms.manifest import read_manifest
+    from quizgen.lms.response_files import read_attempts
 
-    keys = read(path)
+    manifest = read_manifest(path)
     if banks:
         from quizgen.cli.banks import compare_banks
 
-        compare_banks(keys.banks, banks)
+        compare_banks(manifest.banks, banks)
     lost: list[str] = []
-    given = attempts(files, keys.found, lost.append)
-    found = list(marked(keys, given, lang, settle=not flags["no_settle"]))
+    given = read_attempts(files, manifest.found, lost.append)
+    found = list(grade_attempts(manifest, given, lang, settle=not flags["no_settle"]))
     for line in (*lost, *_untold(found)):
         click.echo(f"quizgen: {escape_control_characters(' '.join(line.split()))}", err=True)
     there = [one for one in found if one.attempt.responses]
@@ -50,23 +50,25 @@ def check(
     return (1 if there else 2) if lost else 0
 
 
-def _untold(found: Sequence[Marked]) -> Iterator[str]:
+def _untold(found: Sequence[GradedAttempt]) -> Iterator[str]:
     """What is no error, but not marked either."""
     for one in found:
-        who = one.attempt.name or one.attempt.who[0]
+        who = one.attempt.name or one.attempt.person_key[0]
         if not one.attempt.responses:
             yield f"{one.attempt.where}: {who}: no attempt"
         for number in one.foreign:
             yield f"{one.attempt.where}: {who}: question {number} is not in the keys; not marked"
 
 
-def _print(found: Sequence[Marked], lang: str, flags: Mapping[str, object]) -> None:
-    from quizgen.responses.report import as_csv, as_json, lines
+def _print(found: Sequence[GradedAttempt], lang: str, flags: Mapping[str, object]) -> None:
+    from quizgen.lms.attempt_report import attempt_to_json, attempts_to_csv, format_attempts
 
     if flags["as_json"]:
-        click.echo(json.dumps([as_json(one) for one in found], ensure_ascii=False, indent=1))
+        click.echo(
+            json.dumps([attempt_to_json(one) for one in found], ensure_ascii=False, indent=1)
+        )
     elif flags["as_csv"]:
-        click.echo(as_csv(found), nl=False)
+        click.echo(attempts_to_csv(found), nl=False)
     else:
-        for line in lines(found, lang):
+        for line in format_attempts(found, lang):
             click.echo(line)

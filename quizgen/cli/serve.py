@@ -16,6 +16,7 @@ from quizgen.cli.options import (
     database_option,
     open_bank,
 )
+from quizgen.core.errors import require_extra
 
 
 class ServeOptions(BankOptions):
@@ -94,6 +95,9 @@ class ServeOptions(BankOptions):
 @bank_options
 def serve(**options: Unpack[ServeOptions]) -> None:
     """Practise and sit the exam in a browser: alone, or with everybody in the network."""
+    require_extra("web", "quizgen serve")
+    if options["classroom"]:
+        require_extra("class", "quizgen serve --class")
     if options["backup"]:
         from quizgen.store.database import back_up
 

@@ -22,12 +22,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from quizgen.camera.compare import Race
-    from quizgen.camera.planning import Choice, Plan, Selection
-    from quizgen.camera.prepared import Prepared
-    from quizgen.camera.question import QuestionPhoto, Visibility
-    from quizgen.camera.scene import Precision
-    from quizgen.camera.simulate import Photo
+    from quizgen.camera.comparison import Race
+    from quizgen.camera.planner import EffectChoice, EffectSelection, Plan, PreparedScene
+    from quizgen.camera.question_photo import QuestionPhoto, Visibility
+    from quizgen.camera.setup.scene import Precision
+    from quizgen.camera.simulation import Photo
 
 HEAD = ("effect", "", "at most", "took", "")
 """What leaving an effect out can change, in grey levels, and the ms it took."""
@@ -56,7 +55,7 @@ class SimulatedShot:
     """A scene photographed: the picture, what it is compared with, and where the time went."""
 
     title: str
-    prepared: Prepared
+    prepared: PreparedScene
     plan: Plan
     photo: Photo
     taken: QuestionPhoto | None = None
@@ -147,37 +146,39 @@ def simulate(scene: str | None, **options: Unpack[SimulateOptions]) -> None:
 
 
 def _simulate_scene(scene: str, options: SimulateOptions, told: Progress) -> SimulatedShot:
-    from quizgen.camera.compare import measure_each, time_in_turns
-    from quizgen.camera.prepared import Prepared
-    from quizgen.camera.reading import load
-    from quizgen.camera.simulate import run
+    from quizgen.camera.comparison import measure_effects, time_in_turns
+    from quizgen.camera.planner import PreparedScene
+    from quizgen.camera.scene_file import load_scene
+    from quizgen.camera.simulation import run_plan
 
     started = perf_counter()
     told("reading")
-    prepared = Prepared(*load(_find_scene(scene), options["precision"]))
+    prepared = PreparedScene(*load_scene(_find_scene(scene), options["precision"]))
     read = (perf_counter() - started) * 1e3
     shot = _take_photo(scene, prepared, options, told)
     shot.times = {"read": read, "drawn": shot.photo.drawn_ms, "effects": shot.photo.measured_ms}
     if prepared.given.scene.precision == "float64":
-        single = Prepared(*load(_find_scene(scene), "float32"), shot.plan.names)
-        shot.single = run(single, told=told, last=True)
+        single = PreparedScene(*load_scene(_find_scene(scene), "float32"), shot.plan.names)
+        shot.single = run_plan(single, told=told, last=True)
     if options["everything"] or (options["compare"] is not None and shot.taken is None):
-        shot.whole = run(prepared, told=told)
+        shot.whole = run_plan(prepared, told=told)
     if options["everything"]:
         told("timing")
         shot.race = time_in_turns(prepared, shot.plan.names, [one.name for one in prepared.present])
     if options["compare"] is not None:
-        shot.really = measure_each(prepared, run(prepared, shot.plan.names), shot.plan.names, told)
+        shot.really = measure_effects(
+            prepared, run_plan(prepared, shot.plan.names), shot.plan.names, told
+        )
     return shot
 
 
 def _take_photo(
-    scene: str, prepared: Prepared, options: SimulateOptions, told: Progress
+    scene: str, prepared: PreparedScene, options: SimulateOptions, told: Progress
 ) -> SimulatedShot:
     """Photograph for a question, or within a budget where nothing is asked."""
-    from quizgen.camera.planning import plan_budget
-    from quizgen.camera.question import photograph_question, take_photographs
-    from quizgen.camera.simulate import run
+    from quizgen.camera.planner import plan_budget
+    from quizgen.camera.question_photo import photograph_question, take_question_photo
+    from quizgen.camera.simulation import run_plan
 
     seen, chosen = prepared.given.scene, _parse_selection(options)
     asks = options["asks"] or (seen.question.asks if seen.question else ())
@@ -188,19 +189,23 @@ def _take_photo(
         )
     if options["budget"] is None and (asks or chosen.only):
         # who chooses effects by name may look at what cannot be seen
-        take = take_photographs if chosen.only or chosen.minus else photograph_question
+        take = take_question_photo if chosen.only or chosen.minus else photograph_question
         taken = take(seen, prepared.camera, options["asks"], chosen=chosen, told=told)
         return SimulatedShot(title, prepared, taken.plan, taken.photo, taken)
     plan = plan_budget(prepared, options["budget"] or "same", chosen)
     again = options["everything"] or options["compare"] is not None
-    return SimulatedShot(title, prepared, plan, run(prepared, plan.names, told, last=not again))
+    return SimulatedShot(
+        title, prepared, plan, run_plan(prepared, plan.names, told, last=not again)
+    )
 
 
-def _parse_selection(options: SimulateOptions) -> Selection:
-    from quizgen.camera.planning import Selection, read_effect
+def _parse_selection(options: SimulateOptions) -> EffectSelection:
+    from quizgen.camera.planner import EffectSelection, parse_effect
 
-    only, plus, minus = (tuple(map(read_effect, options[way])) for way in ("only", "plus", "minus"))
-    return Selection(only, plus, minus)
+    only, plus, minus = (
+        tuple(map(parse_effect, options[way])) for way in ("only", "plus", "minus")
+    )
+    return EffectSelection(only, plus, minus)
 
 
 def _write_pictures(
@@ -241,15 +246,15 @@ def _find_scene(scene: str) -> Path:
 
 
 def _list_scenes() -> None:
-    from quizgen.camera.reading import load
+    from quizgen.camera.scene_file import load_scene
 
     for path in sorted(SCENES.glob("*.toml")):
-        click.echo(f"{path.stem:14} {load(path)[0].title}")
+        click.echo(f"{path.stem:14} {load_scene(path)[0].title}")
 
 
 def _find_writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
     """What encodes a picture for a file, by its ending; asked before anything is computed."""
-    from quizgen.camera.codecs import WRITERS
+    from quizgen.camera.pixels.codecs import WRITERS
 
     ending = ".png" if target is None else target.suffix.lower()
     if ending not in WRITERS:
@@ -260,7 +265,7 @@ def _find_writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
 def summarise(shot: SimulatedShot) -> dict[str, Any]:
     """The report as plain data; what everything gives only where it was run for comparison."""
     from quizgen.camera import effects
-    from quizgen.camera.simulate import measure_difference
+    from quizgen.camera.simulation import measure_difference
 
     plan, seen = shot.plan, shot.prepared.given.scene
     report: dict[str, Any] = {
@@ -269,7 +274,7 @@ def summarise(shot: SimulatedShot) -> dict[str, Any]:
         "left_out": [_format_choice_json(item, shot) for item in plan.left_out],
         "absent": list(plan.absent),
         "asked": list(plan.asked),
-        "idle": effects.idle(shot.prepared.given),
+        "idle": effects.ineffective_settings(shot.prepared.given),
         "exif": dict(seen.exif),
         "seed": seen.seed,
         "precision": str(shot.photo.values.dtype),
@@ -289,7 +294,7 @@ def summarise(shot: SimulatedShot) -> dict[str, Any]:
     return report
 
 
-def _format_choice_json(choice: Choice, shot: SimulatedShot) -> dict[str, Any]:
+def _format_choice_json(choice: EffectChoice, shot: SimulatedShot) -> dict[str, Any]:
     told: dict[str, Any] = {
         "effect": choice.effect,
         "why": choice.why,
@@ -316,7 +321,7 @@ def _tell_seen(seen: Visibility) -> dict[str, Any]:
 
 
 def _tell_everything(shot: SimulatedShot, race: Race, whole: Photo) -> dict[str, Any]:
-    from quizgen.camera.simulate import is_within, measure_difference
+    from quizgen.camera.simulation import is_within, measure_difference
 
     return {
         "difference_dn": measure_difference(shot.photo, whole),

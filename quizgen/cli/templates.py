@@ -63,8 +63,8 @@ def _iter_matching_templates(bank: Bank, filters: TemplateFilters) -> Iterator[s
     click.BadParameter
         If there is no such topic or kind; it names all.
     """
+    from quizgen.kinds import KINDS
     from quizgen.lint.coverage import templates_covering
-    from quizgen.question.kinds import KINDS
 
     topic, kind, search, covers = (filters[key] for key in ("topic", "kind", "search", "covers"))
     topic = None if topic is None else resolve_topic(bank, topic)

@@ -3,28 +3,24 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import signal
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from types import FrameType, TracebackType
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import click
 
-from quizgen.columns import is_wide, width
+from quizgen.columns import lay_out_table, wrap_lines
 from quizgen.core.untrusted import escape_control_characters
+
+if TYPE_CHECKING:
+    from rich.progress import Progress as RichProgress
 
 NARROWEST = 20
 """Columns that text is laid out for at least."""
-_BLANKS = re.compile(r"[ \t\n]+")
-"""Where a line may break; not at a no-break space."""
-GAP = "  "
-"""Between the columns of a table."""
-READABLE = 20
-"""Columns below which a text beside others is not squeezed."""
 PATIENCE = 1.0
 """Seconds before progress is shown."""
 
@@ -67,49 +63,6 @@ def colour_choice() -> bool | None:
     return False if plain else None
 
 
-def wrapped(text: str, room: int, first: str = "", rest: str = "") -> Iterator[str]:
-    """Lines of a text, broken between words.
-
-    Parameters
-    ----------
-    text : str
-        A word that is longer than a line stays whole; characters of double width may part.
-    room : int
-        Columns of a line.
-    first, rest : str
-        What the first line and the others begin with.
-    """
-    line, used, empty = first, width(first), True
-    for glue, piece in _pieces(text):
-        more = width(piece)
-        if not empty and used + len(glue) + more > room:
-            yield line.rstrip(" ")
-            line, used, empty = rest, width(rest), True
-        if not empty:
-            line, used = line + glue, used + len(glue)
-        line, used, empty = line + piece, used + more, False
-    yield line.rstrip(" ")
-
-
-def _pieces(text: str) -> Iterator[tuple[str, str]]:
-    """What may stand on a line of its own, and the blank in front of it."""
-    for word in filter(None, _BLANKS.split(text)):
-        glue = " "
-        for piece in _unbreakable(word):
-            yield glue, piece
-            glue = ""
-
-
-def _unbreakable(word: str) -> Iterator[str]:
-    piece = ""
-    for character in word:
-        if piece and is_wide(character):
-            yield piece
-            piece = ""
-        piece += character
-    yield piece
-
-
 def one_line(text: str) -> str:
     """A text without line breaks and other control characters, as a cell of a table."""
     return escape_control_characters(" ".join(text.split()))
@@ -117,23 +70,14 @@ def one_line(text: str) -> str:
 
 def print_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     """Print aligned columns; on a terminal the last one is wrapped, or stands below the others."""
-    body = [[one_line(cell) for cell in row] for row in rows]
-    sizes = [max(map(len, column)) for column in zip(head, *body, strict=True)][:-1]
-    room = columns() if on_terminal() else sys.maxsize
-    for number, row in enumerate([head, *body]):
-        for line in _row_lines(row, sizes, room):
+    table = [head, *([one_line(cell) for cell in row] for row in rows)]
+    for number, lines in enumerate(lay_out_table(table, _room())):
+        for line in lines:
             click.echo(line if number else click.style(line, bold=True))
 
 
-def _row_lines(row: Sequence[str], sizes: Sequence[int], room: int) -> Iterator[str]:
-    cells = "".join(f"{cell:{size}}{GAP}" for cell, size in zip(row, sizes, strict=False))
-    if room - len(cells) >= READABLE:
-        yield from wrapped(row[-1], room, cells, " " * len(cells))
-        return
-    line = cells.rstrip()
-    yield from [line] if len(line) <= room else wrapped(line, room, "", GAP)
-    if row[-1]:
-        yield from wrapped(row[-1], room, GAP * 2, GAP * 2)
+def _room() -> int:
+    return columns() if on_terminal() else sys.maxsize
 
 
 def many(count: int, word: str) -> str:
@@ -143,9 +87,7 @@ def many(count: int, word: str) -> str:
 
 def tell(text: str) -> None:
     """Print a sentence; on a terminal it is broken between words."""
-    for line in wrapped(
-        escape_control_characters(text), columns() if on_terminal() else sys.maxsize
-    ):
+    for line in wrap_lines(escape_control_characters(text), _room()):
         click.echo(line)
 
 
@@ -167,20 +109,20 @@ class Progress:
     ) -> None:
         self.what, self.total, self.clock = what, total, clock
         self.done = 0
-        self._shown = 0
+        self._bar: RichProgress | None = None
         self._start = clock()
 
     def __call__(self, name: str) -> None:
         """Tell what is done now."""
         self.done += 1
-        if self.clock() - self._start < PATIENCE or not sys.stderr.isatty():
+        if self.clock() - self._start < PATIENCE or not _can_overwrite():
             return
-        count = f"{self.done}/{self.total}" if self.total else f"{self.done}"
-        self._overwrite(escape_control_characters(f"{self.what} {count} {name}")[: columns() - 1])
-
-    def _overwrite(self, line: str) -> None:
-        click.echo(f"\r{line.ljust(self._shown)}\r{line}", nl=False, err=True)
-        self._shown = len(line)
+        if self._bar is None:
+            self._bar = _open_progress(self.what, self.total)
+        task = self._bar.task_ids[0]
+        self._bar.update(
+            task, completed=self.done, now=escape_control_characters(name), refresh=True
+        )
 
     def over(self, things: Iterable[str]) -> Iterator[str]:
         """Things in their order, each told as it comes."""
@@ -199,5 +141,30 @@ class Progress:
         trace: TracebackType | None,
     ) -> None:
         """Leave the line as it was."""
-        if self._shown:
-            self._overwrite("")
+        if self._bar:
+            self._bar.stop()
+
+
+def _can_overwrite() -> bool:
+    return sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+
+
+def _open_progress(what: str, total: int) -> RichProgress:
+    # Loaded where a line is shown: it takes longer than all else that most commands load.
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+    # No thread that redraws: work that is timed would share its processor.
+    line = Progress(
+        TextColumn("{task.description}", markup=False),
+        *([BarColumn(20), MofNCompleteColumn()] if total else [TextColumn("{task.completed}")]),
+        TextColumn("{task.fields[now]}", markup=False),
+        console=Console(stderr=True),
+        auto_refresh=False,
+        redirect_stdout=False,
+        redirect_stderr=False,
+        transient=True,
+    )
+    line.add_task(what, total=total or None, now="")
+    line.start()
+    return line

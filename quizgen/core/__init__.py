@@ -1,5 +1,6 @@
-"""The ground: errors, files, untrusted bytes, caches, and values read from tables.
+"""The ground every room stands on: files, untrusted bytes, caches, errors and diagnostics.
 
-In: bytes, tables, jobs from outside. Out: checked values, files written whole, cached bytes.
-Must never know: that there are questions.
+In: bytes, tables, jobs from outside. Out: checked values, files written whole, cached bytes, and
+where something is wrong. Must never know: that there are questions; the table of codes has words
+about them, and no code does.
 """

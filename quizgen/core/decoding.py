@@ -1,7 +1,8 @@
 """Values of a stated type, made of tables and of JSON, by one thread or by many.
 
 msgspec describes a type when it is first used. A second thread that uses it meanwhile meets half a
-description, and the process ends. So a type is described under a lock, with all that it holds.
+description, and the process ends: with msgspec 0.22, in six runs of six where eight threads began
+with a new type. So a type is described under a lock, with all that it holds.
 """
 
 from __future__ import annotations

@@ -15,6 +15,8 @@
     |-- KeyFileError     a key or an answer file cannot be read
     |-- WorkerError      processes that did the work died, one after the other
     |-- ClassError       a class's roster or folder is wrong, or would be spoiled
+    |-- MissingExtraError  packages of an extra are not installed (says what to type)
+    |-- AttemptFinishedError  a part in practice is answered again after it has ended
     `-- ChoiceError      an argument is none of the values allowed (names them)
 
 Two more stand beside their subject: ``SceneError`` in ``camera.scene``, and ``ReadError`` in
@@ -25,11 +27,87 @@ quizgen.
 What a student types never raises out of the checker: it becomes a verdict.
 """
 
+from __future__ import annotations
+
 from collections.abc import Collection
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from quizgen.core.diagnostics import Diagnostic
+    from quizgen.core.positions import Place
+
+# Extra of pyproject.toml to the modules that are imported of it. Without "image" the same pictures
+# are computed, only more slowly; "lms" and "anki" need no packages yet.
+EXTRA_MODULES = {
+    "web": (
+        "starlette", "uvicorn", "python_multipart", "sqlalchemy", "alembic", "fsrs", "argon2",
+    ),
+    "class": ("xlsxwriter",),
+    "lms": (),
+    "anki": (),
+    "print": ("pikepdf",),
+    "postgres": ("psycopg",),
+    "cluster": ("distributed",),
+    "image": ("cv2",),
+}  # fmt: skip
 
 
 class QuizgenError(Exception):
-    """Base of all errors that the command line shows as one line."""
+    """Base of all errors that the command line shows as one line.
+
+    Whoever raises one knows the place in the file's own terms, and a reader further out knows the
+    file: it adds it (``outside.located``). The line is looked up when the error is shown.
+
+    Parameters
+    ----------
+    *args : object
+        The message.
+    rule : str
+        Code in docs/diagnostics.md of what is wrong.
+    file : pathlib.Path, optional
+        What it is about.
+    place : tuple of str or int
+        Where in the file, as ``core.positions`` finds it.
+    line : int
+        Where, if that is known; counted from 1.
+    """
+
+    rule: str
+    file: Path | None
+    place: Place
+    line: int
+
+    def __init__(
+        self,
+        *args: object,
+        rule: str = "",
+        file: Path | None = None,
+        place: Place = (),
+        line: int = 0,
+    ) -> None:
+        super().__init__(*args)
+        self.rule, self.file, self.place, self.line = rule, file, place, line
+
+    @property
+    def message(self) -> str:
+        """What is wrong, without the place."""
+        return Exception.__str__(self)
+
+    def __str__(self) -> str:
+        if self.file is None:
+            return self.message
+        found = self.diagnostic(self.file)
+        line = f":{found.span.line}" if found.span else ""
+        return f"{self.file}{line}: {self.message}"
+
+    def diagnostic(self, file: Path) -> Diagnostic:
+        """The same as lint says it, about this file unless the error knows a better one."""
+        from quizgen.core.diagnostics import DEFAULT, diagnose
+
+        own = self.file or file
+        return diagnose(self.rule or DEFAULT, own, self.message, self.place, line=self.line)
 
 
 class BankError(QuizgenError):
@@ -92,6 +170,25 @@ class ClassError(QuizgenError):
     """A class's roster or folder is wrong, or would be spoiled."""
 
 
+class MissingExtraError(QuizgenError):
+    """Packages of an extra are not installed.
+
+    Parameters
+    ----------
+    extra : str
+        Its name in ``pyproject.toml``.
+    feature : str
+        What needs it, as the user typed it.
+    """
+
+    def __init__(self, extra: str, feature: str) -> None:
+        super().__init__(f'{feature} needs more packages; type: pip install "quizgen[{extra}]"')
+
+
+class AttemptFinishedError(QuizgenError):
+    """A part in practice is answered, given up or judged again after it has ended."""
+
+
 class InvalidChoiceError(QuizgenError, ValueError):
     """An argument is none of the values allowed."""
 
@@ -107,3 +204,20 @@ def require_one_of(what: str, value: object, allowed: Collection[str]) -> str:
     if isinstance(value, str) and value in allowed:
         return value
     raise InvalidChoiceError(f"{what}: {value!r} (allowed: {', '.join(allowed)})")
+
+
+def has_extra(extra: str) -> bool:
+    """Whether the packages of an extra are installed; none of them is imported."""
+    return all(find_spec(module) is not None for module in EXTRA_MODULES[extra])
+
+
+def require_extra(extra: str, feature: str) -> None:
+    """Refuse a feature whose packages are not installed.
+
+    Raises
+    ------
+    MissingExtraError
+        Naming the feature and the line to type.
+    """
+    if not has_extra(extra):
+        raise MissingExtraError(extra, feature)

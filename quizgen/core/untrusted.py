@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from quizgen.core.errors import QuizgenError
+from quizgen.core.positions import Place
 
 ErrorType: TypeAlias = type[QuizgenError]
 """The kind of error that a reader raises."""
@@ -43,6 +44,8 @@ _STRING = re.compile(r'"(?:[^"\\]|\\.)*+(?:"|\\?\Z)', re.DOTALL)
 """A text in JSON, up to its quotation mark or the end of all."""
 _MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 """What a text in UTF-16 begins with, as some editors and shells of Windows write it."""
+_TOML_LINE = re.compile(r"\(at line (\d+), column \d+\)$")
+"""Where tomllib stopped; before Python 3.14 its error says so in words alone."""
 _SEPARATORS = ",;\t"
 _NAME = re.compile(rf"(?!\.+$)[A-Za-z0-9_.-]{{1,{LONGEST_NAME}}}")
 _TOO_LARGE = 10**MOST_DIGITS
@@ -72,7 +75,8 @@ def require_identifier(text: str, what: str, error: ErrorType) -> str:
     """
     if is_identifier(text):
         return text
-    raise error(f"{what}: {text[:LONGEST_NAME]!r} is no name (allowed: {NAMES})")
+    said = f"{what}: {text[:LONGEST_NAME]!r} is no name (allowed: {NAMES})"
+    raise error(said, rule="QG108")
 
 
 @contextmanager
@@ -91,8 +95,8 @@ def error_context(file: Path | None, kind: ErrorType = QuizgenError) -> Iterator
     try:
         yield
     except kind as error:
-        if file and not _has_file_name(str(error), file):
-            error.args = (f"{file}: {error}", *error.args[1:])
+        if file and not error.file and not _has_file_name(str(error), file):
+            error.file = file
         raise
 
 
@@ -173,16 +177,18 @@ def read_bytes(path: Path, error: ErrorType, most: int = LARGEST_FILE) -> bytes:
             _refuse_special(os.fstat(number), path, error)
             data = stream.read(most + 1)
     except (OSError, ValueError) as found:
-        raise error(f"{path}: {getattr(found, 'strerror', None) or found}") from None
+        what = getattr(found, "strerror", None) or found
+        raise error(f"{what}", rule="QG101", file=path) from None
     if len(data) > most:
-        raise error(f"{path}: larger than {most // 10**6} MB")
+        raise error(f"larger than {most // 10**6} MB", rule="QG101", file=path)
     return data
 
 
 def _refuse_special(found: os.stat_result, path: Path, error: ErrorType) -> None:
     """Refuse what has no end or no beginning: once before opening, once for what was opened."""
     if not stat.S_ISREG(found.st_mode):
-        raise error(f"{path}: not a file that can be read (a folder, a pipe or a device)")
+        what = "not a file that can be read (a folder, a pipe or a device)"
+        raise error(what, rule="QG101", file=path)
 
 
 def read_text(path: Path, error: ErrorType, most: int = LARGEST_FILE) -> str:
@@ -207,10 +213,21 @@ def decode_text(data: bytes, where: object, error: ErrorType) -> str:
     try:
         text = data.decode(detect_encoding(data))
     except UnicodeDecodeError as found:
-        raise error(f"{where}: not UTF-8 text (byte {found.start}); save it as UTF-8") from None
+        what = f"not UTF-8 text (byte {found.start}); save it as UTF-8"
+        raise _error_at(where, what, error, "QG101") from None
     if "\0" in text:
-        raise error(f"{where}: not UTF-8 text (a zero byte); save it as UTF-8")
+        what = "not UTF-8 text (a zero byte); save it as UTF-8"
+        raise _error_at(where, what, error, "QG101")
     return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _error_at(
+    where: object, what: str, error: ErrorType, rule: str, place: Place = (), line: int = 0
+) -> QuizgenError:
+    """An error about a file, or about something that is only called so."""
+    if isinstance(where, Path):
+        return error(what, rule=rule, file=where, place=place, line=line)
+    return error(f"{where}: {what}", rule=rule)
 
 
 def detect_encoding(data: bytes) -> str:
@@ -302,15 +319,20 @@ def parse_toml(
     try:
         table = tomllib.loads(text, parse_float=parse_float)
     except RecursionError:
-        raise error(f"{where}: more than {DEEPEST} tables and lists within each other") from None
+        what = f"more than {DEEPEST} tables and lists within each other"
+        raise _error_at(where, what, error, "QG110") from None
     except (tomllib.TOMLDecodeError, ValueError) as found:
-        raise error(f"{where}: not valid TOML: {_shorten_text(found)}") from None
+        at = _TOML_LINE.search(str(found))
+        what, line = f"not valid TOML: {_shorten_text(found)}", int(at[1]) if at else 0
+        raise _error_at(where, what, error, "QG103", line=line) from None
     _check_table_limits(table, where, error)
     for place, value, _ in _iter_table_values(table if "\\" in text else ()):
         if isinstance(value, str) and (odd := CONTROLS.search(value)):
-            raise error(
-                f"{where}: {escape_control_characters(place) or 'a name'}: {_format_character_name(odd[0])} in a text"
+            what = (
+                f"{escape_control_characters(_dotted(place)) or 'a name'}"
+                f": {_format_character_name(odd[0])} in a text"
             )
+            raise _error_at(where, what, error, "QG102", place)
     return table
 
 
@@ -366,19 +388,19 @@ def _shorten_text(found: Exception) -> str:
 def _check_table_limits(table: object, where: object, error: ErrorType) -> None:
     """Refuse a table that is too deep or too long, and numbers and texts that nobody means."""
     for count, (place, value, depth) in enumerate(_iter_table_values(table)):
-        problem = _find_value_problem(value)
+        problem, said = _find_value_problem(value), escape_control_characters(_dotted(place))
         if problem:
-            raise error(f"{where}: {escape_control_characters(place) or 'the file'}: {problem}")
+            raise _error_at(where, f"{said or 'the file'}: {problem}", error, "QG102", place)
         if depth > DEEPEST:
-            raise error(f"{where}: {escape_control_characters(place)}: more than {DEEPEST} tables and lists "
-                        "within each other")  # fmt: skip
+            what = f"{said}: more than {DEEPEST} tables and lists within each other"
+            raise _error_at(where, what, error, "QG110", place)
         if count > MOST_VALUES:
-            raise error(f"{where}: more than {MOST_VALUES} values")
+            raise _error_at(where, f"more than {MOST_VALUES} values", error, "QG110")
 
 
-def _iter_table_values(table: object) -> Iterator[tuple[str, object, int]]:
+def _iter_table_values(table: object) -> Iterator[tuple[Place, object, int]]:
     """Every key and value with its place and depth, without recursion."""
-    todo: list[tuple[str, object, int]] = [("", table, 0)]
+    todo: list[tuple[Place, object, int]] = [((), table, 0)]
     while todo:
         place, value, depth = todo.pop()
         yield place, value, depth
@@ -387,15 +409,15 @@ def _iter_table_values(table: object) -> Iterator[tuple[str, object, int]]:
         if isinstance(value, dict):
             for key, inner in value.items():
                 yield place, key, depth
-                todo.append(
-                    (
-                        f"{place}.{key[:LONGEST_NAME]}" if place else key[:LONGEST_NAME],
-                        inner,
-                        depth + 1,
-                    )
-                )
+                todo.append(((*place, key), inner, depth + 1))
         elif isinstance(value, list):
-            todo += [(f"{place}[{i}]", inner, depth + 1) for i, inner in enumerate(value)]
+            todo += [((*place, i), inner, depth + 1) for i, inner in enumerate(value)]
+
+
+def _dotted(place: Place) -> str:
+    """``entry[0].term`` for people."""
+    steps = (f"[{key}]" if isinstance(key, int) else f".{key[:LONGEST_NAME]}" for key in place)
+    return "".join(steps).removeprefix(".")
 
 
 def _find_value_problem(value: object) -> str:

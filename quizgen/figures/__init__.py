@@ -23,7 +23,7 @@ from quizgen.figures.contract import (
     figure_name,
     needs_colour,
 )
-from quizgen.figures.drawing_field import DrawingField, FieldPicture, Line
+from quizgen.figures.drawing_field import FieldPicture
 from quizgen.figures.loading import load_engine
 from quizgen.figures.parameters import Parameter, fill_defaults
 from quizgen.locale import get_language, list_languages, localise_numbers
@@ -150,10 +150,8 @@ def _finish_figure(drawing: Drawing, alt: str, lang: str, *, colour: bool = Fals
 
 
 __all__ = [
-    "DrawingField",
     "FieldPicture",
     "Figure",
-    "Line",
     "Parameter",
     "clear_alt_words",
     "complete_parameters",

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from inspect import signature
+from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
@@ -52,6 +53,11 @@ def figure_name(module: ModuleType) -> str:
     return module.__name__.rpartition(".")[2]
 
 
+def _file(module: ModuleType) -> Path | None:
+    found = getattr(module, "__file__", None)
+    return Path(found) if found else None
+
+
 def check_figure_module(module: ModuleType) -> FigureModule:
     """Return a module that draws a figure.
 
@@ -63,9 +69,11 @@ def check_figure_module(module: ModuleType) -> FigureModule:
     what = f"figure {figure_name(module)!r}: the module"
     for name in ("PARAMETERS", "draw", "alt"):
         if not hasattr(module, name):
-            raise BankError(f"{what} has no {name} (see docs/figures.md)")
+            said = f"{what} has no {name} (see docs/figures.md)"
+            raise BankError(said, rule="QG145", file=_file(module))
     if first_parameter(module.draw) not in {"ax", "fig"}:
-        raise BankError(f"{what}'s draw() takes 'ax' or 'fig' first (see docs/figures.md)")
+        said = f"{what}'s draw() takes 'ax' or 'fig' first (see docs/figures.md)"
+        raise BankError(said, rule="QG145", file=_file(module))
     return cast("FigureModule", module)
 
 

@@ -12,85 +12,12 @@ import msgspec
 from quizgen.figures.alt_text import format_given, strip_mathtext
 from quizgen.figures.contract import Figure
 from quizgen.figures.loading import load_engine
+from quizgen.kinds.contract import FOOT, LEFT, NAME, DrawingField, Line, Point
 from quizgen.locale import get_language, load_words, localise_numbers
 from quizgen.maths.notation.pretty import format_name
 
 if TYPE_CHECKING:
     from quizgen.figures.sketch import Sketch
-
-Point = tuple[float, float]
-Line = tuple[Point, ...]
-
-WIDE = 250.0
-"""Width of the field in points: 88 mm."""
-LEFT, RIGHT, TOP, FOOT = 26.0, 8.0, 8.0, 18.0
-"""Room around the field, at the left and at the foot for numbers."""
-NAME = 14.0
-"""Room for the name of an axis."""
-
-
-class DrawingField(msgspec.Struct, frozen=True):
-    """A field to draw in.
-
-    Parameters
-    ----------
-    view : tuple of float
-        From and to along x, from and to along y.
-    grid : tuple of float
-        Distance of the grid's lines along x and along y.
-    tall : float
-        Height over width, where the axes do not have one scale.
-    given : tuple of lines
-        What is there already, in grey.
-    bars : bool
-        Whether what is there are bars of a histogram.
-    marks : tuple of (str, point)
-        Points with a label.
-    axes : tuple of str
-        Names of the axes with their units, such as ``$λ$ / nm``: across and upright.
-    """
-
-    view: tuple[float, float, float, float]
-    grid: tuple[float, float]
-    tall: float = 0.0
-    given: tuple[Line, ...] = ()
-    bars: bool = False
-    marks: tuple[tuple[str, Point], ...] = ()
-    axes: tuple[str, str] = ("", "")
-
-    @property
-    def size(self) -> tuple[float, float]:
-        """Width and height of the field itself in points."""
-        left, right, low, high = self.view
-        return WIDE, WIDE * (self.tall or (high - low) / (right - left))
-
-    @property
-    def picture_size(self) -> Point:
-        """Width and height of the picture in points: the field and the room around it."""
-        wide, tall = self.size
-        return LEFT + wide + RIGHT, self._top_margin + tall + self._bottom_margin
-
-    @property
-    def _top_margin(self) -> float:
-        return TOP + (NAME if self.axes[1] else 0)
-
-    @property
-    def _bottom_margin(self) -> float:
-        return FOOT + (NAME if self.axes[0] else 0)
-
-    @property
-    def frame(self) -> tuple[float, float, float, float]:
-        """Where the field lies in the picture, in points from the upper left: x, y, size."""
-        return (LEFT, self._top_margin, *self.size)
-
-    def to_picture(self, point: Point) -> Point:
-        """A point in the picture, from the lower left."""
-        left, right, low, high = self.view
-        wide, tall = self.size
-        x, y = point
-        return LEFT + (x - left) / (right - left) * wide, self._bottom_margin + (y - low) / (
-            high - low
-        ) * tall
 
 
 class FieldPicture(msgspec.Struct, frozen=True):

@@ -35,7 +35,7 @@ if hasattr(os, "register_at_fork"):
 
 _KIND = "figures"
 _PACKAGE = Path(__file__).parent.parent
-_CODE = ("figures", "camera", "arrays", "png.py")  # of quizgen, that decides what is drawn
+_CODE = ("figures", "camera", "arrays")  # of quizgen, that decides what is drawn
 
 Items = tuple[tuple[str, Any], ...]
 Draw = Callable[[Any], object]
@@ -60,7 +60,7 @@ def draw_sheet(
         Keep the size of the figure, whatever is drawn.
     """
     with _LOCK, HouseStyle():
-        sheet = pickle.loads(_empty_axes(*size)) if axes else Sheet(*size)
+        sheet = pickle.loads(_empty_axes(*size)) if axes else Sheet(*size)  # noqa: S301 - our own
         draw(sheet.axes[0] if axes else sheet)
         renderer = SvgRenderer(sheet.bbox.height, decimal)
         sheet.draw(renderer)
@@ -125,4 +125,4 @@ def _digest_folder(module: FigureModule) -> bytes:
 
 
 def _python_files(place: Path) -> list[Path]:
-    return sorted(place.rglob("*.py")) if place.is_dir() else [place]
+    return sorted(place.rglob("*.py"))

@@ -30,7 +30,7 @@ def _load_font_list() -> None:
 
         ours = font_manager.json_load(files[0])
         font_manager.fontManager.ttflist[:0] = ours.ttflist
-        font_manager.fontManager._findfont_cached.cache_clear()  # type: ignore[attr-defined]
+        font_manager.fontManager._findfont_cached.cache_clear()  # type: ignore[attr-defined]  # noqa: SLF001
         return
     own, mpl.get_cachedir = mpl.get_cachedir, lambda: str(FONTS)
     try:

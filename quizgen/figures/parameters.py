@@ -56,7 +56,8 @@ def fill_defaults(figure: str, table: Mapping[str, Parameter], values: Values) -
     """
     unknown = sorted(set(values) - set(table))
     if unknown:
-        raise BankError(f"figure {figure!r}: unknown parameter {unknown[0]!r}")
+        what = f"figure {figure!r}: unknown parameter {unknown[0]!r}"
+        raise BankError(what, rule="QG142", place=("figure", "values", unknown[0]))
     full = {name: _check_value(figure, name, rule, values) for name, rule in table.items()}
     return {name: value for name, value in full.items() if value is not None}
 
@@ -64,7 +65,8 @@ def fill_defaults(figure: str, table: Mapping[str, Parameter], values: Values) -
 def _check_value(figure: str, name: str, rule: Parameter, values: Values) -> Any:
     if name not in values:
         if rule.default is None:
-            raise BankError(f"figure {figure!r}: missing parameter {name!r} ({rule.meaning})")
+            what = f"figure {figure!r}: missing parameter {name!r} ({rule.meaning})"
+            raise BankError(what, rule="QG143", place=("figure", "values"))
         is_absent = isinstance(rule.default, float) and math.isnan(rule.default)
         return None if is_absent else rule.default
     value = values[name]
@@ -107,4 +109,4 @@ def require(figure: str, holds: bool, message: str) -> None:
         If the condition does not hold.
     """
     if not holds:
-        raise BankError(f"figure {figure!r}: {message}")
+        raise BankError(f"figure {figure!r}: {message}", rule="QG144", place=("figure", "values"))

@@ -40,7 +40,7 @@ def check_seen(
     InvisibleEffectError
         With how little of it is seen.
     """
-    from quizgen.camera.question import check_visible, measure_visibility
+    from quizgen.camera.question_photo import check_visible, measure_visibility
 
     check_visible(measure_visibility(shown, plain, kind, speckles=speckles), grey=grey)
 

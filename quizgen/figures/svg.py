@@ -22,7 +22,7 @@ from math import ceil, cos, floor, inf, radians, sin
 from pathlib import Path as FilePath
 from typing import Any
 
-import quizgen.figures.font_list
+import quizgen.figures.font_list  # noqa: F401 - before all that sets text
 
 # isort: split
 import msgspec
@@ -37,9 +37,9 @@ from matplotlib.mathtext import MathTextParser
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D, Bbox
 
-from quizgen import png
 from quizgen.core.errors import BankError
 from quizgen.figures.inks import PAINTS
+from quizgen.figures.png import encode_png
 
 FINE = 50
 """Steps of an outline in a point."""
@@ -338,7 +338,7 @@ class SvgRenderer(RendererBase):
 
     # Paths
 
-    def draw_path(self, gc: Any, path: Path, transform: Any, rgbFace: Any = None) -> None:
+    def draw_path(self, gc: Any, path: Path, transform: Any, rgbFace: Any = None) -> None:  # noqa: N803
         filled = rgbFace is not None and (len(rgbFace) < 4 or rgbFace[3] > 0)
         width = gc.get_linewidth()
         stroked = width > 0 and gc.get_rgb()[3] > 0
@@ -396,7 +396,7 @@ class SvgRenderer(RendererBase):
 
     def draw_markers(
         self, gc: Any, marker_path: Path, marker_trans: Any, path: Path, trans: Any,
-        rgbFace: Any = None,
+        rgbFace: Any = None,  # noqa: N803
     ) -> None:  # fmt: skip
         """All markers of a line as one path; those outside the axes are left out and counted."""
         shape = marker_trans.transform_path(marker_path)
@@ -649,20 +649,13 @@ def _with_alpha(gc: Any, colour: Any) -> tuple[float, ...]:
     return tuple(colour)
 
 
-@lru_cache(64)
-def _deflate_indices(shape: tuple[int, int], indices: bytes) -> bytes:
-    return png.index_data(np.frombuffer(indices, np.uint8).reshape(shape))
-
-
 def _write_png(pixels: Any, palette: Any = None) -> bytes:
     """A PNG file whose bytes do not depend on the version of zlib; few colours as a palette."""
     if palette is not None:
-        colours = [(int(r), int(g), int(b)) for r, g, b in palette]
-        shape = pixels.shape
-        return png.indexed(shape, _deflate_indices(shape, pixels.tobytes()), colours)
+        return encode_png(pixels, [(int(r), int(g), int(b)) for r, g, b in palette])
     pixels = np.ascontiguousarray(pixels)
     if (pixels[..., 3] < 255).any():
-        return png.encode(pixels)
+        return encode_png(pixels)
     rgb = np.ascontiguousarray(pixels[..., :3])
     return _encode_colours(rgb.shape, rgb.tobytes())
 
@@ -674,9 +667,7 @@ def _encode_colours(shape: tuple[int, ...], data: bytes) -> bytes:
     codes = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32)
     ordered = np.sort(codes, axis=None)  # a tenth of the time of unique()
     if np.count_nonzero(np.diff(ordered)) > 255 or (rgb[..., :1] == rgb).all():
-        return png.encode(rgb)
+        return encode_png(rgb)
     known, indices = np.unique(codes, return_inverse=True)
     colours = [(int(c) >> 16, int(c) >> 8 & 255, int(c) & 255) for c in known]
-    return png.indexed(
-        codes.shape, png.index_data(indices.reshape(codes.shape).astype(np.uint8)), colours
-    )
+    return encode_png(indices.reshape(codes.shape).astype(np.uint8), colours)

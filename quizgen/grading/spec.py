@@ -35,7 +35,10 @@ SpecType = TypeVar("SpecType", bound="WordSpec | NumericSpec")
 
 
 class SpecBase:
-    """What every specification answers in the same way, whatever its fields."""
+    """What judging needs of a specification, whichever kind it is of.
+
+    A kind's ``Spec`` is a struct whose fields are what a key stores; see ``Worded``, ``Measured``.
+    """
 
     __slots__ = ()
     of: list[str] | dict[str, str]
@@ -54,11 +57,17 @@ class SpecBase:
 
     @abstractmethod
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge what was typed; each kind says how."""
+        """Read and judge what was typed; each kind says how.
+
+        Raises
+        ------
+        ReadError
+            If it cannot be read: it is asked back.
+        """
 
     @abstractmethod
     def show(self) -> str:
-        """The key as it is printed; each kind says how."""
+        """The key as it is printed, and as it can be typed back; each kind says how."""
 
     def show_in(self, _lang: str, /) -> str:
         """The key as it is printed; most kinds have one notation for all languages."""
@@ -82,7 +91,15 @@ class WordSpec(SpecBase, msgspec.Struct, kw_only=True, frozen=True, omit_default
     of: list[str] | dict[str, str] = []
 
     def validate(self) -> None:
-        """Check what types cannot say."""
+        """Check what types cannot say.
+
+        Raises
+        ------
+        FormulaError
+            If a value cannot be read.
+        ValueError
+            If fields contradict each other.
+        """
 
 
 class NumericSpec(SpecBase, Tolerance, kw_only=True, frozen=True):

@@ -7,10 +7,11 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from quizgen.bank.pools import condition_holds, matching_pairs, select_from_pool
+from quizgen.bank.pools import matching_pairs, select_from_pool
 from quizgen.bank.variant import Variant
+from quizgen.kinds import choice, true_false
 from quizgen.question.interpolation import Interpolator, inlines_to_text
-from quizgen.question.kinds import build, choice, truth
+from quizgen.question.part_context import VariantPart, ask_part
 
 CLOSED = frozenset({"choice", "multi", "tf", "match", "order", "gap"})
 """Kinds whose answer is picked out of what is shown, or is a word that is known before."""
@@ -66,9 +67,9 @@ class AnswerTally:
         if self.kind not in {"choice", "multi"}:
             self.answers[_describe_answer(self.kind, drawn, index)] += 1
             return
-        names, right = choice.ordered(drawn, index)
+        names, right = choice.option_order(VariantPart(drawn, index))
         if self.kind == "choice" and len(right) != 1:
-            build(drawn, index)  # says what is wrong
+            ask_part(drawn, index)  # says what is wrong
         self.answers["+".join(sorted(right))] += 1
         self.most = max(self.most, len(names))
         for place, name in enumerate(names, 1):
@@ -100,7 +101,8 @@ def _find_longest_option(lengths: dict[str, int]) -> str:
 def _describe_answer(kind: str, drawn: Variant, index: int) -> str:
     """What a learner would have to know in this draw: words, pairs or an order."""
     if kind == "tf":
-        return str(condition_holds(drawn, truth.statement(drawn, index)[1].true))
+        part = VariantPart(drawn, index)
+        return str(part.condition_holds(true_false.selected_statement(part)[1]))
     shown = select_from_pool(drawn, index)
     names = [*shown.names, *shown.extra]
     if kind == "match":

@@ -1,31 +1,57 @@
-"""What a bank lacks although its folder or ``bank.toml`` promises it."""
+"""What is wrong with the files of a bank that belong to no template, and between templates."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
-from quizgen.bank.bank import PROSE, Bank
+from quizgen.bank.bank import LOCALE, PROSE, Bank
+from quizgen.core.diagnostics import Diagnostic, diagnose
 from quizgen.core.errors import QuizgenError
+from quizgen.core.positions import TEXT
+from quizgen.lint.leaks import QuestionContent, find_bank_leaks
+from quizgen.locale import check_translations
+from quizgen.paper.blueprint import load_blueprint
+
+# A sentence is quoted by its first letters: further on it may hold values, which the file has not.
+QUOTED = 30
 
 
-def find_missing_files(bank: Bank) -> Iterator[str]:
+def check_bank_files(bank: Bank) -> Iterator[Diagnostic]:
+    """What is wrong with ``bank.toml``, the curriculum, blueprints, quantities and words."""
+    looks: list[Callable[[], object]] = [
+        lambda: (bank.metadata, bank.template_paths),
+        lambda: bank.curriculum.inventory,
+        lambda: bank.quantities,
+        *(partial(load_blueprint, name, bank) for name in bank.blueprints),
+    ]
+    for look in looks:
+        try:
+            look()
+        except QuizgenError as error:
+            yield error.diagnostic(bank.folder / "bank.toml")
+    yield from check_translations(bank.folder / LOCALE)
+    try:
+        yield from find_missing_files(bank)
+    except QuizgenError as error:
+        yield error.diagnostic(bank.folder / "bank.toml")
+
+
+def find_missing_files(bank: Bank) -> Iterator[Diagnostic]:
     """Questions without rules, topics without a question, and a bank that has none at all."""
     if not bank.template_paths:
-        yield f"{bank.folder}: the bank has no template"
+        yield diagnose("QG501", bank.folder / "bank.toml", "the bank has no template")
         return
-    yield from _without_rules(bank)
-    yield from _without_templates(bank)
-
-
-def _without_rules(bank: Bank) -> Iterator[str]:
-    """Words of a question that nobody would ever see: its rules are missing, or misspelt."""
+    # Words of a question that nobody would ever see: its rules are missing, or misspelt.
     pages = [page for page in bank.folder.glob("*/*/*.md") if PROSE.fullmatch(page.name)]
     for folder in sorted({page.parent for page in pages}):
-        if not (folder / "template.toml").exists():
-            yield f"{folder}/template.toml: there is no template.toml beside the words"
+        file = folder / "template.toml"
+        if not file.exists():
+            yield diagnose("QG502", file, "there is no template.toml beside the words")
+    yield from _empty_topics(bank)
 
 
-def _without_templates(bank: Bank) -> Iterator[str]:
+def _empty_topics(bank: Bank) -> Iterator[Diagnostic]:
     """Topics of ``bank.toml`` that no paper can be made of."""
     try:
         held = {bank.rules(name).topic for name in bank.template_paths}
@@ -33,4 +59,16 @@ def _without_templates(bank: Bank) -> Iterator[str]:
         return
     for topic in bank.metadata.topics:
         if topic not in held:
-            yield f"{bank.folder}/bank.toml: topic {topic!r} has no template"
+            file, place = bank.folder / "bank.toml", ("topics", topic)
+            yield diagnose("QG503", file, f"topic {topic!r} has no template", place)
+
+
+def check_leaks(bank: Bank, questions: Sequence[QuestionContent]) -> Iterator[Diagnostic]:
+    """Which questions tell what another one of the bank asks."""
+    for leak, lang in find_bank_leaks(bank, questions).items():
+        if "QG218" in bank.rules(leak.teller).ignore:
+            continue
+        part = f" in part {leak.label}" if leak.label else ""
+        what = f"tells what {leak.asker!r} asks{part}: {leak.what}"
+        file = bank.template_paths[leak.teller] / f"{lang}.md"
+        yield diagnose("QG218", file, what, (TEXT, leak.text[:QUOTED]))

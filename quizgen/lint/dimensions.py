@@ -11,8 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.template import Template
+from quizgen.core.diagnostics import Diagnostic, diagnose
+from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
@@ -37,13 +38,14 @@ class _ClashError(Exception):
     """Two kinds of quantities where one is needed."""
 
 
-def check_dimensions(template: Template) -> Iterator[str]:
+def check_dimensions(template: Template) -> Iterator[Diagnostic]:
     """Units that do not fit: of what is drawn, of steps, of what is asked."""
     units = template.about.system
     for name, unit in template.chain.given.items():
         drawn = template.units[name]
         if _parse_unit_dimension(units, drawn) != _parse_unit_dimension(units, unit):
-            yield f"draw.{name}: unit {drawn!r} is of another kind than {unit!r} in the solver"
+            what = f"draw.{name}: unit {drawn!r} is of another kind than {unit!r} in the solver"
+            yield diagnose("QG201", template.file, what, ("draw", name, "unit"))
     known = {
         name: _parse_unit_dimension(units, unit) for name, unit in template.chain.given.items()
     }
@@ -51,11 +53,12 @@ def check_dimensions(template: Template) -> Iterator[str]:
     for step in template.chain.steps:
         for problem in _check_step(units, step, known):
             wrong.add(step.name)
-            yield problem
+            file = template.solver_file or template.file
+            yield diagnose("QG203", file, problem, ("Step", step.name))
         known[step.name] = _parse_unit_dimension(units, step.unit)
-    for place, part in enumerate(template.rules.part, 1):
+    for index, part in enumerate(template.rules.part):
         asked = part.answer.get("unit")
-        for name in answer_names(part.answer) if isinstance(asked, str) else ():
+        for name in asked_quantities(part.answer) if isinstance(asked, str) else ():
             shown = template.units.get(name, "")
             fits = (
                 _parse_unit_dimension(units, str(asked)) == _parse_unit_dimension(units, shown)
@@ -63,13 +66,15 @@ def check_dimensions(template: Template) -> Iterator[str]:
                 or name in wrong
             )
             if not fits:
-                yield f"part {place}: {name} is asked in {asked!r}, and its step is in {shown!r}"
+                what = f"{name} is asked in {asked!r}, and its step is in {shown!r}"
+                place = ("part", index, "answer", "unit")
+                yield diagnose("QG202", template.file, f"part {index + 1}: {what}", place)
 
 
 def _check_step(
     units: UnitRegistry, step: ChainStep, known: Mapping[str, Dimension]
 ) -> Iterator[str]:
-    written = f"solver: step {step.name!r} = {format_tree(step.expr)}"
+    written = f"step {step.name!r} = {format_tree(step.expr)}"
     try:
         found = _infer_dimension(step.expr, known)
     except _ClashError as error:
@@ -77,7 +82,10 @@ def _check_step(
         return
     plain = not any(known[name] for name in names_in(step.expr))
     if found is not None and not plain and found != _parse_unit_dimension(units, step.unit):
-        yield f"{written} is in {_format_dimension(found)}, and the step says {step.unit or 'a plain number'!r}"
+        yield (
+            f"{written} is in {_format_dimension(found)}, and "
+            f"the step says {step.unit or 'a plain number'!r}"
+        )
 
 
 def _parse_unit_dimension(units: UnitRegistry, text: str) -> Dimension:

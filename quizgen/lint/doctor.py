@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from importlib.metadata import PackageNotFoundError, version
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.core.errors import QuizgenError
+from quizgen.core.errors import EXTRA_MODULES, QuizgenError, has_extra
 from quizgen.locale import PLACES, languages_in_script
 from quizgen.render import fonts
 
@@ -25,6 +25,7 @@ def run_checks() -> Iterator[CheckOutcome]:
             yield package, version(package), True
         except PackageNotFoundError:
             yield package, "not installed", False
+    yield "extras", ", ".join(filter(has_extra, EXTRA_MODULES)), True
     yield from _check_fonts()
     yield _check_bank()
 
@@ -32,7 +33,6 @@ def run_checks() -> Iterator[CheckOutcome]:
 def _check_fonts() -> Iterator[CheckOutcome]:
     try:
         yield "Bangla font", fonts.bangla_file().name, True
-        yield "maths font", fonts.maths_file().name, True
         missing = fonts.missing_characters(all_bangla_text())
         shown = " ".join(f"U+{ord(c):04X}" for c in sorted(missing))
         yield "Bangla glyphs", shown or "every character has one", not missing

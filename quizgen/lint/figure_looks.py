@@ -41,15 +41,15 @@ class Stroke(NamedTuple):
     dashes: str
 
 
-def look_problems(figures: Iterable[Figure]) -> Iterator[str]:
-    """What makes figures hard to read, each kind of it by the first figure that has it."""
+def look_problems(figures: Iterable[Figure]) -> Iterator[tuple[str, str]]:
+    """Code and what makes figures hard to read, each by the first figure that has it."""
     left = list(_LOOKS)
     for figure in figures:
-        for look in [*left]:
+        for code, look in [*left]:
             said = next(look(figure), None)
             if said:
-                left.remove(look)
-                yield f"figure: {said}"
+                left.remove((code, look))
+                yield code, f"figure: {said}"
 
 
 def _find_overlaps(figure: Figure) -> Iterator[str]:
@@ -107,8 +107,11 @@ def _find_pale_colours(figure: Figure) -> Iterator[str]:
 
 def _alike_on_grey(figure: Figure) -> Iterator[str]:
     """Coloured lines of one kind that a grey print cannot tell apart."""
-    strokes = {Stroke(p["stroke"], p.get("stroke-dasharray", "")) for p in _iter_path_attributes(figure)
-               if p.get("stroke", "").startswith("#")}  # fmt: skip
+    strokes = {
+        Stroke(p["stroke"], p.get("stroke-dasharray", ""))
+        for p in _iter_path_attributes(figure)
+        if p.get("stroke", "").startswith("#")
+    }
     coloured = sorted(stroke for stroke in strokes if _is_coloured(stroke.colour))
     if figure.needs_colour or len({stroke.colour for stroke in coloured}) > MOST_COLOURS:
         return
@@ -118,9 +121,15 @@ def _alike_on_grey(figure: Figure) -> Iterator[str]:
             yield f"lines in {one.colour} and {other.colour} look alike on grey paper"
 
 
-_LOOKS: tuple[Callable[[Figure], Iterator[str]], ...] = (
-    _find_overlaps, _small_letters, _too_wide, _find_clipped_markers, _find_unnamed_axes, _find_pale_colours, _alike_on_grey,
-)  # fmt: skip
+_LOOKS: tuple[tuple[str, Callable[[Figure], Iterator[str]]], ...] = (
+    ("QG403", _find_overlaps),
+    ("QG404", _small_letters),
+    ("QG405", _too_wide),
+    ("QG406", _find_clipped_markers),
+    ("QG407", _find_unnamed_axes),
+    ("QG408", _find_pale_colours),
+    ("QG409", _alike_on_grey),
+)
 
 
 def _iter_path_attributes(figure: Figure) -> Iterator[dict[str, str]]:

@@ -9,10 +9,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.variant import Variant, leading_digits
+from quizgen.core.diagnostics import Diagnostic, diagnose
 from quizgen.core.errors import QuizgenError
 from quizgen.figures import Figure
+from quizgen.kinds.contract import asked_quantities
 from quizgen.lint.figure_looks import look_problems
 from quizgen.question.figure import describe_question_figure, draw_question_figure
 
@@ -25,7 +26,7 @@ _NUMBER = re.compile(r"\d[\d\u2009\u202f\u00a0]*(?:[.,]\d+)?")
 _SPACES = re.compile(r"[\u2009\u202f\u00a0]")
 
 
-def check_figures(draws: Sequence[Variant]) -> Iterator[str]:
+def check_figures(draws: Sequence[Variant]) -> Iterator[Diagnostic]:
     """What is wrong with the figure of a template, by some of its draws."""
     template = draws[0].template
     rule = template.rules.figure
@@ -38,13 +39,14 @@ def check_figures(draws: Sequence[Variant]) -> Iterator[str]:
                 try:
                     said = figure_text(one, lang, quiz=quiz, drawn=lang == template.languages[0])
                 except QuizgenError as error:
-                    yield str(error)
+                    yield error.diagnostic(template.file)
                     return
                 numbers.update(_iter_numbers(said) if quiz else ())
     if rule.quiz:
         yield from _given_away(shown)
         yield from _find_unreadable(shown, rule.reads)
-    yield from look_problems(_iter_figures(draws[:DRAWN]))
+    for code, what in look_problems(_iter_figures(draws[:DRAWN])):
+        yield diagnose(code, template.file, what, ("figure",))
 
 
 def _iter_figures(draws: Sequence[Variant]) -> Iterator[Figure]:
@@ -79,28 +81,33 @@ def _iter_numbers(text: str) -> Iterator[str]:
         yield f"{float(_SPACES.sub('', found).replace(',', '.')):.4g}"
 
 
-def _given_away(shown: Sequence[tuple[Variant, set[str]]]) -> Iterator[str]:
-    for place, part in enumerate(shown[0][0].template.rules.part, 1):
-        for name in answer_names(part.answer):
-            secret = [(leading_digits(one.shown_values[name]), numbers) for one, numbers in shown
-                      if leading_digits(one.shown_values[name]) not in _collect_stated_numbers(one)]  # fmt: skip
+def _given_away(shown: Sequence[tuple[Variant, set[str]]]) -> Iterator[Diagnostic]:
+    template = shown[0][0].template
+    for place, part in enumerate(template.rules.part, 1):
+        for name in asked_quantities(part.answer):
+            secret = [
+                (leading_digits(one.shown_values[name]), numbers)
+                for one, numbers in shown
+                if leading_digits(one.shown_values[name]) not in _collect_stated_numbers(one)
+            ]
             different = {answer for answer, _ in secret}
             if len(different) >= FEWEST and all(answer in seen for answer, seen in secret):
                 example = secret[0][0]
-                yield (
-                    f"figure: shows {name} = {example} in the question, where part {place} asks it"
-                )
+                what = f"shows {name} = {example} in the question, where part {place} asks it"
+                yield diagnose("QG401", template.file, f"figure: {what}", ("figure",))
 
 
 def _find_unreadable(
     shown: Sequence[tuple[Variant, set[str]]], reads: Sequence[str]
-) -> Iterator[str]:
+) -> Iterator[Diagnostic]:
     """Quantities that are said to be read in a figure that does not have their numbers."""
-    for name in reads:
+    file = shown[0][0].template.file
+    for index, name in enumerate(reads):
         lacking = [one for one, numbers in shown if leading_digits(one.shown[name]) not in numbers]
         if lacking:
             number = leading_digits(lacking[0].shown[name])
-            yield f"figure: has no {name} = {number}, which reads says is read in it"
+            what = f"figure: has no {name} = {number}, which reads says is read in it"
+            yield diagnose("QG402", file, what, ("figure", "reads", index))
 
 
 def _collect_stated_numbers(one: Variant) -> set[str]:

@@ -15,7 +15,7 @@ from itertools import product
 from typing import Any, Literal
 
 from quizgen.bank.pools import count_pool_variants
-from quizgen.bank.sampler import sampler_for, test_candidate
+from quizgen.bank.sampler import sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant
 from quizgen.lint.answer_entropy import CLOSED, AnswerTally
@@ -24,7 +24,7 @@ from quizgen.lint.workload import check_workload
 from quizgen.maths.precision import working_precision
 from quizgen.question.compose import variant_identity
 from quizgen.question.interpolation import Interpolator, inlines_to_text
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 FEW, MANY = 0.8, 1.5
 """Bits that the answer of a part must have: of 2 or 3 options, and of more."""
@@ -43,7 +43,8 @@ COUNTED, POOLED = 200, 20_000
 """Candidates that are walked through to count a pool; more where parts have pools."""
 
 Level = Literal["error", "note"]
-Said = Iterator[tuple[Level, str]]
+Said = Iterator[tuple[Level, str, str]]
+"""How bad it is, its code, and what it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +54,7 @@ class QualityFinding:
     template: str
     label: str
     level: Level
+    code: str
     what: str
 
 
@@ -81,8 +83,9 @@ class QualityReview:
             said += _check_option_letters(self.first, index) if self.first else []
             if index in self.seen:
                 said += _seen_findings(self.template, index, self.seen[index])
-            for level, what in said:
-                yield QualityFinding(self.template.id, label or "1", level, what)
+            for level, code, what in said:
+                if code not in self.template.rules.ignore:
+                    yield QualityFinding(self.template.id, label or "1", level, code, what)
 
 
 def review_template(template: Template, seeds: int = 200) -> list[QualityFinding]:
@@ -99,9 +102,10 @@ def review_template(template: Template, seeds: int = 200) -> list[QualityFinding
         one = draw_variant(template, seed)
         different.add(variant_identity(one))
         lessons.add(one)
-    pools = _pool_findings(template, len(different), seeds)
-    found = [QualityFinding(template.id, "", level, what) for level, what in pools]
-    found += [QualityFinding(template.id, "", "note", what) for what in check_workload(template)]
+    said = [*_pool_findings(template, len(different), seeds)]
+    said += [("note", "QG315", what) for what in check_workload(template)]
+    ignored = template.rules.ignore
+    found = [QualityFinding(template.id, "", *one) for one in said if one[1] not in ignored]
     return [*found, *lessons.findings()]
 
 
@@ -111,30 +115,29 @@ def _seen_findings(template: Template, index: int, seen: AnswerTally) -> Said:
     answer = template.rules.part[index].answer
     wanted = WANTED_BITS.get(seen.kind, MANY if seen.most >= 4 else FEW)
     if seen.most_bits < wanted:
-        yield "error", f"its answer has {seen.bits:.2f} bits, at least {wanted} are wanted"
+        yield "error", "QG301", f"its answer has {seen.bits:.2f} bits, at least {wanted} are wanted"
     yield from _choice_findings(seen)
     if seen.kind == "choice" and not answer.get("in_order"):
         share = seen.draws / seen.most
         most = SPREAD * math.sqrt(share * (1 - 1 / seen.most))
         odd = [p for p in range(1, seen.most + 1) if abs(seen.places[p] - share) > most]
         if odd:
-            yield "error", f"the right option stands too often or too seldom at {odd}"
+            what = f"the right option stands too often or too seldom at {odd}"
+            yield "error", "QG302", what
 
 
 def _choice_findings(seen: AnswerTally) -> Said:
     never = sorted(set(seen.shown) - set(seen.right))
     if never:
-        yield "note", f"never right: {', '.join(never)}"
+        yield "note", "QG313", f"never right: {', '.join(never)}"
     always = sorted(name for name, count in seen.shown.items() if seen.right[name] == count)
     if always and seen.kind == "multi" and len(always) + len(never) == len(seen.shown):
-        yield "note", "each option is always right or always wrong"
+        yield "note", "QG314", "each option is always right or always wrong"
     for lang, count in seen.longest.items() if seen.kind == "choice" else ():
         if seen.most >= 3 and count > LONGEST * seen.draws:
             share = f"{count / seen.draws:.0%}"
-            yield (
-                "error",
-                f"{lang}: the right option is clearly the longest in {share} of the draws",
-            )
+            what = f"{lang}: the right option is clearly the longest in {share} of the draws"
+            yield "error", "QG303", what
 
 
 def _check_authored_reasons(template: Template, index: int) -> Said:
@@ -144,11 +147,11 @@ def _check_authored_reasons(template: Template, index: int) -> Said:
     told = reasons | {name.partition(" = ")[0] for name in reasons}
     lacking = [name for name in _to_explain(template, answer, reasons) if name not in told]
     if lacking:
-        yield "error", f"no reason for {', '.join(lacking)}"
+        yield "error", "QG304", f"no reason for {', '.join(lacking)}"
     if answer["kind"] == "tf" and not {"from", "claim"} & answer.keys():
-        yield "error", "a statement without a name has no reason: make it a claim"
+        yield "error", "QG305", "a statement without a name has no reason: make it a claim"
     if answer["kind"] in {"order", "expression"} and not answer.get("traps"):
-        yield "error", "no trap names a wrong answer"
+        yield "error", "QG306", "no trap names a wrong answer"
 
 
 EXPLAINED = {"choice": ("options",), "multi": ("options",), "match": ("pairs",),
@@ -175,24 +178,26 @@ def _list_drawable_phrases(template: Template, name: str, reasons: set[str]) -> 
 def _pool_findings(template: Template, different: int, seeds: int) -> Said:
     rules = template.rules
     if different < min(DIFFERENT, seeds):
-        yield "error", f"{different} different questions in {seeds} draws"
-    if not rules.pool:
-        yield "error", "pool is missing: how many different questions there are"
+        yield "error", "QG307", f"{different} different questions in {seeds} draws"
     counted = count_pool(template)
-    if counted and counted != rules.pool:
-        yield "error", f"there are {counted} different questions, not {rules.pool or 0}"
+    if counted and not rules.pool:
+        yield "note", "QG308", f"there are {counted} different questions"
+    elif counted and counted != rules.pool:
+        yield "error", "QG308", f"there are {counted} different questions, not {rules.pool}"
 
 
 def _claims_findings(template: Template) -> Said:
     rules = template.rules
     asked = sum("from" in part.answer for part in rules.part)
     if len(rules.claims) < CLAIMS * asked:
-        yield "error", f"{len(rules.claims)} claims for {asked} parts, {CLAIMS * asked} are wanted"
+        what = f"{len(rules.claims)} claims for {asked} parts, {CLAIMS * asked} are wanted"
+        yield "error", "QG309", what
     listed = {name for part in rules.part for field in ("options", "pairs", "steps", "gaps")
               for name in part.answer.get(field, ())}  # fmt: skip
     twice = sorted(listed & set(rules.claims))
     if twice:
-        yield "error", f"claims and options share names, and so their reason: {', '.join(twice)}"
+        what = f"claims and options share names, and so their reason: {', '.join(twice)}"
+        yield "error", "QG310", what
 
 
 def count_pool(template: Template) -> int:
@@ -209,7 +214,7 @@ def count_pool(template: Template) -> int:
             for variable in plan.variables:
                 if variable.formula is not None:
                     variable.derive(shown, words)
-        kept = test_candidate(plan, shown)
+        kept = solve_candidate(plan, shown)
         if not isinstance(kept, str):
             total += count_pool_variants(Variant(template, "0", "0", 1, shown, words, *kept))
     return total
@@ -224,14 +229,14 @@ def _check_option_letters(one: Variant, index: int) -> Said:
     """Letters of options that the figure shows too, and numbered pictures out of order."""
     lang = one.template.languages[0]
     shown = set(_MARK.findall(figure_text(one, lang, quiz=True)))
-    options = build(one, index).options
+    options = ask_part(one, index).options
     clash = sorted(shown & {mark for mark, _ in options})
     if clash:
-        yield "error", f"options and figure both have letters {', '.join(clash)}"
+        yield "error", "QG311", f"options and figure both have letters {', '.join(clash)}"
     filler = Interpolator(one, lang)
     found = [
         _PICTURE.fullmatch(inlines_to_text(filler.sentence("options", name))) for _, name in options
     ]
     places = [int(match[1]) for match in found if match]
     if len(places) == len(found) > 1 and places != list(range(1, len(found) + 1)):
-        yield "error", "numbered pictures are out of order: use in_order"
+        yield "error", "QG312", "numbered pictures are out of order: use in_order"

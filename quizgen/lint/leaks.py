@@ -27,9 +27,9 @@ from quizgen.bank.markdown import (
 )
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import FormulaError
-from quizgen.grading.kinds import choice, gap, match, order, text
-from quizgen.grading.mark import show_key
 from quizgen.grading.spec import AnySpec
+from quizgen.kinds import NUMERIC, choice, gap, match, order, text
+from quizgen.kinds.grade import show_key
 from quizgen.maths.canonical import CanonicalForm, canonical_forms, formulas_in_program
 from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula
 from quizgen.maths.tree import Expr
@@ -49,7 +49,7 @@ SAME = 0.85
 """Share of a sentence's words that another one must have to say the same."""
 POINTS = 2
 """Key points of a text that one sentence of another question must name to tell them."""
-NUMBERS = frozenset({"number", "quantity", "angle", "point", "table", "set", "interval", "code"})
+NUMBERS = NUMERIC | {"code"}
 
 _SENTENCE = re.compile(r"(?<=[.।?;]) ")
 GAP = "____"
@@ -65,12 +65,13 @@ _WORD = re.compile(r"[^\W\d_\u0980-\u09ff][\w'-]{3,}|[\u0980-\u09ff]{3,}")
 
 @dataclass(frozen=True)
 class Leak:
-    """A question tells what another one asks."""
+    """A question tells what another one asks, in a text of it if that can be shown."""
 
     teller: str
     asker: str
     label: str
     what: str
+    text: str = ""
 
 
 @dataclass
@@ -115,7 +116,7 @@ class AskedContent:
     formulas: Mapping[CanonicalForm, str]
     numbers: frozenset[str]
     sentences: tuple[tuple[str, str], ...]
-    points: text.Spec | None
+    points: text.TextSpec | None
     steps: tuple[str, ...]
 
     @property
@@ -126,15 +127,21 @@ class AskedContent:
     @cached_property
     def named(self) -> dict[str, list[str]]:
         """Key points with the words that name each; none if they are too few to tell them."""
-        points = self.points.groups() if self.points else {}
+        points = self.points.key_points() if self.points else {}
         named = {name: [f" {t.casefold()}" for t in terms] for name, terms in points.items()}
         return named if len(named) >= POINTS else {}
 
     @cached_property
     def words(self) -> list[tuple[str, frozenset[str], frozenset[str]]]:
         """Each sentence, what of its words must be told, and all of them, if they are enough."""
-        found = [(f"{must} {may}".strip(), _extract_word_stems(must), _extract_word_stems(f"{must} {may}"))
-                 for must, may in self.sentences]  # fmt: skip
+        found = [
+            (
+                f"{must} {may}".strip(),
+                _extract_word_stems(must),
+                _extract_word_stems(f"{must} {may}"),
+            )
+            for must, may in self.sentences
+        ]
         return [one for one in found if len(one[2]) >= WORDS]
 
 
@@ -166,11 +173,11 @@ def find_bank_leaks(bank: Bank, questions: Sequence[QuestionContent]) -> dict[Le
         for teller in questions if asked else ():
             if teller is asker or teller.lang != asker.lang:
                 continue
-            what = [(one, said) for one in asked for said in _iter_leaks(one, teller.said)]
+            what = [(one, *said) for one in asked for said in _iter_leaks(one, teller.said)]
             names = teller.template, asker.template
             if what and not are_exclusive(bank, *names):
-                for secret, said in what:
-                    found.setdefault(Leak(*names, secret.label, said), teller.lang)
+                for secret, said, text in what:
+                    found.setdefault(Leak(*names, secret.label, said, text), teller.lang)
     return found
 
 
@@ -187,35 +194,39 @@ def find_paper_leaks(paper: Paper) -> list[Leak]:
                     if teller is not asker:
                         names = teller.keys[0].template, asker.keys[0].template
                         what = dict.fromkeys(_iter_leaks(secret, other))
-                        found |= dict.fromkeys(Leak(*names, secret.label, w) for w in what)
+                        found |= dict.fromkeys(Leak(*names, secret.label, *w) for w in what)
     return list(found)
 
 
-def _iter_leaks(secret: AskedContent, other: PrintedContent) -> Iterator[str]:
+def _iter_leaks(secret: AskedContent, other: PrintedContent) -> Iterator[tuple[str, str]]:
+    """What of a secret is told, and the text that tells it."""
     if not secret.formulas.keys().isdisjoint(other.formulas):
         for form in secret.formulas.keys() & other.formulas.keys():
-            yield f"formula {secret.formulas[form]} in ${other.formulas[form]}$"
+            text = f"${other.formulas[form]}$"
+            yield f"formula {secret.formulas[form]} in {text}", text
     if secret.numbers:
-        yield from (f"number {n}" for n in sorted(secret.numbers & other.numbers))
+        yield from ((f"number {n}", n) for n in sorted(secret.numbers & other.numbers))
     for sentence, needed, words in secret.words:
         if needed <= other.vocabulary and len(words & other.vocabulary) >= SAME * len(words):
             for line, others in other.words:
                 if needed <= others and len(words & others) >= SAME * len(words):
-                    yield f"'{sentence}' in {line!r}"
+                    yield f"'{sentence}' in {line!r}", line
     if secret.named:
         yield from _named_points(secret.named, other)
     places = [other.sentences.index(step) for step in secret.steps if step in other.sentences]
     if len(places) > 1 and places == sorted(places):
-        yield f"order of {len(places)} steps"
+        yield f"order of {len(places)} steps", other.sentences[places[0]]
 
 
-def _named_points(named: Mapping[str, Sequence[str]], other: PrintedContent) -> Iterator[str]:
+def _named_points(
+    named: Mapping[str, Sequence[str]], other: PrintedContent
+) -> Iterator[tuple[str, str]]:
     """Sentences that name several key points, and most of them."""
     there = [name for name, terms in named.items() if any(term in other.text for term in terms)]
     for sentence, line in other.lines if len(there) >= POINTS else ():
         found = [name for name in there if any(term in line for term in named[name])]
         if len(found) >= POINTS and 2 * len(found) > len(named):
-            yield f"key points {', '.join(found)} in {sentence!r}"
+            yield f"key points {', '.join(found)} in {sentence!r}", sentence
 
 
 def printed_content(question: Question, drawn: Variant) -> PrintedContent:
@@ -269,14 +280,14 @@ def asked_content(
         spec = key.specs[index]
         asked = _asked_formulas(key, index)
         shown = show_key(spec, question.lang) if spec.kind in NUMBERS else ""
-        steps = spec.steps if isinstance(spec, order.Spec) else []
+        steps = spec.steps if isinstance(spec, order.OrderSpec) else []
         options = {mark: inlines_to_plain_text(text) for mark, text in part.field.options}
         yield AskedContent(
             part.label,
             {form: name for form, name in asked.items() if form not in own.formulas},
             frozenset(_iter_notable_numbers(shown)) - own.numbers,
             tuple(_right_sentences(question, index, spec)),
-            spec if isinstance(spec, text.Spec) else None,
+            spec if isinstance(spec, text.TextSpec) else None,
             tuple(options[mark] for mark in steps),
         )
 
@@ -291,12 +302,12 @@ def _right_sentences(question: Question, index: int, spec: AnySpec) -> Iterator[
     """What is right in words, options, pairs, filled gaps: what must be told, and what may be."""
     shown = question.parts[index].field
     options = {mark: inlines_to_plain_text(text) for mark, text in shown.options}
-    if isinstance(spec, match.Spec):
+    if isinstance(spec, match.MatchSpec):
         targets = {mark: inlines_to_plain_text(text) for mark, text in shown.targets}
         yield from ((options[left], targets[right]) for left, right in spec.pairs.items())
-    elif isinstance(spec, choice.Spec) and options:
+    elif isinstance(spec, choice.ChoiceSpec) and options:
         yield from (("", text) for n, text in enumerate(options.values(), 1) if n in spec.correct)
-    elif isinstance(spec, gap.Spec):
+    elif isinstance(spec, gap.GapSpec):
         body = (*question.stem, *question.parts[index].body)
         lines = [line for line in blocks_to_plain_text(body) if GAP in line]
         words = [accepted[0] for accepted in spec.gaps()]

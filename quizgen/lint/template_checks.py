@@ -13,19 +13,22 @@ from __future__ import annotations
 import re
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import NamedTuple
 
 from quizgen.bank.levels import EXAM
 from quizgen.bank.markdown import LanguageFile, slot_names
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.sampler import sampler_for
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant, reference_variant
+from quizgen.core.diagnostics import Diagnostic, diagnose
 from quizgen.core.errors import QuizgenError
-from quizgen.grading.mark import mark, show_key
+from quizgen.core.positions import TEXT, Place
 from quizgen.grading.spec import AnySpec, SpecBase
+from quizgen.kinds.contract import AskedPart, asked_quantities
+from quizgen.kinds.grade import grade_answer, show_key
 from quizgen.lint.dimensions import check_dimensions
 from quizgen.lint.figures import check_figures
 from quizgen.lint.item_quality import QualityReview
@@ -33,10 +36,9 @@ from quizgen.lint.leaks import QuestionContent, question_content
 from quizgen.locale import FIRST, get_language, localise_numbers
 from quizgen.maths.numbers import to_float
 from quizgen.question.compose import Question, QuestionKey, compose_variant, variant_identity
-from quizgen.question.contract import Built
-from quizgen.question.kinds import build
 from quizgen.question.levels import LEVELS, load_level
 from quizgen.question.localise import localise
+from quizgen.question.part_context import ask_part
 from quizgen.render.text import blocks_to_plain_text
 
 
@@ -67,6 +69,7 @@ LEVELLED = 1
 """Instances that are asked at every level, and typed back likewise."""
 ComposedLanguages = dict[str, tuple[Question, QuestionKey]]
 """An instance in each of its languages."""
+_DRAW = ("draw",)
 VERBATIM = frozenset({"code", "sketch"})
 """Kinds whose key is printed as a program writes it."""
 
@@ -82,7 +85,7 @@ class TemplateReport:
     seconds: float = 0.0
     ranges: dict[str, tuple[float, float]] = field(default_factory=dict)
     traps: Counter[str] = field(default_factory=Counter)
-    problems: list[str] = field(default_factory=list)
+    problems: list[Diagnostic] = field(default_factory=list)
     heard: list[QuestionContent] = field(default_factory=list)
 
     @property
@@ -110,7 +113,9 @@ def lint_template(
         Languages that it must be written in: those of its bank.
     """
     report = TemplateReport(template.id)
-    report.problems += [*_language_problems(template, langs), *check_dimensions(template)]
+    ignored = template.rules.ignore
+    found = [*_language_problems(template, langs), *check_dimensions(template)]
+    report.problems += [problem for problem in found if problem.code not in ignored]
     if report.problems:
         return report
     lessons = QualityReview(template)
@@ -123,18 +128,33 @@ def lint_template(
         for worded in composed:
             report.problems += check_composition(worded)
         typed = (*_select_telling_variants(first, MARKED.count(seeds)), *known)
-        report.problems += _once_a_part([p for one in typed for p in check_grading(one)])
+        report.problems += _once_a_part(answer for one in typed for answer in _typed_back(one))
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
-        report.problems += [
-            f"part {one.label}: {one.what}" for one in lessons.findings() if one.level == "error"
-        ]
+        report.problems += _lacking_lessons(template, lessons)
+        report.problems = [one for one in report.problems if one.code not in ignored]
     except QuizgenError as error:
-        report.problems.append(str(error))
+        report.problems.append(error.diagnostic(template.file))
     report.problems = list(dict.fromkeys(report.problems))
     return report
+
+
+def _answer(index: int) -> Place:
+    return ("part", index, "answer")
+
+
+def _lacking_lessons(template: Template, lessons: QualityReview) -> Iterator[Diagnostic]:
+    labels = [label or "1" for label in template.labels]
+    for one in lessons.findings():
+        if one.level == "error":
+            file, place = template.file, _answer(labels.index(one.label))
+            if one.code == "QG304":
+                file, place = _prose_file(template, template.languages[0]), ("reasons",)
+            elif one.code in {"QG309", "QG310"}:
+                place = ("claims",)
+            yield diagnose(one.code, file, f"part {one.label}: {one.what}", place)
 
 
 def _select_telling_variants(draws: list[Variant], marked: int) -> Iterator[Variant]:
@@ -170,7 +190,9 @@ def _examine_draws(
             report.traps[trap] += count
     for part in sampler_for(template).parts:
         report.problems += [
-            f"trap {trap!r} never gives a usable wrong answer"
+            diagnose(
+                "QG207", template.file, f"trap {trap!r} never gives a usable wrong answer", _DRAW
+            )
             for trap in part.traps
             if not report.traps[trap]
         ]
@@ -188,39 +210,50 @@ def _draw_within_limit(template: Template, seeds: int, report: TemplateReport) -
 
 def _widen_ranges(report: TemplateReport, one: Variant) -> None:
     for part in one.template.rules.part:
-        for name in answer_names(part.answer):
+        for name in asked_quantities(part.answer):
             value = to_float(one.shown_values[name])
             low, high = report.ranges.get(name, (value, value))
             report.ranges[name] = (min(low, value), max(high, value))
 
 
-def _find_constant_answers(template: Template, report: TemplateReport) -> Iterator[str]:
+def _find_constant_answers(template: Template, report: TemplateReport) -> Iterator[Diagnostic]:
     """Answers that do not vary although the questions do."""
     for part in template.rules.part if report.distinct >= VARIED else ():
-        ranges = {name: report.ranges[name] for name in answer_names(part.answer)}
+        ranges = {name: report.ranges[name] for name in asked_quantities(part.answer)}
         if ranges and all(low == high for low, high in ranges.values()):
             said = ", ".join(f"{name} = {low:.6g}" for name, (low, _) in ranges.items())
-            yield f"the answer {said} is the same in all {report.seeds} draws"
+            what = f"the answer {said} is the same in all {report.seeds} draws"
+            yield diagnose("QG208", template.file, what, _DRAW)
 
 
-def _language_problems(template: Template, langs: tuple[str, ...]) -> list[str]:
+def _prose_file(template: Template, lang: str) -> Path:
+    return template.path / f"{lang}.md"
+
+
+def _language_problems(template: Template, langs: tuple[str, ...]) -> list[Diagnostic]:
     wanted = langs or tuple(template.texts) or (FIRST,)
-    problems = [f"no {lang}.md" for lang in wanted if lang not in template.texts]
+    files = {lang: _prose_file(template, lang) for lang in (*wanted, *template.texts)}
+    problems = [
+        diagnose("QG210", files[lang], f"no {lang}.md")
+        for lang in wanted
+        if lang not in template.texts
+    ]
     if not template.texts:
         return problems
     for lang in template.texts:
-        problems += [f"{lang}.md: {p}" for p in _find_missing_texts(template, lang)]
+        problems += [diagnose(code, files[lang], what, place)
+                     for code, what, place in _find_missing_texts(template, lang)]  # fmt: skip
     problems += _unequal_slots(template)
     return problems
 
 
-def _find_missing_texts(template: Template, lang: str) -> Iterator[str]:
+def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, str, Place]]:
     text, chain = template.texts[lang], template.chain
     for label, part in zip(template.labels, template.rules.part, strict=True):
         if label and label not in text.sections and "from" not in part.answer:
-            yield f"section {label!r} is missing"
+            yield "QG211", f"section {label!r} is missing", ()
     if chain.steps and "check" not in text.sections:
-        yield "section 'check' is missing"
+        yield "QG211", "section 'check' is missing", ()
     parts = sampler_for(template).parts
     wanted = {
         "steps": {step.name for part in parts for step in part.steps},
@@ -236,31 +269,35 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[str]:
     }
     for section, names in wanted.items():
         said = set(text.named.get(section, {}))
-        yield from (f"section {section!r} lacks {name!r}" for name in sorted(names - said))
-        strangers = sorted(said - known[section])
-        yield from (
-            f"section {section!r} explains {n!r}, unknown to the {_KNOWS.get(section, 'solver')}"
-            for n in strangers
-        )
+        for name in sorted(names - said):
+            yield "QG212", f"section {section!r} lacks {name!r}", (section,)
+        knows = "pool [claims]" if section == "claims" else "solver"
+        for name in sorted(said - known[section]):
+            what = f"section {section!r} explains {name!r}, unknown to the {knows}"
+            yield "QG213", what, (section, name)
 
 
-_KNOWS = {"claims": "pool [claims]"}
-
-
-def _unequal_slots(template: Template) -> Iterator[str]:
+def _unequal_slots(template: Template) -> Iterator[Diagnostic]:
     """Every drawn value that one language shows must be shown in the others."""
     shown = {lang: set(_question_slots(text)) for lang, text in template.texts.items()}
     first, *others = shown
     for lang in others:
         if shown[first] != shown[lang]:
             odd = sorted(shown[first] ^ shown[lang])
-            yield f"{first}.md and {lang}.md do not show the same values: {odd}"
+            what = f"{first}.md and {lang}.md do not show the same values: {odd}"
+            # The one that shows more has the line to look at.
+            more = first if odd[0] in shown[first] else lang
+            place: Place = (TEXT, f"{{{{ {odd[0]} }}}}")
+            yield diagnose("QG214", _prose_file(template, more), what, place)
     for section in ("options", "words", "gaps", "points", "claims", "reasons", "why"):
         keys = {lang: set(text.named.get(section, {})) for lang, text in template.texts.items()}
         for lang in others:
             if keys[first] != keys[lang]:
                 odd = sorted(keys[first] ^ keys[lang])
-                yield f"{lang}.md: section {section!r} differs by {odd}"
+                what = f"section {section!r} differs from {first}.md by {odd}"
+                stranger = next((name for name in odd if name in keys[lang]), "")
+                place = (section, stranger) if stranger else (section,)
+                yield diagnose("QG215", _prose_file(template, lang), what, place)
 
 
 def _question_slots(text: LanguageFile) -> Iterator[str]:
@@ -277,46 +314,53 @@ def _compose_in_all_languages(one: Variant) -> ComposedLanguages:
     return {lang: compose_variant(one, lang, figures=False) for lang in one.template.languages}
 
 
-def check_composition(worded: ComposedLanguages) -> list[str]:
+def check_composition(worded: ComposedLanguages) -> list[Diagnostic]:
     """Problems of one instance in all languages."""
-    problems: list[str] = []
+    problems: list[Diagnostic] = []
     for lang, (question, key) in worded.items():
+        file = _prose_file(key.draw.template, lang)
         bodies = [question.stem, *(part.body for part in question.parts)]
         shown = " ".join(line for body in bodies for line in blocks_to_plain_text(body))
         if re.search(r"\{\{|\}\}|\bnan\b|\binf\b", shown):
-            problems.append(f"{lang}: a placeholder is left in {shown!r}")
+            what = f"a placeholder is left in {shown!r}"
+            problems.append(diagnose("QG209", file, what))
         remarks = (key.solution.why, key.solution.check, key.solution.note)
         solved = " ".join(line for remark in remarks for line in blocks_to_plain_text(remark))
         if "{{" in solved:
-            problems.append(f"{lang}: a placeholder is left in the solution")
+            problems.append(diagnose("QG209", file, "a placeholder is left in the solution"))
     return problems
 
 
-_TYPED = re.compile(r"seed .*?, (part \w+): (printed answer|trap '.*?')")
+@dataclass(frozen=True)
+class _TypedAnswer:
+    """An answer that was typed back and not marked as it should be; no trap: it was the key."""
+
+    part: str
+    trap: str
+    diagnostic: Diagnostic
 
 
-def _once_a_part(problems: list[str]) -> list[str]:
+def _once_a_part(answers: Iterable[_TypedAnswer]) -> list[Diagnostic]:
     """The first problem of a part's key and of each mistake, which would come again in each draw.
 
     Where the key itself is not right when typed, what becomes of mistakes says nothing.
     """
-    found: dict[tuple[str, str], str] = {}
-    for problem in problems:
-        if typed := _TYPED.match(problem):
-            found.setdefault((typed[1], typed[2]), problem)
-    keys = {part for part, what in found if what == "printed answer"}
-    return [p for (part, what), p in found.items() if what == "printed answer" or part not in keys]
+    found: dict[tuple[str, str], Diagnostic] = {}
+    for one in answers:
+        found.setdefault((one.part, one.trap), one.diagnostic)
+    keys = {part for part, trap in found if not trap}
+    return [said for (part, trap), said in found.items() if not trap or part not in keys]
 
 
-def check_grading(one: Variant) -> list[str]:
+def _typed_back(one: Variant) -> Iterator[_TypedAnswer]:
     """Problems with typing the printed answer and each mistake back."""
-    labels = enumerate(one.template.labels)
-    return [
-        p for index, label in labels for p in _check_printed_answers(one, build(one, index), label)
-    ]
+    for index, label in enumerate(one.template.labels):
+        yield from _check_printed_answers(one, ask_part(one, index), index, label)
 
 
-def _check_printed_answers(one: Variant, part: Built[AnySpec], label: str) -> Iterator[str]:
+def _check_printed_answers(
+    one: Variant, part: AskedPart[AnySpec], index: int, label: str
+) -> Iterator[_TypedAnswer]:
     """What is typed alike in several languages is marked once: a verdict knows no language."""
     seen = set[tuple[str, str]]()
     langs = one.template.languages
@@ -328,7 +372,10 @@ def _check_printed_answers(one: Variant, part: Built[AnySpec], label: str) -> It
             text = typed[trap][lang]
             if (trap, text) not in seen:
                 seen.add((trap, text))
-                yield from _check_typed_answer(part.spec, trap, text, where, lang)
+                place = _answer(index)
+                for code, what in _check_typed_answer(part.spec, trap, text, lang):
+                    found = diagnose(code, one.template.file, f"{where}: {what}", place)
+                    yield _TypedAnswer(label, trap, found)
 
 
 def _format_key_by_language(spec: AnySpec, langs: Sequence[str]) -> dict[str, str]:
@@ -341,13 +388,15 @@ def _format_key_by_language(spec: AnySpec, langs: Sequence[str]) -> dict[str, st
     return {lang: localise_numbers(lang, text) for lang, text in shown.items()}
 
 
-def check_levels(one: Variant) -> list[str]:
+def check_levels(one: Variant) -> list[Diagnostic]:
     """Problems of the levels that are made from the chain: marked alike in every language."""
-    found: list[str] = []
+    found: list[Diagnostic] = []
+    file, place = one.template.file, ("levels",)
     for name in (name for name in LEVELS if name != EXAM and load_level(name).is_applicable(one)):
         asked = [load_level(name).ask(one, lang) for lang in one.template.languages]
         if len({tuple(map(repr, (part.spec for part in each.parts))) for each in asked}) > 1:
-            found.append(f"seed {one.seed}: {name}: languages are not marked alike")
+            what = f"seed {one.seed}: {name}: languages are not marked alike"
+            found.append(diagnose("QG206", file, what, place))
         for part in asked[0].parts:
             where = f"seed {one.seed}, {name}, part {part.label or '1'}"
             lang = asked[0].solution.lang
@@ -355,19 +404,20 @@ def check_levels(one: Variant) -> list[str]:
             mistakes = localise(lang, part.solved).mistakes  # of a drawing they are only told
             typed += [(mistake.name, mistake.value) for mistake in mistakes if mistake.value]
             found += [
-                p
+                diagnose(code, file, f"{where}: {what}", place)
                 for trap, text in typed
-                for p in _check_typed_answer(part.spec, trap, text, where, lang)
+                for code, what in _check_typed_answer(part.spec, trap, text, lang)
             ]
     return found
 
 
 def _check_typed_answer(
-    spec: AnySpec, trap: str, typed: str, where: str, lang: str
-) -> Iterator[str]:
+    spec: AnySpec, trap: str, typed: str, lang: str
+) -> Iterator[tuple[str, str]]:
+    """Code and what is wrong with the verdict on what was typed."""
     comma = get_language(lang).decimal == "," and spec.kind not in VERBATIM
-    verdict = mark(spec, typed, lang=lang, decimal="comma" if comma else "point")
+    verdict = grade_answer(spec, typed, lang=lang, decimal="comma" if comma else "point")
     if trap and verdict.note != f"trap:{trap}":
-        yield f"{where}: trap {trap!r} typed as {typed!r} is {verdict.verdict} ({verdict.note})"
+        yield "QG204", f"trap {trap!r} typed as {typed!r} is {verdict.verdict} ({verdict.note})"
     if not trap and verdict.verdict != "correct" and not verdict.needs_self_marking:
-        yield f"{where}: printed answer {typed!r} is marked {verdict.verdict} ({verdict.note})"
+        yield "QG205", f"printed answer {typed!r} is marked {verdict.verdict} ({verdict.note})"

@@ -28,7 +28,7 @@ from __future__ import annotations
 import re
 import tomllib
 import unicodedata
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -37,6 +37,7 @@ from typing import Any
 import msgspec
 
 from quizgen.core.decoding import convert
+from quizgen.core.diagnostics import Diagnostic, diagnose
 from quizgen.core.errors import QuizgenError, require_one_of
 from quizgen.locale import custom
 
@@ -136,8 +137,12 @@ def default_language(held: tuple[str, ...]) -> str:
 
 @cache
 def _find_languages(places: tuple[Path, ...], heard: tuple[str, ...]) -> tuple[str, ...]:
-    found = {entry.name for place in places for entry in place.iterdir()
-             if (entry / "language.toml").is_file() and custom.is_language_tag(entry.name)}  # fmt: skip
+    found = {
+        entry.name
+        for place in places
+        for entry in place.iterdir()
+        if (entry / "language.toml").is_file() and custom.is_language_tag(entry.name)
+    }
     found.update(heard)
     return tuple(sorted(found, key=lambda lang: (lang != FIRST, get_language(lang).order, lang)))
 
@@ -159,7 +164,9 @@ def get_language(lang: str) -> Language:
         return convert(usual | _read_words(file), Language)
     except msgspec.ValidationError as error:
         what, _, key = str(error).partition(" - at `$.")
-        raise QuizgenError(f"{file}: {key.rstrip('`')}{': ' if key else ''}{what}") from error
+        key = key.rstrip("`")
+        said, place = f"{key}: {what}" if key else what, (key,) if key else ()
+        raise QuizgenError(said, rule="QG106", file=file, place=place) from error
 
 
 def localise_numbers(lang: str, text: str) -> str:
@@ -273,9 +280,20 @@ def load_words(lang: str, name: str = "interface") -> dict[str, Any]:
         raise QuizgenError(
             f"no {name} words for language {lang!r} (there are {', '.join(list_languages())})"
         )
-    if file and file.is_relative_to(SHIPPED):
+    if file == english:
         return _read_words(file)
+    if file and file.is_relative_to(SHIPPED):
+        return _with_english(_read_words(file), load_words(FIRST, name))
     return custom.merge_translation(load_words(FIRST, name), _read_words(file))
+
+
+def _with_english(own: Mapping[str, Any], english: Mapping[str, Any]) -> dict[str, Any]:
+    """Words of a language, and English ones where it has none yet."""
+    merged = {**english, **own}
+    for key, value in own.items():
+        if isinstance(value, dict) and isinstance(english.get(key), dict):
+            merged[key] = _with_english(value, english[key])
+    return merged
 
 
 def untranslated_languages(langs: Iterable[str]) -> list[str]:
@@ -292,8 +310,8 @@ OPEN = frozenset({"letters", "greek", "names"})
 """Tables of ``speech`` that say only what is not called as it is written."""
 
 
-def check_translations(place: Path) -> Iterator[str]:
-    """What is wrong with the words that a bank brings: file, key and what is the matter.
+def check_translations(place: Path) -> Iterator[Diagnostic]:
+    """What is wrong with the words that a bank brings.
 
     Parameters
     ----------
@@ -305,7 +323,8 @@ def check_translations(place: Path) -> Iterator[str]:
         lang = file.parent.name
         try:
             if not custom.is_language_tag(lang):
-                yield f"{file}: {lang!r} is no language (call the folder fr, or pt-BR)"
+                what = f"{lang!r} is no language (call the folder fr, or pt-BR)"
+                yield diagnose("QG508", file, what)
             elif file.name == "language.toml":
                 get_language(lang)
             elif file.name in known:
@@ -313,11 +332,11 @@ def check_translations(place: Path) -> Iterator[str]:
                 for key, what in custom.check_translation(
                     english, custom.read_translation(file), OPEN
                 ):
-                    yield f"{file}: {key}: {what}"
+                    yield diagnose("QG507", file, f"{key}: {what}", tuple(key.split(".")))
             else:
-                yield f"{file}: is none of language.toml, {', '.join(known)}"
+                yield diagnose("QG508", file, f"is none of language.toml, {', '.join(known)}")
         except QuizgenError as error:
-            yield str(error)
+            yield error.diagnostic(file)
 
 
 def _find_words_file(lang: str, name: str) -> Path | None:
@@ -349,4 +368,7 @@ def format_amount(value: Fraction | float, lang: str) -> str:
 
 def format_marks(points: Fraction, lang: str) -> str:
     """Marks with their word: ``1 point``, ``2.5 points``."""
-    return f"{format_amount(points, lang)} {translate(lang, 'paper.point' if points == 1 else 'paper.points')}"
+    return (
+        f"{format_amount(points, lang)} "
+        f"{translate(lang, 'paper.point' if points == 1 else 'paper.points')}"
+    )

@@ -76,7 +76,7 @@ def _convert_float(expression: sympy.Basic) -> Expr:
     """Take the decimal that was typed: 2.2 is 11/5, not the nearest binary number."""
     if not expression.is_finite:
         raise BankError(f"no formula for the number {expression}")
-    double = expression._prec <= _DOUBLE
+    double = expression._prec <= _DOUBLE  # noqa: SLF001 - SymPy has no public name for it
     typed = repr(float(expression)) if double else str(expression)
     return Num(Fraction(typed), decimal=True)
 

@@ -85,7 +85,10 @@ class Model:
         _check_order(given, steps, traps)
         strangers = set(self.formulas) - {step.name for step in steps}
         if strangers:
-            raise BankError(f"formulas: {sorted(strangers)} are not steps")
+            place = ("formulas", min(strangers))
+            raise BankError(
+                f"formulas: {sorted(strangers)} are not steps", rule="QG116", place=place
+            )
         return Chain(given, steps, traps, self.formulas)
 
 
@@ -95,7 +98,8 @@ def _convert_step(step: Step) -> ChainStep:
     try:
         return ChainStep(step.symbol.name, from_sympy(step.expr), step.unit)
     except BankError as error:
-        raise BankError(f"step {step.symbol.name!r}: {error}") from error
+        name = step.symbol.name
+        raise BankError(f"step {name!r}: {error}", rule="QG131", place=("Step", name)) from error
 
 
 def _check_order(
@@ -108,13 +112,16 @@ def _check_order(
     for step in steps:
         missing = names_in(step.expr) - known
         if missing:
-            raise BankError(f"step {step.name!r} uses {sorted(missing)}, not defined before it")
+            what = f"step {step.name!r} uses {sorted(missing)}, not defined before it"
+            raise BankError(what, rule="QG130", place=("Step", step.name))
         before[step.name] = set(known)
         known.add(step.name)
     for trap, wrong in traps.items():
         for step in wrong:
             if step.name not in before:
-                raise BankError(f"trap {trap!r} replaces {step.name!r}, which is not a step")
+                what = f"trap {trap!r} replaces {step.name!r}, which is not a step"
+                raise BankError(what, rule="QG116", place=("traps", trap))
             missing = names_in(step.expr) - before[step.name]
             if missing:
-                raise BankError(f"trap {trap!r} uses {sorted(missing)}, not defined before it")
+                what = f"trap {trap!r} uses {sorted(missing)}, not defined before it"
+                raise BankError(what, rule="QG130", place=("traps", trap))

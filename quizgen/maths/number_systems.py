@@ -281,7 +281,9 @@ def sympy_system() -> NumberSystem:
     own: dict[str, OperatorFunction] = {
         "log2": lambda x: sympy.log(x) / sympy.log(2),
         "log10": lambda x: sympy.log(x) / sympy.log(10),
-        "round_float_half_away": lambda x: sympy.sign(x) * sympy.floor(abs(x) + sympy.Rational(1, 2)),
+        "round_float_half_away": lambda x: (
+            sympy.sign(x) * sympy.floor(abs(x) + sympy.Rational(1, 2))
+        ),
         "pi": lambda: sympy.pi,
     }
     ops = operator_functions("sympy", operator, sympy, **own)

@@ -43,7 +43,7 @@ os.register_at_fork(
 )
 
 
-class working_precision:
+class working_precision:  # noqa: N801 - reads as a statement
     """Work on balls with so many bits: one thread at a time, nested at will.
 
     Never hold it across a ``yield``: the precision would leak into the caller. Used as a decorator

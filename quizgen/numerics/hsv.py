@@ -41,12 +41,14 @@ def _to_rgb(H: Array, S: Array, V: Array) -> tuple[Array, ...]:
 
 
 def _complement_fraction(S: Array, degrees: DoubleDouble) -> Array:
-    """1 - S degrees/60 to twice the working precision; not a number where that cancels, too."""
+    """1 - S degrees/60 to twice the working precision; NaN, which asks for fractions, near 0."""
     left: Array = (60 - S * degrees).rounded() / 60
     return np.where(np.abs(left) < _CLOSE, np.nan, left)
 
 
-_CLOSE = 2.0**-40
+# Where 1 - S degrees/60 nearly vanishes, S degrees/60 is nearly 1, and pairs lose 2**-105 of it:
+# a quarter of a rounding of what remains here, four roundings at 2**-56, all digits at 2**-105.
+_CLOSE = 2.0**-50
 
 
 def _to_rgb_exact(H: fmpq, S: fmpq, V: fmpq) -> tuple[fmpq, ...]:

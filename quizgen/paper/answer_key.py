@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 from flint import fmpq
 
-from quizgen.bank.most import MOST_POINTS
 from quizgen.core.decoding import convert
 from quizgen.core.errors import FormulaError, KeyFileError
 from quizgen.core.files import read_table
-from quizgen.grading.mark import load_spec
 from quizgen.grading.options import QuestionContext
+from quizgen.kinds.contract import MOST_POINTS
+from quizgen.kinds.grade import load_spec
 from quizgen.locale import register_languages
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.constants import parse_exact

@@ -31,11 +31,12 @@ import msgspec
 
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.levels import CHOICES, EXAM
-from quizgen.bank.most import MOST_MINUTES, MOST_POINTS
 from quizgen.bank.qualified_names import BETWEEN
+from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BlueprintError
-from quizgen.core.untrusted import NAMES, is_identifier, parse_toml, read_text
+from quizgen.core.untrusted import NAMES, error_context, is_identifier, parse_toml, read_text
+from quizgen.kinds.contract import MOST_MINUTES, MOST_POINTS
 from quizgen.locale import list_languages, translate
 
 MOST_QUESTIONS = 200
@@ -188,72 +189,76 @@ def _read_blueprint(path: Path) -> Blueprint:
     """Read a blueprint's file; its name becomes part of every code."""
     if not _CODE_NAME.fullmatch(path.stem):
         raise BlueprintError(
-            f"{path}: {path.stem!r} cannot stand in a code (allowed: letters, digits, blanks, '_', "
-            "'.' and '-', at most 80)"
+            f"{path.stem!r} cannot stand in a code (allowed: letters, digits, blanks, '_', "
+            "'.' and '-', at most 80)",
+            rule="QG108",
+            file=path,
         )
     return _parse_blueprint(read_text(path, BlueprintError), path.stem, path)
 
 
 def _parse_blueprint(source: str, name: str, where: Path) -> Blueprint:
+    table = parse_toml(source, where, BlueprintError)
     try:
-        found = convert(parse_toml(source, where, BlueprintError), BlueprintFile)
+        found = convert(table, BlueprintFile)
     except msgspec.ValidationError as error:
-        raise BlueprintError(f"{where}: {error}{_list_allowed_fields(str(error))}") from error
-    _check_blueprint(found, where)
+        fault = complaint_of(error, BlueprintFile, table)
+        rule, place = fault.rule, fault.place
+        raise BlueprintError(fault.message, rule=rule, file=where, place=place) from error
+    with error_context(where, BlueprintError):
+        _check_blueprint(found)
     given = msgspec.structs.asdict(found)
     return Blueprint(**given, name=name, source=source, file=where)
 
 
-def _list_allowed_fields(message: str) -> str:
-    if "unknown field" not in message:
-        return ""
-    kind = SlotRule if "$.slot" in message else BlueprintFile
-    names = sorted(field.encode_name for field in msgspec.structs.fields(kind))
-    return f" (allowed: {', '.join(names)})"
-
-
-def _check_blueprint(blueprint: BlueprintFile, where: Path) -> None:
+def _check_blueprint(blueprint: BlueprintFile) -> None:
     if not blueprint.slot:
-        raise BlueprintError(f"{where}: at least one [[slot]] is needed")
-    for index, slot in enumerate(blueprint.slot, 1):
-        for problem in _check_slot(slot):
-            raise BlueprintError(f"{where}: slot {index}: {problem}")
-    for name in blueprint.reference:
+        raise BlueprintError("at least one [[slot]] is needed", rule="QG105")
+    for index, slot in enumerate(blueprint.slot):
+        for key, problem in _check_slot(slot):
+            what = f"slot {index + 1}: {problem}"
+            raise BlueprintError(what, rule="QG107", place=("slot", index, key))
+    for index, name in enumerate(blueprint.reference):
         if not _is_asked(name):
-            raise BlueprintError(f"{where}: reference: {name!r} is no name (allowed: {NAMES})")
+            what, place = f"reference: {name!r} is no name (allowed: {NAMES})", ("reference", index)
+            raise BlueprintError(what, rule="QG108", place=place)
     total = max(sum(slot.count for slot in blueprint.slot), len(blueprint.reference))
     if total > MOST_QUESTIONS:
-        raise BlueprintError(f"{where}: {total} questions (at most {MOST_QUESTIONS})")
-    for problem in _check_paper_constraints(blueprint):
-        raise BlueprintError(f"{where}: {problem}")
+        raise BlueprintError(f"{total} questions (at most {MOST_QUESTIONS})", rule="QG110")
+    for key, problem in _check_paper_constraints(blueprint):
+        raise BlueprintError(problem, rule="QG107", place=(key,))
 
 
-def _check_paper_constraints(blueprint: BlueprintFile) -> Iterator[str]:
+def _check_paper_constraints(blueprint: BlueprintFile) -> Iterator[tuple[str, str]]:
     """What is wrong in the demands on the paper as a whole."""
     span = blueprint.minutes or 1
     first, last = span if isinstance(span, tuple) else (span, span)
     if not 1 <= first <= last <= MOST_MINUTES:
-        yield f"minutes must be 1 to {MOST_MINUTES}, or [least, most]"
+        yield "minutes", f"minutes must be 1 to {MOST_MINUTES}, or [least, most]"
     if blueprint.total is not None and not 0 < blueprint.total <= MOST_TOTAL:
-        yield f"total must be positive and at most {MOST_TOTAL}"
+        yield "total", f"total must be positive and at most {MOST_TOTAL}"
     for name in ("figures", "figure_kinds", "photographs"):
         if not 0 <= getattr(blueprint, name) <= MOST_QUESTIONS:
-            yield f"{name} must be 0 to {MOST_QUESTIONS}"
+            yield name, f"{name} must be 0 to {MOST_QUESTIONS}"
     if not any(blueprint.title.values()):
-        yield "title: is empty (write it in the language of the bank, such as title.en)"
+        yield "title", "title: is empty (write it in the language of the bank, such as title.en)"
 
 
-def _check_slot(slot: SlotRule) -> Iterator[str]:
+def _check_slot(slot: SlotRule) -> Iterator[tuple[str, str]]:
+    """Key of a slot, and what is wrong with it."""
     if slot.tier is not None and slot.tier not in tuple("ABCD"):
-        yield f"tier {slot.tier!r} (allowed: A, B, C, D)"
+        yield "tier", f"tier {slot.tier!r} (allowed: A, B, C, D)"
     if slot.points is not None and not 0 < slot.points <= MOST_POINTS:
-        yield f"points must be positive and at most {MOST_POINTS}"
+        yield "points", f"points must be positive and at most {MOST_POINTS}"
     if slot.level is not None and slot.level not in CHOICES:
-        yield f"level {slot.level!r} (allowed: {', '.join(CHOICES)})"
+        yield "level", f"level {slot.level!r} (allowed: {', '.join(CHOICES)})"
     if not 1 <= slot.count <= MOST_QUESTIONS:
-        yield f"count must be 1 to {MOST_QUESTIONS}"
-    names = (*slot.templates, *(() if slot.topic is None else (slot.topic,)))
-    yield from (f"{name!r} is no name (allowed: {NAMES})" for name in names if not _is_asked(name))
+        yield "count", f"count must be 1 to {MOST_QUESTIONS}"
+    names = [("templates", name) for name in slot.templates]
+    names += [] if slot.topic is None else [("topic", slot.topic)]
+    for key, name in names:
+        if not _is_asked(name):
+            yield key, f"{name!r} is no name (allowed: {NAMES})"
 
 
 def _is_asked(name: str) -> bool:

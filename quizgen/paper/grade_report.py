@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from quizgen.columns import width
+from quizgen.columns import lay_out_table, wrap_lines
 from quizgen.core.untrusted import format_csv
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.feedback import format_read_back, load_words_inside
@@ -22,6 +22,7 @@ COLOURS = {
     "blank": "bright_black",
 }
 
+_REMARK = " " * 5  # before each line of a remark
 MOST_UNKNOWN = 10
 """Answers to parts that the paper does not have, of one form, that are named."""
 
@@ -51,17 +52,12 @@ def format_table(result: PaperResult, lang: str, columns: int, paint: bool) -> I
     table = load_words_inside(lang)
     heads = [table["part"], table["verdict"], table["marks"], table["read"]]
     body = result_rows(result, lang)
-    sizes = [max(width(row[i]) for row in [heads, *[r for _, r in body]]) for i in range(3)]
-    yield (
-        click.style(_format_table_line(heads, sizes), bold=True)
-        if paint
-        else _format_table_line(heads, sizes)
-    )
-    for status, cells in body:
-        line = _format_table_line(cells[:4], sizes)
+    (head,), *lines = lay_out_table([heads, *(cells[:4] for _, cells in body)])
+    yield click.style(head, bold=True) if paint else head
+    for (status, cells), (line,) in zip(body, lines, strict=True):
         yield click.style(line, fg=COLOURS[status]) if paint else line
         if cells[4]:
-            yield from _wrap_text(cells[4], columns)
+            yield from wrap_lines(cells[4], max(columns, 40), _REMARK, _REMARK)
     total = f"{table['total']}: {format_points(result.marks)} / {format_points(result.points)}"
     yield localise_numbers(lang, total)
     if result.asked_back:
@@ -71,21 +67,6 @@ def format_table(result: PaperResult, lang: str, columns: int, paint: bool) -> I
         yield table["unknown-part"].format(part=safe_echo(part))
     if len(result.unknown) > MOST_UNKNOWN:
         yield f"... (+{len(result.unknown) - MOST_UNKNOWN})"
-
-
-def _format_table_line(cells: list[str], sizes: list[int]) -> str:
-    padded = [cell + " " * (size - width(cell)) for cell, size in zip(cells, sizes, strict=False)]
-    return "  ".join([*padded, *cells[len(sizes) :]]).rstrip()
-
-
-def _wrap_text(text: str, columns: int) -> Iterable[str]:
-    line = "     "
-    for word in text.split():
-        if width(line) + 1 + width(word) > max(columns, 40) and line.strip():
-            yield line
-            line = "     "
-        line += f" {word}" if line.strip() else word
-    yield line
 
 
 def write_class_csv(results: list[tuple[str, str, str, PaperResult]]) -> str:

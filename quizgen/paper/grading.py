@@ -9,10 +9,11 @@ from typing import Any
 import msgspec
 
 from quizgen.core.errors import require_one_of
-from quizgen.grading.contract import Kind
-from quizgen.grading.mark import explain_verdict, judge_answer, load_spec, read_error_verdict
+from quizgen.grading.judge import explain_verdict, judge_answer, read_error_verdict
 from quizgen.grading.options import DECIMALS, GradingOptions
+from quizgen.grading.spec import AnySpec
 from quizgen.grading.verdict import Verdict
+from quizgen.kinds.grade import load_spec
 from quizgen.locale import list_languages
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.precision import working_precision
@@ -189,7 +190,7 @@ class QuestionGrader:
         )
 
     @working_precision()
-    def _judge_typed_answer(self, part: KeyPart, typed: str) -> tuple[Kind, Verdict]:
+    def _judge_typed_answer(self, part: KeyPart, typed: str) -> tuple[AnySpec, Verdict]:
         spec = load_spec(part.ordered_spec(), proven=self.proven)
         options = msgspec.structs.replace(self.options, points=part.points_exact())
         verdict = _judge_with_context(self.question, spec, typed, options, self.earlier)
@@ -206,7 +207,11 @@ class QuestionGrader:
 
 
 def _judge_with_context(
-    question: KeyQuestion, spec: Kind, typed: str, options: GradingOptions, earlier: dict[str, Any]
+    question: KeyQuestion,
+    spec: AnySpec,
+    typed: str,
+    options: GradingOptions,
+    earlier: dict[str, Any],
 ) -> Verdict:
     """Mark without the question around; only what went wrong is looked at again with it."""
     verdict = judge_answer(spec, typed, options)
@@ -218,7 +223,7 @@ def _judge_with_context(
 
 
 def _remember_own_values(
-    question: KeyQuestion, spec: Kind, verdict: Verdict, earlier: dict[str, Any]
+    question: KeyQuestion, spec: AnySpec, verdict: Verdict, earlier: dict[str, Any]
 ) -> None:
     """Keep the student's own values, in base units, for the parts that follow."""
     if question.chain is None or len(spec.quantities()) != len(verdict.values):

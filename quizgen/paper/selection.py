@@ -238,9 +238,11 @@ def _find_templates_for_slot(bank: Bank, blueprint: Blueprint, index: int) -> li
     with error_context(blueprint.file):
         _check_known(bank, slot, index)
     fitting = [
-        name for name in names
-        if _is_fit_for_slot(bank.rules(name), slot) and (blueprint.colour or not may_need_colour(bank, name))
-    ]  # fmt: skip
+        name
+        for name in names
+        if _is_fit_for_slot(bank.rules(name), slot)
+        and (blueprint.colour or not may_need_colour(bank, name))
+    ]
     if not fitting:
         wish = f"tier {slot.tier or 'any'} and topic {slot.topic or 'any'}"
         wish += "" if blueprint.colour else ", and is read without colour"

@@ -9,13 +9,13 @@ from functools import lru_cache
 import msgspec
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.sampler import Sampler, sampler_for
 from quizgen.bank.template import Template
 from quizgen.bank.variant import SiblingContent, Variant, draw_variant, leading_digits
 from quizgen.core.errors import SamplingError
-from quizgen.grading.kinds import expression
 from quizgen.grading.reading.formulas import parse_authored
+from quizgen.kinds import expression
+from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.canonical import CanonicalForm, canonical_equation
 from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import to_float
@@ -23,8 +23,7 @@ from quizgen.maths.tree import Expr, substitute
 from quizgen.maths.values import Value
 from quizgen.question.compose import variant_identity
 from quizgen.question.figure import coloured
-from quizgen.question.kinds import build
-from quizgen.question.specs import authored_answer
+from quizgen.question.part_context import ask_part, authored_answer
 
 REDRAWS = 50
 """Tries to avoid the same numbers twice in one paper."""
@@ -133,7 +132,7 @@ def _collect_answer_numbers(one: Variant) -> set[str]:
 
 def _iter_asked_values(one: Variant) -> Iterator[Value]:
     for part in one.template.rules.part:
-        yield from (one.shown_values[name] for name in answer_names(part.answer))
+        yield from (one.shown_values[name] for name in asked_quantities(part.answer))
 
 
 def _collect_stated_numbers(one: Variant) -> set[str]:
@@ -177,7 +176,7 @@ def asked_formulas(drawn: Variant, index: int) -> Mapping[CanonicalForm, str]:
     """Forms of the steps to an answer, each also with the steps before it put in, and the key."""
     found = _formulas_of_steps(sampler_for(drawn.template), index)
     if authored_answer(drawn, index)["kind"] == "expression":
-        spec: expression.Spec = build(drawn, index).spec
+        spec: expression.ExpressionSpec = ask_part(drawn, index).spec
         formula = parse_authored(spec.value, tuple(spec.symbols))
         return found | dict.fromkeys(canonical_equation("", formula), spec.value)
     return found

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from quizgen.question.contract import Control
+from quizgen.kinds.contract import InputControl
 
 _BETWEEN = "; "
 
 
-def join_fields(control: Control, values: Sequence[str], marks: Sequence[str] = ()) -> str:
+def join_fields(control: InputControl, values: Sequence[str], marks: Sequence[str] = ()) -> str:
     """What the fields of a part say, in one line; empty if nothing stands in them.
 
     Parameters
@@ -33,7 +33,7 @@ def join_fields(control: Control, values: Sequence[str], marks: Sequence[str] = 
     return _BETWEEN.join(before + value for _, before, value in _locate_values(control, filled))
 
 
-def _locate_values(control: Control, filled: Sequence[str]) -> list[tuple[int, str, str]]:
+def _locate_values(control: InputControl, filled: Sequence[str]) -> list[tuple[int, str, str]]:
     """Place of each field that counts, what is typed before its value, and the value."""
     if not control.named:
         return [(place, "", value) for place, value in enumerate(filled)]
@@ -41,7 +41,7 @@ def _locate_values(control: Control, filled: Sequence[str]) -> list[tuple[int, s
     return [(place, f"{box.name} = ", value) for place, (box, value) in named if value]
 
 
-def locate_in_fields(control: Control, values: Sequence[str], column: int) -> tuple[int, int]:
+def locate_in_fields(control: InputControl, values: Sequence[str], column: int) -> tuple[int, int]:
     """Place of the field and column in it, both where the line that was joined has a column.
 
     Parameters
@@ -65,7 +65,7 @@ def locate_in_fields(control: Control, values: Sequence[str], column: int) -> tu
     return found
 
 
-def is_complete(control: Control, values: Sequence[str], marks: Sequence[str] = ()) -> bool:
+def is_complete(control: InputControl, values: Sequence[str], marks: Sequence[str] = ()) -> bool:
     """Whether something stands in every field of a part that wants something.
 
     Parameters
@@ -77,7 +77,7 @@ def is_complete(control: Control, values: Sequence[str], marks: Sequence[str] = 
         Marks of the options that pairs begin with.
     """
     there = [bool(value.strip()) for value in values]
-    if control.several:
+    if control.has_several_fields:
         return all(there) and len(there) >= max(len(control.boxes), len(marks), 1)
     return any(there)
 

@@ -8,6 +8,7 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import msgspec
 
+from quizgen.core.errors import AttemptFinishedError
 from quizgen.grading.verdict import Verdict
 from quizgen.paper.answer_key import KeyPart
 from quizgen.paper.grading import QuestionGrader
@@ -76,6 +77,10 @@ class PartAttempt(Generic[P, S]):
         How far it has got; changed as it goes on.
     marker : Marker
         Of the whole question: it carries errors forward to the parts that follow.
+
+    Notes
+    -----
+    Once a task has an outcome, whatever would change it raises ``AttemptFinishedError``.
     """
 
     @property
@@ -130,10 +135,18 @@ class PartAttempt(Generic[P, S]):
 
     def skip(self) -> None:
         """End the task as neither right nor wrong."""
+        self._require_unfinished()
         self.state.outcome = PartOutcome(self.topic, right=False, first=False, skipped=True)
 
     def answer(self, typed: str) -> AnswerFeedback:
-        """Mark an answer; what cannot be read costs nothing."""
+        """Mark an answer; what cannot be read costs nothing.
+
+        Raises
+        ------
+        AttemptFinishedError
+            The part has ended: its solution may have been shown.
+        """
+        self._require_unfinished()
         verdict = self._marker.grade_part(self._keyed, typed).verdict
         then = self._decide_next_step(verdict)
         if then is not NextStep.ASK_BACK:
@@ -159,6 +172,12 @@ class PartAttempt(Generic[P, S]):
         """End the task with the learner's own judgement."""
         self._finish_part(right=right)
 
+    def _require_unfinished(self) -> None:
+        # A second request, or a page left open, must not turn a solution read into marks.
+        if self.outcome is not None:
+            raise AttemptFinishedError("this part has ended; what follows does not count")
+
     def _finish_part(self, *, right: bool) -> None:
+        self._require_unfinished()
         first = right and self.state.tries == 1 and not self.state.hints
         self.state.outcome = PartOutcome(self.topic, right, first)

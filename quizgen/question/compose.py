@@ -22,14 +22,14 @@ from quizgen.core.errors import BankError
 from quizgen.core.untrusted import error_context
 from quizgen.figures import FieldPicture, Figure
 from quizgen.grading.spec import AnySpec
+from quizgen.kinds import KINDS
+from quizgen.kinds.contract import InputControl
 from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import format_for_key
-from quizgen.question.contract import Control
 from quizgen.question.figure import draw_question_figure
 from quizgen.question.html import blocks_to_html, inlines_to_html
 from quizgen.question.inlines import join_inlines, to_inlines
 from quizgen.question.interpolation import inlines_to_text
-from quizgen.question.kinds import KINDS
 from quizgen.question.levels import effective_level
 from quizgen.question.levels import load_level as at_level
 from quizgen.question.levels.contract import Choice, LevelPart
@@ -57,7 +57,7 @@ class AnswerField(msgspec.Struct, frozen=True):
     """
 
     id: str
-    control: Control
+    control: InputControl
     asks: tuple[tuple[Inline, ...], ...]
     options: tuple[Choice, ...] = ()
     targets: tuple[Choice, ...] = ()
@@ -76,7 +76,7 @@ class AnswerField(msgspec.Struct, frozen=True):
     @property
     def hint_in_fields(self) -> tuple[Inline, ...]:
         """What to type where every value has a field of its own."""
-        return join_inlines(self.asks[1:] if self.control.several else self.asks, " ")
+        return join_inlines(self.asks[1:] if self.control.has_several_fields else self.asks, " ")
 
 
 class QuestionPart(msgspec.Struct, frozen=True):
@@ -124,7 +124,7 @@ class Question(msgspec.Struct, frozen=True):
     def _repr_html_(self) -> str:
         """The question as a notebook shows it."""
         head = Markup("<h3>{}. {}</h3>").format(self.number, self.title)
-        picture = Markup(self.figure.inline_svg.decode()) if self.figure else Markup("")
+        picture = Markup(self.figure.inline_svg.decode()) if self.figure else Markup("")  # noqa: S704
         parts = (part.to_html(self.lang) for part in self.parts)
         return str(Markup("").join((head, blocks_to_html(self.stem, self.lang), picture, *parts)))
 
@@ -259,7 +259,7 @@ def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
     field = AnswerField(
         id=f"{number}{asked.label}",
         control=asked.control,
-        asks=tuple(map(to_inlines, KINDS[asked.spec.kind].hints(asked.spec, lang))),
+        asks=tuple(map(to_inlines, KINDS[asked.spec.kind].input_hints(asked.spec, lang))),
         options=asked.options,
         targets=asked.targets,
         drawing=FieldPicture(asked.control.board, lang) if asked.control.board else None,

@@ -48,10 +48,12 @@ def entry_inlines(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
 def _iter_field_text(entry: Entry, name: str, lang: str) -> Iterator[str]:
     """The text of a field; what is wrong with it is located."""
     texts: Passage = getattr(entry, name)
-    try:
-        yield pick_language(texts, lang, "")
-    except BankError as error:
-        raise BankError(f"{entry.place}: {name}.{lang}: {error}") from error
+    with entry.located(name, lang):
+        try:
+            yield pick_language(texts, lang, "")
+        except BankError as error:
+            error.args = (f"{name}.{lang}: {error.message}",)
+            raise
 
 
 def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:

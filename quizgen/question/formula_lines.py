@@ -52,9 +52,7 @@ _ENDS = ("()", "(]", "[)", "[]")
 _NAME = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
 
 
-def parse_formula_line(
-    line: str, inside: Inside, where: str
-) -> tuple[list[str], list[TypesetMaths]]:
+def parse_formula_line(line: str, inside: Inside) -> tuple[list[str], list[TypesetMaths]]:
     """Take a line apart into relation signs and printed sides.
 
     Parameters
@@ -63,8 +61,6 @@ def parse_formula_line(
         Sides with relation signs between blanks, for example ``E ∝ D^2 ∝ 1/N_f^2``.
     inside : mapping
         Pieces that the grammar does not have.
-    where : str
-        For errors.
 
     Returns
     -------
@@ -74,20 +70,20 @@ def parse_formula_line(
     Raises
     ------
     BankError
-        Naming the place and the column.
+        Naming the side and the column.
     """
     signs, texts = split_relations(line)
     printed = [_SPELLED.get(sign, sign) for sign in signs]
-    return printed, [typeset_side(text, inside, where) for text in texts]
+    return printed, [typeset_side(text, inside) for text in texts]
 
 
-def typeset_side(text: str, inside: Inside, where: str) -> TypesetMaths:
+def typeset_side(text: str, inside: Inside) -> TypesetMaths:
     """Print one side.
 
     Raises
     ------
     BankError
-        Naming the place and the column.
+        Naming the side and the column.
     """
     try:
         expr = parse_formula(text)
@@ -96,7 +92,7 @@ def typeset_side(text: str, inside: Inside, where: str) -> TypesetMaths:
         }
         node = typeset.lay_out(expr, leaves={name: made.node for name, made in leaves.items()})
     except (FormulaError, RenderError) as error:
-        raise BankError(f"{where}: {text!r}: {error}") from error
+        raise BankError(f"{text!r}: {error}", rule="QG155") from error
     typed = _NAME.sub(lambda m: leaves[m[0]].typed if m[0] in leaves else m[0], text)
     return TypesetMaths(node, typed)
 
@@ -155,7 +151,7 @@ def _require_texts(table: Piece, name: str) -> Sequence[str]:
 
 
 def _typeset_relation(text: str, inside: Inside) -> TypesetMaths:
-    signs, parts = parse_formula_line(text, inside, "with")
+    signs, parts = parse_formula_line(text, inside)
     if not signs:
         return parts[0]
     node = typeset.relation_chain(signs, [part.node for part in parts])

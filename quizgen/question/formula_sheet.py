@@ -84,8 +84,10 @@ def compose_sheet(bank: Bank, choice: str, topics: Sequence[str] = ()) -> Formul
         )
     asked = templates_by_formula(bank)
     order = dict.fromkeys((*bank.topics, *(entry.topic for entry in wanted)))
-    made = {topic: [_build_sheet_line(bank, e, langs, asked[e.id]) for e in wanted if e.topic == topic]
-            for topic in order}  # fmt: skip
+    made = {
+        topic: [_build_sheet_line(bank, e, langs, asked[e.id]) for e in wanted if e.topic == topic]
+        for topic in order
+    }
     groups = (
         SheetTopic(topic, {lang: bank.topic_title(topic, lang) for lang in langs}, tuple(lines))
         for topic, lines in made.items()
@@ -140,16 +142,15 @@ def draw_sketch(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...]) -> tupl
     wanted = entry.figure
     if wanted is None:
         return ()
-    try:
+    with entry.located("figure"):
         figure = bank.figure(wanted.name)
         return tuple(draw_figure(figure, wanted.values, quiz=False, lang=lang) for lang in langs)
-    except BankError as error:
-        raise BankError(f"{entry.place}: {error}") from error
 
 
 def _typeset_sheet_formula(line: str, entry: FormulaEntry) -> TypesetMaths:
     """A line in one piece."""
-    signs, parts = parse_formula_line(line, entry.inside, entry.place)
+    with entry.located("lines"):
+        signs, parts = parse_formula_line(line, entry.inside)
     node = typeset.relation_chain(signs, [part.node for part in parts])
     return TypesetMaths(node, line)
 

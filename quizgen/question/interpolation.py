@@ -25,12 +25,13 @@ from quizgen.bank.markdown import (
 )
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
+from quizgen.core.positions import TEXT
+from quizgen.kinds.contract import LabelledName
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.numbers import format_exact, format_rounded
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import format_unit as unit_shown
 from quizgen.maths.values import Values
-from quizgen.question.contract import Named
 from quizgen.question.inlines import PlacedPicture, TypesetMaths, to_inlines
 
 NBSP = "\u00a0"
@@ -53,7 +54,7 @@ class Interpolator:
 
     def __init__(self, drawn: Variant, lang: str, *, hidden: bool = False) -> None:
         self.drawn, self.lang, self.hidden = drawn, lang, hidden
-        self.own: dict[str, Named] = {}
+        self.own: dict[str, LabelledName] = {}
         self.known: Values = drawn.shown if hidden else drawn.shown_values
         self.text = drawn.template.texts[lang]
 
@@ -100,7 +101,9 @@ class Interpolator:
         found = self._choose_sentence(cases) if cases else self.text.sentence(section, name)
         if found is None:
             lacks = "has no case of" if cases else "lacks"
-            raise BankError(self._format_problem(f"section {section!r} {lacks} {name!r}"))
+            raise self._format_problem(
+                f"section {section!r} {lacks} {name!r}", "QG157", section, name
+            )
         return found
 
     def _choose_sentence(self, cases: tuple[ConditionalSentence, ...]) -> tuple[Inline, ...] | None:
@@ -135,7 +138,8 @@ class Interpolator:
         if not self.hidden and ("words", name) in self.text.cases:
             return self.sentence("words", name)
         if name not in self.known:
-            raise BankError(self._format_problem(f"{{{{ {name} }}}} is not a drawn quantity"))
+            what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
+            raise self._format_problem(what, "QG158", TEXT, blank)
         if not drawn.is_rounded(name):
             return to_inlines(format_quantity(drawn, name))
         rounded = format_rounded(self.known[name])
@@ -147,8 +151,9 @@ class Interpolator:
     def _fill_program(self, text: str) -> str:
         return fill_program(text, self.drawn, self.known)
 
-    def _format_problem(self, what: str) -> str:
-        return f"{self.drawn.template.path / f'{self.lang}.md'}: {what}"
+    def _format_problem(self, what: str, rule: str, *place: str) -> BankError:
+        file = self.drawn.template.path / f"{self.lang}.md"
+        return BankError(what, rule=rule, file=file, place=place)
 
 
 def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
@@ -210,7 +215,7 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
         written = format_exact(known[name], minus="-") if name in known else None
         if written is None:
             what = f"{{{{ {name} }}}} cannot stand in a program"
-            raise BankError(f"{drawn.template.file}: {what}")
+            raise BankError(what, rule="QG158", file=drawn.template.file)
         return written
 
     return fill_text(text, value)

@@ -14,15 +14,15 @@ import msgspec
 from quizgen.bank.markdown import Block, Inline, PlainText
 from quizgen.bank.variant import Variant
 from quizgen.figures import FieldPicture
-from quizgen.grading.mark import show_key
 from quizgen.grading.spec import AnySpec, ScalarSpec, VectorSpec
+from quizgen.kinds import KINDS
+from quizgen.kinds.asking import as_student_writes
+from quizgen.kinds.contract import AskedPart
+from quizgen.kinds.grade import show_key
 from quizgen.maths.chain import ChainStep
-from quizgen.question.contract import Built
 from quizgen.question.inlines import TextOrInlines, TypesetMaths, to_inlines
 from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text
-from quizgen.question.kinds import KINDS
 from quizgen.question.precision_table import precision_table
-from quizgen.question.specs import written_down
 from quizgen.question.worked_steps import (
     FORMULA,
     WorkedSide,
@@ -142,7 +142,7 @@ def build_solution(drawn: Variant, lang: str, parts: tuple[PartSolution, ...]) -
     )
 
 
-def solve_part(filler: Interpolator, index: int, built: Built[Any]) -> PartSolution:
+def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartSolution:
     """Work one authored part out.
 
     Parameters
@@ -158,7 +158,7 @@ def solve_part(filler: Interpolator, index: int, built: Built[Any]) -> PartSolut
     return PartSolution(
         label=label,
         lines=tuple(solution_step(filler, step) for step in drawn.steps_of_part(index)),
-        shown=to_inlines(KINDS[spec.kind].printed(spec, filler.lang)),
+        shown=to_inlines(KINDS[spec.kind].explain_key(spec, filler.lang)),
         mistakes=tuple(solved_misconceptions(filler, built)),
         options=tuple(
             (*_build_right_option(filler, section, name), *_format_citation(built.source))
@@ -184,10 +184,12 @@ def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
     )
 
 
-def solved_misconceptions(filler: Interpolator, built: Built[Any]) -> Iterator[SolvedMisconception]:
+def solved_misconceptions(
+    filler: Interpolator, built: AskedPart[Any]
+) -> Iterator[SolvedMisconception]:
     """The known mistakes of a part with the answers that they give."""
     for trap, wrong in built.mistakes.items():
-        spec = written_down(wrong, built.spec.traps[trap])
+        spec = as_student_writes(wrong, built.spec.traps[trap])
         shown = () if built.drawn else to_inlines(_show_wrong_answer(spec, filler.lang))
         yield SolvedMisconception(trap, filler.sentence("traps", trap), shown)
 
@@ -196,10 +198,12 @@ def _show_wrong_answer(wrong: AnySpec, lang: str) -> TextOrInlines:
     """A wrong answer; of numbers nobody wants to see the exact value."""
     if isinstance(wrong, ScalarSpec | VectorSpec):
         return show_key(wrong, lang)
-    return KINDS[wrong.kind].printed(wrong, lang)
+    return KINDS[wrong.kind].explain_key(wrong, lang)
 
 
-def _iter_wrong_options(filler: Interpolator, built: Built[Any]) -> Iterator[SolvedMisconception]:
+def _iter_wrong_options(
+    filler: Interpolator, built: AskedPart[Any]
+) -> Iterator[SolvedMisconception]:
     """Wrong options, pairs and steps with the reason."""
     right = {name for _, name in built.right}
     for mark, name in built.reasons:

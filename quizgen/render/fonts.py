@@ -1,7 +1,8 @@
-"""Fonts: Hind Siliguri for Bangla and STIX Two Math for formulas.
+"""Fonts: Hind Siliguri for Bangla, and STIX Two Math for formulas on pages.
 
-The PDF takes them from pinned packages. Pages embed what they need of them as WOFF2, which stands
-packed in ``webfonts`` (``tools/pack_fonts.py`` makes it, under the licence beside it).
+The PDF takes Hind Siliguri from a pinned package; its formulas are in a font of the typesetter.
+Pages embed the characters they need as WOFF2, packed in ``webfonts`` by ``tools/pack_fonts.py``
+(under the licence there).
 """
 
 from __future__ import annotations
@@ -40,12 +41,6 @@ def package_folder(package: str) -> Path:
 def bangla_folder() -> Path:
     """Folder with the Hind Siliguri fonts."""
     return next(package_folder("fontpkg_hind_siliguri").rglob("*Regular*.ttf")).parent
-
-
-@cache
-def maths_file() -> Path:
-    """STIX Two Math."""
-    return next(package_folder("ziamath").rglob("STIXTwoMath-Regular.ttf"))
 
 
 def bangla_file(weight: str = "Regular") -> Path:

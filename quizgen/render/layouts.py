@@ -49,7 +49,7 @@ class _Kept(BytecodeCache):
     def load_bytecode(self, bucket: Bucket) -> None:
         """Find it."""
         with suppress(EOFError, ValueError, TypeError):
-            found = marshal.loads(read_cached(_KIND, bucket.key) or b"")
+            found = marshal.loads(read_cached(_KIND, bucket.key) or b"")  # noqa: S302 (as Python's own)
             bucket.code = found if isinstance(found, CodeType) else None
 
     def dump_bytecode(self, bucket: Bucket) -> None:

@@ -65,7 +65,10 @@ class _Sheet:
 
     def _typeset_cover(self) -> str:
         main = self.main
-        head = f"#heading(level: 1)[{say_in_language(main, f'#{typst_literal(self._build_title(main))};')}]"
+        head = (
+            f"#heading(level: "
+            f"1)[{say_in_language(main, f'#{typst_literal(self._build_title(main))};')}]"
+        )
         others = [
             in_language(lang, f"#text(14pt, {typst_literal(self._build_title(lang))});")
             for lang in self.langs[1:]
@@ -82,10 +85,21 @@ class _Sheet:
         )
         gap = "#v(1.1em)"
         return "\n".join(
-            [head, *others, gap, facts, *self._typeset_printing_note(), gap,
-             *(f"{line}\n#v(0.5em)" for line in lines), gap, f"#notice[{rules}]", "#v(0.8em)",
-             self._typeset_mark_table(), "#pagebreak(weak: true)"]
-        )  # fmt: skip
+            [
+                head,
+                *others,
+                gap,
+                facts,
+                *self._typeset_printing_note(),
+                gap,
+                *(f"{line}\n#v(0.5em)" for line in lines),
+                gap,
+                f"#notice[{rules}]",
+                "#v(0.8em)",
+                self._typeset_mark_table(),
+                "#pagebreak(weak: true)",
+            ]
+        )
 
     def _typeset_printing_note(self) -> list[str]:
         """Which questions have to be printed in colour."""
@@ -145,15 +159,20 @@ class _Sheet:
     def _typeset_mark_table(self) -> str:
         """Table of questions and marks, with room for the marks given."""
         rows = [
-            f"([{item.number}], [{self._join_question_titles(item)}], [{format_amount(item.points, self.main)}])"
+            f"([{item.number}], [{self._join_question_titles(item)}"
+            f"], [{format_amount(item.points, self.main)}])"
             for item in self.paper.items
         ]
         main, many = self.langs[:1], self.langs
         heads = [
             translate_all(langs, f"paper.{name}")
-            for name, langs in (("question", many), ("page_of", main), ("points_of", main),
-                                ("reached", main))
-        ]  # fmt: skip
+            for name, langs in (
+                ("question", many),
+                ("page_of", main),
+                ("points_of", main),
+                ("reached", main),
+            )
+        ]
         total = f"[{format_amount(self.paper.points, self.main)}]"
         return (
             f"#overview({', '.join(f'[{head}]' for head in heads)}, "
@@ -180,7 +199,10 @@ class _Sheet:
             body.append(self._typeset_remarks(item))
         text = "\n".join(body)
         worth = format_marks(item.points, self.main)
-        return f"#question({typst_literal(item.number)}, [{self._join_question_titles(item)}], {typst_literal(worth)})[{text}]"
+        return (
+            f"#question({typst_literal(item.number)}, "
+            f"[{self._join_question_titles(item)}], {typst_literal(worth)})[{text}]"
+        )
 
     def _typeset_drawing_field(
         self, name: str, drawn: list[AnswerField] | list[PartSolution]
@@ -229,7 +251,7 @@ class _Sheet:
             return "\n".join(shown)
         if control.board:
             shown.append(self._typeset_drawing_field(fields[0].id, fields))
-        elif control.reckoned:
+        elif control.needs_working:
             shown.append(f"#answer-line([{translate_all(self.langs, 'paper.answer_here')}])")
             shown.append(f"#room({answer_rows(part.points)})")
         else:
@@ -261,7 +283,7 @@ class _Sheet:
 
     def _choose_option_style(self, field: AnswerField, side: str) -> str:
         """How a row of options looks: with a box to tick, with one for a number, or plain."""
-        if self.kind == "exam" and field.control.ticked:
+        if self.kind == "exam" and field.control.is_ticked:
             return "tick"
         paired = field.control.form == "pairs" and side == "options"
         return "pair" if self.kind == "exam" and paired else "option"
@@ -346,7 +368,7 @@ def _format_holder(paper: Paper) -> str:
 
 def _left_over(part: QuestionPart) -> str:
     """What of the page is left goes to calculations, by points; without any it is for notes."""
-    return f"#more-room({float(part.points):g})" if part.field.control.reckoned else "#rest"
+    return f"#more-room({float(part.points):g})" if part.field.control.needs_working else "#rest"
 
 
 def _typeset_reasons(part: PartSolution, lang: str) -> str:

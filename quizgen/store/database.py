@@ -28,7 +28,7 @@ from sqlalchemy import (
 from sqlalchemy.dialects import sqlite
 from sqlalchemy.exc import ArgumentError, DBAPIError, SQLAlchemyError
 
-from quizgen.core.errors import StoreError
+from quizgen.core.errors import StoreError, require_extra
 from quizgen.core.files import PRIVATE, open_private
 from quizgen.store.migrate import upgrade
 from quizgen.store.schema import LEARNER
@@ -57,15 +57,16 @@ class Database:
     ------
     StoreError
         If it cannot be opened, or was written by a newer version.
+    MissingExtraError
+        If it is PostgreSQL and its driver is not installed.
     """
 
     def __init__(self, address: str) -> None:
         url = _parse_database_url(address)
         _keep_private(url)
-        try:
-            self._reader = _create_engine_for(url)
-        except ModuleNotFoundError as error:
-            raise StoreError(f'no {error.name} here: pip install "quizgen[postgres]"') from error
+        if url.get_backend_name() != "sqlite":
+            require_extra("postgres", "a database of PostgreSQL")
+        self._reader = _create_engine_for(url)
         self._writer = self._reader.execution_options(**{_WRITES: True})
         self._waiting: list[_Write] = []
         self._joining, self._turn = threading.Lock(), threading.Lock()
@@ -140,7 +141,7 @@ class Database:
             with self._writer.begin() as connection:
                 ends = [one.run(connection) for one in together]
                 _check_open(connection)
-        except BaseException as error:
+        except BaseException as error:  # noqa: BLE001 - raised again by each who waits
             for one in together:
                 one.set_exception(error)
         else:
@@ -167,7 +168,7 @@ class _Write(Future[Any]):
         try:
             with connection.begin_nested():
                 found = self.work(connection)
-        except Exception as error:
+        except Exception as error:  # noqa: BLE001 - raised again by who asked
             return partial(self.set_exception, error)
         return partial(self.set_result, found)
 

@@ -80,11 +80,18 @@ def describe_formulas(report: TradeoffReport, lang: str) -> list[dict[str, Any]]
     """What the slider shows of each of its formulas."""
     sweeps = {one.name: one for one in report.sweeps}
     return [
-        {"name": one.name, **words(lang)["formula"][one.name], "printed": one.shown.printed,
-         "stable": one.shown.stable,
-         "places": _build_slider_positions(sweeps[one.name], f"{one.shown.symbol} = {{}} {one.shown.unit}", lang)}
-        for one in FORMULAS if one.shown is not None
-    ]  # fmt: skip
+        {
+            "name": one.name,
+            **words(lang)["formula"][one.name],
+            "printed": one.shown.printed,
+            "stable": one.shown.stable,
+            "places": _build_slider_positions(
+                sweeps[one.name], f"{one.shown.symbol} = {{}} {one.shown.unit}", lang
+            ),
+        }
+        for one in FORMULAS
+        if one.shown is not None
+    ]
 
 
 def _build_slider_positions(sweep: FormulaSweep, moved: str, lang: str) -> list[list[Any]]:
@@ -169,10 +176,15 @@ def describe_questions(report: TradeoffReport, lang: str) -> dict[str, Any]:
         "date": counted.date,
     }  # fmt: skip
     rows = [
-        (text[name], text[f"{name}_fails"], localise_numbers(lang, time_text(found.costs[name].seconds)),
-         localise_numbers(lang, _format_cost_ratio(found.costs[name])), _format_wrong_keys(report, name))
+        (
+            text[name],
+            text[f"{name}_fails"],
+            localise_numbers(lang, time_text(found.costs[name].seconds)),
+            localise_numbers(lang, _format_cost_ratio(found.costs[name])),
+            _format_wrong_keys(report, name),
+        )
         for name in ARITHMETICS
-    ]  # fmt: skip
+    ]
     return {
         "rows": rows,
         **{
@@ -185,7 +197,10 @@ def describe_questions(report: TradeoffReport, lang: str) -> dict[str, Any]:
 def _format_cost_ratio(cost: Cost) -> str:
     if cost.high == cost.low:
         return "1"
-    return f"{_format_two_figures(cost.times)} ({_format_two_figures(cost.low)} – {_format_two_figures(cost.high)})"
+    return (
+        f"{_format_two_figures(cost.times)} ({_format_two_figures(cost.low)}"
+        f" – {_format_two_figures(cost.high)})"
+    )
 
 
 def _format_wrong_keys(report: TradeoffReport, name: str) -> str:
@@ -210,11 +225,14 @@ def describe_arrays(report: TradeoffReport, lang: str) -> dict[str, Any]:
     """Every formula's title with the rows of its ways, and what one value costs."""
     text, alone = words(lang)["arrays"], [one.least for one in report.questions.alone]
     return {
-        "groups": [(words(lang)["formula"][match.formula]["title"], _build_rival_rows(match, lang))
-                   for match in report.matches],
-        "alone": localise_numbers(lang, text["alone"].format(
-            least=time_text(min(alone)), most=time_text(max(alone)))),
-    }  # fmt: skip
+        "groups": [
+            (words(lang)["formula"][match.formula]["title"], _build_rival_rows(match, lang))
+            for match in report.matches
+        ],
+        "alone": localise_numbers(
+            lang, text["alone"].format(least=time_text(min(alone)), most=time_text(max(alone)))
+        ),
+    }
 
 
 def _build_rival_rows(match: Match, lang: str) -> list[tuple[str, ...]]:
@@ -222,13 +240,19 @@ def _build_rival_rows(match: Match, lang: str) -> list[tuple[str, ...]]:
     names, first = words(lang)["way"], match.rivals[0].time.least
     return [
         (
-            names.get(one.name, one.name), "",
-            localise_numbers(lang, f"{_format_two_figures(1e9 * one.time.least)} ({_format_two_figures(1e9 * one.time.median)})"),
+            names.get(one.name, one.name),
+            "",
+            localise_numbers(
+                lang,
+                f"{_format_two_figures(1e9 * one.time.least)} "
+                f"({_format_two_figures(1e9 * one.time.median)})",
+            ),
             localise_numbers(lang, _format_two_figures(one.time.least / first)),
-            _format_digit_count(one.exam), _format_digit_count(one.hard),
+            _format_digit_count(one.exam),
+            _format_digit_count(one.hard),
         )
         for one in match.rivals
-    ]  # fmt: skip
+    ]
 
 
 def _format_digit_count(digits: float) -> str:

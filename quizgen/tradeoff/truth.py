@@ -40,9 +40,12 @@ def truths(formula: Formula, columns: Columns) -> Column:
     rows = zip(*(column.tolist() for column in columns), strict=True)
     names = formula.names.split()
     read = _as_decimal if formula.decimal else _as_it_is
-    return np.array([
-        _round_to_nearest_double(compute, dict(zip(names, map(read, row), strict=True))) for row in rows
-    ])  # fmt: skip
+    return np.array(
+        [
+            _round_to_nearest_double(compute, dict(zip(names, map(read, row), strict=True)))
+            for row in rows
+        ]
+    )
 
 
 def _choose_exact_function(formula: Formula) -> Callable[[Inputs], Any]:

@@ -161,10 +161,14 @@ def _render_invitation_page(
     request: Request, invitation: Invitation, problem: str = "", name: str = ""
 ) -> Response:
     return page_response(
-        request, "invited.html.j2", 400 if problem else 200, kept=dict(request.query_params),
-        invitation=invitation, problem=problem and translate_page(request_language(request), f"account.{problem}"),
+        request,
+        "invited.html.j2",
+        400 if problem else 200,
+        kept=dict(request.query_params),
+        invitation=invitation,
+        problem=problem and translate_page(request_language(request), f"account.{problem}"),
         name=name[:LONGEST_NAME],
-    )  # fmt: skip
+    )
 
 
 async def show_invitation(request: Request) -> Response:

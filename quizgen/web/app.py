@@ -156,5 +156,12 @@ def _failure(
 ) -> Response:
     """A page with the id by which it is found in the log, where it says why."""
     request.state.cause = find_cause(error)
-    return page_response(request, "message.html.j2", status, title="error.title", text=text, wrong=wrong,
-                number=request.state.request_id)  # fmt: skip
+    return page_response(
+        request,
+        "message.html.j2",
+        status,
+        title="error.title",
+        text=text,
+        wrong=wrong,
+        number=request.state.request_id,
+    )

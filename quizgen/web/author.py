@@ -140,7 +140,7 @@ async def lint_template_page(request: Request) -> Response:
     site: ServerState = request.app.state.site
     name, examine = _get_requested_template(request), site.settings.examine
     stamp = await run_in_threadpool(bank_stamp, site.bank)
-    assert examine is not None
+    assert examine is not None  # noqa: S101 - without it there is no such page
     problems: list[str] = decode_json(
         await site.workers.get_result(LintJob(name, examine, stamp)), list[str]
     )

@@ -51,7 +51,9 @@ async def show_camera(request: Request) -> Response:
     )
     effect = asked.get("effect", "") if same else ""
     try:
-        data = await site.workers.get_result(CameraJob(scene, changes, effect), request.state.learner.id)
+        data = await site.workers.get_result(
+            CameraJob(scene, changes, effect), request.state.learner.id
+        )
     except QuizgenError:
         shot = None
     else:

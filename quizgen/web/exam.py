@@ -70,10 +70,17 @@ async def list_exams(request: Request) -> Response:
     store = site.store.sittings
     sittings = await run_in_threadpool(store.latest, request.state.learner.id)
     problem, now = request.query_params.get("problem"), request.app.state.site.store.clock.now()
-    return page_response(request, "exams.html.j2", choices=_list_exam_choices(request), lengths=MINUTES,
-                sat=[(one, _find_exam_title(request, one)) for one in sittings],
-                when=relative_time(now, request_language(request)), now=now, problem=problem,
-                code=request.query_params.get("code", ""))  # fmt: skip
+    return page_response(
+        request,
+        "exams.html.j2",
+        choices=_list_exam_choices(request),
+        lengths=MINUTES,
+        sat=[(one, _find_exam_title(request, one)) for one in sittings],
+        when=relative_time(now, request_language(request)),
+        now=now,
+        problem=problem,
+        code=request.query_params.get("code", ""),
+    )
 
 
 def _list_exam_choices(request: Request) -> list[ExamChoice]:

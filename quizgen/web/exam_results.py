@@ -137,7 +137,9 @@ class MarkPaper:
         found = []
         for key, typed in zip(decode_json(self.keys, list[KeyQuestion]), self.typed, strict=True):
             marker = QuestionGrader(key, GradingOptions(self.lang))
-            found.append([_sent(marker.grade_part(*one)) for one in zip(key.parts, typed, strict=True)])
+            found.append(
+                [_sent(marker.grade_part(*one)) for one in zip(key.parts, typed, strict=True)]
+            )
         return pickle.dumps(found)
 
 
@@ -180,7 +182,7 @@ async def grade_exam(
     )
     keys = msgspec.json.encode([item.key for item in paper.items])
     data = await workers.get_result(MarkPaper(lang, keys, typed), learner)
-    results = pickle.loads(data)
+    results = pickle.loads(data)  # noqa: S301 - from a process of our own
     return ExamResults(tuple(
         ExamQuestionResult(item, tuple(
             ExamPartResult(part, given, result, own.get(part.field.id), lang)

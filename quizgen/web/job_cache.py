@@ -6,17 +6,24 @@ import asyncio
 import contextlib
 from collections import OrderedDict
 from collections.abc import Hashable
-from concurrent.futures import ThreadPoolExecutor
-from queue import LifoQueue
+from concurrent.futures import Future
 from typing import Generic, TypeVar
 
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import QuizgenError
+from quizgen.executors import Processes
 from quizgen.web.fairness import FairQueue
-from quizgen.web.makers import Maker
-from quizgen.web.question_view import QuestionRequest, QuestionView, WorkerJob
+from quizgen.web.question_view import (
+    QuestionRequest,
+    QuestionView,
+    WorkerJob,
+    make_from_held_bank,
+    prepare_process,
+)
 from quizgen.web.settings import ServerSettings
 
+# Seconds after which a process is taken to hang: a paper of some hours takes a tenth of it.
+LONGEST = 120.0
 ROOM = 100_000_000
 """Bytes of what is kept ready, as it was sent; the latest."""
 
@@ -61,9 +68,7 @@ class WorkerPool:
 
     def __init__(self, settings: ServerSettings) -> None:
         self.settings = settings
-        self.makers: list[Maker] = []
-        self._idle: LifoQueue[Maker] = LifoQueue()
-        self._threads = ThreadPoolExecutor(settings.workers, "maker")
+        self.pool = Processes(settings.workers, prepare_process, (settings.bank,), longest=LONGEST)
         self._kept: ResultCache[PoolRequest, PoolResult] = ResultCache(ROOM)
         self._due: dict[PoolRequest, asyncio.Future[PoolResult]] = {}
         # Where others ask too, one who asks for hours of work leaves them a process.
@@ -72,18 +77,10 @@ class WorkerPool:
 
     def warm(self) -> None:
         """Start the processes."""
-        for _ in range(self.settings.workers):
-            maker = Maker(self.settings.bank)
-            self.makers.append(maker)
-            self._idle.put(maker)
+        self.pool.start_all()
 
-    def _make_in_free_process(self, wanted: PoolRequest) -> bytes:
-        """Let the first maker that is idle make it; there is one for each thread."""
-        maker = self._idle.get()
-        try:
-            return maker.make(wanted)
-        finally:
-            self._idle.put(maker)
+    def _submit(self, wanted: PoolRequest) -> Future[bytes]:
+        return self.pool.submit(make_from_held_bank, wanted)
 
     async def get_question(self, wanted: QuestionRequest, asker: Hashable = None) -> QuestionView:
         """A question, from those kept if it is among them.
@@ -100,7 +97,7 @@ class WorkerPool:
             If its template is wrong.
         """
         found = await self._get_or_make(wanted, asker)
-        assert isinstance(found, QuestionView)
+        assert isinstance(found, QuestionView)  # noqa: S101 - what was asked for
         return found
 
     async def get_result(self, job: WorkerJob, asker: Hashable = None) -> bytes:
@@ -118,13 +115,13 @@ class WorkerPool:
             If it cannot be done; tried anew by whoever asks next.
         """
         found = await self._get_or_make(job, asker)
-        assert isinstance(found, bytes)
+        assert isinstance(found, bytes)  # noqa: S101 - what was asked for
         return found
 
     @property
     def alive(self) -> int:
         """How many processes there are; one that has died is replaced when it is asked."""
-        return sum(maker.process.is_alive() for maker in self.makers)
+        return sum(process.is_alive() for process in self.pool.processes)
 
     @property
     def has_spare(self) -> bool:
@@ -147,10 +144,9 @@ class WorkerPool:
         return await asyncio.shield(self._due[wanted])
 
     async def _make_result(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
-        loop = asyncio.get_running_loop()
         try:
             async with self._turns.turn(asker):
-                data = await loop.run_in_executor(self._threads, self._make_in_free_process, wanted)
+                data = await asyncio.wrap_future(self._submit(wanted))
             found = decode_json(data, QuestionView) if isinstance(wanted, QuestionRequest) else data
             self._kept.put(wanted, found, len(data))
             return found
@@ -159,9 +155,7 @@ class WorkerPool:
 
     def close(self) -> None:
         """End the processes."""
-        for maker in self.makers:
-            maker.close()
-        self._threads.shutdown(cancel_futures=True)
+        self.pool.stop()
 
 
 def _forget_error(due: asyncio.Future[PoolResult]) -> None:

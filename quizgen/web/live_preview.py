@@ -10,7 +10,7 @@ from markupsafe import Markup, escape
 
 from quizgen import typeset
 from quizgen.core.errors import FormulaError
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.locale import localise_numbers
 from quizgen.maths.notation import FormulaReadError, parse_formula
 from quizgen.maths.notation.pretty import format_number
@@ -37,7 +37,7 @@ def preview_reading(field: FieldView, key: KeyQuestion, values: Sequence[str], l
     typed = join_fields(field.control, values, field.marks)
     if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
         return Markup()
-    verdict = mark(part.ordered_spec(), typed)
+    verdict = grade_answer(part.ordered_spec(), typed)
     boxes = bool(field.control.boxes)
     return _typeset_values(verdict.read_as, lang, boxes=boxes) if verdict.is_graded else Markup()
 

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from quizgen.camera.camera import Camera
-    from quizgen.camera.question import QuestionPhoto
-    from quizgen.camera.scene import Image, Scene
+    from quizgen.camera.question_photo import QuestionPhoto
+    from quizgen.camera.setup.scene import Image, Scene
 
 SCENES = ("portrait", "landscape", "night", "texture", "flat", "propeller", "fisheye", "pinhole")
 EVERYTHING = "everything"
@@ -101,13 +101,13 @@ class CameraJob:
             If no camera can be set like that.
         """
         del bank
-        from quizgen.camera.compare import amplify_difference
-        from quizgen.camera.prepared import Prepared
-        from quizgen.camera.reading import load
+        from quizgen.camera.comparison import amplify_difference
+        from quizgen.camera.planner import PreparedScene
+        from quizgen.camera.scene_file import load_scene
 
-        scene, own = load(_find_scene_file(self.scene))
+        scene, own = load_scene(_find_scene_file(self.scene))
         camera = self._apply_changes(own)
-        prepared = Prepared(scene, camera)
+        prepared = PreparedScene(scene, camera)
         found = [one.name for one in prepared.present if not one.always]
         chosen = self.effect if self.effect in (*found, EVERYTHING) else ""
         taken = self._take_photo(scene, camera, found, chosen)
@@ -136,15 +136,15 @@ class CameraJob:
         self, scene: Scene, camera: Camera, found: list[str], chosen: str
     ) -> QuestionPhoto:
         """What was set runs besides what is asked; without a question the first effect is."""
-        from quizgen.camera.planning import Selection
-        from quizgen.camera.question import take_photographs
+        from quizgen.camera.planner import EffectSelection
+        from quizgen.camera.question_photo import take_question_photo
 
         if chosen == EVERYTHING:
             only = tuple(found)
         else:
             only = (chosen,) if chosen else () if scene.question else tuple(found[:1])
         plus = tuple(name for name in self._set_effects() if name in found)
-        return take_photographs(scene, camera, chosen=Selection(only, plus))
+        return take_question_photo(scene, camera, chosen=EffectSelection(only, plus))
 
     def _set_effects(self) -> Iterator[str]:
         """Effects whose settings were changed."""
@@ -163,7 +163,7 @@ class CameraJob:
         if "bit_depth" in changes:
             bits = dict(self.changes)["bit_depth"]
             changes["bit_depth"] = None if math.isnan(bits) else int(bits)
-        return camera.but(**changes)
+        return camera.replace(**changes)
 
 
 def _find_scene_file(scene: str) -> Path:
@@ -182,7 +182,7 @@ def _iter_run_effects(taken: QuestionPhoto) -> Iterator[tuple[str, str]]:
 
 def _find_exposure_time(own: Camera, camera: Camera) -> tuple[float, float] | None:
     """Exposure time that lets in as much light as the scene's own f-number and time."""
-    from quizgen.camera.setup.body import F_NUMBER, SHUTTER
+    from quizgen.camera.setup.settings import F_NUMBER, SHUTTER
 
     before, after, time = own[F_NUMBER], camera[F_NUMBER], own[SHUTTER]
     if before is None or after is None or before == after or not time:
@@ -193,26 +193,26 @@ def _find_exposure_time(own: Camera, camera: Camera) -> tuple[float, float] | No
 def _encode_picture(values: Image) -> bytes:
     import numpy as np
 
-    from quizgen.camera.codes import rounded
+    from quizgen.camera.pixels.codes import to_8bit
 
-    return _png_of(rounded(values * np.float32(255)))
+    return _png_of(to_8bit(values * np.float32(255)))
 
 
 def _png_of(codes: NDArray[np.uint8]) -> bytes:
-    from quizgen import png
+    from quizgen.camera.pixels.codecs import encode_photo
 
-    return png.compact(codes)
+    return encode_photo(codes)
 
 
 @cache
 def camera_sliders(scene: str) -> tuple[CameraSlider, ...]:
     """What can be changed of a scene's camera."""
     from quizgen.camera import effects
-    from quizgen.camera.reading import load
+    from quizgen.camera.scene_file import load_scene
 
-    camera = load(_find_scene_file(scene))[1]
+    camera = load_scene(_find_scene_file(scene))[1]
     lens = {"focal_length", "pixel_pitch"} <= camera.given.keys()
-    known = effects.settings()
+    known = effects.all_settings()
     found = []
     for name, stops in STOPS.items():
         if (name in LENS and not lens) or (name in SENSOR and "full_well" not in camera.given):

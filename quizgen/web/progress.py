@@ -68,7 +68,9 @@ def _render_progress_page(request: Request, status: int = 200, problem: str = ""
     agenda = learning.agenda()
     came = request.query_params.get("came", "")[:9]
     return page_response(
-        request, "progress.html.j2", status,
+        request,
+        "progress.html.j2",
+        status,
         plan=due_today(request),
         begun=bool(agenda.cards),
         exam=learning.exam or "",
@@ -76,10 +78,14 @@ def _render_progress_page(request: Request, status: int = 200, problem: str = ""
         came=came if came.isdecimal() else "",
         topics=_build_topic_rows(agenda, lang),
         formulas=_build_formula_rows(agenda, lang),
-        mistakes=[told for card in agenda.mistakes[:SHOWN] if (told := _describe_mistake(agenda, card, lang))],
+        mistakes=[
+            told
+            for card in agenda.mistakes[:SHOWN]
+            if (told := _describe_mistake(agenda, card, lang))
+        ],
         when=relative_time(agenda.now, lang),
         lasting=_make_duration_formatter(lang),
-    )  # fmt: skip
+    )
 
 
 def _build_topic_rows(agenda: Agenda, lang: str) -> list[MasteryRow]:

@@ -16,8 +16,9 @@ from quizgen.bank.levels import EXAM, GUIDED
 from quizgen.bank.markdown import Block, Inline
 from quizgen.core.errors import BlueprintError
 from quizgen.figures import FieldPicture
-from quizgen.grading.kinds import point
 from quizgen.grading.spec import AnySpec
+from quizgen.kinds import point
+from quizgen.kinds.contract import InputControl
 from quizgen.locale import BOTH
 from quizgen.paper.answer_key import KeyQuestion, make_key_question
 from quizgen.paper.blueprint import find_blueprint
@@ -31,7 +32,6 @@ from quizgen.question.compose import (
     compose_variant,
     draw_instance,
 )
-from quizgen.question.contract import Control
 from quizgen.question.formula_sheet import cite_formula
 from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
 from quizgen.question.inlines import name_inline
@@ -49,7 +49,7 @@ class FieldView(msgspec.Struct, frozen=True):
     """Where the answer of a part goes."""
 
     id: str
-    control: Control
+    control: InputControl
     names: list[Html]
     """Names of the boxes, typeset; empty where they have none."""
     options: list[tuple[str, Html]]
@@ -177,6 +177,21 @@ def run_request(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes:
     return msgspec.json.encode(question_view(wanted, question, key, bank))
 
 
+_HELD: list[Bank] = []  # the bank of a worker process, whose files it reads once
+
+
+def prepare_process(bank: Bank) -> None:
+    """Hold the bank for every job of this process, and load what the first one needs."""
+    import numpy  # noqa: F401, ICN001
+
+    _HELD[:] = [bank]
+
+
+def make_from_held_bank(wanted: QuestionRequest | WorkerJob) -> bytes:
+    """Return what `make` gives of the bank that this process was prepared with."""
+    return run_request(_HELD[0], wanted)
+
+
 def make_papers(bank: Bank, code: str, blueprint: str, seed: int) -> dict[str, PaperView]:
     """A paper in each language of its own, by its code, or of a blueprint and a seed.
 
@@ -266,7 +281,7 @@ def _render_box_names(part: QuestionPart, spec: AnySpec, stem: Html, lang: str) 
     boxes = part.field.control.boxes
     if any(box.name for box in boxes):
         return [_render_inline((name_inline(box.name),), lang) for box in boxes]
-    of = spec.of if isinstance(spec, point.Spec) and isinstance(spec.of, list) else []
+    of = spec.of if isinstance(spec, point.PointSpec) and isinstance(spec.of, list) else []
     names = [_render_inline((name_inline(name),), lang) for name in of]
     asked = stem + _render_blocks(part.body, lang)
     said = all(_MATHS.sub("", name) in asked for name in names)

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
-from quizgen.figures import DrawingField
 from quizgen.grading.drawing.strokes import read_strokes
+from quizgen.kinds.contract import DrawingField
 from quizgen.maths.notation import FormulaReadError
 
 _LINE = Markup('<polyline points="{}"/>')

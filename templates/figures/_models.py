@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from quizgen.camera import Length, Thing
-from quizgen.camera.scene import Colour
+from quizgen.camera import Length, SceneObject
+from quizgen.camera.setup.scene import Colour
 
-Parts = tuple[Thing, ...]
+Parts = tuple[SceneObject, ...]
 
 
 def light(paint: str) -> Colour:
@@ -31,13 +31,15 @@ _MEADOW, _HILL = light("#6f9a4e"), light("#7fa58c")
 _PLAIN = {"texture", "angle", "count", "depth"}
 
 
-def make_thing(shape: str, x: float, y: float, size: float, paint: str, **named: Any) -> Thing:
+def make_thing(
+    shape: str, x: float, y: float, size: float, paint: str, **named: Any
+) -> SceneObject:
     """A thing of a colour at a place in px; its lengths and points are numbers, and are scaled."""
     other = light(named.pop("other", "#000000"))
     points = tuple((size * across, size * down) for across, down in named.pop("points", ()))
     for name in named.keys() - _PLAIN:
         named[name] = Length(size * named[name])
-    return Thing(
+    return SceneObject(
         shape, Length(x), Length(y), colour=light(paint), other=other, points=points, **named
     )
 
@@ -45,7 +47,7 @@ def make_thing(shape: str, x: float, y: float, size: float, paint: str, **named:
 def house(x: float, y: float, size: float = 1.0) -> Parts:
     """A timbered house; x and y are its centre in px."""
 
-    def part(shape: str, across: float, down: float, paint: str, **named: Any) -> Thing:
+    def part(shape: str, across: float, down: float, paint: str, **named: Any) -> SceneObject:
         return make_thing(shape, x + size * across, y + size * down, size, paint, **named)
 
     beams = [(across, 9.5, 2.0, 27.0) for across in (-16.0, -4.0, 4.0, 16.0)]
@@ -67,7 +69,7 @@ def house(x: float, y: float, size: float = 1.0) -> Parts:
 def balloon(x: float, y: float, size: float = 1.0) -> Parts:
     """A hot-air balloon; x and y are its centre in px."""
 
-    def part(shape: str, across: float, down: float, paint: str, **named: Any) -> Thing:
+    def part(shape: str, across: float, down: float, paint: str, **named: Any) -> SceneObject:
         return make_thing(shape, x + size * across, y + size * down, size, paint, **named)
 
     gores = ((40.0, "#b0246e"), (31.0, "#f7dc6f"), (22.0, "#b0246e"), (13.0, "#f7dc6f"),
@@ -86,7 +88,7 @@ def balloon(x: float, y: float, size: float = 1.0) -> Parts:
 def sun(x: float, y: float, size: float = 1.0) -> Parts:
     """A sun with a face; x and y are its centre in px."""
 
-    def part(shape: str, across: float, down: float, paint: str, **named: Any) -> Thing:
+    def part(shape: str, across: float, down: float, paint: str, **named: Any) -> SceneObject:
         return make_thing(shape, x + size * across, y + size * down, size, paint, **named)
 
     smile = ((-7, 3.5), (-4, 5.5), (0, 6.3), (4, 5.5), (7, 3.5), (5, 7.5), (0, 9.5), (-5, 7.5))
@@ -105,11 +107,11 @@ def meadow(wide: float, high: float, horizon: float) -> Parts:
     size = wide / 144
     low = high / 2 - horizon
     return (
-        Thing("ellipse", x=Length(-wide / 4), y=Length(horizon), colour=_HILL,
+        SceneObject("ellipse", x=Length(-wide / 4), y=Length(horizon), colour=_HILL,
               width=Length(0.9 * wide), height=Length(22 * size)),
-        Thing("ellipse", x=Length(wide / 3), y=Length(horizon), colour=_HILL,
+        SceneObject("ellipse", x=Length(wide / 3), y=Length(horizon), colour=_HILL,
               width=Length(0.8 * wide), height=Length(15 * size)),
-        Thing("box", y=Length(horizon + low), width=Length(2 * wide), height=Length(2 * low),
+        SceneObject("box", y=Length(horizon + low), width=Length(2 * wide), height=Length(2 * low),
               colour=_MEADOW),
     )  # fmt: skip
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from quizgen.camera.camera import Camera
-    from quizgen.camera.scene import Colour, Scene, Thing
+    from quizgen.camera.setup.scene import Colour, Scene, SceneObject
 
 KINDS = (
     "blooming",
@@ -98,10 +98,10 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
 @lru_cache(maxsize=64)
 def _take_pair(kind: str, variant: int, way: int) -> tuple[NDArray[np.uint8], ...]:
     """The scene without and with the artefact: what it needs runs, and it is measured to show."""
-    from quizgen.camera.filters import everywhere_alike
-    from quizgen.camera.question import photograph_question
+    from quizgen.camera.pixels.filters import numpy_only
+    from quizgen.camera.question_photo import photograph_question
 
-    with everywhere_alike():
+    with numpy_only():
         asks, grey = _ASKED.get(kind, kind), kind not in _COLOURED
         taken = photograph_question(*make_scene(kind, variant, way), asks, grey=grey)
         return taken.without.pixels(), taken.photo.pixels()
@@ -123,7 +123,7 @@ def make_scene(kind: str, variant: int, way: int = 0) -> tuple[Scene, Camera]:
 
     side = 1.0 if variant % 2 else -1.0
     things, behind = _make_things(kind, side, variant, way)
-    camera = Camera(gamma="srgb").but(**_CAMERAS[kind])
+    camera = Camera(gamma="srgb").replace(**_CAMERAS[kind])
     return Scene(*_PIXELS, things, behind, seed=variant), camera
 
 
@@ -150,7 +150,7 @@ _CAMERAS: Mapping[str, dict[str, Any]] = {
 
 def _make_things(
     kind: str, side: float, variant: int, way: int
-) -> tuple[tuple[Thing, ...], Colour]:
+) -> tuple[tuple[SceneObject, ...], Colour]:
     from . import _models
 
     if kind in ("blooming", "streak"):
@@ -167,7 +167,7 @@ def _make_things(
     return _make_models(side), dusk if kind == "hot pixels" else _models.SKY
 
 
-def _put(shape: str, x: float, y: float, paint: str, **named: Any) -> Thing:
+def _put(shape: str, x: float, y: float, paint: str, **named: Any) -> SceneObject:
     """A thing that stands 4 m away."""
     from ._models import make_thing
 
@@ -178,7 +178,7 @@ _GLARE = {"streak": (14.0, 12.0, 8.0), "blooming": (5.6, 5.0, 3.9)}
 """Colours of the lamp: what blooms must end inside the picture, or it could be a streak."""
 
 
-def _make_lamp(side: float, glare: Colour) -> tuple[Thing, ...]:
+def _make_lamp(side: float, glare: Colour) -> tuple[SceneObject, ...]:
     from dataclasses import replace
 
     roof = ((-27, 0), (-19, -16), (19, -16), (27, 0))
@@ -202,7 +202,7 @@ _DIRECTIONS = {1: (1, 0), 2: (-1, 0), 3: (0, -1), 4: (0, 1)}
 """Way of the box to the right and down."""
 
 
-def _make_box(across: float, down: float) -> tuple[Thing, ...]:
+def _make_box(across: float, down: float) -> tuple[SceneObject, ...]:
     """A box with two windows, darker than what is behind, that moves between trees and posts."""
     from dataclasses import replace
 
@@ -224,7 +224,7 @@ def _make_box(across: float, down: float) -> tuple[Thing, ...]:
     )
 
 
-def _make_grid(variant: int, *, bold: bool) -> tuple[Thing, ...]:
+def _make_grid(variant: int, *, bold: bool) -> tuple[SceneObject, ...]:
     step, stroke = 14.0 + 2.0 * variant, 3.0 if bold else 2.0
     places = [step * i for i in range(-int(80 / step), int(80 / step) + 1)]
     upright = [_put("box", place, 0, "#191919", width=stroke, height=140) for place in places]
@@ -232,7 +232,7 @@ def _make_grid(variant: int, *, bold: bool) -> tuple[Thing, ...]:
     return (*upright, *level)
 
 
-def _make_weave(side: float, variant: int) -> tuple[Thing, ...]:
+def _make_weave(side: float, variant: int) -> tuple[SceneObject, ...]:
     return (
         _put("disc", 20 * side, 0, "#262626", other="#ededed", radius=40, texture="rings",
              cell=2.1 / _FINE),
@@ -241,7 +241,7 @@ def _make_weave(side: float, variant: int) -> tuple[Thing, ...]:
     )  # fmt: skip
 
 
-def _make_models(side: float) -> tuple[Thing, ...]:
+def _make_models(side: float) -> tuple[SceneObject, ...]:
     """House, balloon and sun under clouds, which have shades as long as they are not too bright."""
     from dataclasses import replace
 

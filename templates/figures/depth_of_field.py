@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from quizgen.camera.scene import Scene
+    from quizgen.camera.setup.scene import Scene
 
 Setting = tuple[float, float]
 """Distance in focus in m, and f-number."""
@@ -68,7 +68,7 @@ def _take_photos(
 ) -> tuple[NDArray[np.uint8], ...]:
     """The photographs, each two measured to differ, for the question and for its solution."""
     from quizgen.camera import Camera
-    from quizgen.camera.pictures import focused
+    from quizgen.camera.picture_sets import make_focused
     from quizgen.figures.photographs import check_seen
 
     scene, models = _make_scene(wide)
@@ -76,7 +76,7 @@ def _take_photos(
         Camera(focal / 1e3, SENSOR_MM / 1e3 / wide, number, distance, gamma="srgb")
         for distance, number in settings
     ]
-    photos = focused(scene, [(*depths, _BEHIND_M)[model] for model in models], *cameras)
+    photos = make_focused(scene, [(*depths, _BEHIND_M)[model] for model in models], *cameras)
     for one, other in combinations(photos, 2):
         check_seen(one, other, "depth of field")
     return photos

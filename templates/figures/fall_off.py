@@ -13,10 +13,10 @@ import numpy as np
 from matplotlib.path import Path
 
 from quizgen.camera import Camera, Scene
-from quizgen.camera.effects.vignetting import fall_off
-from quizgen.camera.filters import everywhere_alike
-from quizgen.camera.question import photograph_question
-from quizgen.camera.view import View
+from quizgen.camera.effects.vignetting import light_falloff
+from quizgen.camera.pixels.filters import numpy_only
+from quizgen.camera.question_photo import photograph_question
+from quizgen.camera.setup.view import View
 from quizgen.figures.kit import (
     Parameter,
     Values,
@@ -60,13 +60,13 @@ def set_camera(values: Values) -> tuple[Scene, Camera]:
 def find_shares(values: Values, distances: Sequence[float]) -> list[float]:
     """Shares of the light of the centre that arrive at distances from it in mm."""
     pixels = np.array(distances) / values["extent"] * _WIDE / 2
-    return fall_off(pixels, View(*set_camera(values))).tolist()
+    return light_falloff(pixels, View(*set_camera(values))).tolist()
 
 
 @lru_cache(64)
 def _take_photo(f: float, extent: float, rim: float) -> Any:
     """The photograph in 8-bit codes, for the question and for its solution."""
-    with everywhere_alike():
+    with numpy_only():
         scene, camera = set_camera({"f": f, "extent": extent, "rim": rim})
         return photograph_question(scene, camera, "vignetting", grey=True).photo.pixels()
 

@@ -50,15 +50,15 @@ def edit_levels(edit: str, before: NDArray[np.float64], values: Values) -> NDArr
 @cache
 def take_photo() -> NDArray[np.uint8]:
     """Soft shades from black to white: a sky, a field, a ball and a wall, shape (104, 192)."""
-    from quizgen.camera import Camera, Length, Scene, Thing, pictures, simulate
-    from quizgen.camera.filters import everywhere_alike
+    from quizgen.camera import Camera, Length, Scene, SceneObject, picture_sets, simulate
+    from quizgen.camera.pixels.filters import numpy_only
 
     size = _PIXELS[0] / 144
 
     def shade(shape: str, place: tuple[float, float], sides: tuple[float, float],
-              first: float, last: float) -> Thing:  # fmt: skip
+              first: float, last: float) -> SceneObject:  # fmt: skip
         x, y, wide, high = (Length(size * value) for value in (*place, *sides))
-        return Thing(shape, x=x, y=y, width=wide, height=high, radius=Length(wide.value / 2),
+        return SceneObject(shape, x=x, y=y, width=wide, height=high, radius=Length(wide.value / 2),
                      texture="ramp", colour=(first,) * 3, other=(last,) * 3)  # fmt: skip
 
     things = (
@@ -67,9 +67,9 @@ def take_photo() -> NDArray[np.uint8]:
         shade("disc", (-34, 6), (44, 44), 1.0, 0.05),
         shade("box", (38, 8), (44, 32), 0.65, 0.1),
     )
-    with everywhere_alike():
+    with numpy_only():
         photo = simulate(Scene(*_PIXELS, things), Camera())
-    return pictures.codes(photo.values)[..., 0]
+    return picture_sets.to_codes(photo.values)[..., 0]
 
 
 def draw(fig: Any, values: Values, *, quiz: bool) -> None:
@@ -91,10 +91,10 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
 def _edit_photo(edit: str, values: Values) -> NDArray[np.uint8]:
     import numpy as np
 
-    from quizgen.camera import pictures
+    from quizgen.camera import picture_sets
 
     table = edit_levels(edit, np.arange(256.0), values) / 255
-    return pictures.codes(table.astype(np.float32)).take(take_photo())
+    return picture_sets.to_codes(table.astype(np.float32)).take(take_photo())
 
 
 def _write_edit(values: Values, edit: str) -> str:

@@ -83,14 +83,15 @@ def _edit_palette(palette: tuple[Colour, ...], values: Values) -> dict[str, Any]
     """The scene's colours under each edit, by the camera's own editing step."""
     import numpy as np
 
-    from quizgen.camera import pictures
-    from quizgen.camera.filters import everywhere_alike
+    from quizgen.camera import picture_sets
+    from quizgen.camera.pixels.filters import numpy_only
 
     colours = np.asarray(palette, np.float32)[None] / np.float32(255.0)
-    with everywhere_alike():
-        made = pictures.hsv_edits(colours, values["a"], values["b"], values["delta"])
+    with numpy_only():
+        made = picture_sets.make_hsv_edits(colours, values["a"], values["b"], values["delta"])
     return {
-        edit: pictures.codes(image)[0].tolist() for edit, image in zip(EDITS, made, strict=True)
+        edit: picture_sets.to_codes(image)[0].tolist()
+        for edit, image in zip(EDITS, made, strict=True)
     }
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from quizgen.camera.scene import Image
+    from quizgen.camera.setup.scene import Image
 
 PARAMETERS = {
     "sigma": Parameter("1", "standard deviation of the Gaussian noise, 1 = white", 0.08, 0.01, 0.3),
@@ -46,29 +46,31 @@ def order_noises(order: float) -> tuple[str, ...]:
 @cache
 def take_photo() -> Image:
     """Four flat greys, shape (72, 96, 3): noise shows in the histogram as what it does to each."""
-    from quizgen.camera import Camera, Length, Scene, Thing, simulate
-    from quizgen.camera.filters import everywhere_alike
+    from quizgen.camera import Camera, Length, Scene, SceneObject, simulate
+    from quizgen.camera.pixels.filters import numpy_only
 
     def grey(level: float) -> tuple[float, float, float]:
         return (level, level, level)
 
     things = (
-        Thing("box", y=Length(24), width=Length(96), height=Length(26), colour=grey(0.25)),
-        Thing("disc", x=Length(-18), y=Length(-3), radius=Length(20), colour=grey(0.42)),
-        Thing("box", x=Length(24), y=Length(6), width=Length(26), height=Length(38),
+        SceneObject("box", y=Length(24), width=Length(96), height=Length(26), colour=grey(0.25)),
+        SceneObject("disc", x=Length(-18), y=Length(-3), radius=Length(20), colour=grey(0.42)),
+        SceneObject("box", x=Length(24), y=Length(6), width=Length(26), height=Length(38),
               colour=grey(0.8)),
     )  # fmt: skip
-    with everywhere_alike():
+    with numpy_only():
         return simulate(Scene(*_PIXELS, things, background=grey(0.6)), Camera()).values
 
 
 @lru_cache(maxsize=32)
 def _take_noisy(sigma: float, p: float, seed: int) -> dict[str, NDArray[np.uint8]]:
-    from quizgen.camera import pictures
+    from quizgen.camera import picture_sets
     from quizgen.figures.photographs import check_seen
 
-    made = pictures.noisy(take_photo(), sigma, p, seed)
-    photos = {kind: pictures.codes(one)[..., 0] for kind, one in zip(KINDS, made, strict=True)}
+    made = picture_sets.make_noisy(take_photo(), sigma, p, seed)
+    photos = {
+        kind: picture_sets.to_codes(one)[..., 0] for kind, one in zip(KINDS, made, strict=True)
+    }
     for kind in KINDS[1:]:
         check_seen(photos[kind], photos["clean"], f"{kind} noise", speckles=True)
     return photos

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from quizgen.camera import pictures
-from quizgen.camera.scene import Image
+from quizgen.camera import picture_sets
+from quizgen.camera.setup.scene import Image
 from quizgen.figures.kit import (
     Parameter,
     Values,
@@ -66,7 +66,9 @@ def draw(fig: Any, values: Values, *, quiz: bool) -> None:
     require("normalisation", values["a"] < values["b"], "b must be larger than a")
     require("normalisation", values["low"] < values["high"], "high must be larger than low")
     image = draw_sample(values["a"], values["b"], values["share"], int(values["seed"]))
-    _, before, after = pictures.normalised(image, values["low"] / 255, values["high"] / 255, BINS)
+    _, before, after = picture_sets.make_normalised(
+        image, values["low"] / 255, values["high"] / 255, BINS
+    )
     art = fig.sketch()
     if not quiz:
         _shade_clamped(art, values)

@@ -14,7 +14,7 @@ import pytest
 
 from quizgen import locale
 from quizgen.bank.bank import Bank
-from quizgen.lint.located import bank_problems
+from quizgen.lint.bank_checks import check_bank_files
 from quizgen.locale import custom
 from quizgen.web.auth import _make_visitor
 
@@ -178,20 +178,20 @@ def test_all_that_is_said_can_be_translated(place):
 @pytest.mark.parametrize(
     ("file", "text", "said"),
     [
-        ("fr/interface.toml", '[paper]\nexan = "Examen"', ":2: paper.exan: quizgen has no such word"),
-        ("fr/interface.toml", '[paper]\npage = "{seite}"', ":2: paper.page: there is nothing to fill"),
+        ("fr/interface.toml", '[paper]\nexan = "Examen"', ":2:1: QG507 paper.exan: quizgen has no such word"),
+        ("fr/interface.toml", '[paper]\npage = "{seite}"', ":2:1: QG507 paper.page: there is nothing to fill"),
         ("fr/interface.toml", '[paper]\npage = "{page:>99999999}"', "a name between braces and nothing"),
         ("fr/interface.toml", '[paper]\npage = "{page!r}"', "a name between braces and nothing"),
         ("fr/interface.toml", '[paper]\npage = "{page.real}"', "a name between braces and nothing"),
         ("fr/interface.toml", '[paper]\npage = "{page[0]}"', "a name between braces and nothing"),
-        ("fr/interface.toml", '[paper]\npage = "{page"', ":2: paper.page: expected '}'"),
-        ("fr/interface.toml", "[paper]\nexam = 3", ":2: paper.exam: is to be a text"),
-        ("fr/interface.toml", "paper = 'x'", ":1: paper: is to be a table, and not a text"),
-        ("fr/interface.toml", "[paper\n", ": not valid TOML"),
-        ("fr/inter.toml", "", ": is none of language.toml, cards.toml"),
-        ("fr/language.toml", "name = 7", ":1: name: Expected `str`, got `int`"),
+        ("fr/interface.toml", '[paper]\npage = "{page"', ":2:1: QG507 paper.page: expected '}'"),
+        ("fr/interface.toml", "[paper]\nexam = 3", ":2:1: QG507 paper.exam: is to be a text"),
+        ("fr/interface.toml", "paper = 'x'", ":1:1: QG507 paper: is to be a table, and not a text"),
+        ("fr/interface.toml", "[paper\n", ":1:1: QG103 not valid TOML"),
+        ("fr/inter.toml", "", ": QG508 is none of language.toml, cards.toml"),
+        ("fr/language.toml", "name = 7", ":1:1: QG106 name: Expected `str`, got `int`"),
         ("fr/language.toml", 'nam = "x"', "contains unknown field `nam`"),
-        ("French/language.toml", "", ": 'French' is no language (call the folder fr, or pt-BR)"),
+        ("French/language.toml", "", ": QG508 'French' is no language (call the folder fr, or pt-BR)"),
     ],
 )  # fmt: skip
 def test_a_mistake_in_its_words_is_named_with_its_place(tmp_path, monkeypatch, file, text, said):
@@ -201,7 +201,7 @@ def test_a_mistake_in_its_words_is_named_with_its_place(tmp_path, monkeypatch, f
     wrong.parent.mkdir(parents=True)
     wrong.write_text(text, "utf-8")
     locale.get_language.cache_clear()
-    found = [str(problem) for problem in bank_problems(Bank(tmp_path))]
+    found = [str(problem) for problem in check_bank_files(Bank(tmp_path))]
     assert any(one.startswith(f"{wrong}{said}") or (str(wrong) in one and said in one)
                for one in found), found  # fmt: skip
 

@@ -64,7 +64,7 @@ def test_changed_prose_is_read_anew(tmp_path, empty_cache, change):
     file.write_text(PROSE.replace(*change))
     if "{{" in change[1]:
         for _ in range(2):
-            with pytest.raises(BankError, match=r"en\.md: only"):
+            with pytest.raises(BankError, match=r"en\.md:2: only"):
                 read_language_file(file)
     else:
         assert read_language_file(file) != before
@@ -73,7 +73,7 @@ def test_changed_prose_is_read_anew(tmp_path, empty_cache, change):
 def test_rules_that_are_wrong_are_told_each_time(tmp_path, empty_cache):
     (tmp_path / "template.toml").write_text('topic = "eye"\ntier = "E"\n')
     for _ in range(2):
-        with pytest.raises(BankError, match=r"template\.toml: .*tier"):
+        with pytest.raises(BankError, match=r"template\.toml:2: .*tier"):
             read_rules(tmp_path / "template.toml")
 
 

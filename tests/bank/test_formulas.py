@@ -38,14 +38,18 @@ def test_every_formula_of_the_inventory_is_there_once(bank):
 
 def test_steps_name_formulas_that_are_there(bank):
     named = {
-        formula for name in bank.paths for formula in bank.template(name).chain.formulas.values()
+        formula
+        for name in bank.template_paths
+        for formula in bank.template(name).chain.formulas.values()
     }
     assert len(named) >= 30
-    assert not [name for name in bank.paths if find_missing_formulas(bank, name)]
+    assert not [name for name in bank.template_paths if find_missing_formulas(bank, name)]
 
 
 def test_steps_that_have_the_form_of_a_formula_name_one(bank):
-    assert not {name: found for name in bank.paths if (found := find_unnamed_formulas(bank, name))}
+    assert not {
+        name: found for name in bank.template_paths if (found := find_unnamed_formulas(bank, name))
+    }
 
 
 @pytest.fixture

@@ -42,27 +42,30 @@ def twins(tmp_path):
 
 def test_a_name_of_one_bank_alone_is_kept(both):
     assert len(both) == len(builtin_bank()) + 15
-    assert "otsu-threshold" in both.paths
-    assert not [name for name in both.paths if ":" in name]
-    assert list(both.paths) == sorted(both.paths)
+    assert "otsu-threshold" in both.template_paths
+    assert not [name for name in both.template_paths if ":" in name]
+    assert list(both.template_paths) == sorted(both.template_paths)
     assert both.topics == (*builtin_bank().topics, *Bank(FILTERING).topics)
     assert both.topic_title("edges", "de") == "Kanten"
 
 
 def test_what_two_banks_call_the_same_is_told_apart(twins):
-    assert list(twins.paths) == ["mechanics:push", "statics:push"]
-    assert [twins.origin(name) for name in twins.paths] == ["mechanics:push", "statics:push"]
+    assert list(twins.template_paths) == ["mechanics:push", "statics:push"]
+    assert [twins.origin(name) for name in twins.template_paths] == [
+        "mechanics:push",
+        "statics:push",
+    ]
     with pytest.raises(BankError, match="did you mean mechanics:push or statics:push"):
         twins.template("push")
 
 
 def test_each_bank_has_its_own_units_and_figures(twins, both):
-    first, second = (twins.template(name) for name in twins.paths)
-    assert second.factor("N") == 2 * first.factor("N") == 2 * first.factor("kg")
-    assert Path(first.figure.__file__).is_relative_to(twins.parts[0].root)
-    assert Path(second.figure.__file__).is_relative_to(twins.parts[1].root)
+    first, second = (twins.template(name) for name in twins.template_paths)
+    assert second.unit_factor("N") == 2 * first.unit_factor("N") == 2 * first.unit_factor("kg")
+    assert Path(first.figure.__file__).is_relative_to(twins.members[0].root)
+    assert Path(second.figure.__file__).is_relative_to(twins.members[1].root)
     with pytest.raises(FormulaError, match="op"):
-        both.template("thin-lens-image-distance").factor("op")
+        both.template("thin-lens-image-distance").unit_factor("op")
 
 
 def test_questions_are_those_of_the_bank_alone(both):
@@ -73,8 +76,8 @@ def test_questions_are_those_of_the_bank_alone(both):
 
 def test_another_process_opens_the_same_banks(both):
     again = pickle.loads(pickle.dumps(both))
-    assert list(again.paths) == list(both.paths)
-    assert again.parts[0] is builtin_bank()
+    assert list(again.template_paths) == list(both.template_paths)
+    assert again.members[0] is builtin_bank()
     assert bank_sources(again) == bank_sources(both)
 
 
@@ -91,15 +94,15 @@ def test_a_blueprint_of_a_bank_asks_its_own_questions(both):
 def test_a_paper_of_all_asks_every_bank(both):
     for seed in range(5):
         names = select_templates(both, load_blueprint("all.60", both), seed)
-        share = sum(name in both.parts[1].paths for name in names) / len(names)
+        share = sum(name in both.members[1].template_paths for name in names) / len(names)
         assert 0.3 < share < 0.7
 
 
 def test_languages_are_those_of_all(both, tmp_path):
     assert both.languages == ("en",)
-    assert both.chosen("both") == ("en",)
+    assert both.resolve_languages("both") == ("en",)
     with pytest.raises(BankError, match="filtering is written in en, de"):
-        both.chosen("bn")
+        both.resolve_languages("bn")
     other = write(tmp_path / "other")
     about = other / "templates" / "bank.toml"
     about.write_text(about.read_text("utf-8").replace('["en"]', '["de"]'), "utf-8")
@@ -118,20 +121,20 @@ def test_two_banks_of_one_name_are_refused(tmp_path):
 
 def test_a_topic_of_two_banks_is_one(twins):
     assert twins.topics == ("forces",)
-    assert [twins.rules(name).topic for name in twins.paths] == ["forces", "forces"]
+    assert [twins.rules(name).topic for name in twins.template_paths] == ["forces", "forces"]
 
 
 def test_cards_of_both_keep_their_notes(both):
     kinds = ("truth", "vocab")
     mixed = deck(kinds=kinds, bank=both)
-    alone = [deck(kinds=kinds, bank=part) for part in both.parts]
+    alone = [deck(kinds=kinds, bank=part) for part in both.members]
     assert {note.guid for note in mixed.notes} == {n.guid for one in alone for n in one.notes}
     assert {note.columns for note in mixed.notes} == {("en", "bn"), ("en", "de")}
 
 
 def test_cards_of_the_same_template_are_two(twins):
     keys = {note.key for note in deck(kinds=("question",), bank=twins).notes}
-    assert len(keys) == 2 * len(deck(kinds=("question",), bank=twins.parts[0]).notes)
+    assert len(keys) == 2 * len(deck(kinds=("question",), bank=twins.members[0]).notes)
     assert all(key.partition(":")[0] in {"mechanics", "statics"} for key in keys)
 
 

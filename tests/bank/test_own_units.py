@@ -17,7 +17,7 @@ from mechanics import FILES, write
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.cli.main import root_group
 from quizgen.core.errors import BankError, FormulaError
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.maths.units import UnitRegistry, build_unit_registry, unit_factor
 from quizgen.paper.answer_key import parse_answer_key
 from quizgen.paper.grading import grade_paper
@@ -75,25 +75,25 @@ FORCE = {"kind": "quantity", "value": "6", "unit": "N", "rel": "0.01", "define":
     ],
 )
 def test_a_unit_of_the_bank_is_read(typed):
-    assert mark(FORCE, typed).verdict == "correct"
+    assert grade_answer(FORCE, typed).verdict == "correct"
 
 
 def test_units_of_the_bank_are_judged_and_asked_back_as_ours_are():
-    assert mark(FORCE, "6").note == "unit-missing"
-    assert mark(FORCE, "6 kg").note == "unit-wrong"
-    assert mark(FORCE, "6 furlongs").verdict == "unreadable"
+    assert grade_answer(FORCE, "6").note == "unit-missing"
+    assert grade_answer(FORCE, "6 kg").note == "unit-wrong"
+    assert grade_answer(FORCE, "6 furlongs").verdict == "unreadable"
 
 
 def test_cells_of_a_table_know_them():
     table = {"kind": "table", "values": {"a": "6", "b": "2"}, "units": {"a": "N", "b": "kg"},
              "rel": "0.01", "define": list(LINES)}  # fmt: skip
-    assert mark(table, "6 N; 2000 g").verdict == "correct"
+    assert grade_answer(table, "6 N; 2000 g").verdict == "correct"
 
 
 def test_no_other_question_knows_them():
     other = {"kind": "quantity", "value": "6", "unit": "m", "rel": "0.01"}
-    assert mark(FORCE, "6 N").verdict == "correct"
-    assert mark(other, "6 kg").verdict == "unreadable"
+    assert grade_answer(FORCE, "6 N").verdict == "correct"
+    assert grade_answer(other, "6 kg").verdict == "unreadable"
     with pytest.raises(FormulaError, match="unknown unit"):
         unit_factor("N")
 
@@ -135,9 +135,9 @@ def test_no_question_of_the_built_in_bank_holds_definitions():
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        ('units = ["newton = N"]', r"bank\.toml: units: .*unknown unit 'N'"),
-        ('requires = ">=99"', r"bank\.toml: requires: quizgen >=99, and this is 0\.1"),
-        ('requires = "new"', r"bank\.toml: requires: 'new' is not like"),
+        ('units = ["newton = N"]', r"bank\.toml:1: units: .*unknown unit 'N'"),
+        ('requires = ">=99"', r"bank\.toml:1: requires: quizgen >=99, and this is 0\.1"),
+        ('requires = "new"', r"bank\.toml:1: requires: 'new' is not like"),
     ],
 )
 def test_what_bank_toml_cannot_hold_is_located(tmp_path, wrong, said):

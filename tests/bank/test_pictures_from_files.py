@@ -15,8 +15,8 @@ from quizgen.bank.bank import Bank
 from quizgen.bank.pictures import read_picture
 from quizgen.cards.deck import build_deck
 from quizgen.core.errors import BankError
-from quizgen.export import FORMATS, exporter
-from quizgen.export.items import of_templates
+from quizgen.lms import FORMATS, get_exporter
+from quizgen.lms.items import items_from_templates
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import build_paper, single_question_paper
 from quizgen.render import html, pdf, text
@@ -154,8 +154,8 @@ def test_a_deck_brings_their_files(folder):
 
 @pytest.mark.parametrize("target", FORMATS)
 def test_an_export_holds_them_or_their_files(folder, target):
-    items = list(of_templates(bank_of(folder), ["divider"], 1, 1, ["en"]))
-    data = exporter(target).write(items)
+    items = list(items_from_templates(bank_of(folder), ["divider"], 1, 1, ["en"]))
+    data = get_exporter(target).write(items)
     if not zipfile.is_zipfile(io.BytesIO(data)):
         written = data.decode().replace("\\", "").replace("&#61;", "=")
         for kind in ("svg+xml", "png", "jpeg"):

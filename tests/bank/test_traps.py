@@ -127,6 +127,13 @@ def test_a_mistake_in_the_interval_accepted_besides_is_none(tmp_path, low, high,
     assert ("forgot-f" in check(plan, lenient=True)) is usable
 
 
+@pytest.mark.parametrize(("low", "high"), [("1.1*f - 3.8", "p'_x"), ("0", "0.6*f + 0.2")])
+def test_a_mistake_on_a_bound_counts_whatever_floats_make_of_it(tmp_path, low, high):
+    """For f = 8 both bounds are exactly 5; in floats 5.000000000000001 and 4.999999999999999."""
+    plan = part(tmp_path, f', rel = "1/1000", accept = ["{low}", "{high}"]')
+    assert "forgot-f" not in check(plan, lenient=True)
+
+
 def test_what_has_no_value_is_no_mistake(tmp_path):
     found = check(part(tmp_path), f=0.0)
     assert found == ("forgot-f", "physical-plane")

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from quizgen.camera import Camera, Length, Scene, Thing
+from quizgen.camera import Camera, Length, Scene, SceneObject
 
 
 def _texture(source, height, width):
@@ -45,7 +45,7 @@ def _thing(source, height, width):
         p=[0.2, 0.2, 0.1, 0.1, 0.2, 0.1, 0.1],
     )
     moving = source.random() < 0.3
-    return Thing(
+    return SceneObject(
         str(shape),
         Length(source.uniform(-width / 2, width / 2)),
         Length(source.uniform(-height / 2, height / 2)),

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from scipy import constants, ndimage
 
-from quizgen.camera import Camera, Prepared, Scene, SceneError, View
+from quizgen.camera import Camera, PreparedScene, Scene, SceneError, View
 from quizgen.camera.effects import axial_colour, colour_filters
-from quizgen.camera.kernels import disc, moved_share
-from quizgen.camera.raster.draw import Layer
-from quizgen.camera.reading import load
-from quizgen.camera.simulate import run
+from quizgen.camera.pixels.kernels import disc_kernel, moved_share
+from quizgen.camera.raster.rasterizer import Layer
+from quizgen.camera.scene_file import load_scene
+from quizgen.camera.simulation import run_plan
 
 LENS = {"focal_length": 0.05, "pixel_pitch": 5e-6, "f_number": 2.0, "focus_distance": 2.0}
 
@@ -25,8 +25,8 @@ def scene(depth, size=(60, 70), seed=1):
 
 
 def photo(what, **settings):
-    prepared = Prepared(what, Camera(**settings))
-    return run(prepared).values
+    prepared = PreparedScene(what, Camera(**settings))
+    return run_plan(prepared).values
 
 
 # Axial colour
@@ -49,7 +49,7 @@ def test_circles_of_each_colour_from_image_distances(f, number, s, z, between):
         Scene(), Camera(f / 1000, 5e-6, number, s / 1000, axial_colour=float(between) / 1000)
     )
     red, green, blue = diameters(f, number, s, z, between, "0.005")
-    middle, shift = view.blur_diameter(z / 1000), axial_colour.shifts(view)
+    middle, shift = view.blur_diameter(z / 1000), axial_colour.blur_shifts(view)
     assert middle == pytest.approx(green, rel=1e-9, abs=1e-9)
     assert middle + shift[0] == pytest.approx(red, rel=1e-9)
     assert middle + shift[2] == pytest.approx(blue, rel=1e-9)
@@ -62,7 +62,7 @@ def test_each_colour_is_blurred_by_its_own_disc_as_by_scipy():
     assert max(sizes) - min(sizes) > 5
     for channel, size in enumerate(sizes):
         expected = ndimage.convolve(
-            what.image[..., channel].astype(float), disc(size), mode="nearest"
+            what.image[..., channel].astype(float), disc_kernel(size), mode="nearest"
         )
         assert made[..., channel] == pytest.approx(expected, abs=3e-5), channel
 
@@ -77,8 +77,8 @@ def test_in_focus_green_alone_is_sharp():
 def test_without_it_or_left_out_all_colours_are_blurred_as_green_is():
     what = scene(5.0)
     plain = photo(what, **LENS)
-    prepared = Prepared(what, Camera(**LENS, axial_colour=1e-4))
-    assert np.array_equal(run(prepared, ["defocus"]).values, plain)
+    prepared = PreparedScene(what, Camera(**LENS, axial_colour=1e-4))
+    assert np.array_equal(run_plan(prepared, ["defocus"]).values, plain)
 
 
 def test_a_map_of_one_depth_is_as_that_depth():
@@ -95,7 +95,7 @@ def test_covers_part_with_the_colours():
     cover[15:25, 15:25] = 1.0
     view = View(Scene(40, 40), Camera(**LENS, axial_colour=1e-4))
     layer = Layer(cover.repeat(3, axis=2), cover, depth=5.0)
-    made = axial_colour.work(layer, view)
+    made = axial_colour.operation(layer, view)
     assert made.cover is not None
     assert made.cover == pytest.approx(made.colour, abs=2e-6)
     assert made.sharp == (1,)
@@ -103,11 +103,11 @@ def test_covers_part_with_the_colours():
 
 
 def test_an_edge_is_moved_by_no_more_than_the_light_is():
-    assert moved_share(disc(7.3), disc(7.3)) == 0.0
+    assert moved_share(disc_kernel(7.3), disc_kernel(7.3)) == 0.0
     edge = np.where(np.arange(80)[None, :] < 40, 0.0, 1.0) * np.ones((40, 1))
     for sizes in ((9.0, 12.0), (0.0, 3.0)):
-        one, other = (ndimage.convolve(edge, disc(size), mode="nearest") for size in sizes)
-        bound = moved_share(*map(disc, sizes))
+        one, other = (ndimage.convolve(edge, disc_kernel(size), mode="nearest") for size in sizes)
+        bound = moved_share(*map(disc_kernel, sizes))
         assert 0.1 * bound < np.abs(one - other).max() <= bound <= 1.0
 
 
@@ -115,7 +115,7 @@ def test_a_point_has_no_focus(tmp_path):
     path = tmp_path / "s.toml"
     path.write_text('[camera]\nfocal_length = "50 mm"\npixel_pitch = "5 um"\naxial_colour = "1 mm"')
     with pytest.raises(SceneError, match=r"s\.toml:4: axial_colour needs f_number"):
-        load(path)
+        load_scene(path)
     with pytest.raises(SceneError, match="must not exceed focal_length"):
         Camera(**LENS, axial_colour=0.06)
 
@@ -163,14 +163,14 @@ def reference(temperature, *, filtered):
 @pytest.mark.parametrize("temperature", [2000.0, 2856.0, 5500.0, 12000.0])
 @pytest.mark.parametrize("filtered", [True, False])
 def test_sites_see_what_the_integral_says(temperature, filtered):
-    made = colour_filters.mixture(temperature, infrared_filter=filtered)
+    made = colour_filters.mixing_matrix(temperature, infrared_filter=filtered)
     assert made == pytest.approx(reference(temperature, filtered=filtered), rel=3e-3, abs=1e-4)
 
 
 def test_plancks_law_is_that_of_colour_science():
     nm = np.array([450.0, 560.0, 900.0])
     theirs = colour.colorimetry.planck_law(nm * 1e-9, 2856.0)
-    ours = colour_filters.spectrum(2856.0)[(nm - 380).astype(int)]
+    ours = colour_filters.lamp_spectrum(2856.0)[(nm - 380).astype(int)]
     assert ours / ours[1] == pytest.approx(theirs / theirs[1], rel=1e-4)
 
 
@@ -192,16 +192,16 @@ def test_every_pixel_is_mixed_by_the_table():
 
 
 def test_a_filter_without_a_light_is_told():
-    from quizgen.camera.effects import idle
+    from quizgen.camera.effects import ineffective_settings
 
     view = View(Scene(), Camera(infrared_filter=False))
-    assert idle(view) == {"infrared_filter": "light"}
+    assert ineffective_settings(view) == {"infrared_filter": "light"}
 
 
 def test_a_colour_temperature_has_its_unit(tmp_path):
     path = tmp_path / "s.toml"
     path.write_text('[camera]\nlight = "2856 nm"')
     with pytest.raises(SceneError, match=r"s\.toml:2: light: expected a colour temperature"):
-        load(path)
+        load_scene(path)
     path.write_text('[camera]\nlight = "2856 K"')
-    assert load(path)[1].given == {"light": 2856.0}
+    assert load_scene(path)[1].given == {"light": 2856.0}

@@ -3,16 +3,15 @@
 import numpy as np
 import pytest
 
-from quizgen.camera import Camera, Length, Scene, Thing, View
-from quizgen.camera.raster import cells
-from quizgen.camera.raster import draw as drawing
-from quizgen.camera.raster.draw import draw
+from quizgen.camera import Camera, Length, Scene, SceneObject, View
+from quizgen.camera.raster import rasterizer
+from quizgen.camera.raster.rasterizer import rasterize
 
 CORNERS = ((-9.0, -6.0), (8.0, -3.0), (3.0, 7.0))
 
 
 def drawn(*things, width=40, height=30):
-    (layer,) = draw(View(Scene(width, height, things), Camera()))
+    (layer,) = rasterize(View(Scene(width, height, things), Camera()))
     return layer.colour[..., 0]
 
 
@@ -26,10 +25,10 @@ def drawn(*things, width=40, height=30):
     ],
 )
 def test_a_corner_given_twice_changes_nothing(corners):
-    closed = drawn(Thing("polygon", points=corners))
+    closed = drawn(SceneObject("polygon", points=corners))
     assert np.isfinite(closed).all()
     if len(corners) != 5 or corners[0] == corners[-1]:
-        assert np.array_equal(closed, drawn(Thing("polygon", points=CORNERS)))
+        assert np.array_equal(closed, drawn(SceneObject("polygon", points=CORNERS)))
 
 
 SHAPES = {
@@ -50,25 +49,28 @@ def test_nothing_is_drawn_outside_of_where_it_is_looked_for(monkeypatch, shape, 
     """In its box alone and on the whole frame: not a bit differs, also of what is seen in part."""
     where = {"x": Length(place[0]), "y": Length(place[1])}
     for angle in (0.0, 0.4, 2.1):
-        thing = Thing(shape, **where, **SHAPES[shape], count=count, angle=angle, texture="stripes")
+        thing = SceneObject(
+            shape, **where, **SHAPES[shape], count=count, angle=angle, texture="stripes"
+        )
         near = drawn(thing, height=150)
         with monkeypatch.context() as everywhere:
-            everywhere.setattr(drawing, "_extent", lambda _: (np.inf, np.inf))
+            everywhere.setattr(rasterizer, "_extent", lambda _: (np.inf, np.inf))
             assert np.array_equal(near, drawn(thing, height=150))
 
 
 def of_cells(monkeypatch, height, width):
-    for module in (drawing, cells):
-        monkeypatch.setattr(module, "CELL", width)
-    monkeypatch.setattr(drawing, "band", lambda _: height)
+    monkeypatch.setattr(rasterizer, "CELL", width)
+    monkeypatch.setattr(rasterizer, "cell_height", lambda _: height)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("angle", [0.0, 0.4])
 def test_cells_leave_no_seams(monkeypatch, shape, angle):
     """In one piece and in small ones that a thing covers in part, entirely or not: the same bits."""
-    thing = Thing(shape, **SHAPES[shape], angle=angle, texture="rings", colour=(0.3, 0.2, 0.1))
-    upon = Thing("box", Length(3.0), width=Length(12.0), height=Length(14.0), depth=3.0)
+    thing = SceneObject(
+        shape, **SHAPES[shape], angle=angle, texture="rings", colour=(0.3, 0.2, 0.1)
+    )
+    upon = SceneObject("box", Length(3.0), width=Length(12.0), height=Length(14.0), depth=3.0)
     whole = drawn(thing, upon)
     of_cells(monkeypatch, 4, 7)
     assert np.array_equal(drawn(thing, upon), whole)
@@ -91,45 +93,52 @@ LARGE = {
 def test_no_edge_is_where_none_is_looked_for(monkeypatch, shape, texture, place):
     """As if every cell had one; and there are cells that a thing covers as a whole, or not at all."""
     where, seen = {"x": Length(place[0]), "y": Length(place[1])}, []
+    classify = rasterizer.classify_cells
     of_cells(monkeypatch, 24, 16)
     for angle, count in ((0.0, 1), (0.4, 2), (2.1, 5)):
-        thing = Thing(shape, **where, **LARGE[shape], angle=angle, count=count, texture=texture)
-        upon = Thing("disc", radius=Length(70.0), depth=3.0, colour=(0.3, 0.2, 0.1))
+        thing = SceneObject(
+            shape, **where, **LARGE[shape], angle=angle, count=count, texture=texture
+        )
+        upon = SceneObject("disc", radius=Length(70.0), depth=3.0, colour=(0.3, 0.2, 0.1))
         with monkeypatch.context() as patch:
             patch.setattr(
-                drawing, "states", lambda *args: seen.append(cells.states(*args)) or seen[-1]
+                rasterizer,
+                "classify_cells",
+                lambda *args: seen.append(classify(*args)) or seen[-1],
             )
             found = drawn(thing, upon, width=520, height=410)
-            patch.setattr(drawing, "states", lambda away, _: np.ones(away.shape, np.int8))
+            patch.setattr(
+                rasterizer, "classify_cells", lambda away, _: np.ones(away.shape, np.int8)
+            )
             assert np.array_equal(found, drawn(thing, upon, width=520, height=410))
-    assert any((one == cells.ALL).any() for one in seen[::2])
-    assert shape == "full" or any((one == cells.NOTHING).any() for one in seen[::2])
+    assert any((one == rasterizer.ALL).any() for one in seen[::2])
+    assert shape == "full" or any((one == rasterizer.NOTHING).any() for one in seen[::2])
 
 
 def test_nothing_is_laid_upon_what_was_never_written(monkeypatch):
     """A background that is seen nowhere is not drawn, unless something else is drawn upon it."""
-    bare = drawing._bare
+    bare = rasterizer._bare
 
     def unwritten(*args):
         layer = bare(*args)
         layer.colour[...] = np.nan
         return layer
 
-    monkeypatch.setattr(drawing, "_bare", unwritten)
-    disc = Thing("disc", radius=Length(9.0), depth=5.0)
+    monkeypatch.setattr(rasterizer, "_bare", unwritten)
+    disc = SceneObject("disc", radius=Length(9.0), depth=5.0)
     for depth in (3.0, 7.0):
-        assert np.isfinite(drawn(disc, Thing("full", depth=depth, texture="ramp"))).all()
+        assert np.isfinite(drawn(disc, SceneObject("full", depth=depth, texture="ramp"))).all()
 
 
 def test_the_very_middle_of_an_ellipse_is_covered():
-    thing = Thing("ellipse", width=Length(30.0), height=Length(20.0))
+    thing = SceneObject("ellipse", width=Length(30.0), height=Length(20.0))
     assert drawn(thing, width=41, height=31)[15, 20] == 1
 
 
-def test_drawing_upon_a_photograph_leaves_it_alone():
+def test_rasterizer_upon_a_photograph_leaves_it_alone():
     image = np.full((30, 40, 3), 0.5, np.float32)
-    view = View(Scene(40, 30, (Thing("disc", radius=Length(5.0)),), image=image), Camera())
-    assert draw(view)[0].colour[15, 20, 0] == 1
+    view = View(Scene(40, 30, (SceneObject("disc", radius=Length(5.0)),), image=image), Camera())
+    assert rasterize(view)[0].colour[15, 20, 0] == 1
     assert (image == 0.5).all()
 
 
@@ -152,7 +161,7 @@ def test_polygons_are_what_their_sides_say(seed):
     source = np.random.default_rng(seed)
     points = source.normal(0, (8, 40)[seed % 2], (int(source.integers(3, 9)), 2))
     angle = float(source.uniform(0, 6)) if seed % 3 else 0.0
-    thing = Thing("polygon", points=tuple(map(tuple, points.tolist())), angle=angle)
+    thing = SceneObject("polygon", points=tuple(map(tuple, points.tolist())), angle=angle)
     y, x = np.mgrid[0:150, 0:90] - np.array([149 / 2, 89 / 2])[:, None, None]
     turned = np.cos(angle) * x + np.sin(angle) * y, np.cos(angle) * y - np.sin(angle) * x
     expected = np.clip(0.5 - plainly(points, *turned), 0, 1)

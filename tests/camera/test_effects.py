@@ -9,8 +9,8 @@ import pytest
 
 from quizgen.camera import Camera, Scene, View, effects
 from quizgen.camera.effects import EFFECTS, distortion, motion_blur
-from quizgen.camera.raster.draw import Layer, Motion
-from quizgen.camera.setup.body import BODY
+from quizgen.camera.raster.rasterizer import Layer, Motion
+from quizgen.camera.setup.settings import BODY
 
 NAMES = [effect.name for effect in EFFECTS]
 
@@ -32,22 +32,22 @@ def test_every_module_stands_in_the_table_once():
 def test_every_setting_belongs_to_one_effect_or_the_body():
     named = [setting.name for setting in BODY]
     named += [setting.name for effect in EFFECTS for setting in effect.settings]
-    assert len(named) == len(set(named)) == len(effects.settings())
+    assert len(named) == len(set(named)) == len(effects.all_settings())
 
 
-@pytest.mark.parametrize("setting", effects.settings().values(), ids=effects.settings())
+@pytest.mark.parametrize("setting", effects.all_settings().values(), ids=effects.all_settings())
 def test_the_identity_calls_for_nothing_and_breaks_no_rule(setting):
     look = View(Scene(), Camera(**{setting.name: setting.identity}))
-    assert effects.present(look) == ()
-    assert list(setting.faults(look.camera)) == []
+    assert effects.present_effects(look) == ()
+    assert list(setting.find_faults(look.camera)) == []
 
 
 def test_a_camera_is_its_values():
     plain, bent = Camera(0.05, 5e-6), Camera(0.05, 5e-6, k1=-0.2)
     assert plain == Camera(focal_length=0.05, pixel_pitch=5e-6, k1=0.0, gamma="linear")
     assert hash(plain) == hash(Camera(0.05, 5e-6, saturation=1.0))
-    assert plain.but(k1=-0.2) == bent != plain
-    assert bent.but(k1=0.0) == plain
+    assert plain.replace(k1=-0.2) == bent != plain
+    assert bent.replace(k1=0.0) == plain
     assert repr(bent) == "Camera(focal_length=0.05, pixel_pitch=5e-06, k1=-0.2)"
     assert bent[distortion.K1] == -0.2
     assert plain[distortion.K1] == 0.0
@@ -56,9 +56,9 @@ def test_a_camera_is_its_values():
 def test_a_turning_layer_is_sampled_once_per_pixel_at_its_rim():
     """2 rad in the exposure at a rim of 30 px: 60 px, 60 positions; longer paths stop at 64."""
     shutter = 0.1
-    assert motion_blur.turns(Motion(spin=20.0, reach=30.0), shutter) == 60
-    assert motion_blur.turns(Motion(spin=-200.0, reach=30.0), shutter) == 64
-    assert motion_blur.turns(Motion(spin=1e-6, reach=30.0), shutter) == 1
+    assert motion_blur.rotation_samples(Motion(spin=20.0, reach=30.0), shutter) == 60
+    assert motion_blur.rotation_samples(Motion(spin=-200.0, reach=30.0), shutter) == 64
+    assert motion_blur.rotation_samples(Motion(spin=1e-6, reach=30.0), shutter) == 1
 
 
 def test_a_turning_spot_becomes_an_arc_without_gaps():

@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quizgen.camera import Camera, Length, Scene, Thing, photographs
-from quizgen.camera.filters import everywhere_alike
-from quizgen.camera.pictures import focused
+from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject, run_plan
+from quizgen.camera.picture_sets import make_focused
+from quizgen.camera.pixels.filters import numpy_only
 
 
 def things(rng):
     """Three that stand inside a frame of 60 x 40 pixels and touch when they are blurred."""
     for place in (-18.0, 0.0, 18.0):
-        yield Thing(
+        yield SceneObject(
             rng.choice(["disc", "box"]),
             x=Length(place),
             y=Length(rng.uniform(-3, 3)),
@@ -45,7 +45,7 @@ def test_they_are_the_pixels_of_the_simulator(seed, precision):
         depths = [rng.choice([0.5, 1.0, 2.0, 4.0, 30.0]) for _ in scene.things]
         stand = zip(scene.things, depths, strict=True)
         whole = replace(scene, things=tuple(replace(one, depth=depth) for one, depth in stand))
-        with everywhere_alike():
-            expected = [photo.pixels() for photo in photographs(whole, *cameras)]
-        for photo, wanted in zip(focused(scene, depths, *cameras), expected, strict=True):
+        with numpy_only():
+            expected = [run_plan(PreparedScene(whole, camera)).pixels() for camera in cameras]
+        for photo, wanted in zip(make_focused(scene, depths, *cameras), expected, strict=True):
             np.testing.assert_array_equal(photo, wanted)

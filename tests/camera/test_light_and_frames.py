@@ -7,10 +7,10 @@ import pytest
 from scipy import special
 from skimage.measure import block_reduce
 
-from quizgen.camera import Camera, Length, Prepared, Scene, SceneError, Thing, View
+from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneError, SceneObject, View
 from quizgen.camera.effects import binning, diffraction, exposure
-from quizgen.camera.kernels import airy
-from quizgen.camera.simulate import run
+from quizgen.camera.pixels.kernels import airy_kernel
+from quizgen.camera.simulation import run_plan
 
 LENS = {"focal_length": 0.05, "pixel_pitch": 5e-6}
 
@@ -19,8 +19,8 @@ def photo(image, **camera):
     """Everything of a camera before a picture of linear values, in linear values."""
     height, width = image.shape[:2]
     scene = Scene(width, height, image=image.astype(np.float32), seed=3)
-    prepared = Prepared(scene, Camera(**camera))
-    return run(prepared).values
+    prepared = PreparedScene(scene, Camera(**camera))
+    return run_plan(prepared).values
 
 
 def even(level, side=64):
@@ -42,7 +42,7 @@ def enclosed(ring):
 def test_the_airy_disc_holds_the_light_that_rayleigh_says():
     """83.8 % within the first dark ring of all the light; the kernel ends at the fifth."""
     scale = 12.0
-    kernel = airy(scale)
+    kernel = airy_kernel(scale)
     rows, columns = np.indices(kernel.shape) - kernel.shape[0] // 2
     inside = np.hypot(rows, columns) <= 1.2197 * scale
     assert enclosed(3.8317) == pytest.approx(0.838, abs=5e-4)
@@ -52,7 +52,7 @@ def test_the_airy_disc_holds_the_light_that_rayleigh_says():
 
 def test_the_airy_disc_has_the_shape_of_scipys_bessel_function():
     scale = 9.0
-    kernel, middle = airy(scale), airy(scale).shape[0] // 2
+    kernel, middle = airy_kernel(scale), airy_kernel(scale).shape[0] // 2
     fine = np.linspace(-1, 1, 81)
     tent = np.maximum(0, 1 - np.abs(fine))
     for away in (0, 4, 11, 15, 25):
@@ -75,8 +75,8 @@ def test_f22_softens_and_f4_does_not():
     def look(number):
         return View(Scene(), Camera(**LENS, f_number=number, wavelength=550e-9))
 
-    assert 2 * 1.22 * diffraction.scale(look(4.0)) * 5 == pytest.approx(5.37, abs=0.01)
-    assert 2 * 1.22 * diffraction.scale(look(22.0)) * 5 == pytest.approx(29.5, abs=0.05)
+    assert 2 * 1.22 * diffraction.airy_scale(look(4.0)) * 5 == pytest.approx(5.37, abs=0.01)
+    assert 2 * 1.22 * diffraction.airy_scale(look(22.0)) * 5 == pytest.approx(29.5, abs=0.05)
     sharp, soft = (photo(edge(), **LENS, f_number=n, wavelength=550e-9) for n in (4.0, 22.0))
     steepest = [np.abs(np.diff(picture, axis=1)).max() for picture in (sharp, soft)]
     assert steepest[0] > 0.7
@@ -105,8 +105,10 @@ def test_a_hole_has_no_lens():
 
 def test_a_near_thing_is_projected_by_its_image_distance():
     """f = 100 mm focused at 0.5 m magnifies f/(s - f) = 1/4: 10 mm become 2.5 mm, 500 px."""
-    box = Thing("box", width=Length(0.01, metric=True), height=Length(0.01, metric=True), depth=0.5)
-    view = Prepared(Scene(640, 640, (box,)), Camera(0.1, 5e-6, focus_distance=0.5)).view
+    box = SceneObject(
+        "box", width=Length(0.01, metric=True), height=Length(0.01, metric=True), depth=0.5
+    )
+    view = PreparedScene(Scene(640, 640, (box,)), Camera(0.1, 5e-6, focus_distance=0.5)).view
     assert view.scene.things[0].width.value == pytest.approx(500.0)
 
 
@@ -116,7 +118,7 @@ def test_a_near_thing_is_projected_by_its_image_distance():
 def test_the_sunny_sixteen_rule():
     """Full sun is light value 15: f/16 and 1/125 s at ISO 100 expose it within 0.04 stops."""
     look = View(Scene(), Camera(**LENS, f_number=16.0, shutter=1 / 125, light_value=15.0))
-    assert math.log2(exposure.factor(look)) == pytest.approx(0.0, abs=0.04)
+    assert math.log2(exposure.exposure_factor(look)) == pytest.approx(0.0, abs=0.04)
 
 
 @pytest.mark.parametrize(

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from quizgen.camera import Camera, Length, Prepared, Scene, Thing, View
-from quizgen.camera.raster.layers import moved_together
-from quizgen.camera.simulate import run, simulate_everything
+from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject, View
+from quizgen.camera.padding import crop_in_place
+from quizgen.camera.simulation import run_plan
 
 WIDTH, HEIGHT, BESIDE = 120, 90, 60
 
@@ -15,12 +15,12 @@ def px(value):
 
 
 def wall(**changes):
-    return Thing("full", texture="checker", cell=px(13), other=(0.2, 0.5, 0.1), **changes)
+    return SceneObject("full", texture="checker", cell=px(13), other=(0.2, 0.5, 0.1), **changes)
 
 
 def taken(camera, *things, beside=0):
     scene = Scene(WIDTH + 2 * beside, HEIGHT + 2 * beside, things or (wall(depth=5.0),))
-    values = simulate_everything(scene, camera).values
+    values = run_plan(PreparedScene(scene, camera)).values
     return values[beside : beside + HEIGHT, beside : beside + WIDTH]
 
 
@@ -32,13 +32,13 @@ def a_corner_larger(side):
 
 CAMERA = Camera(0.05, 0.05 / 200)
 CAMERAS = {
-    "barrel": CAMERA.but(k1=-0.2),
-    "moustache": CAMERA.but(k1=-0.5, k2=0.6),
-    "defocus": CAMERA.but(f_number=2.0, focus_distance=2.0),
-    "axial colour": CAMERA.but(f_number=4.0, focus_distance=3.0, axial_colour=1e-3),
-    "diffraction": CAMERA.but(f_number=200.0, wavelength=5.5e-6),
-    "panning": CAMERA.but(shutter=0.02, velocity=(700.0, 300.0)),
-    "shear": CAMERA.but(row_time=1e-4, velocity=(1500.0, 200.0)),
+    "barrel": CAMERA.replace(k1=-0.2),
+    "moustache": CAMERA.replace(k1=-0.5, k2=0.6),
+    "defocus": CAMERA.replace(f_number=2.0, focus_distance=2.0),
+    "axial colour": CAMERA.replace(f_number=4.0, focus_distance=3.0, axial_colour=1e-3),
+    "diffraction": CAMERA.replace(f_number=200.0, wavelength=5.5e-6),
+    "panning": CAMERA.replace(shutter=0.02, velocity=(700.0, 300.0)),
+    "shear": CAMERA.replace(row_time=1e-4, velocity=(1500.0, 200.0)),
 }
 
 
@@ -52,20 +52,22 @@ def test_a_larger_sensor_sees_the_same_in_its_middle(name):
 
 def test_lateral_colour_of_a_larger_sensor():
     """It is given at the corner: a corner farther out gets more of it."""
-    camera, more = (CAMERA.but(lateral_colour=4.0 * by) for by in (1.0, a_corner_larger(BESIDE)))
+    camera, more = (
+        CAMERA.replace(lateral_colour=4.0 * by) for by in (1.0, a_corner_larger(BESIDE))
+    )
     assert np.abs(taken(camera) - taken(more, beside=BESIDE)).max() < 2e-5
 
 
 def test_what_turns_outside_comes_in():
-    blades = Thing("blades", px(50), radius=px(70), stroke=px(9), spin=30.0, depth=4.0)
-    camera = CAMERA.but(shutter=0.004, row_time=1e-4)
+    blades = SceneObject("blades", px(50), radius=px(70), stroke=px(9), spin=30.0, depth=4.0)
+    camera = CAMERA.replace(shutter=0.004, row_time=1e-4)
     things = wall(depth=5.0), blades
     assert np.abs(taken(camera, *things) - taken(camera, *things, beside=BESIDE)).max() < 2e-5
 
 
 def test_all_together():
     """A barrel is continued beyond the corner of the frame, from where blur brings little in."""
-    camera = CAMERA.but(
+    camera = CAMERA.replace(
         k1=-0.15,
         f_number=8.0,
         focus_distance=3.0,
@@ -80,7 +82,7 @@ def test_all_together():
 
 def test_a_thing_beside_the_frame_is_drawn_in_by_a_barrel():
     """In focal lengths of 200 px: 61 px from the middle come to 61 (1 - 0.2 * 0.305^2) = 59.9 px."""
-    box = Thing("box", px(61), width=px(2), height=px(40))
+    box = SceneObject("box", px(61), width=px(2), height=px(40))
     camera = CAMERAS["barrel"]
     right = taken(camera, box)[HEIGHT // 2, -1]  # 59.5 px from the middle
     assert right.min() > 0.8
@@ -88,7 +90,7 @@ def test_a_thing_beside_the_frame_is_drawn_in_by_a_barrel():
 
 
 def views(camera, *things):
-    return Prepared(Scene(WIDTH, HEIGHT, things), camera).views
+    return PreparedScene(Scene(WIDTH, HEIGHT, things), camera).views
 
 
 def test_margins_are_as_wide_as_what_is_seen_of_them():
@@ -96,21 +98,21 @@ def test_margins_are_as_wide_as_what_is_seen_of_them():
     barrel, panning = CAMERAS["barrel"], CAMERAS["panning"]
     assert views(barrel, wall())[0].margin == (2, 2)
     assert views(panning, wall())[0].margin == (8, 4)  # half of 14 and 6 px, and one
-    both = views(barrel.but(shutter=0.02, velocity=(700.0, 300.0)), wall())
+    both = views(barrel.replace(shutter=0.02, velocity=(700.0, 300.0)), wall())
     assert [view.margin for view in both] == [(11, 6), (8, 4)]  # 8 + 0.0302 * (59.5 + 8) px
 
 
 def test_margins_are_not_wider_than_a_quarter():
-    assert views(CAMERA.but(shutter=1.0, velocity=(700.0, 30.0)), wall())[0].margin == (30, 16)
+    assert views(CAMERA.replace(shutter=1.0, velocity=(700.0, 30.0)), wall())[0].margin == (30, 16)
 
 
 @pytest.mark.parametrize(
     "thing",
     [
-        Thing("disc", px(20), radius=px(30)),
-        Thing("disc", px(20), radius=px(30), width=px(90), height=px(90)),
-        Thing("full"),
-        Thing("box", px(-40), width=px(30)),
+        SceneObject("disc", px(20), radius=px(30)),
+        SceneObject("disc", px(20), radius=px(30), width=px(90), height=px(90)),
+        SceneObject("full"),
+        SceneObject("box", px(-40), width=px(30)),
     ],
 )
 def test_what_is_even_outside_needs_no_margin(thing):
@@ -119,15 +121,17 @@ def test_what_is_even_outside_needs_no_margin(thing):
 
 def test_an_image_has_no_outside():
     image = np.random.default_rng(3).random((HEIGHT, WIDTH, 3)).astype(np.float32)
-    prepared = Prepared(Scene(WIDTH, HEIGHT, (wall(),), image=image), CAMERAS["panning"])
+    prepared = PreparedScene(Scene(WIDTH, HEIGHT, (wall(),), image=image), CAMERAS["panning"])
     assert prepared.views[0].margin == (0, 0)
 
 
 def test_what_is_left_out_leaves_the_frame():
     """However many effects a plan skips, the picture is as large as it should be."""
-    prepared = Prepared(Scene(WIDTH, HEIGHT, (wall(),)), CAMERAS["barrel"])
-    whole = run(prepared)
-    bare = run(prepared, [one.name for one in Prepared(prepared.given.scene, CAMERA).present])
+    prepared = PreparedScene(Scene(WIDTH, HEIGHT, (wall(),)), CAMERAS["barrel"])
+    whole = run_plan(prepared)
+    bare = run_plan(
+        prepared, [one.name for one in PreparedScene(prepared.given.scene, CAMERA).present]
+    )
     assert whole.values.shape == bare.values.shape == (HEIGHT, WIDTH, 3)
     assert np.array_equal(bare.values, taken(CAMERA, wall()))
 
@@ -138,13 +142,13 @@ def test_rows_moved_together_are_the_middle():
     for beside in (1, 3, 9):
         wide = np.random.default_rng(beside).random((5 + 2 * beside, 7 + 2 * beside, 3))
         middle = wide[beside:-beside, beside:-beside].copy()
-        moved = moved_together(wide, view)
+        moved = crop_in_place(wide, view)
         assert np.array_equal(moved, middle)
         assert np.shares_memory(moved, wide)
 
 
 def test_what_was_drawn_is_not_written_over():
     """Layers that are photographed twice keep what they show."""
-    prepared = Prepared(Scene(WIDTH, HEIGHT, (wall(depth=5.0),)), CAMERAS["shear"])
-    first, again = (run(prepared).values for _ in range(2))
+    prepared = PreparedScene(Scene(WIDTH, HEIGHT, (wall(depth=5.0),)), CAMERAS["shear"])
+    first, again = (run_plan(prepared).values for _ in range(2))
     assert np.array_equal(first, again)

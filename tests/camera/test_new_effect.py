@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from quizgen.camera import Camera, Prepared, Scene, SceneError, effects
-from quizgen.camera.effects.effect import Effect, Size, on_picture
-from quizgen.camera.question import InvisibleEffectError
+from quizgen.camera import Camera, PreparedScene, Scene, SceneError, effects
+from quizgen.camera.effect import Effect, EffectSize, on_composite
+from quizgen.camera.question_photo import InvisibleEffectError
 from quizgen.camera.setup.settings import SHARE, Setting
-from quizgen.camera.setup.values import quantity
-from quizgen.camera.simulate import run
-from quizgen.camera.view import Signal
+from quizgen.camera.setup.value_parsers import quantity_parser
+from quizgen.camera.setup.view import Signal
+from quizgen.camera.simulation import run_plan
 from quizgen.cli.simulate import simulate
 
-HAZE = Setting("haze", quantity("%"), 0.0, (SHARE,))
+HAZE = Setting("haze", quantity_parser("%"), 0.0, (SHARE,))
 
 
 def hazy(image, view):
@@ -25,15 +25,16 @@ def hazy(image, view):
 
 EFFECT = Effect(
     name="haze",
-    stage="sensor",
     answers=("haze",),
     settings=(HAZE,),
     is_present=lambda view: view.camera[HAZE] > 0.0,
-    run=on_picture(hazy),
+    run=on_composite(hazy),
     omission_bound=lambda signal, view: view.camera[HAZE] * signal.outside(1.0, 1.0),
     carry_error=lambda error, _, view: error * (1 - view.camera[HAZE]),
     range_after=lambda signal, _: Signal(min(signal.low, 1.0), max(signal.high, 1.0)),
-    size=Size(lambda view: 100.0 * view.camera[HAZE], "lay {:.3g} % of white over everything", 1.0),
+    size=EffectSize(
+        lambda view: 100.0 * view.camera[HAZE], "lay {:.3g} % of white over everything", 1.0
+    ),
 )
 
 
@@ -43,9 +44,9 @@ def table(monkeypatch):
     longer = (*effects.EFFECTS[:place], EFFECT, *effects.EFFECTS[place:])
     with monkeypatch.context() as patched:
         patched.setattr(effects, "EFFECTS", longer)
-        effects.settings.cache_clear()
+        effects.all_settings.cache_clear()
         yield
-    effects.settings.cache_clear()
+    effects.all_settings.cache_clear()
 
 
 def scene_file(tmp_path, haze, question=""):
@@ -91,8 +92,8 @@ def test_it_runs_when_it_is_asked_and_is_measured_to_be_seen(tmp_path):
 
 
 def test_its_picture_is_its_own():
-    prepared = Prepared(Scene(8, 6, background=(0.25, 0.5, 1.0)), Camera(haze=0.2))
-    assert run(prepared).values[0, 0] == pytest.approx([0.4, 0.6, 1.0])
+    prepared = PreparedScene(Scene(8, 6, background=(0.25, 0.5, 1.0)), Camera(haze=0.2))
+    assert run_plan(prepared).values[0, 0] == pytest.approx([0.4, 0.6, 1.0])
 
 
 def test_its_values_are_checked(tmp_path):
@@ -110,12 +111,10 @@ def test_its_values_are_checked(tmp_path):
         Camera(hase=0.1)
 
 
-@pytest.mark.parametrize("name", ["name", "stage", "answers", "is_present", "run"])
+@pytest.mark.parametrize("name", ["name", "answers", "is_present", "run"])
 def test_what_an_effect_must_have(name):
     fields = {
-        key: getattr(EFFECT, key)
-        for key in ("name", "stage", "answers", "is_present", "run")
-        if key != name
+        key: getattr(EFFECT, key) for key in ("name", "answers", "is_present", "run") if key != name
     }
     with pytest.raises(TypeError, match=name):
         Effect(**fields)

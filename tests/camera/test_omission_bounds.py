@@ -9,22 +9,22 @@ import scenes_at_random
 from scipy import stats
 from sweep import draws
 
-from quizgen.camera import Camera, Prepared, Scene, SceneError, plan_budget, run
+from quizgen.camera import Camera, PreparedScene, Scene, SceneError, plan_budget, run_plan
 from quizgen.camera.effects import EFFECTS, gamma, shot_noise
-from quizgen.camera.noise import FARTHEST, farthest_count
-from quizgen.camera.simulate import is_within, measure_difference
-from quizgen.camera.view import Signal, View
+from quizgen.camera.pixels.noise import FARTHEST, farthest_count
+from quizgen.camera.setup.view import Signal, View
+from quizgen.camera.simulation import is_within, measure_difference
 
-SCENES = [pytest.param(0, 60), pytest.param(60, draws(5000), marks=pytest.mark.slow)]
+SCENES = [pytest.param(0, 20), pytest.param(20, draws(1500), marks=pytest.mark.slow)]
 
 
 def draw_case(seed):
     """Half of the cases are small scenes of every kind, half are sensors where counts are few."""
     source = np.random.default_rng([seed, 91])
     if seed % 2:
-        return source, Prepared(noisy_at_random.scene(source), noisy_at_random.camera(source))
+        return source, PreparedScene(noisy_at_random.scene(source), noisy_at_random.camera(source))
     scene = scenes_at_random.scene(source)
-    return source, Prepared(scene, scenes_at_random.camera(source, noise=seed % 4 == 0))
+    return source, PreparedScene(scene, scenes_at_random.camera(source, noise=seed % 4 == 0))
 
 
 def choose_omissions(source, prepared):
@@ -45,13 +45,13 @@ def test_no_value_differs_by_more(first, last):
     for seed in range(first, last):
         source, prepared = draw_case(seed)
         try:
-            whole = run(prepared)
+            whole = run_plan(prepared)
         except SceneError:
             continue
         names = [effect.name for effect in prepared.present]
         for out in choose_omissions(source, prepared):
             bound = prepared.bound_omission(out)
-            photo = run(prepared, [name for name in names if name not in out])
+            photo = run_plan(prepared, [name for name in names if name not in out])
             assert is_within(bound, photo, whole), (seed, out, measure_difference(photo, whole))
 
 
@@ -61,7 +61,7 @@ def test_every_value_lies_where_its_signal_says(first, last):
         _, prepared = draw_case(seed)
         names = [effect.name for effect in prepared.present]
         for place, signal in enumerate(prepared.signals[1:], 1):
-            values = run(prepared, names[:place]).values
+            values = run_plan(prepared, names[:place]).values
             assert signal.low <= values.min(), (seed, names[place - 1])
             assert values.max() <= signal.high, (seed, names[place - 1])
 
@@ -109,14 +109,14 @@ def test_a_tone_curve_left_out_against_every_value(tone, low, high):
 def test_a_gain_multiplies_what_is_missing():
     """Offsets of 100 electrons at a full well of 10 000, left out before two stops of gain."""
     scene = Scene(8, 8, background=(0.25, 0.25, 0.25))
-    prepared = Prepared(scene, Camera(full_well=1e4, shot_noise=False, bias=100.0, iso=400.0))
+    prepared = PreparedScene(scene, Camera(full_well=1e4, shot_noise=False, bias=100.0, iso=400.0))
     assert prepared.bound_omission(["fixed pattern"]) == pytest.approx(4 * 0.01 * 255, rel=1e-3)
 
 
 def test_what_the_full_well_never_meets_changes_nothing():
     camera = Camera(full_well=1e4, shot_noise=False)
-    dim = Prepared(Scene(8, 8, background=(0.9, 0.9, 0.9)), camera)
-    bright = Prepared(Scene(8, 8, background=(1.5, 1.5, 1.5)), camera)
+    dim = PreparedScene(Scene(8, 8, background=(0.9, 0.9, 0.9)), camera)
+    bright = PreparedScene(Scene(8, 8, background=(1.5, 1.5, 1.5)), camera)
     assert dim.bound_omission(["full well"]) == 0.0
     assert bright.bound_omission(["full well"]) == pytest.approx(0.5 * 255, rel=1e-4)
 
@@ -124,19 +124,19 @@ def test_what_the_full_well_never_meets_changes_nothing():
 def test_a_difference_becomes_a_whole_code():
     """A pedestal of a thousandth of a code, left out before a converter of 4 bits: 255/15."""
     camera = Camera(full_well=1e4, shot_noise=False, bias=1e4 / 15000, bit_depth=4)
-    prepared = Prepared(Scene(8, 8, background=(0.5, 0.5, 0.5)), camera)
+    prepared = PreparedScene(Scene(8, 8, background=(0.5, 0.5, 0.5)), camera)
     assert prepared.bound_omission(["fixed pattern"]) == pytest.approx(17, rel=1e-3)
 
 
 def test_signals_without_end_are_refused():
     camera = Camera(exposure=40.0, white_balance=(1e12, 1e12, 1e12))
     with pytest.raises(SceneError, match=r"more than 1e\+30"):
-        plan_budget(Prepared(Scene(background=(1e6, 1e6, 1e6)), camera))
+        plan_budget(PreparedScene(Scene(background=(1e6, 1e6, 1e6)), camera))
 
 
 def test_a_broken_bound_is_noticed():
-    prepared = Prepared(Scene(8, 8, background=(0.5, 0.5, 0.5)), Camera(exposure=-1.0))
-    whole, without = run(prepared), run(prepared, [])
+    prepared = PreparedScene(Scene(8, 8, background=(0.5, 0.5, 0.5)), Camera(exposure=-1.0))
+    whole, without = run_plan(prepared), run_plan(prepared, [])
     assert measure_difference(without, whole) == pytest.approx(0.25 * 255)
     assert not is_within(60.0, without, whole)
     assert is_within(64.0, without, whole)
@@ -147,6 +147,8 @@ def test_every_effect_but_the_projection_has_a_bound():
         Signal(0.0, 1.0),
         Camera(0.05, 5e-6, 2.0, 3.0, full_well=1e4, mosaic="RGGB", dark_frames=4, gamma="srgb"),
     )
-    view = View(Scene(32, 24), lens.but(k1=-0.01, shutter=0.01, velocity=(9.0, 0.0), light=3000.0))
+    view = View(
+        Scene(32, 24), lens.replace(k1=-0.01, shutter=0.01, velocity=(9.0, 0.0), light=3000.0)
+    )
     for effect in EFFECTS[1:]:
         assert 0.0 <= effect.omission_bound(signal, view) < math.inf, effect.name

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from quizgen.bank.variant import draw_variant
-from quizgen.camera import Camera, Length, Prepared, Scene, Thing, run
-from quizgen.camera.simulate import measure_difference
-from quizgen.question.kinds import build
+from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject, run_plan
+from quizgen.camera.simulation import measure_difference
+from quizgen.question.part_context import ask_part
 
 EFFECTS = {
     "defocus": "defocus",
@@ -23,7 +23,7 @@ def _scene(given) -> Scene:
     speed = given["f"] * 1e-3 * given["v"] / (depth * given["p"] * 1e-6)  # px/s
     low, step = 0.3, given["G"] / 255
     bright = (low + step,) * 3
-    thing = Thing(
+    thing = SceneObject(
         "box", width=Length(width / 4), height=Length(height), depth=depth, colour=bright,
         velocity=(Length(speed), Length(0.0)),
     )  # fmt: skip
@@ -48,16 +48,16 @@ def _camera(given) -> Camera:
 def test_what_the_key_leaves_out_changes_no_more_than_two_levels(bank, seed):
     drawn = draw_variant(bank.template("which-effects-to-simulate"), seed)
     given = {name: float(value) for name, value in drawn.shown.items()}
-    prepared = Prepared(_scene(given), _camera(given))
+    prepared = PreparedScene(_scene(given), _camera(given))
     names = [effect.name for effect in prepared.present]
-    whole = run(prepared)
-    for _, name in build(drawn, 4).right:
+    whole = run_plan(prepared)
+    for _, name in ask_part(drawn, 4).right:
         if EFFECTS[name] != "read noise":  # which is asked by its deviation, not its tail
-            without = run(prepared, [other for other in names if other != EFFECTS[name]])
+            without = run_plan(prepared, [other for other in names if other != EFFECTS[name]])
             assert measure_difference(without, whole) <= 2.0, name
 
 
 def test_every_number_of_effects_occurs(bank):
     template = bank.template("which-effects-to-simulate")
-    sizes = {len(build(draw_variant(template, seed), 4).right) for seed in range(SEEDS)}
+    sizes = {len(ask_part(draw_variant(template, seed), 4).right) for seed in range(SEEDS)}
     assert sizes == {1, 2, 3}

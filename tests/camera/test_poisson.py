@@ -6,8 +6,14 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from quizgen.camera.noise import FARTHEST, _normals
-from quizgen.camera.poisson import _COLUMNS, FEW_ELECTRONS, _tables, poisson_quantiles
+from quizgen.camera.pixels.noise import (
+    _COLUMNS,
+    FARTHEST,
+    FEW_ELECTRONS,
+    _normals,
+    _tables,
+    poisson_quantiles,
+)
 
 
 @pytest.mark.parametrize("mean", [1e-3, 0.3, 3.0, 16.1, 16.2, 25.5, 400.0, 1e6])

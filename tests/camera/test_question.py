@@ -3,18 +3,26 @@
 import numpy as np
 import pytest
 
-from quizgen.camera import Camera, Length, Scene, Thing, question
+from quizgen.camera import (
+    Camera,
+    Length,
+    PreparedScene,
+    Scene,
+    SceneObject,
+    question_photo,
+    run_plan,
+)
 from quizgen.camera.effects import EFFECTS
-from quizgen.camera.planning import Selection
-from quizgen.camera.question import (
+from quizgen.camera.planner import EffectSelection
+from quizgen.camera.question_photo import (
     InvisibleEffectError,
     MovedReadingError,
     check_visible,
     measure_visibility,
     photograph_question,
-    take_photographs,
+    take_question_photo,
 )
-from quizgen.camera.scene import Question, Reading
+from quizgen.camera.setup.scene import PictureQuestion, Reading
 
 LENS = {"focal_length": 18e-3, "pixel_pitch": 250e-6}
 DARK_CORNERS = Camera(**LENS, natural_vignetting=True, gamma="srgb")
@@ -22,12 +30,12 @@ WALL = Scene(144, 96, background=(0.55, 0.55, 0.55))
 
 
 def grid(cell=12.0, colour=(0.0, 0.0, 0.0)):
-    lines = Thing("grid", cell=Length(cell), stroke=Length(2.0), colour=colour)
+    lines = SceneObject("grid", cell=Length(cell), stroke=Length(2.0), colour=colour)
     return Scene(144, 96, (lines,), (0.9, 0.9, 0.9))
 
 
 def test_what_is_asked_runs_with_what_a_picture_needs():
-    camera = DARK_CORNERS.but(full_well=2e4, read_noise=20.0, k1=-0.1)
+    camera = DARK_CORNERS.replace(full_well=2e4, read_noise=20.0, k1=-0.1)
     taken = photograph_question(WALL, camera, "vignetting")
     assert taken.plan.names == ("vignetting", "gamma")
     assert taken.plan.asked == ("vignetting",)
@@ -38,12 +46,12 @@ def test_what_is_asked_runs_with_what_a_picture_needs():
 
 def test_without_what_is_asked_the_picture_is_as_if_the_camera_had_not_got_it():
     taken = photograph_question(grid(), Camera(**LENS, k1=-0.05, gamma="srgb"), "distortion")
-    ideal = question.run(question.Prepared(grid(), Camera(gamma="srgb")))
+    ideal = run_plan(PreparedScene(grid(), Camera(gamma="srgb")))
     assert np.array_equal(taken.without.values, ideal.values)
 
 
 def test_a_flat_field_runs_with_the_vignetting_that_it_divides_out():
-    taken = take_photographs(WALL, DARK_CORNERS.but(flat_field=True), "flat field")
+    taken = take_question_photo(WALL, DARK_CORNERS.replace(flat_field=True), "flat field")
     assert taken.plan.names == ("vignetting", "flat field", "gamma")
     assert np.ptp(taken.photo.values) < 1e-3 < np.ptp(taken.without.values)
 
@@ -136,18 +144,18 @@ def test_the_key_must_be_what_is_read_off():
 
 def test_an_effect_without_which_the_key_is_wrong_runs():
     """Stray light of 20 % makes the corner brighter: a key that counts with it calls for it."""
-    camera = DARK_CORNERS.but(flare=0.2, k1=-0.05)
+    camera = DARK_CORNERS.replace(flare=0.2, k1=-0.05)
     alone = photograph_question(WALL, camera, "vignetting", corner(1.0)).readings["corner"]
-    both = question.run(question.Prepared(WALL, camera.but(k1=0.0)))
-    key = question.read_value(both.values, Reading("corner", 1.0))
+    both = run_plan(PreparedScene(WALL, camera.replace(k1=0.0)))
+    key = question_photo.read_value(both.values, Reading("corner", 1.0))
     assert key > alone + 5
     taken = photograph_question(WALL, camera, "vignetting", corner(1.0, key))
     assert taken.plan.names == ("vignetting", "flare", "gamma")
 
 
 def test_what_runs_besides_may_not_move_what_is_read():
-    camera = DARK_CORNERS.but(flare=0.2)
-    besides = Selection(plus=("flare",))
+    camera = DARK_CORNERS.replace(flare=0.2)
+    besides = EffectSelection(plus=("flare",))
     photograph_question(WALL, camera, "vignetting", corner(60.0), chosen=besides)
     with pytest.raises(MovedReadingError, match=r"flare moves corner by .*, more than 2"):
         photograph_question(WALL, camera, "vignetting", corner(2.0), chosen=besides)
@@ -165,7 +173,7 @@ def test_a_function_reads_what_has_no_name():
 
 
 def test_the_scene_brings_its_own_question():
-    scene = Scene(144, 96, background=(0.5, 0.5, 0.5), question=Question(("vignetting",)))
+    scene = Scene(144, 96, background=(0.5, 0.5, 0.5), question=PictureQuestion(("vignetting",)))
     assert photograph_question(scene, DARK_CORNERS).plan.asked == ("vignetting",)
 
 
@@ -178,9 +186,9 @@ def test_pictures_of_drawn_scenes_are_kept():
 
 
 def test_no_more_pictures_are_kept_than_said():
-    for step in range(question._MOST_KEPT + 3):
+    for step in range(question_photo._MOST_KEPT + 3):
         photograph_question(grid(8.0 + step), Camera(lateral_colour=3.0), "lateral colour")
-    assert len(question._KEPT) == question._MOST_KEPT
+    assert len(question_photo._KEPT) == question_photo._MOST_KEPT
 
 
 def test_every_effect_that_has_a_least_size_says_what_it_is():

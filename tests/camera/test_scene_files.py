@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import zlib
 from base64 import b64decode
 from importlib import import_module
 from pathlib import Path
@@ -13,13 +14,14 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from quizgen import png
-from quizgen.camera import Prepared, SceneError, plan_everything
-from quizgen.camera.compare import amplify_difference
-from quizgen.camera.question import InvisibleEffectError
-from quizgen.camera.reading import load
+from quizgen.camera import PreparedScene, SceneError, plan_budget
+from quizgen.camera.comparison import amplify_difference
+from quizgen.camera.pixels import codecs
+from quizgen.camera.question_photo import InvisibleEffectError
+from quizgen.camera.scene_file import load_scene
 from quizgen.cli.simulate import SCENES, simulate
 from quizgen.cli.terminal import Progress
+from quizgen.figures.png import encode_png
 
 NAMES = sorted(path.stem for path in SCENES.glob("*.toml"))
 
@@ -82,7 +84,7 @@ def test_a_wrong_file_is_one_line_with_its_place(tmp_path, text, line, words):
     path = tmp_path / "scene.toml"
     path.write_text(text, "utf-8")
     with pytest.raises(SceneError) as caught:
-        load(path)
+        load_scene(path)
     message = str(caught.value)
     assert message.startswith(f"{path}:{line}: ")
     assert words in message
@@ -90,8 +92,9 @@ def test_a_wrong_file_is_one_line_with_its_place(tmp_path, text, line, words):
 
 
 def a_picture(name):
-    data = png.encode(np.random.default_rng(3).integers(0, 256, (6, 5, 3), np.uint8))
-    huge = data[:16] + (20_000).to_bytes(4, "big") * 2 + data[24:]
+    data = encode_png(np.random.default_rng(3).integers(0, 256, (6, 5, 3), np.uint8))
+    header = b"IHDR" + (20_000).to_bytes(4, "big") * 2 + data[24:29]
+    huge = data[:12] + header + zlib.crc32(header).to_bytes(4, "big") + data[33:]
     return {"other": b"GIF89a", "short": data[:60], "none": b"", "huge": huge}[name]
 
 
@@ -106,17 +109,17 @@ def test_a_bad_picture_is_one_line_with_its_place(tmp_path, key, name, words):
     path = tmp_path / "scene.toml"
     path.write_text(f'[scene]\nseed = 1\n{key} = "bad.png"\n', "utf-8")
     with pytest.raises(SceneError) as caught:
-        load(path)
+        load_scene(path)
     assert str(caught.value) == f"{path}:3: bad.png: {words}"
 
 
 @pytest.mark.parametrize("size", [(1, 1), (1, 300), (300, 1)])
 def test_pictures_without_a_neighbour_are_refused(tmp_path, size):
-    (tmp_path / "line.png").write_bytes(png.encode(np.zeros((*size, 3), np.uint8)))
+    (tmp_path / "line.png").write_bytes(encode_png(np.zeros((*size, 3), np.uint8)))
     path = tmp_path / "scene.toml"
     path.write_text('[scene]\nimage = "line.png"\n', "utf-8")
     with pytest.raises(SceneError, match=r":2: line.png: .* at least 2 rows and columns"):
-        load(path)
+        load_scene(path)
 
 
 def test_a_blur_much_wider_than_the_picture_is_one_line(tmp_path):
@@ -128,13 +131,13 @@ def test_a_blur_much_wider_than_the_picture_is_one_line(tmp_path):
         "utf-8",
     )
     with pytest.raises(SceneError, match=r"a blur of 4.84e\+03 px is more than 800 px"):
-        plan_everything(Prepared(*load(path)))
+        plan_budget(PreparedScene(*load_scene(path)))
 
 
 @pytest.mark.parametrize("key", ["width", "none"])
 def test_a_sensor_is_as_wide_as_the_picture_on_it(tmp_path, key):
     """A photograph brings its own width; 36 mm over 90 columns are 400 um each."""
-    (tmp_path / "photo.png").write_bytes(png.encode(np.zeros((6, 90, 3), np.uint8)))
+    (tmp_path / "photo.png").write_bytes(encode_png(np.zeros((6, 90, 3), np.uint8)))
     path = tmp_path / "scene.toml"
     width = "width = 30\n" if key == "width" else ""
     path.write_text(
@@ -142,14 +145,14 @@ def test_a_sensor_is_as_wide_as_the_picture_on_it(tmp_path, key):
         'sensor_width = "36 mm"\n',
         "utf-8",
     )
-    assert load(path)[1].given["pixel_pitch"] == pytest.approx(400e-6)
+    assert load_scene(path)[1].given["pixel_pitch"] == pytest.approx(400e-6)
 
 
 def test_broken_toml_and_missing_files_are_named(tmp_path):
     (tmp_path / "a.toml").write_text("[scene\n", "utf-8")
     for name in ("a.toml", "b.toml"):
         with pytest.raises(SceneError, match=name):
-            load(tmp_path / name)
+            load_scene(tmp_path / name)
 
 
 def test_units_become_base_units(tmp_path):
@@ -162,7 +165,7 @@ def test_units_become_base_units(tmp_path):
         'colour = "#bcbcbc"\nvelocity = ["1 m/s", "2 px/s"]\n',
         "utf-8",
     )
-    scene, camera = load(path)
+    scene, camera = load_scene(path)
     assert camera.given == {
         "focal_length": 0.05, "f_number": 2.8, "focus_distance": 3.0, "shutter": 0.004,
         "smear": 0.02, "velocity": (3.0, -1.0), "full_well": 20000.0,
@@ -176,24 +179,24 @@ def test_units_become_base_units(tmp_path):
 
 def test_a_picture_with_a_depth_map(tmp_path):
     codes = np.random.default_rng(0).integers(0, 256, (12, 16, 3), np.uint8)
-    (tmp_path / "photo.png").write_bytes(png.encode(codes))
+    (tmp_path / "photo.png").write_bytes(encode_png(codes))
     nearness = np.zeros((12, 16), np.uint8)
     nearness[:, 8:] = 255
-    (tmp_path / "near.png").write_bytes(png.encode(nearness))
+    (tmp_path / "near.png").write_bytes(encode_png(nearness))
     path = tmp_path / "scene.toml"
     path.write_text(
         '[scene]\nimage = "photo.png"\ndepth_map = "near.png"\ndepth_near = "2 m"\n'
         'depth_far = "10 m"\n[camera]\ngamma = "srgb"\n',
         "utf-8",
     )
-    scene, _ = load(path)
+    scene, _ = load_scene(path)
     assert (scene.width, scene.height) == (16, 12)
     assert scene.depth[0, 0] == pytest.approx(10)
     assert scene.depth[0, 15] == pytest.approx(2)
     out = tmp_path / "out.png"
     result = CliRunner().invoke(simulate, [str(path), "--out", str(out)], catch_exceptions=False)
     assert result.exit_code == 0
-    assert np.array_equal(png.decode(out.read_bytes()), codes)
+    assert np.array_equal(codecs.decode_photo(out.read_bytes()), codes)
 
 
 def invoke(*arguments):
@@ -208,7 +211,7 @@ def test_shipped_scenes(name, tmp_path):
     out = tmp_path / "photo.png"
     report = json.loads(invoke(name, "--json", "--out", str(out)))
     first = out.read_bytes()
-    assert png.decode(first).shape == (480, 640, 3)
+    assert codecs.decode_photo(first).shape == (480, 640, 3)
     assert all(one["is_visible"] for one in report.get("seen", ()))
     invoke(name, "--json", "--out", str(out))
     assert out.read_bytes() == first
@@ -300,7 +303,7 @@ def test_the_old_place_of_a_question_is_an_error(tmp_path):
     path = tmp_path / "s.toml"
     path.write_text('[scene]\nquestion = ["gamma"]\n', "utf-8")
     with pytest.raises(SceneError, match=r"s.toml:2: unknown key 'question' in scene"):
-        load(path)
+        load_scene(path)
 
 
 def test_both_times_are_measured_in_turns():
@@ -384,7 +387,9 @@ def test_a_page_shows_the_pictures_and_the_table(tmp_path):
     )
     images = [image.get("src") for image in tree.iter("img")]
     assert len(images) == 3
-    sizes = {png.decode(b64decode(source.partition("base64,")[2])).shape for source in images}
+    sizes = {
+        codecs.decode_photo(b64decode(source.partition("base64,")[2])).shape for source in images
+    }
     assert sizes == {(480, 640, 3)}
     cells = [[cell.text or "" for cell in row] for row in tree.iter("tr")]
     assert [row[0] for row in cells][1:4] == ["projection", "defocus", "gamma"]
@@ -432,7 +437,7 @@ def test_a_setting_that_does_something_is_not_named():
 
 
 def test_a_broken_promise_is_said_with_exit_code_1(monkeypatch):
-    monkeypatch.setattr(import_module("quizgen.camera.simulate"), "is_within", lambda *_: False)
+    monkeypatch.setattr(import_module("quizgen.camera.simulation"), "is_within", lambda *_: False)
     result = CliRunner().invoke(simulate, ["pinhole", "--everything"])
     assert result.exit_code == 1
     assert "broken" in result.stderr

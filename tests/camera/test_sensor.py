@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from quizgen.camera import Camera, Prepared, Scene, View, pictures, simulate
-from quizgen.camera.codes import histogram, rounded
+from quizgen.camera import Camera, PreparedScene, Scene, View, picture_sets, simulate
 from quizgen.camera.effects import (
     blooming,
     dark_current,
@@ -18,19 +17,21 @@ from quizgen.camera.effects import (
     flat_field,
     gaussian_noise,
     impulse_noise,
+    mosaic,
     quantisation,
     read_noise,
     shot_noise,
     smear,
     vignetting,
-)  # fmt: skip
+)
 from quizgen.camera.effects.normalisation import stretch_range
-from quizgen.camera.hsv import edit_hsv, rgb_to_hsv
-from quizgen.camera.noise import luck
-from quizgen.camera.poisson import poisson_quantiles
-from quizgen.camera.power import encode, encode_number
-from quizgen.camera.raster.draw import Layer
-from quizgen.camera.simulate import run
+from quizgen.camera.pixels.codes import count_histogram, to_8bit
+from quizgen.camera.pixels.hsv import edit_hsv, rgb_to_hsv
+from quizgen.camera.pixels.noise import effect_random, poisson_quantiles
+from quizgen.camera.pixels.tiles import apply_tilewise
+from quizgen.camera.pixels.tone_curve import encode_piecewise, encode_value
+from quizgen.camera.raster.rasterizer import Layer
+from quizgen.camera.simulation import run_plan
 from quizgen.numerics.gamma import srgb_decode
 from quizgen.numerics.hsv import hsv_to_rgb
 
@@ -45,6 +46,10 @@ def ran(effect, image, look):
     (layer,) = effect.EFFECT.run((Layer(image),), look)
     assert np.array_equal(image, before)
     return layer.colour
+
+
+def encode(light, gamma):
+    return apply_tilewise(light, [encode_piecewise(gamma)])[0]
 
 
 def view(**camera):
@@ -81,7 +86,7 @@ def test_dark_charge_is_poisson(electrons):
 
 def test_dark_electrons_that_are_few_are_put_where_the_table_has_them():
     look = view(full_well=1e4, dark_current=0.02, shutter=1.0)
-    lucky = luck(look, "dark current").pick(np.arange(65536.0), 0, 64 * 128 * 3)
+    lucky = effect_random(look, "dark current").draw_from_table(np.arange(65536.0), 0, 64 * 128 * 3)
     counts = stats.poisson.ppf((lucky + 0.5) / 65536, 0.02).reshape(64, 128, 3)
     charged = ran(dark_current, np.zeros((64, 128, 3), np.float32), look) * 1e4
     assert 300 < np.count_nonzero(counts) < 700
@@ -97,8 +102,8 @@ def test_normal_noises_are_normal():
 
 @pytest.fixture(scope="module")
 def many_normals():
-    source = luck(view(), "read noise")
-    return np.concatenate([source.normal(tile, 24_576, np.float64) for tile in range(400)])
+    source = effect_random(view(), "read noise")
+    return np.concatenate([source.draw_normal(tile, 24_576, np.float64) for tile in range(400)])
 
 
 @pytest.mark.parametrize("deviations", [3.0, 3.5, 4.0, 4.3, 4.5])
@@ -111,10 +116,10 @@ def test_noise_has_its_true_tail(many_normals, deviations, side):
 
 def test_single_counts_of_many_electrons_are_as_frequent_as_they_should():
     """45 000 electrons: every count that is expected 20 times, in 4.9 million."""
-    source = luck(view(), "shot noise")
+    source = effect_random(view(), "shot noise")
     mean = np.full(24_576, 45_000.0)
     drawn = [
-        poisson_quantiles(mean, source.normal(tile, 24_576, float, fine=True))
+        poisson_quantiles(mean, source.draw_normal(tile, 24_576, float, fine=True))
         for tile in range(200)
     ]
     counts = np.concatenate(drawn).astype(int)
@@ -128,7 +133,7 @@ def test_single_counts_of_many_electrons_are_as_frequent_as_they_should():
 
 def test_the_same_seed_gives_the_same_noise_everywhere():
     """Pinned: pieces of a Philox stream do not depend on the machine nor on other effects."""
-    noise = luck(view(), "read noise").normal(3, 1000)
+    noise = effect_random(view(), "read noise").draw_normal(3, 1000)
     assert zlib.crc32(noise.tobytes()) == PINNED_NOISE
     scene = Scene(64, 48, background=(0.2, 0.3, 0.4), seed=11)
     noisy = Camera(full_well=5000.0, read_noise=5.0, bit_depth=12, gamma="srgb", exposure=0.5)
@@ -148,20 +153,20 @@ def test_one_pass_over_the_picture_is_every_effect_alone():
         white_balance=(1.2, 1.0, 1.5), gamma="srgb", hue=0.2, gaussian_noise=0.01,
         impulse_noise=0.02, normalise=(0.1, 0.9, 0.0, 1.0),
     )  # fmt: skip
-    prepared = Prepared(Scene(1050, 700, image=image, seed=3), camera)
+    prepared = PreparedScene(Scene(1050, 700, image=image, seed=3), camera)
     stack = (Layer(image.copy()),)
     for effect in prepared.present:
         stack = effect.run(stack, prepared.view)
-    assert np.array_equal(run(prepared).values, stack[0].colour)
+    assert np.array_equal(run_plan(prepared).values, stack[0].colour)
     assert np.array_equal(image, np.random.default_rng(1).random((700, 1050, 3), np.float32))
 
 
 def test_streams_differ_between_effects_and_seeds():
-    one = luck(view(), "read noise").uniform(0, 4)
-    assert not np.array_equal(one, luck(view(), "shot noise").uniform(0, 4))
-    assert not np.array_equal(one, luck(view(), "read noise").uniform(1, 4))
+    one = effect_random(view(), "read noise").draw_uniform(0, 4)
+    assert not np.array_equal(one, effect_random(view(), "shot noise").draw_uniform(0, 4))
+    assert not np.array_equal(one, effect_random(view(), "read noise").draw_uniform(1, 4))
     other = View(Scene(seed=8), Camera())
-    assert not np.array_equal(one, luck(other, "read noise").uniform(0, 4))
+    assert not np.array_equal(one, effect_random(other, "read noise").draw_uniform(0, 4))
 
 
 def test_hot_pixels_are_a_share():
@@ -229,7 +234,7 @@ OPENCV_NAMES = {
 def test_demosaicing_is_that_of_opencv(phase):
     codes = np.random.default_rng(3).integers(0, 256, (40, 52), np.uint8)
     theirs = cv2.cvtColor(codes, OPENCV_NAMES[phase])
-    ours = rounded(demosaicing.run(codes[..., None].astype(np.float32), view(mosaic=phase)))
+    ours = to_8bit(demosaicing.run(codes[..., None].astype(np.float32), view(mosaic=phase)))
     assert np.array_equal(ours[1:-1, 1:-1], theirs[1:-1, 1:-1])
 
 
@@ -237,9 +242,8 @@ def test_a_red_scene_stays_red_to_the_border():
     red = np.zeros((7, 9, 3), np.float32)
     red[..., 0] = 0.8
     for phase in OPENCV_NAMES:
-        raw, coloured, full = pictures.bayer(red, phase)
-        assert np.array_equal(full, red)
-        assert raw.sum() == pytest.approx(coloured.sum())
+        look = view(mosaic=phase)
+        assert np.array_equal(demosaicing.run(mosaic.run(red, look), look), red)
 
 
 def test_the_notes_bayer_means():
@@ -252,16 +256,14 @@ def test_the_notes_bayer_means():
 def test_flat_field_of_the_notes():
     """K28 with rounding instead of truncation: 191.25 becomes 191 either way, the rest is exact."""
     image, even = np.float32([[50, 100], [255, 60]]), np.float32([[100, 200], [200, 100]])
-    corrected = image * flat_field.factors(even, np.float32(0))
+    corrected = image * flat_field.flat_field_gains(even)
     assert corrected.tolist() == [[75.0, 75.0], [191.25, 90.0]]
-    with pytest.raises(ValueError, match="dark frame"):
-        flat_field.factors(np.float32([[0, 1], [1, 1]]), np.float32(0))
 
 
 def test_flat_field_undoes_vignetting():
     camera = Camera(0.02, 5e-5, natural_vignetting=True, mechanical_vignetting=0.5, flat_field=True)
     picture = simulate(Scene(64, 48, background=(0.3, 0.6, 0.9)), camera, budget=0.0).values
-    kept = vignetting.fall_off_map(View(Scene(64, 48), camera))
+    kept = vignetting.falloff_map(View(Scene(64, 48), camera))
     assert picture == pytest.approx(
         np.float32([0.3, 0.6, 0.9]) * kept.mean() * np.ones_like(picture), rel=1e-5
     )
@@ -331,7 +333,7 @@ def test_tone_curves_are_those_of_the_standard(gamma, reference):
     values = np.random.default_rng(1).random(5000).astype(np.float32) ** 3
     exact = np.asarray(reference(values.astype(float)))
     assert np.abs(encode(values, gamma) - exact).max() < 3e-7
-    assert [encode_number(float(x), gamma) for x in values[:50]] == pytest.approx(
+    assert [encode_value(float(x), gamma) for x in values[:50]] == pytest.approx(
         exact[:50], abs=1e-15
     )
 
@@ -339,14 +341,16 @@ def test_tone_curves_are_those_of_the_standard(gamma, reference):
 def test_srgb_is_decoded_as_it_is_encoded():
     codes = np.arange(256) / 255
     light = np.asarray(srgb_decode(codes))
-    assert [encode_number(float(x), "srgb") for x in light] == pytest.approx(codes, abs=1e-7)
+    assert [encode_value(float(x), "srgb") for x in light] == pytest.approx(codes, abs=1e-7)
 
 
 def test_hsv_edits_of_the_notes():
     """(0.2, 0.8, 0.4) is 140 deg; +120 deg swaps to (0.4, 0.2, 0.8); S x 0.2 is (0.68, 0.8, 0.72)."""
     colour = np.float32([[[0.2, 0.8, 0.4]]])
     assert rgb_to_hsv(colour)[0, 0] == pytest.approx([140, 0.75, 0.8], abs=1e-4)
-    _, darker, paler, turned = (edit[0, 0] for edit in pictures.hsv_edits(colour, 0.5, 0.2, 120.0))
+    _, darker, paler, turned = (
+        edit[0, 0] for edit in picture_sets.make_hsv_edits(colour, 0.5, 0.2, 120.0)
+    )
     assert darker == pytest.approx([0.1, 0.4, 0.2], abs=1e-6)
     assert paler == pytest.approx([0.68, 0.8, 0.72], abs=1e-6)
     assert turned == pytest.approx([0.4, 0.2, 0.8], abs=1e-6)
@@ -359,23 +363,23 @@ def test_clipped_noise_lifts_black():
 
 
 def test_salt_and_pepper_come_in_halves():
-    _, _, spotted = pictures.noisy(flat(0.5), 0.08, 0.08, seed=6)
+    _, _, spotted = picture_sets.make_noisy(flat(0.5), 0.08, 0.08, seed=6)
     black, white = (spotted == 0).all(axis=2).sum(), (spotted == 1).all(axis=2).sum()
     for count in (black, white):
         assert stats.binomtest(int(count), 90_000, 0.04).pvalue > 1e-3
     with pytest.raises(ValueError, match="share"):
-        impulse_noise.impulses(1.5, luck(view(), "impulse noise"))
+        impulse_noise.add_impulses(1.5, effect_random(view(), "impulse noise"))
 
 
 def test_normalisation_of_the_notes():
     values = np.float32([128, 125, 0.51, 160]) / 255
     look = stretch_range(values, 50 / 255, 200 / 255)
     assert look == pytest.approx([0.52, 0.5, 0.0, 110 / 150], abs=1e-6)
-    after, before_counts, after_counts = pictures.normalised(flat(0.5), 0.25, 0.45)
+    after, before_counts, after_counts = picture_sets.make_normalised(flat(0.5), 0.25, 0.45)
     assert (after == 1).all()
     assert before_counts.sum() == after_counts.sum() == after_counts[-1]
 
 
 def test_histogram_of_codes_has_one_bin_per_level():
     codes = np.arange(256, dtype=np.uint8).reshape(16, 16)
-    assert histogram(codes, top=255).tolist() == [1] * 256
+    assert count_histogram(codes, top=255).tolist() == [1] * 256

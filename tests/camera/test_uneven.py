@@ -3,14 +3,16 @@
 import numpy as np
 import pytest
 from msgspec.structs import replace
+from scipy.ndimage import maximum_filter, minimum_filter
+from sweep import spread
 
-from quizgen.camera import Camera, Length, Prepared, Scene, Thing
-from quizgen.camera.effects import by_name
-from quizgen.camera.kernels import disc, line
-from quizgen.camera.raster import layers, uneven
-from quizgen.camera.raster.draw import Layer, composite
-from quizgen.camera.raster.uneven import blurred_places, places
-from quizgen.camera.simulate import run
+from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject
+from quizgen.camera.effects import get_effect
+from quizgen.camera.pixels.kernels import disc_kernel, motion_kernel
+from quizgen.camera.raster import detail_regions, layers
+from quizgen.camera.raster.detail_regions import blurred_regions, sampled_regions
+from quizgen.camera.raster.rasterizer import Layer, composite_layers
+from quizgen.camera.simulation import run_plan
 
 EFFECTS = (
     "distortion",
@@ -43,30 +45,30 @@ def patches(source, *, covered):
     return Layer(colour, cover if covered else None)
 
 
-def spread(values, rows, columns):
+def range_nearby(values, rows, columns):
     """Largest minus smallest value so near to each pixel; edges repeat."""
-    wide = np.pad(values, ((rows, rows), (columns, columns), (0, 0)), mode="edge")
-    near = np.lib.stride_tricks.sliding_window_view(wide, (2 * rows + 1, 2 * columns + 1), (0, 1))
-    return (near.max(axis=(3, 4)) - near.min(axis=(3, 4))).max(axis=2)
+    size = (2 * rows + 1, 2 * columns + 1, 1)
+    most, least = (f(values, size, mode="nearest") for f in (maximum_filter, minimum_filter))
+    return (most - least).max(axis=2)
 
 
 @pytest.mark.parametrize("covered", [False, True])
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", spread(range(60), 12))
 def test_elsewhere_a_layer_is_even_as_far_as_an_effect_looks(seed, covered):
     source = np.random.default_rng([seed, covered])
     layer = patches(source, covered=covered)
     rows, columns = source.integers(0, 9, 2) * source.choice([1, 5])
     if seed % 2:
-        where = blurred_places(layer, np.ones((2 * rows + 1, 2 * columns + 1)))
+        where = blurred_regions(layer, np.ones((2 * rows + 1, 2 * columns + 1)))
     else:
-        where = places(layer, (float(columns), float(rows)))
+        where = sampled_regions(layer, (float(columns), float(rows)))
     assert where.reach >= min(rows, len(layer.colour))
     alone = np.ones(layer.colour.shape[:2], bool)
     for box in where.boxes:
         assert all(part.start < part.stop for part in box)
         alone[box] = False
     images = [layer.colour] if layer.cover is None else [layer.colour, layer.cover]
-    assert not any(spread(image, rows, columns)[alone].any() for image in images)
+    assert not any(range_nearby(image, rows, columns)[alone].any() for image in images)
 
 
 def test_a_thing_in_a_wide_picture_is_found_where_it_is():
@@ -75,7 +77,7 @@ def test_a_thing_in_a_wide_picture_is_found_where_it_is():
     far = np.hypot(y - 750, x - 1000)
     colour = np.repeat((far < 600)[..., None], 3, axis=2).astype(np.float32)
     near = np.zeros(far.shape, bool)
-    for box in blurred_places(Layer(colour), disc(9.0)).boxes:
+    for box in blurred_regions(Layer(colour), disc_kernel(9.0)).boxes:
         near[box] = True
     assert near[abs(far - 600) < 5].all()
     assert near.sum() < 3770 * 6 * 32
@@ -83,26 +85,28 @@ def test_a_thing_in_a_wide_picture_is_found_where_it_is():
 
 def scene():
     """A striped wall, a lamp across the border of the frame, an even box and a propeller."""
-    lamp = Thing("disc", px(-140), px(-90), radius=px(24), depth=9.0, colour=(4.0, 3.0, 1.0))
-    box = Thing("box", px(60), px(50), width=px(110), height=px(90), depth=5.0)
-    blades = Thing(
+    lamp = SceneObject("disc", px(-140), px(-90), radius=px(24), depth=9.0, colour=(4.0, 3.0, 1.0))
+    box = SceneObject("box", px(60), px(50), width=px(110), height=px(90), depth=5.0)
+    blades = SceneObject(
         "blades", px(-40), px(30), radius=px(50), stroke=px(9), depth=2.0, spin=20.0,
         colour=(0.1, 0.5, 0.2),
     )  # fmt: skip
-    wall = Thing("box", width=px(200), height=px(80), texture="stripes", cell=px(20), depth=12.0)
+    wall = SceneObject(
+        "box", width=px(200), height=px(80), texture="stripes", cell=px(20), depth=12.0
+    )
     return Scene(300, 260, (wall, lamp, box, blades), background_depth=14.0)
 
 
 @pytest.mark.parametrize("effect", EFFECTS)
 @pytest.mark.parametrize("square", [4, 32, 100])
 def test_what_is_left_alone_would_not_have_changed(effect, square, monkeypatch):
-    prepared = Prepared(scene(), CAMERA)
+    prepared = PreparedScene(scene(), CAMERA)
     view = dict(zip((one.name for one in prepared.present), prepared.views, strict=True))[effect]
     view = replace(view, margin=prepared.views[0].margin)
-    monkeypatch.setattr(uneven, "SQUARE", 4096)
-    whole = by_name(effect).run(prepared.stack, view)
-    monkeypatch.setattr(uneven, "SQUARE", square)
-    parts = by_name(effect).run(prepared.stack, view)
+    monkeypatch.setattr(detail_regions, "SQUARE", 4096)
+    whole = get_effect(effect).run(prepared.stack, view)
+    monkeypatch.setattr(detail_regions, "SQUARE", square)
+    parts = get_effect(effect).run(prepared.stack, view)
     for one, other in zip(parts, whole, strict=True):
         assert np.abs(one.colour - other.colour).max() < 1e-5
         if one.cover is not None:
@@ -113,10 +117,10 @@ def test_what_is_left_alone_would_not_have_changed(effect, square, monkeypatch):
 def test_what_nobody_else_needs_is_written_over(effect, monkeypatch):
     """Rows are made while those above them still wait to be written."""
     monkeypatch.setattr(layers, "_ROWS", 16)
-    prepared = Prepared(scene(), CAMERA)
+    prepared = PreparedScene(scene(), CAMERA)
     view = prepared.views[0]
     kept = [layer.colour.copy() for layer in prepared.stack]
-    expected = by_name(effect).run(prepared.stack, view)
+    expected = get_effect(effect).run(prepared.stack, view)
     assert all(map(np.array_equal, kept, (layer.colour for layer in prepared.stack)))
     copies = tuple(
         replace(
@@ -127,21 +131,21 @@ def test_what_nobody_else_needs_is_written_over(effect, monkeypatch):
         )
         for one in prepared.stack
     )
-    for one, other in zip(by_name(effect).run(copies, view), expected, strict=True):
+    for one, other in zip(get_effect(effect).run(copies, view), expected, strict=True):
         assert np.array_equal(one.colour, other.colour)
         assert one.cover is None or np.array_equal(one.cover, other.cover)
 
 
 def test_a_layer_of_one_colour_is_handed_on():
     layer = Layer(np.full((90, 70, 3), 0.3, np.float32))
-    assert layers.blurred(layer, line(8.0, 3.0)) is layer
+    assert layers.blur_layer(layer, motion_kernel(8.0, 3.0)) is layer
 
 
 def test_a_thing_that_begins_where_a_square_does_is_blurred_along_its_edge():
     """Seen from the square above it, its edge is the only change, and the blur does not cross it."""
     colour, cover = np.zeros((160, 200, 3), np.float32), np.zeros((160, 200, 1), np.float32)
     colour[32:96, 32:128], cover[32:96, 32:128] = 0.6, 1.0
-    moved = layers.blurred(Layer(colour, cover), line(8.0, 0.0))
+    moved = layers.blur_layer(Layer(colour, cover), motion_kernel(8.0, 0.0))
     assert np.array_equal(moved.colour[32:96], np.broadcast_to(moved.colour[32], (64, 200, 3)))
     assert moved.colour[50, 127, 0] == pytest.approx(0.6 * 4.5 / 8, abs=0.01)
     assert not moved.colour[:32].any()
@@ -152,18 +156,18 @@ def test_a_sky_of_stars_is_looked_at_as_a_whole():
     """Where boxes are so many that handing them over takes longer than the rest, there is one."""
     colour = np.zeros((640, 960, 3), np.float32)
     colour[16::64, 16::64] = 1.0
-    assert len(blurred_places(Layer(colour), disc(9.0)).boxes) == 1
+    assert len(blurred_regions(Layer(colour), disc_kernel(9.0)).boxes) == 1
     colour[:] = 0.0
     colour[16::320, 16::320] = 1.0
-    assert len(blurred_places(Layer(colour), disc(9.0)).boxes) == 6
+    assert len(blurred_regions(Layer(colour), disc_kernel(9.0)).boxes) == 6
 
 
 def test_a_run_leaves_the_drawn_layers_alone():
-    prepared = Prepared(scene(), CAMERA)
+    prepared = PreparedScene(scene(), CAMERA)
     kept = [layer.colour.copy() for layer in prepared.stack]
-    first = run(prepared).values
+    first = run_plan(prepared).values
     assert all(map(np.array_equal, kept, (layer.colour for layer in prepared.stack)))
-    assert np.array_equal(run(prepared, last=True).values, first)
+    assert np.array_equal(run_plan(prepared, last=True).values, first)
 
 
 def test_a_turning_thing_at_the_border_comes_in_from_outside():
@@ -173,11 +177,13 @@ def test_a_turning_thing_at_the_border_comes_in_from_outside():
     layer = Layer(
         colour, colour[..., :1].copy(), motion=replace(Layer(colour).motion, pivot=(45.0, 40.0))
     )
-    turned = layers.turned(layer, [0.7], 200.0)
+    turned = layers.rotate_layer(layer, [0.7], 200.0)
     assert (
         np.abs(
-            composite((turned,))
-            - layers._measure_angle_sine([colour], uneven.whole((80, 90)), layer.motion, [0.7])[0]
+            composite_layers((turned,))
+            - layers._measure_angle_sine(
+                [colour], detail_regions.full_box((80, 90)), layer.motion, [0.7]
+            )[0]
         ).max()
         < 1e-6
     )

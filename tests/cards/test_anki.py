@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import pytest
 from anki.collection import ImportAnkiPackageOptions, ImportAnkiPackageRequest
+from sweep import spread
 
 from quizgen.bank.markdown import Paragraph, PlainText
 from quizgen.cards import apkg, build_deck, note_types
@@ -144,6 +145,7 @@ def test_a_changed_text_without_a_new_version_would_not_arrive(deck, packed, col
     assert not bring_in(collection, write_apkg(same), tmp_path).updated
 
 
+@pytest.mark.slow
 def test_another_seed_gives_the_questions_new_numbers_and_no_new_notes(
     deck, packed, collection, tmp_path
 ):
@@ -158,7 +160,7 @@ def test_another_seed_gives_the_questions_new_numbers_and_no_new_notes(
     assert schedule(collection, number) == before
 
 
-@pytest.mark.parametrize("lang", ["en", "bn"])
+@pytest.mark.parametrize("lang", spread(["bn", "en"], 1))
 def test_a_second_language_joins_the_same_notes(lang, deck, packed, collection, tmp_path):
     single = build_deck(lang, seed=1)
     bring_in(collection, write_apkg(single), tmp_path)

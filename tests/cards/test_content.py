@@ -279,7 +279,7 @@ def test_bad_prose_is_located(text):
 
 
 def test_lines_split_only_outside_brackets():
-    signs, parts = parse_formula_line("I = piecewise(0, u = 1, 255)", {}, "here")
+    signs, parts = parse_formula_line("I = piecewise(0, u = 1, 255)", {})
     assert signs == ["="]
     assert len(parts) == 2
 
@@ -294,13 +294,13 @@ def test_lines_split_only_outside_brackets():
     ],
 )
 def test_pieces_beyond_the_grammar(text, inside, expected):
-    squeezed = to_latex(typeset_side(text, inside, "here").node).replace(" ", "")
+    squeezed = to_latex(typeset_side(text, inside).node).replace(" ", "")
     assert squeezed == expected.replace(" ", "")
 
 
 def test_an_unknown_piece_is_located():
-    with pytest.raises(BankError, match=r"here.*unknown piece"):
-        typeset_side("A", {"A": {"sum": "x"}}, "here")
+    with pytest.raises(BankError, match=r"'A': .*unknown piece"):
+        typeset_side("A", {"A": {"sum": "x"}})
 
 
 def test_a_chain_in_a_sentence_is_not_read_as_a_conjunction():

@@ -48,6 +48,7 @@ def digests(hash_seed):
     return run.stdout.split()
 
 
+@pytest.mark.slow
 def test_the_same_bytes_in_every_process():
     one, other = digests("1"), digests("2")
     assert len(one) == 3
@@ -249,6 +250,7 @@ def test_bad_wishes_get_one_clear_line(arguments, words, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_any_number_of_processes_makes_the_same_deck(tmp_path):
     for jobs in ("1", "2"):
         done = CliRunner().invoke(root_group, ["cards", "--lang", "both", "--topic", "noise", "--seed", "7",

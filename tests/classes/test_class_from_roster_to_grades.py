@@ -114,6 +114,18 @@ def test_every_mark_is_the_one_that_is_known(marked):
         assert {row["remark"] for row in csv.DictReader(stream)} == {"provisional"}
 
 
+def test_posted_grades_say_nothing_of_the_roster(marked):
+    """Lines in the order of the roster would tell neighbours in it whose line is whose."""
+    folder, _ = marked
+    roster = [row["code"] for row in grades(folder).values()]
+    with (folder / "results" / "posted.csv").open(encoding="utf-8-sig", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    codes = [row["code"] for row in rows]
+    assert rows[0].keys() == {"code", "points", "grade", "remark"}
+    assert codes == sorted(codes)
+    assert codes != [code for code in roster if code in codes], "or the class is too small to tell"
+
+
 def test_what_was_not_marked_is_named_with_its_reason(marked, capsys):
     folder, _ = marked
     capsys.readouterr()

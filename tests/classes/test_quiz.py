@@ -1,4 +1,4 @@
-"""A quiz that Moodle played, as a class: the files are its own (``tests/responses/moodle``).
+"""A quiz that Moodle played, as a class: the files are its own (``tests/lms/moodle``).
 
 What Ben gave, and what it is worth, was worked out by hand there.
 """
@@ -16,7 +16,7 @@ from quizgen.classes import plots
 from quizgen.classes.variant_difficulty import ValueGroup, VariantEffect
 from quizgen.figures.alt_text import strip_mathtext
 
-HERE = Path(__file__).parents[1] / "responses" / "moodle"
+HERE = Path(__file__).parents[1] / "lms" / "moodle"
 KEYS = HERE / "quiz.keys.jsonl"
 BEN = [1, 3.75, 0, 0, 0, 1, 0, 0, 3, 0, 0, 4, 0, 1.5, 0]
 """Marks of 1, 2, 3, 4a, 4b, 4c, 5a, 5b, 6, 7, 8b, 9a, 10, 11a and 11b."""

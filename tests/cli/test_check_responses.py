@@ -10,7 +10,7 @@ from pathlib import Path
 
 from inside import run
 
-HERE = Path(__file__).parents[1] / "responses" / "moodle"
+HERE = Path(__file__).parents[1] / "lms" / "moodle"
 KEYS, GOOD = str(HERE / "quiz.keys.jsonl"), str(HERE / "responses.csv")
 
 

@@ -159,7 +159,7 @@ def test_a_form_that_cannot_be_read_is_never_overwritten(tmp_path):
 
 
 def test_the_printed_answers_get_full_marks(made):
-    from quizgen.grading.mark import show_key
+    from quizgen.kinds.grade import show_key
 
     folder, _ = made
     key = json.loads((folder / "exam" / "key.json").read_text())
@@ -295,6 +295,7 @@ def written(folder):
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 
+@pytest.mark.slow
 def test_many_papers_are_the_same_whatever_the_number_of_processes(tmp_path):
     few = ("--blueprint", "trial", "--seed", "4", "--count", "3", "--format", "html")
     for jobs in ("1", "2"):

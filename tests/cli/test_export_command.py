@@ -25,7 +25,7 @@ def test_a_topic_in_both_languages(tmp_path):
 def test_the_same_call_writes_the_same_bytes(tmp_path):
     options = ["--template", "rgb-to-hsv,imread-missing-file", "--variants", "3", "--seed", "7"]
     for name in "ab":
-        done = run("export", "gift", *options, "--out", f"{name}.txt", cwd=tmp_path)
+        done = run("export", "moodle", *options, "--out", f"{name}.txt", cwd=tmp_path)
         assert done.returncode == 0, done.stderr
     assert (tmp_path / "a.txt").read_bytes() == (tmp_path / "b.txt").read_bytes()
     assert "slots: 2," in done.stdout
@@ -37,10 +37,10 @@ def test_the_same_call_writes_the_same_bytes(tmp_path):
         (["qti9"], "'qti9' is not one of"),
         (["moodle", "--topic", "optic"], "'optic' (allowed: projection"),
         (["moodle", "--topic", "optics", "--blueprint", "mock"], "give one"),
-        (["gift", "--template", "nothing-such"], "nothing-such"),
-        (["gift", "--template", ","], "names no template"),
-        (["gift", "--variants", "0"], "--variants"),
-        (["qti3", "--maths", "tex"], "not for qti3, only for moodle, gift, canvas"),
+        (["moodle", "--template", "nothing-such"], "nothing-such"),
+        (["moodle", "--template", ","], "names no template"),
+        (["moodle", "--variants", "0"], "--variants"),
+        (["qti3", "--maths", "tex"], "not for qti3, only for moodle, canvas"),
         (["moodle", "--blueprint", "none-such"], "no blueprint 'none-such'"),
     ],
 )

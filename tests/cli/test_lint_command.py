@@ -12,7 +12,10 @@ from pathlib import Path
 import pytest
 from inside import run
 
-from quizgen.bank.bank import builtin_bank
+from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.cli.lint import lint_while_writing
+from quizgen.cli.lint_outputs import check_sheet
+from quizgen.core.errors import RenderError
 
 RULES = (
     'topic = "x"\ntier = "A"\nsolver = "{name}"\n[draw]\na = {{ pick = [1, 2, 3] }}\n'
@@ -24,10 +27,13 @@ ASKED = (
     "# T\nIs it so?\n## options\n- yes: Yes.\n- no: No.\n## reasons\n- yes: So.\n- no: Not so.\n"
 )
 BROKEN = {
-    "syntax": ("MODEL = (", "syntax.py:1: SyntaxError"),
-    "names": ("x = 1\nMODEL = nothing", "names.py:2: NameError: name 'nothing' is not defined"),
-    "division": ("MODEL = 1 / 0", "division.py:1: ZeroDivisionError"),
-    "model": ("", "model.py: no MODEL"),
+    "syntax": ("MODEL = (", "syntax.py:1:1: QG136 SyntaxError"),
+    "names": (
+        "x = 1\nMODEL = nothing",
+        "names.py:2:1: QG135 NameError: name 'nothing' is not defined",
+    ),
+    "division": ("MODEL = 1 / 0", "division.py:1:1: QG133 ZeroDivisionError"),
+    "model": ("", "model.py: QG132 no MODEL"),
 }
 """Name of a solver to its text and what is said of it."""
 
@@ -91,6 +97,7 @@ ENDLESS = {
 """Solvers that never end; the other one catches all that goes wrong."""
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="there is no clock to stop them")
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_what_never_ends_is_given_up_and_stops_no_other(bank, tmp_path, jobs):
@@ -109,7 +116,7 @@ def test_what_never_ends_is_given_up_and_stops_no_other(bank, tmp_path, jobs):
     assert len(problems) == len(ENDLESS)
     for name, line in zip(ENDLESS, sorted(problems, reverse=True), strict=True):
         assert re.fullmatch(
-            rf"{re.escape(str(root))}/solvers/{name}\.py:[1-5]: not done after 1 s; "
+            rf"{re.escape(str(root))}/solvers/{name}\.py:[1-5]:1: QG602 not done after 1 s; "
             "let every loop end, or give it more time with --limit",
             line,
         )
@@ -152,11 +159,12 @@ def test_a_problem_says_where_and_what_to_do(tmp_path):
     (folder / "en.md").write_text(ASKED)
     done = lint(tmp_path)
     assert done.stderr == (
-        f"{folder / 'bn.md'}: no bn.md; write it, or leave the language out of languages in "
+        f"{folder / 'bn.md'}: QG210 no bn.md; write it, or leave the language out of languages in "
         "bank.toml\n"
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", [("--seeds", "2", "--teach"), ("--seeds", "2")])
 def test_any_number_of_processes_finds_the_same(tmp_path, what):
     """But for the time that a draw took."""
@@ -174,3 +182,63 @@ def test_any_number_of_processes_finds_the_same(tmp_path, what):
         found.append((done.returncode, told, done.stderr))
     assert found[0] == found[1]
     assert found[0][0] == 1
+
+
+@pytest.mark.parametrize(
+    ("broken", "output"),
+    [
+        ("quizgen.render.text.question_text", "preview --level exam"),
+        ("quizgen.render.html.render", "exam html"),
+        ("quizgen.render.pdf.render", "exam pdf"),
+        ("quizgen.cards.kinds.question.of_template", "cards"),
+        ("quizgen.web.question_view.make", "practice"),
+        ("quizgen.lms.moodle.write_moodle", "export moodle"),
+        ("quizgen.lms.canvas.write_canvas", "export canvas"),
+    ],
+)
+def test_what_fails_in_one_output_alone_is_told_of_its_template(bank, monkeypatch, broken, output):
+    def fail(*given, **named):
+        raise AttributeError("'str' object has no attribute 'text'")
+
+    monkeypatch.setattr(broken, fail)
+    (said, *_) = lint_while_writing(Bank(bank, trusted=True), "good")
+    place = bank / "templates" / "x" / "good" / "template.toml"
+    assert said.startswith(f"{place}: QG601 {output}: AttributeError: 'str' object has no")
+
+
+def test_a_sheet_that_fails_is_told_of_its_file(tmp_path, monkeypatch):
+    def fail(sheet):
+        raise RenderError("the sheet has no end")
+
+    cards = builtin_bank().folder / "cards" / "formulas.toml"
+    (tmp_path / "templates" / "cards").mkdir(parents=True)
+    entry = cards.read_text("utf-8").split("[[entry]]")[1]
+    (tmp_path / "templates" / "cards" / "formulas.toml").write_text(f"[[entry]]{entry}", "utf-8")
+    shutil.copy(builtin_bank().folder / "bank.toml", tmp_path / "templates")
+    monkeypatch.setattr("quizgen.render.sheet_pdf.render", fail)
+    (said,) = check_sheet(Bank(tmp_path, trusted=True))
+    assert (said.code, said.file.name) == ("QG601", "formulas.toml")
+    assert said.message == "sheet pdf: the sheet has no end"
+
+
+@pytest.mark.parametrize(
+    ("command", "wrong", "line", "said"),
+    [
+        ("preview", "tier = 'E'", 3, "tier: 'E' is not allowed"),
+        ("exam", "tier = 'E'", 3, "tier: 'E' is not allowed"),
+        ("preview", "tier = 'A'\nwhere = ['a >']", 4, "formula 'a >'"),
+        ("exam", "tier = 'A'\n[keep]\nq = { min = 1 }", 5, "keep names unknown ['q']"),
+    ],
+)
+def test_other_commands_name_the_same_line(tmp_path, command, wrong, line, said):
+    folder = tmp_path / "templates" / "x" / "one"
+    folder.mkdir(parents=True)
+    rules = f"# tier, keep, q and 'a >' are told here\ntopic = 'x'\n{wrong}\n"
+    (folder / "template.toml").write_text(f"{rules}[[part]]\nanswer = {ONE_OF_TWO}\n")
+    (folder / "en.md").write_text(ASKED)
+    what = ["one"] if command == "preview" else ["--topic", "x", "--out", str(tmp_path / "paper")]
+    done = run(command, *what, "--bank", str(tmp_path), cwd=tmp_path)
+    assert done.returncode == 2
+    assert f"{folder / 'template.toml'}:{line}: {said}" in done.stderr
+    (told, *_) = lint_while_writing(Bank(tmp_path), "one")
+    assert told.startswith(f"{folder / 'template.toml'}:{line}:")

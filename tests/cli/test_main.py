@@ -36,10 +36,10 @@ PLACES = [
     ("quizgen.bank.bank", "module.Bank.template", ["preview", "rgb-to-hsv"]),
     ("quizgen.lint.doctor", "module.checks", ["doctor"]),
     ("quizgen.tradeoff.report", "module.measure", ["tradeoff"]),
-    ("quizgen.camera.reading", "module.load", ["simulate", "flat"]),
+    ("quizgen.camera.scene_file", "module.load_scene", ["simulate", "flat"]),
     ("quizgen.paper.answer_key", "module.read_key", ["check", "key.json", "answers.toml"]),
     ("quizgen.cards", "module.build", ["cards"]),
-    ("quizgen.grading.mark", "module.mark", ["mark", "{}", "1"]),
+    ("quizgen.kinds.grade", "module.grade_answer", ["mark", "{}", "1"]),
 ]
 
 
@@ -48,12 +48,10 @@ def run(code, cwd):
                           text=True, check=False)  # fmt: skip
 
 
-CATCHING = ("lint", "preview", "cards")
-"""Commands that turn some errors of their own into messages."""
 STOPS = [
     pytest.param(
         *place, how, id=f"{place[2][0]}-{name}",
-        marks=[pytest.mark.slow] * (how is SWALLOWED and place[2][0] not in CATCHING),
+        marks=[pytest.mark.slow] * (place[2][0] != "templates"),
     )
     for place in PLACES for name, how in (("raised", RAISED), ("as another error", SWALLOWED))
 ]  # fmt: skip
@@ -101,24 +99,6 @@ print(os.environ["OPENBLAS_NUM_THREADS"], len(os.listdir(tasks)) if os.path.isdi
     wanted, tasks = done.stdout.split()[-2:]
     assert wanted == threads
     assert int(tasks) <= int(threads)
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="large pages are asked for on Linux alone")
-@pytest.mark.parametrize(("own", "large"), [(None, False), ("1", True)])
-def test_memory_is_taken_in_small_pages_unless_somebody_wants_large_ones(tmp_path, own, large):
-    code = """
-import sys
-from quizgen.__main__ import main
-sys.argv = ["quizgen", "templates", "--topic", "eye"]
-main()
-import numpy as np
-print(np._core.multiarray._get_madvise_hugepage())
-"""
-    home = {name: x for name, x in os.environ.items() if name != "NUMPY_MADVISE_HUGEPAGE"}
-    given = home if own is None else {**home, "NUMPY_MADVISE_HUGEPAGE": own}
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, env=given,
-                          capture_output=True, text=True, check=True)  # fmt: skip
-    assert done.stdout.split()[-1] == str(large)
 
 
 @pytest.mark.parametrize(

@@ -152,7 +152,7 @@ def test_the_python_of_a_bank_that_nobody_trusts_never_runs(root, tmp_path):
         ("exam", "--blueprint", "both.toml", "--out", "paper"),
         ("preview", "push"),
         ("cards", "--topic", "forces", "--kind", "question", "--out", "cards"),
-        ("export", "gift", "--template", "push", "--out", "x.gift"),
+        ("export", "moodle", "--template", "push", "--out", "x.xml"),
         ("lint", "--seeds", "2", "--only", "push"),
         ("practice", "--topic", "forces", "--database", "sqlite:///p.sqlite3"),
         ("templates",),
@@ -169,7 +169,7 @@ def test_the_python_of_a_bank_that_nobody_trusts_never_runs(root, tmp_path):
 
 def test_an_export_of_two_banks_names_both_and_says_which_differs(root):
     both = ("--bank", OURS, "--bank", root)
-    made = run("export", "gift", "--template", "push,stored-values-and-bytes", "--variants", 1,
+    made = run("export", "moodle", "--template", "push,stored-values-and-bytes", "--variants", 1,
                "--out", "two.txt", "--trust", *both)  # fmt: skip
     assert made.exit_code == 0, made.output
     head = json.loads(Path("two.txt.keys.jsonl").read_text("utf-8").splitlines()[0])

@@ -52,7 +52,7 @@ def test_a_paper_of_all_there_is_needs_no_blueprint(root, tmp_path):
     (tmp_path / "roster.csv").write_text("id,name\n1,Ada\n", "utf-8")
     made = run("class", "make", tmp_path / "roster.csv", *shared, tmp_path / "class")
     assert made.exit_code == 0, made.output
-    made = run("export", "gift", "--variants", "1", *shared, tmp_path / "some.gift")
+    made = run("export", "moodle", "--variants", "1", *shared, tmp_path / "some.xml")
     assert made.exit_code == 0, made.output
     assert f"slots: {len(KINDS) + 1}" in made.output
 

@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from sweep import spread
 
 ROOT = Path(__file__).parents[2]
 OWN = """
@@ -36,7 +37,9 @@ def printed(done: subprocess.CompletedProcess) -> tuple[str, str]:
     return again, re.search(r"then: (.*)", done.stdout)[1]
 
 
-@pytest.mark.parametrize("start", ["quizgen", f"{shlex.quote(sys.executable)} -m quizgen"])
+@pytest.mark.parametrize(
+    "start", spread(["quizgen", f"{shlex.quote(sys.executable)} -m quizgen"], 1)
+)
 def test_the_commands_work_as_printed_with_an_own_blueprint(tmp_path, start):
     folder = tmp_path / "exam papers"
     folder.mkdir()
@@ -55,6 +58,7 @@ def test_the_commands_work_as_printed_with_an_own_blueprint(tmp_path, start):
     assert key.read_bytes() == before
 
 
+@pytest.mark.slow
 def test_paths_with_blanks_are_quoted(tmp_path):
     made = shell("quizgen exam --blueprint trial --format html --seed 3 --out 'to night'", tmp_path)
     _, check = printed(made)
@@ -62,6 +66,7 @@ def test_paths_with_blanks_are_quoted(tmp_path):
     assert shell(check, tmp_path).returncode == 0
 
 
+@pytest.mark.slow
 def test_an_own_bank_is_named_with_its_trust(tmp_path):
     bank = tmp_path / "my bank"
     bank.mkdir()
@@ -79,8 +84,9 @@ def with_uv(line: str, cwd: Path) -> subprocess.CompletedProcess:
     return shell(line, cwd, UV_PROJECT_ENVIRONMENT=sys.prefix, UV_NO_SYNC="1", UV_OFFLINE="1")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("uv"), reason="uv is not installed")
-@pytest.mark.parametrize("form", ["toml", pytest.param("csv", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("form", ["toml", "csv"])
 def test_after_uv_run_the_commands_work_as_printed(tmp_path, form):
     made = with_uv(f"uv run --project {shlex.quote(str(ROOT))} quizgen exam --topic eye "
                    f"--minutes 4 --format html --form {form}", tmp_path)  # fmt: skip
@@ -100,6 +106,7 @@ def test_the_page_of_a_paper_is_checked_as_printed(tmp_path):
     assert shell(line, tmp_path).returncode == 0
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("uv"), reason="uv is not installed")
 @pytest.mark.parametrize("lang", ["en", "bn"])
 def test_what_the_page_says_after_saving_works_beside_the_key_as_typed(tmp_path, lang):

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from rich.cells import cell_len
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.cli import practice
 from quizgen.cli.options import own_database
+from quizgen.columns import text_width
 from quizgen.grading.feedback import load_practice_words
-from quizgen.grading.mark import show_key
+from quizgen.kinds.grade import show_key
 from quizgen.locale import list_languages
 from quizgen.practice.scheduler import ReviewEvent, ReviewRating
 from quizgen.practice.selection import matching_templates, question_seed, template_at
@@ -261,7 +261,7 @@ def test_text_wraps_at_the_width_of_the_terminal(monkeypatch, lang, columns, top
     prompt = load_practice_words(lang)["prompt"]
     lines = [line.removeprefix(f"{prompt}: ") for line in done.output.splitlines()]
     breakable = [line for line in lines if len(line.split()) > 1 and ".svg" not in line]
-    assert max(map(cell_len, breakable)) <= columns
+    assert max(map(text_width, breakable)) <= columns
     assert done.exit_code == 0
 
 

@@ -29,7 +29,7 @@ def test_a_format_and_several_topics_can_be_chosen(tmp_path):
         (["--topic", "optic"], "'optic' (allowed: projection, normalisation"),
         (["--topic", "camera"], "no formulas of the topic camera here"),
         (["--bank", "empty"], "empty: no formulas here (they stand in templates/cards/formulas.to"),
-        (["--bank", "broken"], "formulas.toml: entry 'K1'"),
+        (["--bank", "broken"], ": entry 'K1'"),
         (["--format", ""], "no format"),
     ],
 )

@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pytest
+from sweep import spread
 
 from quizgen.bank.bank import builtin_bank
 
@@ -53,12 +54,12 @@ def test_who_draws_no_figure_loads_nothing_to_draw_with(place, command):
     assert not ({"sympy"} | DRAWING) & loaded(place, command, typed="5\n")
 
 
-@pytest.mark.parametrize("command", [
+@pytest.mark.parametrize("command", spread([
     "preview point-to-image-plane --seed 1",
     "cards --topic eye --format tsv --out cards",
-    "export gift --topic eye --variants 1 --out export",
+    "export moodle --topic eye --variants 1 --out export",
     "lint --only point-to-image-plane --seeds 3",
-])  # fmt: skip
+], 1))  # fmt: skip
 def test_who_draws_figures_loads_matplotlib_and_nothing_of_its_windows(place, command):
     found = loaded(place, command)
     assert "matplotlib" in found

@@ -9,7 +9,7 @@ import pytest
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.variant import draw_variant
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.lint.template_checks import lint_template
 from quizgen.maths.numbers import to_float
 from quizgen.paper.blueprint import load_blueprint
@@ -186,4 +186,4 @@ def test_the_first_step_of_the_mean_is_the_sum_of_what_is_drawn(seed):
     seen = [v[f"f_{k}"] for k in (1, 2, 3, 4, 6, 7, 8, 9)] + [v["c"]]
     template = BANK.template("mean-and-median-with-outlier")
     (item,) = single_question_paper(template, seed, "en", level="guided", figures=False).items
-    assert mark(item.keys[0].specs[0], str(int(sum(seen)))).verdict == "correct"
+    assert grade_answer(item.keys[0].specs[0], str(int(sum(seen)))).verdict == "correct"

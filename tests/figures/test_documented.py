@@ -128,7 +128,7 @@ def test_a_figure_that_is_not_there_is_told(root):
     (root / "templates/statistics/two-samples/figure.py").unlink()
     with pytest.raises(
         BankError,
-        match=r"template\.toml: \[figure\] has no name, and there is no figure\.py beside it",
+        match=r"template\.toml:\d+: \[figure\] has no name, and there is no figure\.py beside it",
     ):
         Bank(root, trusted=True).template("two-samples")
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from svg_reader import read_labels, read_parts
 
-from quizgen.figures import DrawingField, FieldPicture
+from quizgen.figures import FieldPicture
+from quizgen.kinds.contract import DrawingField
 
 FIELD = DrawingField((-4, 4, -3, 3), (1, 1))
 SOLVED = FieldPicture(FIELD, "en", (((0, 0), (1, 1)),))

@@ -772,6 +772,7 @@ print(font_manager.findfont("STIXGeneral"))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", ["alone", "plots"])
 def test_letters_are_those_that_matplotlib_brings(tmp_path, way):
     done = subprocess.run([sys.executable, "-c", FONTS, way], cwd=HERE.parents[1], check=True,

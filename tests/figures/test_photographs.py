@@ -15,13 +15,14 @@ import pytest
 from figure_cases import draw, module
 from skimage.color import hsv2rgb, rgb2hsv, rgb2lab
 from svg_reader import read_labels, read_parts, read_pictures
+from sweep import spread
 
 from quizgen.bank.variant import draw_variant as draw_question
-from quizgen.camera import pictures
+from quizgen.camera import picture_sets
 from quizgen.core.errors import BankError, QuizgenError
 from quizgen.figures import complete_parameters, svg
-from quizgen.png import encode
-from quizgen.question.kinds import build
+from quizgen.figures.png import encode_png
+from quizgen.question.part_context import ask_part
 
 artefacts = module("artefacts")
 depth_of_field = module("depth_of_field")
@@ -31,7 +32,7 @@ hsv_edits = module("hsv_edits")
 noise = module("noise")
 _scene = module("_scene")
 
-SEEDS = range(60)
+SEEDS = spread(range(60), 6)
 
 
 def read_photos(name, values):
@@ -41,13 +42,13 @@ def read_photos(name, values):
 @pytest.mark.parametrize("shape", [(5, 7), (1, 1), (5, 7, 3), (96, 144, 3)])
 def test_png_is_read_back_by_opencv(shape):
     codes = np.random.Generator(np.random.SFC64(3)).integers(0, 256, shape, np.uint8)
-    read = cv2.imdecode(np.frombuffer(encode(codes), np.uint8), cv2.IMREAD_UNCHANGED)
+    read = cv2.imdecode(np.frombuffer(encode_png(codes), np.uint8), cv2.IMREAD_UNCHANGED)
     assert np.array_equal(read if codes.ndim == 2 else read[..., ::-1], codes)
 
 
 def test_grey_pictures_are_stored_with_one_channel():
     codes = np.repeat(np.arange(20, dtype=np.uint8).reshape(4, 5, 1), 3, axis=2)
-    read = cv2.imdecode(np.frombuffer(encode(codes), np.uint8), cv2.IMREAD_UNCHANGED)
+    read = cv2.imdecode(np.frombuffer(encode_png(codes), np.uint8), cv2.IMREAD_UNCHANGED)
     assert np.array_equal(read, codes[..., 0])
 
 
@@ -343,11 +344,13 @@ def read_edits(**values):
 def test_hsv_edits_are_the_cameras(values):
     shown = read_edits(**dict(zip(("a", "b", "delta"), values, strict=True)))
     original = (shown["original"] / 255).astype(np.float32)
-    for ours, theirs in zip(shown.values(), pictures.hsv_edits(original, *values), strict=True):
-        assert np.abs(ours - pictures.codes(theirs).astype(float)).max() <= 1
+    for ours, theirs in zip(
+        shown.values(), picture_sets.make_hsv_edits(original, *values), strict=True
+    ):
+        assert np.abs(ours - picture_sets.to_codes(theirs).astype(float)).max() <= 1
 
 
-@pytest.mark.parametrize("order", [0, 13, 23])
+@pytest.mark.parametrize("order", spread([0, 13, 23], 1))
 def test_edits_are_those_of_scikit_image(order):
     got = read_edits(a=0.4, b=0.2, delta=120, order=order, scene=order % 8)
     hsv = rgb2hsv(got["original"])
@@ -450,7 +453,7 @@ NAMES = {
 def draw_key(bank, name, seed, part=0):
     """Drawn numbers and the name of the right option of a part."""
     drawn = draw_question(bank.template(name), seed)
-    ((_, right),) = build(drawn, part).right
+    ((_, right),) = ask_part(drawn, part).right
     return {key: float(value) for key, value in drawn.shown.items()}, right
 
 
@@ -500,7 +503,7 @@ def test_the_edits_stand_where_the_key_says(bank, seed):
 def test_each_photo_was_taken_with_the_setting_of_the_key(bank, seed):
     drawn = draw_question(bank.template("which-photo-which-focus"), seed)
     given = {key: float(value) for key, value in drawn.shown.items()}
-    built = build(drawn, 0)
+    built = ask_part(drawn, 0)
     settings = {
         "focus-near": (given["z_1"], given["N_w"]),
         "focus-middle": (given["z_2"], given["N_w"]),

@@ -8,19 +8,20 @@ import pytest
 from figure_cases import draw, module
 from scipy.stats import norm
 from svg_reader import read_labels, read_parts, read_pictures
+from sweep import spread
 
 from quizgen.bank.variant import draw_variant as draw_numbers
-from quizgen.camera import pictures
+from quizgen.camera import picture_sets
 from quizgen.core.errors import BankError
 from quizgen.numerics import luminosity
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 find_extent = module("distorted_grid").find_extent
 read_efficiency = module("luminosity").read_efficiency
 normalisation = module("normalisation")
 staircase = module("staircase")
 
-SEEDS = range(60)
+SEEDS = spread(range(60), 6)
 
 
 def parts(name, *, quiz=False, marks=None, **values):
@@ -314,7 +315,7 @@ def test_clamping_gathers_what_lies_above():
     levels = image * 255
     assert levels.min() == pytest.approx(60)
     assert levels.max() == pytest.approx(180)
-    _, before, after = pictures.normalised(image, 60 / 255, 140 / 255, normalisation.BINS)
+    _, before, after = picture_sets.make_normalised(image, 60 / 255, 140 / 255, normalisation.BINS)
     assert before.sum() == after.sum() == image.size
     # the last bin holds what is clamped, and what fell into it anyway
     last = 60 + (140 - 60) * (normalisation.BINS - 1) / normalisation.BINS
@@ -398,7 +399,7 @@ def test_a_learners_staircase_has_treads_of_its_own_length(marks):
 def _draw_question(bank, name, seed, part=0):
     """Drawn numbers and the name of the right option of a part."""
     drawn = draw_numbers(bank.template(name), seed)
-    ((_, right),) = build(drawn, part).right
+    ((_, right),) = ask_part(drawn, part).right
     return {key: float(value) for key, value in drawn.shown.items()}, right
 
 
@@ -471,7 +472,7 @@ def test_the_staircase_rises_where_the_key_says(bank, seed):
     }[key]  # fmt: skip
     tread = rises[1] - rises[0]
     assert (rises[0] / tread, (1 - rises[-1]) / tread) == pytest.approx(ends, abs=1e-9)
-    k, q = (float(v) for v in build(drawn, 2).spec.show().replace("k = ", "").split("; q = "))
+    k, q = (float(v) for v in ask_part(drawn, 2).spec.show().replace("k = ", "").split("; q = "))
     rounding = ROUNDINGS[int(given["rule"])]
     assert k == sum(rise < given["I"] for rise in rises) == rounding(given["I"], int(given["n"]))
     assert q == pytest.approx(k / len(rises), abs=0.0001)

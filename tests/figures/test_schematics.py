@@ -11,7 +11,8 @@ import pytest
 from figure_cases import MOSAIC, draw, module
 from svg_reader import read_labels, read_parts
 
-from quizgen.camera import pictures
+from quizgen.camera import Camera, Scene, View
+from quizgen.camera.effects import demosaicing
 
 letter, neighbours = module("bayer").letter, module("bayer").neighbours
 
@@ -223,9 +224,8 @@ def test_neighbours_are_those_of_opencv(phase):
 def test_the_bayer_diagram_averages_the_sites_that_the_camera_does(phase, site):
     """The figure's neighbours give what the simulator's demosaicing gives at the same site."""
     raw = np.random.Generator(np.random.SFC64(7)).integers(20, 236, (6, 6)).astype(np.float32)
-    _, _, full = pictures.bayer(
-        np.repeat(raw[..., None], 3, axis=2), module("bayer").PATTERNS[phase]
-    )
+    look = View(Scene(6, 6), Camera(mosaic=module("bayer").PATTERNS[phase]))
+    full = demosaicing.run(raw[..., None], look)
     x, y = site
     values = {"phase": phase, "size": 6, "x": x, "y": y}
     for index, channel in enumerate("RGB"):

@@ -9,7 +9,8 @@ from flint import fmpq
 
 from quizgen.grading.diagnosis.mutations import mutate_formula
 from quizgen.grading.feedback import load_sentences
-from quizgen.grading.mark import QuestionContext, mark
+from quizgen.grading.options import QuestionContext
+from quizgen.kinds.grade import grade_answer
 from quizgen.locale import list_languages
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse_formula
@@ -60,7 +61,7 @@ ANGLE = {"kind": "number", "value": "39.5977527", "decimals": 1, "of": ["a"]}
 )
 def test_one_slip_in_the_chain_is_named(spec, typed, model, given, note):
     context = QuestionContext(model, given)
-    verdict = mark(spec, typed, context=context)
+    verdict = grade_answer(spec, typed, context=context)
     assert verdict.note == note, verdict
     assert verdict.credit == 0
     assert verdict.message
@@ -68,17 +69,17 @@ def test_one_slip_in_the_chain_is_named(spec, typed, model, given, note):
 
 def test_a_number_that_several_slips_explain_is_not_explained():
     """16 is 8·2 as well as N_2 alone; 50 mm is 1/(1/f) as well as z taken a thousandfold."""
-    assert mark(LIGHT, "16", context=QuestionContext(STOPS, STOPS_GIVEN)).note == "factor"
-    assert mark(IMAGE, "50 mm", context=QuestionContext(LENS, LENS_GIVEN)).note == ""
+    assert grade_answer(LIGHT, "16", context=QuestionContext(STOPS, STOPS_GIVEN)).note == "factor"
+    assert grade_answer(IMAGE, "50 mm", context=QuestionContext(LENS, LENS_GIVEN)).note == ""
 
 
 def test_carried_forward_gets_full_method_marks():
     """3.5 mm instead of 2.5 mm; 3.5 mm / 5 µm = 700 px."""
     context = QuestionContext(TOWER, TOWER_GIVEN, {"h": fmpq(35, 10**4)})
-    verdict = mark(PIXELS, "700", context=context)
+    verdict = grade_answer(PIXELS, "700", context=context)
     assert (verdict.verdict, verdict.credit, verdict.note) == ("partial", 1, "carried-forward")
-    assert mark(PIXELS, "500", context=context).verdict == "correct"
-    assert mark(PIXELS, "650", context=context).credit == 0
+    assert grade_answer(PIXELS, "500", context=context).verdict == "correct"
+    assert grade_answer(PIXELS, "650", context=context).credit == 0
 
 
 @pytest.mark.parametrize(
@@ -91,7 +92,7 @@ def test_carried_forward_gets_full_method_marks():
     ],
 )
 def test_nothing_is_carried_where_it_would_be_a_gift(earlier, typed):
-    verdict = mark(PIXELS, typed, context=QuestionContext(TOWER, TOWER_GIVEN, earlier))
+    verdict = grade_answer(PIXELS, typed, context=QuestionContext(TOWER, TOWER_GIVEN, earlier))
     assert verdict.note != "carried-forward"
     assert verdict.credit == 0
 
@@ -99,18 +100,18 @@ def test_nothing_is_carried_where_it_would_be_a_gift(earlier, typed):
 def test_an_own_value_that_makes_the_question_trivial_is_not_carried():
     """With q = 1 the stops are 0; a result that is the own value again is no method either."""
     context = QuestionContext(STOPS, STOPS_GIVEN, {"q": fmpq(1)})
-    assert mark(STOP, "0", context=context).credit == 0
+    assert grade_answer(STOP, "0", context=context).credit == 0
     model = chain({"x": ""}, ("a", "2*x", ""), ("b", "max(a, 0)", ""))
     spec = {"kind": "number", "value": "6", "exact": True, "of": ["b"]}
     same = QuestionContext(model, {"x": fmpq(3)}, {"a": fmpq(7)})
-    assert mark(spec, "7", context=same).note != "carried-forward"
+    assert grade_answer(spec, "7", context=same).note != "carried-forward"
 
 
 def test_an_own_value_equal_to_the_later_key_is_not_carried():
     model = chain({"x": ""}, ("a", "x - 1", ""), ("b", "abs(a)", ""))
     spec = {"kind": "number", "value": "2", "exact": True, "of": ["b"]}
     context = QuestionContext(model, {"x": fmpq(3)}, {"a": fmpq(-2)})
-    assert mark(spec, "2", context=context).note == ""
+    assert grade_answer(spec, "2", context=context).note == ""
 
 
 def test_rounding_too_early_is_named_and_costs_half():
@@ -123,13 +124,13 @@ def test_rounding_too_early_is_named_and_costs_half():
     )
     spec = {"kind": "number", "value": "0.692349", "decimals": 5, "of": ["m"]}
     context = QuestionContext(model, {"a": fmpq(1, 5), "b": fmpq(4, 5)})
-    verdict = mark(spec, "0.6925", context=context)
+    verdict = grade_answer(spec, "0.6925", context=context)
     assert (verdict.note, verdict.credit) == ("rounded-too-early", 0.5)
 
 
 def test_traps_come_before_mutations():
     spec = {**LIGHT, "traps": {"light-like-diameter": "8"}}
-    verdict = mark(spec, "8", context=QuestionContext(STOPS, STOPS_GIVEN))
+    verdict = grade_answer(spec, "8", context=QuestionContext(STOPS, STOPS_GIVEN))
     assert verdict.note == "trap:light-like-diameter"
 
 
@@ -139,8 +140,8 @@ def test_the_templates_own_sentence_is_shown():
         "traps": {"t": "8"},
         "notes": {"en": {"t": "Square it."}, "bn": {"t": "বর্গ করুন।"}},
     }
-    assert mark(spec, "8").message == "Square it."
-    assert mark(spec, "8", lang="bn").message == "বর্গ করুন।"
+    assert grade_answer(spec, "8").message == "Square it."
+    assert grade_answer(spec, "8", lang="bn").message == "বর্গ করুন।"
 
 
 @pytest.mark.parametrize(
@@ -148,7 +149,7 @@ def test_the_templates_own_sentence_is_shown():
     [("39.6", ""), ("79.2", "factor"), ("0.69", ""), ("1.42", "")],
 )
 def test_field_of_view(typed, note):
-    verdict = mark(ANGLE, typed)
+    verdict = grade_answer(ANGLE, typed)
     assert verdict.note == note
 
 
@@ -173,8 +174,8 @@ def test_languages_have_the_same_sentences(lang):
 @pytest.mark.slow
 def test_full_diagnosis_of_a_wrong_answer_is_fast():
     context = QuestionContext(TOWER, TOWER_GIVEN)
-    mark(HEIGHT, "3.3 mm", context=context)
+    grade_answer(HEIGHT, "3.3 mm", context=context)
     start = time.process_time()
     for number in range(100):
-        mark(HEIGHT, f"3.{number:02d}1 mm", context=context)
+        grade_answer(HEIGHT, f"3.{number:02d}1 mm", context=context)
     assert (time.process_time() - start) / 100 < 0.01

@@ -8,7 +8,7 @@ import pytest
 
 from quizgen.grading.judging.algebraic_equality import prove_equal
 from quizgen.grading.judging.sympy_equality import decide_by_sympy
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.maths.notation import parse_formula
 
 EQUAL = [
@@ -51,20 +51,20 @@ DIFFERENT = [
 def test_equal(key, typed, symbols):
     for first, second in ((key, typed), (typed, key)):
         spec = {"kind": "expression", "value": first, "symbols": symbols}
-        assert mark(spec, second).verdict == "correct"
+        assert grade_answer(spec, second).verdict == "correct"
 
 
 @pytest.mark.parametrize(("key", "typed", "symbols"), DIFFERENT)
 def test_different(key, typed, symbols):
     spec = {"kind": "expression", "value": key, "symbols": symbols}
-    assert mark(spec, typed).verdict == "wrong"
+    assert grade_answer(spec, typed).verdict == "wrong"
 
 
 def test_where_the_key_has_no_value_nothing_is_asked_of_the_answer():
     """The key decides where the formula matters: ln(x^2) is 2 ln(x) wherever that is defined."""
     for key, typed in (("2*ln(x)", "ln(x^2)"), ("sqrt(x)*sqrt(y)", "sqrt(x*y)")):
         spec = {"kind": "expression", "value": key, "symbols": {"x": "real", "y": "real"}}
-        assert mark(spec, typed).verdict == "correct"
+        assert grade_answer(spec, typed).verdict == "correct"
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_where_the_key_has_no_value_nothing_is_asked_of_the_answer():
 )
 def test_the_ground_is_stated(key, typed, ground):
     spec = {"kind": "expression", "value": key, "symbols": {"f": "positive", "X": "positive"}}
-    assert mark(spec, typed).fields["ground"] == ground
+    assert grade_answer(spec, typed).fields["ground"] == ground
 
 
 def test_proof_covers_quotients_and_negative_powers():
@@ -94,9 +94,9 @@ NOWHERE = {"kind": "expression", "value": "sqrt(-1-x)", "symbols": {"x": "positi
 def test_undecided_is_asked_back_unless_settling_is_allowed(monkeypatch):
     """A key without a value anywhere on its domain cannot be sampled."""
     patient = partial(decide_by_sympy, seconds=60)
-    monkeypatch.setattr("quizgen.grading.kinds.expression.settle_equal", patient)
-    assert mark(NOWHERE, "sqrt(-x-1) + 0").note == "undecided"
-    settled = mark(NOWHERE, "sqrt(-x-1) + 0", settle=True)
+    monkeypatch.setattr("quizgen.kinds.expression.settle_equal", patient)
+    assert grade_answer(NOWHERE, "sqrt(-x-1) + 0").note == "undecided"
+    settled = grade_answer(NOWHERE, "sqrt(-x-1) + 0", settle=True)
     assert (settled.verdict, settled.fields["ground"]) == ("correct", "settled")
 
 

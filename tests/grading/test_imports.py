@@ -42,9 +42,9 @@ def run(code: str) -> str:
 def test_marking_every_kind_loads_no_heavy_package():
     code = (
         "import sys, json\n"
-        "from quizgen.grading.mark import mark\n"
+        "from quizgen.kinds.grade import grade_answer\n"
         f"specs, typed = json.loads({json.dumps(json.dumps([SPECS, TYPED]))})\n"
-        "assert all(mark(specs[p], typed[p]).verdict == 'correct' for p in specs)\n"
+        "assert all(grade_answer(specs[p], typed[p]).verdict == 'correct' for p in specs)\n"
         f"print([m for m in {HEAVY!r} if m in sys.modules])"
     )
     assert run(code).strip() == "[]"

@@ -11,8 +11,8 @@ from flint import arb, fmpq
 from quizgen.core.errors import UndecidedError
 from quizgen.grading.diagnosis.carry_forward import recompute_from_earlier
 from quizgen.grading.judging.sampled_equality import compare_by_sampling, sample_points
-from quizgen.grading.mark import mark
 from quizgen.grading.options import QuestionContext
+from quizgen.kinds.grade import grade_answer
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.number_systems import compile_expr, exact_system
@@ -31,14 +31,47 @@ from quizgen.maths.number_systems import compile_expr, exact_system
 )
 def test_a_tie_rounded_either_way_has_too_few_digits_only(value, typed, note):
     """A key of 1.25 stands exactly halfway between 1.2 and 1.3; 1.2501 does not."""
-    verdict = mark({"kind": "number", "value": value, "decimals": 4}, typed)
+    verdict = grade_answer({"kind": "number", "value": value, "decimals": 4}, typed)
     assert (verdict.note, verdict.credit) == (note, Fraction(1, 2) if note else 0)
 
 
 def test_a_tie_in_too_few_figures_counts_either_way():
     spec = {"kind": "number", "value": "12.25", "sigfigs": 5}
-    assert [mark(spec, typed).note for typed in ("12.2", "12.3", "12.1")] == [
+    assert [grade_answer(spec, typed).note for typed in ("12.2", "12.3", "12.1")] == [
         "figures-asked", "figures-asked", ""]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("typed", "verdict"), [("12.5 %", "correct"), ("12.50 %", "partial"), ("13.5 %", "wrong")]
+)
+def test_a_percentage_has_two_decimals_more_as_a_share(typed, verdict):
+    """12.5 % is 0.125: three decimals, as asked."""
+    spec = {"kind": "number", "value": "1/8", "decimals": 3, "strict": True}
+    assert grade_answer(spec, typed).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [("20/3 = 6.667", "6.667"), ("6.667 = 20/3", "20/3"), ("20/3 = 6.667 = 6.67", "6.67")],
+)
+def test_of_equal_things_that_are_all_right_the_last_is_what_was_meant(typed, meant):
+    verdict = grade_answer({"kind": "number", "value": "20/3", "rel": "0.001"}, typed)
+    assert (verdict.verdict, verdict.read_as) == ("correct", meant)
+
+
+@pytest.mark.parametrize(
+    ("values", "typed"),
+    [
+        (["6", "0", "2"], "(3; 0; 1)"),
+        (["0", "580", "-2"], "(0; -290; 1)"),
+        (["1000", "1000", "0.1"], "(100; 100; 0.01)"),
+        (["840", "580", "2"], "(420; 290; 1.0005)"),
+    ],
+)
+def test_homogeneous_coordinates_are_compared_by_their_largest(values, typed):
+    """A coordinate of zero cannot be scaled to, and a small one carries a larger error."""
+    spec = {"kind": "point", "values": values, "up_to_scale": True, "rel": "0.001"}
+    assert grade_answer(spec, typed).verdict == "correct"
 
 
 def chain() -> Chain:
@@ -67,9 +100,9 @@ def test_an_error_is_carried_forward_unless_it_is_zero(own, carried):
 
 def test_a_typed_zero_earns_nothing_for_what_follows():
     spec = {"kind": "number", "value": "53", "exact": True, "of": ["v"]}
-    after_seven = mark(spec, "73", context=QuestionContext(chain(), GIVEN, {"u": fmpq(7)}))
+    after_seven = grade_answer(spec, "73", context=QuestionContext(chain(), GIVEN, {"u": fmpq(7)}))
     assert (after_seven.note, after_seven.credit) == ("carried-forward", 1)
-    after_zero = mark(spec, "3", context=QuestionContext(chain(), GIVEN, {"u": fmpq(0)}))
+    after_zero = grade_answer(spec, "3", context=QuestionContext(chain(), GIVEN, {"u": fmpq(0)}))
     assert (after_zero.verdict, after_zero.credit) == ("wrong", 0)
 
 
@@ -86,15 +119,15 @@ AMBIGUOUS = [
 def test_three_digits_after_one_mark_are_asked_back_when_only_thousands_are_right(
     key, typed, verdict, note
 ):
-    found = mark({"kind": "number", "value": key, "exact": True}, typed)
+    found = grade_answer({"kind": "number", "value": key, "exact": True}, typed)
     assert found.verdict == verdict
     assert note is None or found.note == note
 
 
 def test_a_quantity_is_asked_back_like_a_number():
     spec = {"kind": "quantity", "value": "123456", "unit": "mm", "exact": True}
-    assert mark(spec, "123.456 mm").note == "two-readings"
-    assert mark(spec, "123.4560 mm").verdict == "wrong"
+    assert grade_answer(spec, "123.456 mm").note == "two-readings"
+    assert grade_answer(spec, "123.4560 mm").verdict == "wrong"
 
 
 @pytest.mark.parametrize(
@@ -103,7 +136,7 @@ def test_a_quantity_is_asked_back_like_a_number():
 def test_the_declared_sign_settles_what_a_point_means(decimal, verdict):
     """Whoever writes decimals with a point has written a decimal; with a comma it may be both."""
     spec = {"kind": "number", "value": "123456", "exact": True}
-    assert mark(spec, "123.456", decimal=decimal).verdict == verdict
+    assert grade_answer(spec, "123.456", decimal=decimal).verdict == verdict
 
 
 ZERO = arb(0, 1e-20)
@@ -119,9 +152,9 @@ def test_a_comparison_that_cannot_be_certified_is_not_false(relation):
 def test_an_example_that_cannot_be_decided_is_asked_back():
     """sin(pi*x) of a whole number is zero, but a ball around it never excludes other values."""
     spec = {"kind": "witness", "predicate": "sin(pi*x) < 0", "symbols": ["x"]}
-    assert mark(spec, "1").note == "undecided"
-    assert mark(spec, "3/2").verdict == "correct"
-    assert mark(spec, "1/2").verdict == "wrong"
+    assert grade_answer(spec, "1").note == "undecided"
+    assert grade_answer(spec, "3/2").verdict == "correct"
+    assert grade_answer(spec, "1/2").verdict == "wrong"
 
 
 def nearly(points: int) -> str:
@@ -149,5 +182,5 @@ def test_equal_formulas_are_looked_at_in_eight_points():
 
 def test_ambient_precision_is_left_as_it_was():
     before = flint.ctx.prec
-    mark({"kind": "number", "value": "sqrt(2)"}, "√2")
+    grade_answer({"kind": "number", "value": "sqrt(2)"}, "√2")
     assert flint.ctx.prec == before

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from answer_tables import Row, rows
 
-from quizgen.grading.kinds import KINDS
-from quizgen.grading.mark import mark
+from quizgen.kinds import KINDS
+from quizgen.kinds.grade import grade_answer
 
 ROWS = list(rows())
 
@@ -22,7 +22,7 @@ def of_kind(kind: str) -> list[Row]:
 
 def wrong(row: Row) -> str:
     """What is wrong with a row's verdict; empty if nothing is."""
-    verdict = mark(row.spec, row.typed, decimal=row.decimal)
+    verdict = grade_answer(row.spec, row.typed, decimal=row.decimal)
     credit = float(verdict.credit)
     fits = {"correct": credit == 1, "partial": 0 < credit <= 1}.get(row.verdict, credit == 0)
     asks = row.verdict in {"unreadable", "ambiguous"}
@@ -43,8 +43,8 @@ def test_rows_of_a_kind(kind: str):
 
 def differs(row: Row) -> bool:
     """Whether Bangla changes more than the words, or leaves them as they are."""
-    english = mark(row.spec, row.typed, decimal=row.decimal)
-    bangla = mark(row.spec, row.typed, decimal=row.decimal, lang="bn")
+    english = grade_answer(row.spec, row.typed, decimal=row.decimal)
+    bangla = grade_answer(row.spec, row.typed, decimal=row.decimal, lang="bn")
     told = [(one.verdict, one.note, one.read_as, bool(one.message)) for one in (english, bangla)]
     return told[0] != told[1] or bool(english.message and english.message == bangla.message)
 

@@ -13,8 +13,9 @@ from quizgen.grading.diagnosis.numeric_slips import (
     is_in_radians,
     power_of_ten_off,
 )
-from quizgen.grading.mark import QuestionContext, mark
+from quizgen.grading.options import QuestionContext
 from quizgen.grading.verdict import Verdict
+from quizgen.kinds.grade import grade_answer
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse_formula
 
@@ -40,13 +41,13 @@ PLACES = {"kind": "number", "value": "12.25", "decimals": 2}
     ],
 )
 def test_digits_asked_and_given_are_told(spec, typed, note, credit, fields):
-    found = mark(spec, typed)
+    found = grade_answer(spec, typed)
     assert (found.note, found.credit, dict(found.fields)) == (note, credit, fields)
     assert found.read_as == typed
 
 
 def test_a_whole_number_as_a_decimal_is_read_as_typed():
-    found = mark({"kind": "number", "value": "2", "exact": True}, "2.001")
+    found = grade_answer({"kind": "number", "value": "2", "exact": True}, "2.001")
     assert (found.verdict, found.note, found.read_as) == ("correct", "whole-number", "2.001")
 
 
@@ -61,26 +62,26 @@ def test_a_whole_number_as_a_decimal_is_read_as_typed():
     ],
 )
 def test_a_whole_number_is_meant_within_a_hundredth(value, typed, credit):
-    assert mark({"kind": "number", "value": value, "exact": True}, typed).credit == credit
+    assert grade_answer({"kind": "number", "value": value, "exact": True}, typed).credit == credit
 
 
 @pytest.mark.parametrize("typed", ["5", "5.01", "5.02"])
 def test_the_nearest_of_several_known_mistakes_is_named(typed):
     """All three lie within half a percent of one another."""
     spec = {"kind": "number", "value": "10", "traps": {"5": "5", "5.01": "5.01", "5.02": "5.02"}}
-    found = mark(spec, typed)
+    found = grade_answer(spec, typed)
     assert (found.note, found.read_as) == (f"trap:{typed}", typed)
 
 
 def test_the_first_of_two_equal_mistakes_is_named():
     spec = {"kind": "number", "value": "10", "traps": {"first": "5", "second": "5"}}
-    assert mark(spec, "5").note == "trap:first"
+    assert grade_answer(spec, "5").note == "trap:first"
 
 
 @pytest.mark.parametrize("typed", ["123.456", "+123.456", "-123.456"])
 def test_both_readings_are_echoed(typed):
     value = "-123456" if typed[0] == "-" else "123456"
-    found = mark({"kind": "number", "value": value, "exact": True}, typed)
+    found = grade_answer({"kind": "number", "value": value, "exact": True}, typed)
     sign = typed[0].strip("+1")
     sign = sign.replace("-", "−")
     first, second = f"{sign}123.456", f"{sign}123\u202f456"
@@ -103,7 +104,7 @@ def test_both_readings_are_echoed(typed):
     ],
 )
 def test_a_slip_in_one_number_alone_is_named(key, typed, note):
-    found = mark({"kind": "number", "value": key}, typed)
+    found = grade_answer({"kind": "number", "value": key}, typed)
     assert (found.note, found.credit, found.read_as) == (note, 0, typed.replace("-", "−"))
 
 
@@ -177,7 +178,7 @@ GIVEN = {"f": fmpq(1, 20), "X": fmpq(29), "Z": fmpq(600), "pitch": fmpq(7, 10**6
 def test_a_step_rounded_in_its_own_unit_is_seen_to_half_the_last_place(typed, note):
     """h = 29/12 mm is 2.4 mm in two figures; 2.4 mm / 7 µm = 342.857; the key is 345.238."""
     spec = {"kind": "number", "value": "7250/21", "decimals": 1, "of": ["n"]}
-    found = mark(spec, typed, context=QuestionContext(CAMERA, GIVEN))
+    found = grade_answer(spec, typed, context=QuestionContext(CAMERA, GIVEN))
     assert (found.note, found.read_as) == (note or "", typed)
     assert found.credit == {"rounded-too-early": HALF, "": 0, None: 1}[note]
 
@@ -197,23 +198,29 @@ def test_a_step_rounded_in_its_own_unit_is_seen_to_half_the_last_place(typed, no
          "irrational", "three places asked"],
 )  # fmt: skip
 def test_digits_excuse_nothing_where_they_are_not_the_matter(rule, value, typed):
-    found = mark({"kind": "number", "value": value, **rule}, typed)
+    found = grade_answer({"kind": "number", "value": value, **rule}, typed)
     assert (found.verdict, found.credit) == ("wrong", 0)
     assert found.note not in {"decimals-asked", "figures-asked", "whole-number"}
 
 
 def test_a_form_that_was_not_asked_is_echoed():
-    lowest = mark({"kind": "number", "value": "1/2", "exact": True, "form": "lowest"}, "2/4")
+    lowest = grade_answer(
+        {"kind": "number", "value": "1/2", "exact": True, "form": "lowest"}, "2/4"
+    )
     assert (lowest.note, lowest.credit, lowest.read_as) == ("form-lowest", HALF, "2/4")
-    fraction = mark({"kind": "number", "value": "1/2", "exact": True, "form": "fraction"}, "0.5")
+    fraction = grade_answer(
+        {"kind": "number", "value": "1/2", "exact": True, "form": "fraction"}, "0.5"
+    )
     assert (fraction.note, fraction.credit, fraction.read_as) == ("form-fraction", HALF, "0.5")
-    decimal = mark({"kind": "number", "value": "1/2", "exact": True, "form": "decimal"}, "1/2")
+    decimal = grade_answer(
+        {"kind": "number", "value": "1/2", "exact": True, "form": "decimal"}, "1/2"
+    )
     assert (decimal.note, decimal.credit, decimal.read_as) == ("form-decimal", HALF, "1/2")
 
 
 def test_what_a_slip_fills_into_its_sentence():
-    assert dict(mark({"kind": "number", "value": "3"}, "3000").fields) == {"power": 3}
-    assert dict(mark({"kind": "number", "value": "3"}, "12").fields) == {"factor": "4"}
+    assert dict(grade_answer({"kind": "number", "value": "3"}, "3000").fields) == {"power": 3}
+    assert dict(grade_answer({"kind": "number", "value": "3"}, "12").fields) == {"factor": "4"}
 
 
 def test_what_is_carried_forward_is_echoed_with_its_unit():
@@ -224,7 +231,7 @@ def test_what_is_carried_forward_is_echoed_with_its_unit():
     )
     context = QuestionContext(film, {"a": fmpq(29, 12000)}, {"h": fmpq(3, 1000)})
     spec = {"kind": "quantity", "value": "29/6", "unit": "mm", "of": ["w"]}
-    found = mark(spec, "6 mm", context=context)
+    found = grade_answer(spec, "6 mm", context=context)
     assert (found.note, found.credit, found.read_as) == ("carried-forward", 1, "6 mm")
 
 
@@ -237,5 +244,5 @@ def test_a_slip_in_the_chain_is_echoed_with_its_unit():
     lens = Chain({"f": "mm", "z": "mm"}, steps)
     context = QuestionContext(lens, {"f": fmpq(1, 20), "z": fmpq(1, 5)})
     spec = {"kind": "quantity", "value": "200/3", "unit": "mm", "rel": "0.005", "of": ["b"]}
-    found = mark(spec, "40 mm", context=context)
+    found = grade_answer(spec, "40 mm", context=context)
     assert (found.note, found.read_as) == ("operator", "40 mm")

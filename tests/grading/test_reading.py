@@ -7,11 +7,11 @@ import pytest
 from quizgen.core.errors import KeyFileError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import allowed_typos, fold_word, nearest_terms, typo_distance
-from quizgen.grading.mark import mark
 from quizgen.grading.reading.formulas import FORMULA_REWRITES, read_formula
 from quizgen.grading.reading.literals import read_literal
 from quizgen.grading.reading.normalise import REWRITES, apply_rewrite, normalise_typed
 from quizgen.grading.reading.units import WORDS, read_unit
+from quizgen.kinds.grade import grade_answer
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.units import get_unit
 
@@ -124,7 +124,7 @@ def test_literals_that_are_none(typed):
 )
 def test_errors_point_into_what_was_typed(typed, column):
     spec = {"kind": "expression", "value": "x", "symbols": {"x": "real"}}
-    assert mark(spec, typed).fields["column"] == column
+    assert grade_answer(spec, typed).fields["column"] == column
 
 
 @pytest.mark.parametrize(
@@ -141,14 +141,14 @@ def test_errors_point_into_what_was_typed(typed, column):
 )
 def test_what_is_wrong_with_one_of_several_values_is_said_where_it_stands(kind, typed, column):
     values = {"point": ["1", "2"], "table": {"V": "1", "S": "2"}}
-    verdict = mark({"kind": kind, "values": values[kind]}, typed)
+    verdict = grade_answer({"kind": kind, "values": values[kind]}, typed)
     assert verdict.verdict == "unreadable"
     assert verdict.fields["column"] == column
 
 
 def test_a_missing_end_points_behind_the_text():
     spec = {"kind": "expression", "value": "x", "symbols": {"x": "real"}}
-    verdict = mark(spec, "(x + 1")
+    verdict = grade_answer(spec, "(x + 1")
     assert verdict.fields["column"] == 7
     assert ")" in verdict.message
 
@@ -246,7 +246,7 @@ def test_separators_of_lines_are_named_and_never_echoed(separator, kind):
         "choice": {"options": ["p", "q"], "correct": [1]}, "text": {"points": ["a"]},
         "order": {"steps": ["A", "B"]}, "match": {"pairs": {"A": "1"}},
     }  # fmt: skip
-    verdict = mark({"kind": kind, **specs[kind]}, f"1{separator}2")
+    verdict = grade_answer({"kind": kind, **specs[kind]}, f"1{separator}2")
     assert separator not in verdict.message + verdict.read_as
     assert verdict.note == "bad-character"
     assert f"U+{ord(separator):04X}" in verdict.message
@@ -254,7 +254,7 @@ def test_separators_of_lines_are_named_and_never_echoed(separator, kind):
 
 def test_a_key_without_a_value_is_refused():
     with pytest.raises(KeyFileError):
-        mark({"kind": "expression", "value": "1/0", "symbols": {"x": "real"}}, "x")
+        grade_answer({"kind": "expression", "value": "1/0", "symbols": {"x": "real"}}, "x")
 
 
 def test_terms_equally_near_are_returned_together():

@@ -10,7 +10,7 @@ import pytest
 from tests.marking.hands import along, drawings, moved, text, turned, waved
 
 from quizgen.core.errors import KeyFileError
-from quizgen.grading.mark import load_spec, mark, show_key
+from quizgen.kinds.grade import grade_answer, load_spec, show_key
 
 WIDE = 2.8
 EDGES = ("top", "bottom", "left", "right")
@@ -61,7 +61,7 @@ def test_hands_that_draw_it_right(spec, sign):
     failed = {}
     for seed in range(110):
         strength = sign * Random(seed).uniform(0.12, 0.19)
-        verdict = mark(spec, drawings(list(bent(strength).values()), seed, WIDE))
+        verdict = grade_answer(spec, drawings(list(bent(strength).values()), seed, WIDE))
         if verdict.verdict != "correct":
             failed[seed] = (strength, because(verdict))
     assert not failed
@@ -70,13 +70,13 @@ def test_hands_that_draw_it_right(spec, sign):
 def test_hands_that_draw_the_other_distortion_are_told_its_name():
     for seed in range(60):
         strength = Random(seed).uniform(0.12, 0.19)
-        verdict = mark(BARREL, drawings(list(bent(strength).values()), seed, WIDE))
+        verdict = grade_answer(BARREL, drawings(list(bent(strength).values()), seed, WIDE))
         assert (verdict.note, verdict.credit) == ("trap:reversed", Fraction(1, 5)), seed
 
 
 def test_hands_that_trace_the_grey_lines_earn_the_straight_ones_alone():
     for seed in range(40):
-        verdict = mark(BARREL, drawings(list(bent(0).values()), seed, WIDE))
+        verdict = grade_answer(BARREL, drawings(list(bent(0).values()), seed, WIDE))
         assert (verdict.note, verdict.credit) == ("sketch", Fraction(1, 5)), seed
         assert because(verdict) == ("outer", "corners")
 
@@ -93,7 +93,7 @@ WRONG = {
 def test_wrong_shapes_are_not_right(name):
     for seed in range(12):
         wrong = [WRONG[name](line) for line in bent(0).values()]
-        verdict = mark(PINCUSHION, drawings(wrong, 5 * seed, WIDE))
+        verdict = grade_answer(PINCUSHION, drawings(wrong, 5 * seed, WIDE))
         assert {"outer", "radial"} <= {*because(verdict)}, seed
         assert verdict.credit <= Fraction(2, 5)
 
@@ -103,29 +103,31 @@ def test_a_cross_beside_the_centre_is_not_through_it():
         right = bent(-0.15)
         for name in ("across", "down"):
             right[name] = moved(right[name], (0.25, 0.25))
-        assert because(mark(BARREL, drawings(list(right.values()), seed, WIDE))) == ("radial",)
+        assert because(grade_answer(BARREL, drawings(list(right.values()), seed, WIDE))) == (
+            "radial",
+        )
 
 
 def test_the_outline_may_be_one_stroke_from_corner_to_corner():
     right = bent(-0.15)
     outline = [*right["top"], *right["right"][::-1], *right["bottom"][::-1], *right["left"]]
     drawn = [outline, right["down"], right["across"][::-1]]
-    assert mark(BARREL, text(drawn)).verdict == "correct"
-    assert mark(BARREL, text([*drawn, *drawn])).verdict == "correct"
+    assert grade_answer(BARREL, text(drawn)).verdict == "correct"
+    assert grade_answer(BARREL, text([*drawn, *drawn])).verdict == "correct"
 
 
 def test_what_is_missing_earns_nothing_and_is_named():
     right = bent(-0.15)
     three = text([line for name, line in right.items() if name != "left"])
-    verdict = mark(BARREL, three)
+    verdict = grade_answer(BARREL, three)
     assert (verdict.credit, because(verdict)) == (Fraction(4, 5), ("outer", "corners"))
     assert verdict.fields["right"] == 1
     half = text([*list(right.values())[:5], along(right["down"], 9)[:4]])
-    assert because(mark(BARREL, half)) == ("radial",)
+    assert because(grade_answer(BARREL, half)) == ("radial",)
 
 
 def test_lines_elsewhere_are_told_as_such():
-    assert mark(BARREL, "1.3,1.3 1.35,1.35").note == "sketch-elsewhere"
+    assert grade_answer(BARREL, "1.3,1.3 1.35,1.35").note == "sketch-elsewhere"
 
 
 HOSTILE = {
@@ -147,7 +149,7 @@ HOSTILE = {
 
 @pytest.mark.parametrize("typed", HOSTILE, ids=range(len(HOSTILE)))
 def test_what_is_no_drawing_is_asked_back(typed):
-    verdict = mark(BARREL, typed)
+    verdict = grade_answer(BARREL, typed)
     assert (verdict.verdict, verdict.note) == HOSTILE[typed]
     assert verdict.credit == 0
 
@@ -155,7 +157,7 @@ def test_what_is_no_drawing_is_asked_back(typed):
 def test_scribbles_over_the_whole_field_are_judged_soon_and_earn_nothing_for_the_outline():
     rng = Random(1)
     scribble = [(rng.uniform(-1.4, 1.4), rng.uniform(-1.4, 1.4)) for _ in range(330)]
-    verdict = mark(BARREL, text([scribble]))
+    verdict = grade_answer(BARREL, text([scribble]))
     assert "outer" in because(verdict)
     assert verdict.verdict != "correct"
 
@@ -171,13 +173,13 @@ def test_scribbles_over_the_whole_field_are_judged_soon_and_earn_nothing_for_the
     ],
 )
 def test_points_may_be_written_as_people_write_them(typed):
-    assert mark(BARREL, typed).read_as == "0,0 1,0.2; 0,1 1,1"
+    assert grade_answer(BARREL, typed).read_as == "0,0 1,0.2; 0,1 1,1"
 
 
 def test_the_printed_key_is_right_and_a_minus_sign_is_one():
     for spec in (BARREL, PINCUSHION):
-        assert mark(spec, show_key(spec)).verdict == "correct"
-        assert mark(spec, show_key(spec).replace("\u2212", "-")).verdict == "correct"
+        assert grade_answer(spec, show_key(spec)).verdict == "correct"
+        assert grade_answer(spec, show_key(spec).replace("\u2212", "-")).verdict == "correct"
 
 
 MOVED = {"reads": "moved", "of": ["l"], "circle": [0, 0, 1], "within": 2}
@@ -224,4 +226,4 @@ def test_a_key_that_cannot_be_judged_by_is_refused(change, said):
 def test_wanted_lines_that_a_feature_cannot_read_are_no_failure(lines, feature):
     table = {"kind": "sketch", "view": [-1, 1, 0, 1], "lines": lines, "features": {"a": feature}}
     for typed in [*lines.values(), "-1,0 1,0.1", "0,0 0,1"]:
-        assert mark(table, typed).verdict in {"correct", "wrong"}
+        assert grade_answer(table, typed).verdict in {"correct", "wrong"}

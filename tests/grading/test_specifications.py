@@ -8,8 +8,8 @@ import msgspec
 import pytest
 
 from quizgen.core.errors import KeyFileError
-from quizgen.grading.kinds import KINDS, choice, number
-from quizgen.grading.mark import load_spec, mark, show_key
+from quizgen.kinds import KINDS, choice, number
+from quizgen.kinds.grade import grade_answer, load_spec, show_key
 from quizgen.maths.tolerance import Tolerance
 
 NOTES = {"en": {"half": "You took half."}, "bn": {"half": "অর্ধেক নিয়েছ।"}}
@@ -58,8 +58,8 @@ def named(spec) -> str:
 
 
 def test_every_field_of_every_kind_is_looked_at():
-    for shape in KINDS.values():
-        looked_at = {name for spec in FULL if KINDS[spec["kind"]] is shape for name in spec}
+    for shape in {kind.spec for kind in KINDS.values()}:
+        looked_at = {name for spec in FULL if KINDS[spec["kind"]].spec is shape for name in spec}
         common = {*Tolerance.__struct_fields__, "traps", "notes", "why", "of", "define"} - {
             "accept"
         }
@@ -78,23 +78,23 @@ def test_a_struct_is_marked_and_shown_as_its_table(table):
     spec = load_spec(table)
     typed = show_key(table)
     assert show_key(spec) == typed
-    assert mark(spec, typed) == mark(table, typed)
+    assert grade_answer(spec, typed) == grade_answer(table, typed)
     assert show_key(spec, "bn") == show_key(table, "bn")
 
 
 def test_defaults_are_left_out():
-    spec = number.Spec(kind="number", value="20/3", decimals=3)
+    spec = number.NumberSpec(kind="number", value="20/3", decimals=3)
     assert msgspec.to_builtins(spec) == {"kind": "number", "decimals": 3, "value": "20/3"}
 
 
 def test_true_or_false_needs_no_options_and_keeps_none():
-    spec = choice.Spec(kind="tf", correct=[1])
+    spec = choice.ChoiceSpec(kind="tf", correct=[1])
     assert (show_key(spec), show_key(spec, "bn")) == ("true", "সত্য")
     assert msgspec.to_builtins(spec) == {"kind": "tf", "correct": [1]}
 
 
 def test_a_specification_cannot_be_changed():
-    spec = number.Spec(kind="number", value="1")
+    spec = number.NumberSpec(kind="number", value="1")
     with pytest.raises(AttributeError):
         spec.value = "2"  # type: ignore[misc]
 
@@ -117,7 +117,7 @@ def test_what_has_the_wrong_shape_is_named(table, said):
 
 
 def test_every_kind_is_a_frozen_struct_that_leaves_out_defaults():
-    for shape in set(KINDS.values()):
+    for shape in {kind.spec for kind in KINDS.values()}:
         config = shape.__struct_config__
         assert issubclass(shape, msgspec.Struct)
         assert (config.frozen, config.omit_defaults, config.forbid_unknown_fields) == (True,) * 3

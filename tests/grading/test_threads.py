@@ -11,7 +11,7 @@ from pathlib import Path
 import flint
 import pytest
 
-from quizgen.grading.mark import mark, show_key
+from quizgen.kinds.grade import grade_answer, show_key
 from quizgen.maths.precision import working_precision
 
 TABLES = sorted((Path(__file__).parent / "answers").glob("*.toml"))
@@ -26,7 +26,7 @@ def tasks() -> list[tuple[dict, str, str]]:
 def said(task: tuple[dict, str, str]) -> tuple[str, ...]:
     """What is said to one answer, and what the key looks like."""
     spec, typed, decimal = task
-    verdict = mark(spec, typed, decimal=decimal)
+    verdict = grade_answer(spec, typed, decimal=decimal)
     with working_precision():
         values = tuple(map(str, verdict.values))
     return (verdict.verdict, str(verdict.credit), verdict.read_as, verdict.note, verdict.message,
@@ -67,7 +67,7 @@ def test_six_threads_say_what_one_says(expected, precision):
 ODD = """
 import flint
 flint.ctx.prec = {bits}
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 specs = [
     ({{"kind": "number", "value": "100"}}, "314.159265"),
     ({{"kind": "number", "value": "sqrt(2)", "decimals": 30}}, "√2"),
@@ -75,7 +75,7 @@ specs = [
     ({{"kind": "angle", "value": "180", "abs": "1/10000000000000000"}}, "3.14159265358979323846264338 rad"),
     ({{"kind": "witness", "predicate": "x > pi*10^20", "symbols": ["x"]}}, "314159265358979323846.2644"),
 ]
-print([(v.verdict, v.note, v.fields.get("factor")) for v in (mark(*spec) for spec in specs)])
+print([(v.verdict, v.note, v.fields.get("factor")) for v in (grade_answer(*spec) for spec in specs)])
 """
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from quizgen.grading.feedback import feedback_sentence
-from quizgen.grading.mark import mark, show_key
+from quizgen.kinds.grade import grade_answer, show_key
 
 GAP = "\N{NARROW NO-BREAK SPACE}"
 BYTES = {"kind": "quantity", "value": "1228800", "unit": "B"}
@@ -16,21 +16,23 @@ POINT = {"kind": "point", "values": ["27000", "-12345.25"]}
 @pytest.mark.parametrize("decimal", ["auto", "point", "comma"])
 @pytest.mark.parametrize("gap", [GAP, "\N{NO-BREAK SPACE}", " ", "\N{THIN SPACE}"])
 def test_groups_of_digits_are_read(gap, decimal):
-    assert mark(BYTES, f"1{gap}228{gap}800 B", decimal=decimal).verdict == "correct"
-    assert mark(POINT, f"(27{gap}000; −12{gap}345.25)", decimal=decimal).verdict == "correct"
+    assert grade_answer(BYTES, f"1{gap}228{gap}800 B", decimal=decimal).verdict == "correct"
+    assert (
+        grade_answer(POINT, f"(27{gap}000; −12{gap}345.25)", decimal=decimal).verdict == "correct"
+    )
 
 
 @pytest.mark.parametrize("decimal", ["auto", "point", "comma"])
 @pytest.mark.parametrize("typed", ["2.2·10⁻⁴¹", "2,2·10⁻⁴¹", "2.2 · 10⁻⁴¹"])
 def test_powers_of_ten_are_read(typed, decimal):
-    verdict = mark({"kind": "number", "value": "2.2e-41"}, typed, decimal=decimal)
+    verdict = grade_answer({"kind": "number", "value": "2.2e-41"}, typed, decimal=decimal)
     assert (verdict.verdict, verdict.read_as) == ("correct", "2.2·10⁻⁴¹")
 
 
 @pytest.mark.parametrize("decimal", ["auto", "point"])
 @pytest.mark.parametrize("kind", [BYTES, NAMED, POINT], ids=["quantity", "table", "point"])
 def test_what_is_shown_is_read_back(kind, decimal):
-    assert mark(kind, show_key(kind), decimal=decimal).verdict == "correct"
+    assert grade_answer(kind, show_key(kind), decimal=decimal).verdict == "correct"
 
 
 def test_keys_are_shown_as_people_write_them():
@@ -66,12 +68,12 @@ def test_formulas_are_read_back(value):
     spec = {"kind": "expression", "value": value, "symbols": SYMBOLS}
     shown = show_key(spec)
     assert not set(shown) & set("*'-")
-    verdict = mark(spec, shown)
+    verdict = grade_answer(spec, shown)
     assert (verdict.verdict, verdict.read_as) == ("correct", shown)
 
 
 def test_messages_name_quantities_and_powers_as_they_are_written():
-    assert mark(NAMED, f"16{GAP}000; 1; 5·10⁻⁵").message == "Not right: p′ₓ."
-    assert mark({"kind": "number", "value": "5"}, "5000").message.endswith(": 10³.")
+    assert grade_answer(NAMED, f"16{GAP}000; 1; 5·10⁻⁵").message == "Not right: p′ₓ."
+    assert grade_answer({"kind": "number", "value": "5"}, "5000").message.endswith(": 10³.")
     assert "p_z" in feedback_sentence("bn", "operator", {"detail": "p_z"})
     assert "k₁ / p′ₓ" in feedback_sentence("en", "wrong-parameter", {"detail": "k_1 / p'_x"})

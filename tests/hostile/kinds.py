@@ -17,12 +17,13 @@ from quizgen.bank import sampler as planning
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.entries import load_entries as load_cards
 from quizgen.bank.entries import localised_fields
-from quizgen.camera import Prepared, plan_budget
-from quizgen.camera.question import take_photographs
-from quizgen.camera.reading import load as load_scene
-from quizgen.camera.simulate import run as photograph
+from quizgen.camera import PreparedScene, plan_budget
+from quizgen.camera.question_photo import take_question_photo
+from quizgen.camera.scene_file import load_scene
+from quizgen.camera.simulation import run_plan as photograph
 from quizgen.cards.content import KINDS as CARDS
 from quizgen.cards.error_deck import deck_from_grades
+from quizgen.figures.png import encode_png
 from quizgen.paper.answer_form import read_filled_form
 from quizgen.paper.answer_key import read_answer_key, write_answer_key
 from quizgen.paper.blueprint import load_blueprint
@@ -30,7 +31,6 @@ from quizgen.paper.grade_report import format_table, write_class_csv
 from quizgen.paper.grading import grade_paper
 from quizgen.paper.paper import build_paper, single_question_paper
 from quizgen.paper.selection import count_papers, select_templates
-from quizgen.png import encode
 from quizgen.question.entry_prose import entry_blocks
 from quizgen.render import render_paper
 from quizgen.render.text import format_question
@@ -127,17 +127,17 @@ def scene(folder: Path, chance: Chance) -> None:
     file.write_text(toml(mutated(table, chance)), "utf-8")
     given, camera = load_scene(file)
     if given.width * given.height <= SMALL:
-        prepared = Prepared(given, camera)
+        prepared = PreparedScene(given, camera)
         photograph(prepared, plan_budget(prepared).names)
         if given.question:
-            take_photographs(given, camera)
+            take_question_photo(given, camera)
 
 
 @cache
 def a_picture() -> bytes:
     import numpy as np
 
-    return encode(np.arange(12 * 16 * 3, dtype=np.uint8).reshape(12, 16, 3))
+    return encode_png(np.arange(12 * 16 * 3, dtype=np.uint8).reshape(12, 16, 3))
 
 
 def png(folder: Path, chance: Chance) -> None:
@@ -170,7 +170,7 @@ def use_answers(folder: Path, key: Path, form: Path) -> None:
 
 def form_of(table: dict) -> dict:
     """A form with a right answer in each part."""
-    from quizgen.grading.mark import show_key
+    from quizgen.kinds.grade import show_key
 
     typed = {p["id"]: show_key(p["spec"]) for q in table["questions"] for p in q["parts"]}
     return {

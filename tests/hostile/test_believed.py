@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import os
+import re
 import struct
 import zlib
 from html.parser import HTMLParser
@@ -13,8 +14,9 @@ from html.parser import HTMLParser
 import pytest
 
 from quizgen.bank.bank import Bank, builtin_bank
-from quizgen.camera.reading import load as load_scene
-from quizgen.camera.scene import SceneError
+from quizgen.camera.pixels.codecs import decode_photo
+from quizgen.camera.scene_file import load_scene
+from quizgen.camera.setup.scene import SceneError
 from quizgen.cards import build_deck
 from quizgen.cards.delimited import write_csv, write_tsv
 from quizgen.cards.error_deck import deck_from_grades
@@ -33,7 +35,6 @@ from quizgen.core.untrusted import (
 )
 from quizgen.paper.answer_key import FORMAT, parse_answer_key
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.png import decode
 
 TEMPLATE = """
 topic = "algebra"
@@ -160,14 +161,15 @@ def test_rules_that_nobody_means_are_one_located_line(tmp_path, rules, words):
         return
     with pytest.raises(BankError) as caught:
         draw_variant(bank.template("compare"), 1)
-    assert str(caught.value).startswith(f"{tmp_path}/templates/compare/template.toml: {words}")
+    place = re.escape(f"{tmp_path}/templates/compare/template.toml")
+    assert re.match(rf"{place}:\d+: {re.escape(words)}", str(caught.value))
 
 
 def test_a_topic_that_the_bank_does_not_list_is_an_error(tmp_path):
     bank = a_bank(tmp_path)
     (tmp_path / "templates" / "bank.toml").write_text('[topics]\noptics = { en = "Optics" }\n')
     with pytest.raises(
-        BankError, match=r"template.toml: topic 'algebra' is not in bank.toml \(optics\)"
+        BankError, match=r"template.toml:\d+: topic 'algebra' is not in bank.toml \(optics\)"
     ):
         bank.template("compare")
 
@@ -235,7 +237,8 @@ def test_a_blueprint_that_nobody_means_is_one_located_line(tmp_path, slot, words
     path.write_text(f'title = {{ en = "Week 3" }}\n[[slot]]\n{slot}\n')
     with pytest.raises(BlueprintError) as caught:
         load_blueprint(str(path))
-    assert str(caught.value).startswith(f"{path}: {words or 'not valid TOML'}")
+    place = re.escape(str(path))
+    assert re.match(rf"{place}(:\d+)?: {re.escape(words or 'not valid TOML')}", str(caught.value))
 
 
 def test_a_name_in_a_code_is_never_a_path(tmp_path):
@@ -285,7 +288,7 @@ def test_a_picture_that_inflates_to_more_than_its_size_is_read_no_further():
     data = (
         b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", packed) + chunk(b"IEND", b"")
     )
-    assert decode(data).shape == (4, 4, 3)
+    assert decode_photo(data).shape == (4, 4, 3)
 
 
 @pytest.mark.parametrize(
@@ -387,6 +390,7 @@ def test_a_title_that_is_a_formula_is_none_in_the_deck(tmp_path):
     assert not [cell for row in rows for cell in row if cell.lstrip()[:1] in set("=+-@")]
 
 
+@pytest.mark.slow
 def test_our_own_deck_has_no_cell_that_a_spreadsheet_runs():
     rows = list(csv.reader(io.StringIO(write_csv(build_deck("both")).decode("utf-8-sig"))))
     assert not [cell for row in rows for cell in row if cell.lstrip()[:1] in set("=+-@'")]

@@ -22,17 +22,17 @@ from printed_numbers import APERTURE, numbers
 from printed_page import Page, pages
 from sweep import draws
 
-from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.bank.bank import Bank
 from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import Blueprint, SlotRule
 from quizgen.paper.paper import build_paper
 from quizgen.render import render_paper
 
 LANGS = ("en", "bn")
-QUICK = (1, 2, 3)
+QUICK = (1,)
 SEEDS = [
     pytest.param(seed, marks=[pytest.mark.slow] * (seed not in QUICK))
-    for seed in range(1, draws(10) + 1)
+    for seed in range(1, draws(5) + 1)
 ]
 HERE = Path(__file__).parent
 for module in sorted(HERE.glob("hand_*.py")):
@@ -101,7 +101,7 @@ def test_the_page_leads_to_the_key_in_both_languages(bank, seed):
 @pytest.mark.parametrize("seed", [51])
 def test_the_words_of_figures_agree_with_the_page(bank, seed):
     """With all figures: a value that a figure names otherwise than the text is found."""
-    both = [printed(bank, list(bank.paths), seed, lang, figures=True) for lang in LANGS]
+    both = [printed(bank, list(bank.template_paths), seed, lang, figures=True) for lang in LANGS]
     assert not [
         wrong for one in both for name, page, key in one for wrong in disagreeing(page, name, key)
     ]
@@ -176,16 +176,16 @@ def _other(value: str) -> str:
     return str(Fraction(value) * Fraction("1.61") + 1)
 
 
-@pytest.mark.parametrize("name", builtin_bank().template_paths)
-def test_every_template_is_worked_out_or_listed_with_its_reason(bank, name):
+def test_every_template_is_worked_out_or_listed_with_its_reason(bank):
     """Add a function to ``hand_*.py``, or the name to ``not_computed.toml``."""
-    assert (name in SOLVERS) + LISTED.count(name) == 1
-    kinds = {part.answer["kind"] for part in bank.rules(name).part}
-    assert name in SOLVERS or not kinds & OWED
+    for name in bank.paths:
+        assert (name in SOLVERS) + LISTED.count(name) == 1, name
+        kinds = {part.answer["kind"] for part in bank.rules(name).part}
+        assert name in SOLVERS or not kinds & OWED, name
 
 
 def test_no_solver_is_left_over(bank):
-    assert {*SOLVERS, *LISTED} <= set(bank.paths)
+    assert {*SOLVERS, *LISTED} <= set(bank.template_paths)
 
 
 @pytest.mark.parametrize("path", sorted(HERE.glob("[bhp]*.py")), ids=lambda path: path.stem)

@@ -14,7 +14,6 @@ from typing import Any
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "bank")]
 
-from checks import said_by  # noqa: E402
 from mechanics import FILES, write  # noqa: E402
 
 from quizgen.bank.scaffold import scaffold_template  # noqa: E402
@@ -23,12 +22,10 @@ ROWS = tomllib.loads((HERE / "mistakes.toml").read_text("utf-8"))["mistake"]
 PAGE = HERE.parents[1] / "docs" / "mistakes.md"
 HEAD = """# Mistakes of authors
 
-What `quizgen lint` says, by mistake; `FILE:LINE` stands before each message. This page is made from `tests/lint/mistakes.toml`, where
-each mistake is made and its message compared.
+What `quizgen lint` says, by mistake. It writes `FILE:LINE:COLUMN: CODE MESSAGE; HINT`; the codes are those of
+[diagnostics.md](diagnostics.md). This page is made from `tests/lint/mistakes.toml`, where each mistake is made and its message compared.
 
-The last column is the check that finds it, by module and function.
-
-| mistake | in | lint says | found by |
+| mistake | in | code | lint says |
 |---|---|---|---|
 """
 
@@ -72,17 +69,18 @@ def spoilt(root: Path, row: dict[str, Any]) -> Path:
 
 def page() -> str:
     """The documentation."""
-    lines = [
-        f"| {row['what']} | `{row['says'].split(': ')[0]}` | {_cell(row['says'])} "
-        f"| `{said_by(row['says'])}` |"
-        for row in ROWS
-    ]
+    lines = []
+    for row in ROWS:
+        place, said = row["says"].split(": ", 1)
+        code, message = said.split(" ", 1)
+        text = message.replace("|", "\\|")
+        lines.append(f"| {row['what']} | `{place}` | {code} | `` {text} `` |")
     return HEAD + "\n".join(lines) + "\n"
 
 
-def _cell(says: str) -> str:
-    text = says.split(": ", 1)[1].replace("|", "\\|")
-    return f"`` {text} ``"
+def code_of(row: dict[str, Any]) -> str:
+    """The code that lint says of a mistake."""
+    return str(row["says"].split(": ", 1)[1].split(" ", 1)[0])
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from mechanics import FILES, write
 
 
 def look(drawing, size=None):
-    return list(look_problems([plot_figure(drawing, "A plot.", "en", size)]))
+    return [what for _, what in look_problems([plot_figure(drawing, "A plot.", "en", size)])]
 
 
 def name_axes(ax):
@@ -169,7 +169,8 @@ def test_lint_looks_at_the_figures_of_a_template(tmp_path):
     bank = Bank(write(tmp_path, {"templates/figures/block.py": block}), trusted=True)
     draws = [draw_variant(bank.template("push"), seed) for seed in range(6)]
     (said,) = check_figures(draws)
-    assert said.startswith("figure: labels 'push' and '$F$")
+    assert (said.code, said.file.name, said.span.line) == ("QG403", "template.toml", 10)
+    assert said.message.startswith("figure: labels 'push' and '$F$")
 
 
 def test_the_figure_of_a_sound_bank_passes(tmp_path):

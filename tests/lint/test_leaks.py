@@ -39,7 +39,7 @@ CHOICE = '[[part]]\nanswer = { kind = "choice", options = { x = true, y = false 
 TF = '[claims]\nx = true\n[[part]]\nanswer = { kind = "tf", from = "claims" }\n'
 PAPERS = [
     range(6),
-    *(pytest.param(range(n, n + 20), marks=pytest.mark.slow) for n in range(6, draws(66), 20)),
+    *(pytest.param(range(n, n + 20), marks=pytest.mark.slow) for n in range(6, draws(26), 20)),
 ]
 """Seeds, in batches that several processes can share."""
 

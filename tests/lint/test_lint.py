@@ -28,7 +28,8 @@ def problems(folder, english, bangla):
     (template / "template.toml").write_text(RULES)
     (template / "en.md").write_text(english, "utf-8")
     (template / "bn.md").write_text(bangla, "utf-8")
-    return lint_template(Bank(folder).template("one"), 5).problems
+    found = lint_template(Bank(folder).template("one"), 5).problems
+    return [(one.code, one.file.name, one.span.line, one.message) for one in found]
 
 
 def test_a_sound_template_has_no_problem(tmp_path):
@@ -36,29 +37,31 @@ def test_a_sound_template_has_no_problem(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("english", "bangla", "odd"),
+    ("english", "bangla", "odd", "more"),
     [
-        ("Only {{ a }}.", "Only {{ b }}.", ["a", "b"]),
-        ("{{ a }} and {{ a }}.", "{{ a }} and {{ b }}.", ["b"]),
-        ("{{ a }} and {{ b }}.", "{{ a }}.", ["b"]),
+        ("Only {{ a }}.", "Only {{ b }}.", ["a", "b"], "en.md"),
+        ("{{ a }} and {{ a }}.", "{{ a }} and {{ b }}.", ["b"], "bn.md"),
+        ("{{ a }} and {{ b }}.", "{{ a }}.", ["b"], "en.md"),
     ],
     ids=["as many but others", "one twice", "one less"],
 )
-def test_languages_that_show_other_values_are_told_apart(tmp_path, english, bangla, odd):
+def test_languages_that_show_other_values_are_told_apart(tmp_path, english, bangla, odd, more):
     found = problems(tmp_path, f"# T\n{english}{OPTIONS}", f"# T\n{bangla}{OPTIONS}")
-    assert found == [f"en.md and bn.md do not show the same values: {odd}"]
+    said = f"en.md and bn.md do not show the same values: {odd}"
+    assert found == [("QG214", more, 2, said)], "where the value is that the other lacks"
 
 
 def test_options_that_show_other_values_are_told_apart(tmp_path):
     bangla = ENGLISH.replace("- yes: Yes.", "- yes: Yes, {{ c }}.")
     assert problems(tmp_path, ENGLISH, bangla) == [
-        "en.md and bn.md do not show the same values: ['c']"
+        ("QG214", "bn.md", 5, "en.md and bn.md do not show the same values: ['c']")
     ]
 
 
 def test_languages_with_other_options_are_told_apart(tmp_path):
     found = problems(tmp_path, ENGLISH, ENGLISH.replace("- no: No.", "- not: No."))
-    assert found == ["bn.md: section 'options' differs by ['no', 'not']"]
+    said = "section 'options' differs from en.md by ['no', 'not']"
+    assert found == [("QG215", "bn.md", 6, said)]
 
 
 @pytest.mark.parametrize(
@@ -66,7 +69,7 @@ def test_languages_with_other_options_are_told_apart(tmp_path):
     [
         ("", []),
         ('languages = ["en"]', []),
-        ('languages = ["en", "bn"]', ["no bn.md"]),
+        ('languages = ["en", "bn"]', ["QG210 no bn.md"]),
     ],
     ids=["the templates' own", "one", "two"],
 )

@@ -135,11 +135,16 @@ def test_pools_are_counted(tmp_path):
     assert count_pool(template(tmp_path / "b", large + GOOD)) == 0, "not counted"
 
 
-def test_a_template_without_a_pool_is_found(tmp_path):
-    unpooled = DRAWN.removeprefix("pool = 36\n")
-    for number, rules in enumerate((unpooled, unpooled.replace("[1, 9, 1]", "[1, 900, 1]"))):
-        said = [what for _, _, what in found(tmp_path / str(number), rules + GOOD)]
-        assert "pool is missing: how many different questions there are" in said
+def test_nobody_need_write_how_large_a_pool_is(tmp_path):
+    counted = found(tmp_path / "without", DRAWN.removeprefix("pool = 36\n") + GOOD)
+    assert counted == [("", "note", "there are 36 different questions")], "4 times 9"
+    wrong = found(tmp_path / "wrong", DRAWN.replace("36", "35") + GOOD)
+    assert wrong == [("", "error", "there are 36 different questions, not 35")]
+
+
+def test_a_template_may_ask_not_to_be_told_of_a_finding(tmp_path):
+    rules = 'ignore = ["QG304"]\n' + DRAWN + GOOD
+    assert found(tmp_path, rules, WORDS) == []
 
 
 def test_the_command_prints_a_table_and_fails_on_errors(tmp_path):

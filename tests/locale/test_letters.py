@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from quizgen import locale
-from quizgen.grading.mark import show_key
+from quizgen.kinds.grade import show_key
 
 TERM = {"kind": "gap", "accept": [["ছবি", "picture", "εικόνα", "CCD এর ছবি"]]}
 

@@ -179,7 +179,7 @@ def _calls(inner):
     )
 
 
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(st.recursive(LEAVES, _calls, max_leaves=12))
 def test_written_text_reads_as_the_same_tree(tree):
     assert parse_formula(format_tree(tree)) == tree

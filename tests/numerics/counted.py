@@ -59,12 +59,13 @@ def hsv_bound(_):
     The remainder by 360 is exact, the sector is the true one, and what is left of it is exact
     (Sterbenz). For saturations from 0 to 1 all terms of the sum are positive: the longest has
     60 - degrees, its quotient, its product, the sum and the product with V. Other saturations take
-    pairs, whose cancellation is at most 2**40, and three roundings.
+    pairs, which lose 2**-106 of 60, twice, while what remains of 60 is at least 60/2**50, and three
+    roundings.
     """
     degrees = Box(1, UNIT)
     share = relative(one() * (degrees / one()))
     within = relative(one() * Box(1, max(share, UNIT) + UNIT))
-    outside = 3 * UNIT + arb(2) ** -60
+    outside = 3 * UNIT + arb(2) ** -55
     return max(within, outside) + SECOND
 
 

@@ -21,6 +21,7 @@ def standards():
     return colour.SDS_LEFS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("curve", "name", "first", "last"), STANDARDS.values(), ids=STANDARDS)
 def test_a_curve_is_the_standard_at_every_table_point(standards, curve, name, first, last):
     standard = standards[name]
@@ -31,6 +32,7 @@ def test_a_curve_is_the_standard_at_every_table_point(standards, curve, name, fi
     np.testing.assert_array_equal(luminous_efficiency([0.0, first - 0.01, last + 0.01], curve), 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("curve", "name", "first", "last"), STANDARDS.values(), ids=STANDARDS)
 def test_straight_lines_between_them_miss_little(standards, curve, name, first, last):
     standard = standards[name]

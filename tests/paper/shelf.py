@@ -15,7 +15,7 @@ class Shelf:
 
     def __init__(self, table=(), **named):
         self.table = dict(table, **named)
-        self.paths = dict.fromkeys(self.table)
+        self.template_paths = dict.fromkeys(self.table)
         self.parts = (self,)
         self.about = builtin_bank().metadata
 
@@ -26,7 +26,7 @@ class Shelf:
         return SimpleNamespace(**{**given, "figure": figure, "part": part})
 
     def folder_of(self, name):
-        return self.paths[name]
+        return self.template_paths[name]
 
     def origin(self, name):
         return name

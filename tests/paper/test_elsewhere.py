@@ -7,7 +7,7 @@ import pickle
 import pytest
 
 from quizgen.bank.bank import Bank, builtin_bank
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.paper.answer_key import write_answer_key
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import build_paper
@@ -29,7 +29,7 @@ def test_a_paper_is_the_same_after_its_journey(paper):
     before = pages(paper)
     for item in paper.items:
         for part in item.keys[0].specs:
-            mark(part, "1")
+            grade_answer(part, "1")
     again = pickle.loads(pickle.dumps(paper))
     assert pages(again) == before
 

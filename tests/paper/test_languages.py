@@ -92,6 +92,7 @@ for arguments in (
 """
 
 
+@pytest.mark.slow
 def test_commands_offer_it(pig, tmp_path, monkeypatch):
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.chdir(tmp_path)

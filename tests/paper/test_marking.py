@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from quizgen.cli.check import check as check_command
 from quizgen.cli.mark import mark as mark_command
 from quizgen.core.errors import InvalidChoiceError, KeyFileError
-from quizgen.grading.batch import marked
+from quizgen.kinds.batch import grade_lines
 from quizgen.paper import grading
 from quizgen.paper.answer_form import read_filled_form
 from quizgen.paper.answer_key import read_answer_key
@@ -258,7 +258,7 @@ def test_batch_reads_no_further_than_it_has_written():
             taken.append(number)
             yield json.dumps({"spec": {"kind": "number", "value": "2"}, "typed": "2"})
 
-    answers = marked(source())
+    answers = grade_lines(source())
     next(answers)
     assert taken == [0]
 

@@ -27,6 +27,7 @@ def made(threads, papers, interval, *formats):
     return digest, int(precision)
 
 
+@pytest.mark.slow
 def test_threads_that_begin_together_make_what_one_makes():
     alone = made(1, 4, USUAL, "html")
     assert alone[1] == 53
@@ -35,7 +36,7 @@ def test_threads_that_begin_together_make_what_one_makes():
 
 @pytest.mark.slow
 def test_sixteen_threads_make_what_one_makes():
-    papers = draws(30)
+    papers = draws(15)
     assert made(16, papers, USUAL, "html") == made(1, papers, USUAL, "html")
 
 
@@ -47,10 +48,11 @@ def test_typesetting_in_threads_is_what_it_is_in_one():
 @pytest.mark.slow
 def test_cold_starts_do_not_crash():
     alone = made(1, 4, USUAL, "html")
-    starts = min(draws(8), 20)
+    starts = min(draws(4), 20)
     assert [made(4, 4, HASTY, "html") for _ in range(starts)] == [alone] * starts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("method", "outputs", "said"),
     [

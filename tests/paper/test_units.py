@@ -10,10 +10,11 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
+from sweep import spread
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.grading.kinds import quantity
 from quizgen.grading.options import GradingOptions
+from quizgen.kinds import quantity
 from quizgen.maths.units import format_unit
 from quizgen.paper.answer_key import make_key_question
 from quizgen.paper.grading import QuestionGrader
@@ -157,11 +158,11 @@ def _asks(question, label: str, lang: str) -> str:
 
 
 @pytest.mark.parametrize("lang", ["en", "bn"])
-@pytest.mark.parametrize("name", MEASURED)
+@pytest.mark.parametrize("name", spread(MEASURED, 16))
 def test_where_the_question_names_the_unit_a_bare_number_has_full_marks(name, lang):
     question, key, _ = keyed(name, lang)
     for part, spec in zip(question.parts, key.specs, strict=True):
-        if isinstance(spec, quantity.Spec):
+        if isinstance(spec, quantity.QuantitySpec):
             known = (NAMES if lang == "en" else NAMED_BN).get(spec.unit)
             sentence = _asks(question, part.label, lang)
             named = bool(known and re.search(known, sentence))
@@ -189,7 +190,7 @@ def _answers(printed: str) -> list[str]:
 
 
 @pytest.mark.parametrize("lang", ["en", "bn"])
-@pytest.mark.parametrize("name", MEASURED)
+@pytest.mark.parametrize("name", spread(MEASURED, 16))
 def test_every_printed_number_with_its_unit_without_and_in_words(name, lang):
     _, key, question_key = keyed(name, lang)
     marker = QuestionGrader(question_key, GradingOptions(lang))
@@ -201,5 +202,5 @@ def test_every_printed_number_with_its_unit_without_and_in_words(name, lang):
         for typed in with_unit:
             assert marker.grade_part(part, typed).verdict.verdict == "correct", (part.id, typed)
         lost = part.worth() - marker.grade_part(part, bare).marks
-        most = Fraction(1, 2) if isinstance(spec, quantity.Spec) and not spec.bare else 0
+        most = Fraction(1, 2) if isinstance(spec, quantity.QuantitySpec) and not spec.bare else 0
         assert lost <= most, (part.id, bare)

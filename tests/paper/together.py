@@ -23,7 +23,7 @@ def begun() -> None:
 def made(seed: int) -> str:
     """Digest of a paper, its pages, its key and the marks of its own printed answers."""
     import quizgen
-    from quizgen.grading.mark import mark, show_key
+    from quizgen.kinds.grade import grade_answer, show_key
     from quizgen.paper.answer_key import write_answer_key
 
     bank = quizgen.builtin_bank()
@@ -32,7 +32,9 @@ def made(seed: int) -> str:
         quizgen.render_paper(paper, kind, to) for to in FORMATS for kind in ("exam", "solutions")
     ]
     specs = [spec for item in paper.items for spec in item.keys[0].specs]
-    marks = [repr(mark(spec, typed)) for spec in specs for typed in (show_key(spec, "en"), "1/3")]
+    marks = [
+        repr(grade_answer(spec, typed)) for spec in specs for typed in (show_key(spec, "en"), "1/3")
+    ]
     return hashlib.sha256(
         b"".join([write_answer_key(paper), *pages, *map(str.encode, marks)])
     ).hexdigest()

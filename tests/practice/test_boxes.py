@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from quizgen.kinds.contract import LINE, InputBox, InputControl
 from quizgen.practice.input_fields import is_complete, join_fields, locate_in_fields
-from quizgen.question.contract import LINE, Box, Control
 
-TWO = Control("line", boxes=(Box(""), Box("")))
+TWO = InputControl("line", boxes=(InputBox(""), InputBox("")))
 
 
 @pytest.mark.parametrize(
@@ -19,19 +19,19 @@ TWO = Control("line", boxes=(Box(""), Box("")))
         (TWO, ["1", "2"], (), True),
         (TWO, ["1", ""], (), False),
         (TWO, ["1"], (), False),
-        (Control("pairs"), ["1", "2"], "AB", True),
-        (Control("pairs"), ["", "2"], "AB", False),
-        (Control("order"), ["A", "", ""], (), True),
-        (Control("order"), ["", ""], (), False),
-        (Control("many", lines=0), ["B"], (), True),
-        (Control("many", lines=0), [], (), False),
+        (InputControl("pairs"), ["1", "2"], "AB", True),
+        (InputControl("pairs"), ["", "2"], "AB", False),
+        (InputControl("order"), ["A", "", ""], (), True),
+        (InputControl("order"), ["", ""], (), False),
+        (InputControl("many", lines=0), ["B"], (), True),
+        (InputControl("many", lines=0), [], (), False),
     ],
 )
 def test_filled(control, values, marks, right):
     assert is_complete(control, values, marks) is right
 
 
-NAMED = Control("line", boxes=(Box("V"), Box("S"), Box("H")), named=True)
+NAMED = InputControl("line", boxes=(InputBox("V"), InputBox("S"), InputBox("H")), named=True)
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,8 @@ import msgspec
 import pytest
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.core.errors import InvalidChoiceError
-from quizgen.grading.mark import show_key
+from quizgen.core.errors import AttemptFinishedError, InvalidChoiceError
+from quizgen.kinds.grade import show_key
 from quizgen.practice.part_attempt import TRIES, NextStep
 from quizgen.practice.selection import matching_templates, question_seed, template_at
 from quizgen.practice.session import Session
@@ -125,6 +125,26 @@ def test_giving_up_is_not_right():
     task, _ = numeric_task()
     task.give_up()
     assert task.outcome == PartOutcome("projection", right=False, first=False)
+
+
+ENDINGS = {
+    "answered": lambda task, answer: task.answer(answer),
+    "given up": lambda task, _: task.give_up(),
+    "skipped": lambda task, _: task.skip(),
+    "judged right": lambda task, _: task.self_mark(right=True),
+}
+
+
+@pytest.mark.parametrize("then", ENDINGS)
+@pytest.mark.parametrize("ended", ENDINGS)
+def test_a_part_that_has_ended_cannot_end_otherwise(ended, then):
+    """Else a learner reads the solution, sends the answer again, and it counts as right."""
+    task, spec = numeric_task()
+    ENDINGS[ended](task, show_key(spec))
+    before = msgspec.to_builtins(task.state)
+    with pytest.raises(AttemptFinishedError):
+        ENDINGS[then](task, show_key(spec))
+    assert msgspec.to_builtins(task.state) == before
 
 
 @pytest.mark.parametrize("right", [True, False])

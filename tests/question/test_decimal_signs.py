@@ -12,9 +12,10 @@ import pytest
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.markdown import InlineCode, Paragraph, PlainText
 from quizgen.bank.variant import draw_variant
-from quizgen.figures import DrawingField, FieldPicture, draw_figure
+from quizgen.figures import FieldPicture, draw_figure
 from quizgen.figures.alt_text import strip_mathtext
-from quizgen.grading.mark import mark
+from quizgen.kinds.contract import DrawingField
+from quizgen.kinds.grade import grade_answer
 from quizgen.locale import format_amount, format_marks, get_language, localise_numbers
 from quizgen.paper.answer_key import make_answer_key
 from quizgen.paper.grade_report import format_table
@@ -64,7 +65,7 @@ def test_solutions_have_the_sign_of_their_language(lang, line, answer):
 def test_either_sign_is_read(typed):
     """0.965 is what comes of forgetting pi; the message has a comma, too."""
     spec = spectrum("de")[1].specs[1]
-    verdict = mark(spec, typed, lang="de")
+    verdict = grade_answer(spec, typed, lang="de")
     assert verdict.verdict == ("correct" if "689" in typed else "wrong")
     assert verdict.note == ("" if "689" in typed else "trap:pi-forgotten")
 
@@ -166,7 +167,7 @@ def test_a_comma_does_not_stand_between_numbers_with_commas(coordinates, german,
         text = re.sub(r"<[^>]*>", "", to_mathml(pair, lang))
         assert text == wanted.replace(" ", "")
         spec = {"kind": "point", "values": coordinates, "exact": True}
-        assert mark(spec, wanted, lang="de").verdict == "correct"
+        assert grade_answer(spec, wanted, lang="de").verdict == "correct"
 
 
 def test_arguments_of_functions_are_separated_alike():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+from sweep import spread
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.markdown import Emphasis, Paragraph
@@ -24,7 +25,7 @@ CALCULATING = [
 SEEDS = [1, pytest.param(0, marks=pytest.mark.slow)]
 
 
-@pytest.fixture(scope="module", params=CALCULATING)
+@pytest.fixture(scope="module", params=spread(CALCULATING, 16))
 def template(request):
     return builtin_bank().template(request.param)
 

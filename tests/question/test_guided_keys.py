@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import sympy
 from models import mistaken, near, solved
-from sweep import draws
+from sweep import draws, spread
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.variant import draw_variant
@@ -26,7 +26,7 @@ UNITS_ALONE = [1, 180 / sympy.pi]
 """Between two values of one formula in different units; powers of ten also come by chance."""
 
 
-@pytest.fixture(scope="module", params=CALCULATING)
+@pytest.fixture(scope="module", params=spread(CALCULATING, 12))
 def template(request):
     return builtin_bank().template(request.param)
 

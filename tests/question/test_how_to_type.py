@@ -11,9 +11,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "marking"))
 
 from test_specifications import FULL
 
-from quizgen.grading.mark import load_spec
+from quizgen.kinds import KINDS
+from quizgen.kinds.grade import load_spec
 from quizgen.question.inlines import to_inlines
-from quizgen.question.kinds import KINDS
 from quizgen.render.text import inlines_to_plain_text
 
 TOLD = {
@@ -29,7 +29,8 @@ TOLD = {
 def test_every_kind_says_how_it_is_answered(table, lang):
     kind = table["kind"]
     told = [
-        inlines_to_plain_text(to_inlines(one)) for one in KINDS[kind].hints(load_spec(table), lang)
+        inlines_to_plain_text(to_inlines(one))
+        for one in KINDS[kind].input_hints(load_spec(table), lang)
     ]
     assert told or kind == "number"  # a number alone is typed as one
     assert all(map(str.strip, told))
@@ -39,7 +40,7 @@ def test_every_kind_says_how_it_is_answered(table, lang):
 @pytest.mark.parametrize("lang", ["en", "bn", "de"])
 def test_a_set_says_in_which_unit(lang):
     spec = load_spec({"kind": "set", "values": ["1", "2"], "unit": "mm"})
-    assert any("mm" in one for one in KINDS["set"].hints(spec, lang))
+    assert any("mm" in one for one in KINDS["set"].input_hints(spec, lang))
 
 
 @pytest.mark.parametrize("example", ["[0; 1)", "(0; inf)"])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from quizgen.bank.bank import Bank
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.question.compose import compose_question
 from quizgen.question.interpolation import inlines_to_text
 
@@ -101,8 +101,8 @@ def test_the_reason_of_a_claim_fits_the_draw_and_names_its_source(asked):
     for _, key in asked:
         right = ("false", "true")[opening(key)]
         other = ("true", "false")[opening(key)]
-        assert mark(key.specs[0], other).message == said[opening(key)]
-        assert mark(key.specs[0], right).message == ""
+        assert grade_answer(key.specs[0], other).message == said[opening(key)]
+        assert grade_answer(key.specs[0], right).message == ""
         assert inlines_to_text(key.solution.parts[0].options[0]) == said[opening(key)]
     assert {opening(key) for _, key in asked} == {0, 1}
 
@@ -120,11 +120,11 @@ def test_a_gap_of_a_pool_brings_its_sentence(asked):
 def test_a_wrong_word_gets_its_own_reason_else_that_of_the_gap(asked):
     keys = {key.specs[1].accept[0][0]: key for _, key in asked}
     day, night = (keys[word].specs[1] for word in ("555", "507"))
-    assert mark(day, "507").message.endswith("You took the night.")
-    assert mark(day, "600").message.endswith("That is red.")
-    assert mark(day, "blue").message.endswith("Day is green.")
-    assert mark(night, "five five five").message.endswith("You took the day.")
-    assert mark(night, "600").message.endswith("Night is blue-green.")
+    assert grade_answer(day, "507").message.endswith("You took the night.")
+    assert grade_answer(day, "600").message.endswith("That is red.")
+    assert grade_answer(day, "blue").message.endswith("Day is green.")
+    assert grade_answer(night, "five five five").message.endswith("You took the day.")
+    assert grade_answer(night, "600").message.endswith("Night is blue-green.")
     solved = keys["555"].solution.parts[1]
     assert [inlines_to_text(text) for text in solved.options] == ["Day is green."]
     told = [(wrong.value, inlines_to_text(wrong.sentence)) for wrong in solved.reasons]

@@ -9,7 +9,7 @@ import pytest
 
 from quizgen.bank.bank import Bank
 from quizgen.core.errors import BankError
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.question.compose import compose_question
 
 RULES = """
@@ -98,10 +98,10 @@ def names_of(field):
 def test_a_wrong_tick_gets_its_reason_in_the_learners_language(parts):
     specs, marks, _ = parts
     both = f"{marks[0]['cones']}, {marks[0]['rods']}"
-    assert "[en] Rods have one pigment." in mark(specs[0], both).message
-    assert "[bn] Rods" in mark(specs[0], both, lang="bn").message
-    assert "pigment" not in mark(specs[0], marks[0]["iris"]).message
-    assert mark(specs[4], marks[4]["rods"]).message == "[en] Rods have one pigment."
+    assert "[en] Rods have one pigment." in grade_answer(specs[0], both).message
+    assert "[bn] Rods" in grade_answer(specs[0], both, lang="bn").message
+    assert "pigment" not in grade_answer(specs[0], marks[0]["iris"]).message
+    assert grade_answer(specs[4], marks[4]["rods"]).message == "[en] Rods have one pigment."
 
 
 def test_a_wrong_pair_gets_its_reason(parts):
@@ -109,30 +109,30 @@ def test_a_wrong_pair_gets_its_reason(parts):
     left = {name: m for name, m in marks[1].items() if name in {"red", "blue"}}
     places = spec["pairs"]
     swapped = f"{left['red']}{places[left['blue']]} {left['blue']}{places[left['red']]}"
-    assert "[en] Red light has long waves." in mark(spec, swapped).message
-    assert "Red light" not in mark(spec, f"{left['blue']}{places[left['red']]}").message
+    assert "[en] Red light has long waves." in grade_answer(spec, swapped).message
+    assert "Red light" not in grade_answer(spec, f"{left['blue']}{places[left['red']]}").message
 
 
 def test_a_wrong_order_gets_its_reason_or_its_mistake(parts):
     specs, marks, _ = parts
     lens, sensor, file = (marks[2][name] for name in ("lens", "sensor", "file"))
-    early = mark(specs[2], f"{lens} {file} {sensor}")
+    early = grade_answer(specs[2], f"{lens} {file} {sensor}")
     assert "[en] A file needs a sensor first." in early.message
-    backwards = mark(specs[2], f"{file} {sensor} {lens}")
+    backwards = grade_answer(specs[2], f"{file} {sensor} {lens}")
     assert backwards.note == "trap:backwards"
     assert backwards.message == "[en] You followed the light backwards."
 
 
 def test_a_wrong_formula_gets_its_mistake(parts):
-    verdict = mark(parts[0][3], "f*Z/X")
+    verdict = grade_answer(parts[0][3], "f*Z/X")
     assert (verdict.note, verdict.message) == ("trap:inverted", "[en] Depth stands below.")
 
 
 def test_a_wrong_truth_gets_the_reason_of_the_claim(parts):
     spec = parts[0][5]
-    assert mark(spec, "true").message == "[en] Rods have 1, no: one."
-    assert mark(spec, "মিথ্যা", lang="bn").verdict == "correct"
-    assert mark(spec, "সত্য", lang="bn").message == "[bn] Rods have 1, no: one."
+    assert grade_answer(spec, "true").message == "[en] Rods have 1, no: one."
+    assert grade_answer(spec, "মিথ্যা", lang="bn").verdict == "correct"
+    assert grade_answer(spec, "সত্য", lang="bn").message == "[bn] Rods have 1, no: one."
 
 
 def test_the_solution_prints_them(parts):

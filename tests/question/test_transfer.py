@@ -7,11 +7,12 @@ from fractions import Fraction
 import pytest
 import sympy
 from models import DIGITS, model, near, solved, symbols
+from sweep import spread
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.markdown import ListBlock, Paragraph
 from quizgen.bank.variant import draw_variant
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.numbers import format_for_key
@@ -32,7 +33,7 @@ CALCULATING = [
 SEEDS = [range(2), pytest.param(range(2, 4), marks=pytest.mark.slow)]
 
 
-@pytest.fixture(scope="module", params=CALCULATING)
+@pytest.fixture(scope="module", params=spread(CALCULATING, 16))
 def template(request):
     return builtin_bank().template(request.param)
 
@@ -109,12 +110,12 @@ def test_every_option_is_answered_and_every_mistake_named(draws, lang):
             continue
         question, key = compose_variant(drawn, lang, level="transfer", figures=False)
         for part, solution, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):
-            assert mark(spec, solution.answer, lang=lang, decimal="point").credit == 1
+            assert grade_answer(spec, solution.answer, lang=lang, decimal="point").credit == 1
             for letter, _ in part.field.options:
-                verdict = mark(spec, letter, lang=lang)
+                verdict = grade_answer(spec, letter, lang=lang)
                 assert verdict.credit or spec.why[lang][letter] in verdict.message
             for mistake in solution.mistakes:
-                verdict = mark(spec, mistake.value, lang=lang, decimal="point")
+                verdict = grade_answer(spec, mistake.value, lang=lang, decimal="point")
                 assert verdict.note == f"trap:{mistake.name}"
 
 

@@ -16,7 +16,7 @@ from quizgen.bank.variant import draw_variant
 from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.notation import parse_formula
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 ABOUT = BankMetadata(terms=("proton", "phonon", "zebra"), counted={"sheep": ("sheep", "ভেড়া")})
 TEXT = "# Words\nFill in.\n\n## gaps\n- light: photon\n"
@@ -32,7 +32,7 @@ def template(answer: dict[str, object]) -> Template:
 
 
 def spec(answer: dict[str, object]):
-    return build(draw_variant(template(answer), 1), 0).spec
+    return ask_part(draw_variant(template(answer), 1), 0).spec
 
 
 def test_a_gap_takes_the_terms_that_could_be_its_own_misspelt():

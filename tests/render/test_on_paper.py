@@ -64,7 +64,7 @@ def test_a_table_that_runs_over_the_cover_settles(mock):
 def test_each_calculation_has_room_and_each_statement_two_boxes(mock, body):
     fields = [part.field.control for item in mock.items for part in item.questions[0].parts]
     calls = Counter(re.findall(r"#(room|more-room|answer-line|truth)[\[(]", body))
-    reckoned = sum(control.reckoned for control in fields)
+    reckoned = sum(control.needs_working for control in fields)
     assert reckoned > 10
     assert calls["room"] == calls["more-room"] == calls["answer-line"] == reckoned
     assert calls["truth"] == sum(control.form == "truth" for control in fields)

@@ -29,6 +29,7 @@ def characters(name: str) -> set[str]:
         return set(map(chr, font.getBestCmap()))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_packed_font_is_what_the_command_makes(name):
     """Packing takes up to 3 CPU s; that is why the fonts are kept."""
@@ -50,6 +51,7 @@ def mathematics(page: str) -> set[str]:
     return set(unescape(re.sub(r"<[^>]*>", "", "".join(formulas)))) - {"\n"}
 
 
+@pytest.mark.slow
 def test_formulas_of_all_templates_have_their_letters():
     """Composes every template once, 7 CPU s: no smaller set holds all letters."""
     pages = (render_paper(single_question_paper(template, 1, template.languages[0], figures=False),

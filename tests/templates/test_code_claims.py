@@ -12,7 +12,7 @@ import pytest
 from quizgen.bank.markdown import CodeBlock
 from quizgen.maths.numbers import to_float
 from quizgen.question.compose import compose_question
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 SEEDS = ["reference", *range(8)]
 
@@ -21,7 +21,7 @@ def asked(bank, name, seed=0, part=0):
     """Program of the stem, name to right or wrong, the draw and the composed part."""
     question, key = compose_question(bank.template(name), seed, "en", figures=False)
     (source,) = [b.text for b in question.stem if isinstance(b, CodeBlock)] or [""]
-    built = build(key.draw, part)
+    built = ask_part(key.draw, part)
     right = {name for _, name in built.right}
     truth = {name: name in right for _, name in built.options}
     return source, truth, key, question.parts[part]

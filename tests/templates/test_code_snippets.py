@@ -16,7 +16,7 @@ import pytest
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.markdown import CodeBlock
-from quizgen.grading.kinds.code import folded
+from quizgen.kinds.code import fold_blanks
 from quizgen.question.compose import compose_question
 
 SEEDS = ["reference", *range(12)]
@@ -65,7 +65,7 @@ def test_the_key_is_what_the_program_prints(bank, name):
         output = printed(source)
         spec = key.specs[0]
         if spec.kind == "code":
-            assert folded(output) == folded(spec.output)
+            assert fold_blanks(output) == fold_blanks(spec.output)
         else:
             assert numbers(output) == [Fraction(value) for value in values(spec)]
 

@@ -16,14 +16,14 @@ from marking.hands import Line, drawings, waved
 from sweep import draws
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.grading.mark import mark, show_key
+from quizgen.kinds.grade import grade_answer, show_key
 from quizgen.question.compose import draw_instance
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 Values = dict[str, float]
 Lines = dict[str, Line]
-HANDS = [15, pytest.param(draws(250), marks=pytest.mark.slow)]
-WRONG_HANDS = [4, pytest.param(draws(70), marks=pytest.mark.slow)]
+HANDS = [10, pytest.param(draws(120), marks=pytest.mark.slow)]
+WRONG_HANDS = [4, pytest.param(draws(35), marks=pytest.mark.slow)]
 
 
 @dataclass(frozen=True)
@@ -222,7 +222,7 @@ TASKS = {
 def posed(name: str, seed: int):
     """The spec of the part that is drawn, its field and the numbers of the draw."""
     drawn = draw_instance(builtin_bank().template(name), seed)
-    built = build(drawn, TASKS[name].part)
+    built = ask_part(drawn, TASKS[name].part)
     values = {key: float(value) for key, value in drawn.shown_values.items()}
     return built.spec, built.control.board, values
 
@@ -248,7 +248,7 @@ def test_hands_that_draw_it_right_earn_all(name, hands):
     failed = {}
     for seed in range(hands):
         spec, board, values = posed(name, seed % 20)
-        verdict = mark(spec, by_hand(board, TASKS[name].right(values), seed))
+        verdict = grade_answer(spec, by_hand(board, TASKS[name].right(values), seed))
         if verdict.verdict != "correct":
             failed[seed] = (values, verdict.note, verdict.fields.get("because"))
     assert not failed, f"{len(failed)} of {hands}: {failed}"
@@ -267,7 +267,7 @@ def test_wrong_shapes_are_named_and_never_right(name, shape, hands):
     missed = {}
     for seed in range(hands):
         spec, board, values = posed(name, seed % 20)
-        verdict = mark(spec, by_hand(board, lines(values), seed))
+        verdict = grade_answer(spec, by_hand(board, lines(values), seed))
         assert verdict.verdict in {"partial", "wrong"}, (seed, values, verdict)
         if not wanted <= said(verdict):
             missed[seed] = (values, said(verdict))
@@ -280,5 +280,5 @@ def test_points_that_are_typed_earn_the_same(name):
         spec, _, values = posed(name, seed)
         right = TASKS[name].right(values).values()
         typed = "\n".join(" ".join(f"({x:.2f}, {y:.2f})" for x, y in line) for line in right)
-        assert mark(spec, typed).verdict == "correct"
-        assert mark(spec, show_key(spec)).verdict == "correct"
+        assert grade_answer(spec, typed).verdict == "correct"
+        assert grade_answer(spec, show_key(spec)).verdict == "correct"

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.sampler import sampler_for, test_candidate
+from quizgen.bank.sampler import sampler_for, solve_candidate
 from quizgen.bank.variant import draw_variant, reference_variant
-from quizgen.grading.mark import mark
+from quizgen.kinds.grade import grade_answer
 from quizgen.maths.numbers import to_rational
 from quizgen.question.compose import compose_question
 from quizgen.question.interpolation import inlines_to_text
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 SIZES = """
 topic = "projection"
@@ -72,7 +72,7 @@ def test_named_objects_have_plausible_sizes(bank, template, low, high):
 
 def verdict_of(template, value):
     shown = {"I": value, "I_min": "0", "I_max": "255", "N_min": "-1", "N_max": "1"}
-    return test_candidate(
+    return solve_candidate(
         sampler_for(template), {name: to_rational(text) for name, text in shown.items()}
     )
 
@@ -88,18 +88,18 @@ def test_dividing_by_256_is_told_apart_as_it_would_be_written(bank):
 
 
 def test_half_a_unit_is_accepted_in_one_step(bank):
-    spec = build(reference_variant(bank.template("normalise-from-8-bit-range")), 0).spec
-    assert mark(spec, "0.251").verdict == "correct"
-    assert mark(spec, "64/255").verdict == "correct"
-    assert mark(spec, "0.25").note == "trap:one-more"
+    spec = ask_part(reference_variant(bank.template("normalise-from-8-bit-range")), 0).spec
+    assert grade_answer(spec, "0.251").verdict == "correct"
+    assert grade_answer(spec, "64/255").verdict == "correct"
+    assert grade_answer(spec, "0.25").note == "trap:one-more"
 
 
 def test_percent_tolerances_are_in_percent(bank):
-    spec = build(reference_variant(bank.template("radial-points-and-line-bow")), 3).spec
-    assert mark(spec, "56.25 %").verdict == "correct"
-    assert mark(spec, "56.7 %").verdict == "correct"
-    assert mark(spec, "57 %").verdict == "wrong"
-    assert mark(spec, "93.75 %").note == "trap:inner-for-outer"
+    spec = ask_part(reference_variant(bank.template("radial-points-and-line-bow")), 3).spec
+    assert grade_answer(spec, "56.25 %").verdict == "correct"
+    assert grade_answer(spec, "56.7 %").verdict == "correct"
+    assert grade_answer(spec, "57 %").verdict == "wrong"
+    assert grade_answer(spec, "93.75 %").note == "trap:inner-for-outer"
 
 
 @pytest.mark.parametrize(
@@ -110,8 +110,8 @@ def test_percent_tolerances_are_in_percent(bank):
     ],
 )
 def test_key_points_are_found_in_both_languages(bank, typed, found):
-    verdict = mark(
-        build(draw_variant(bank.template("why-bayer-green-and-demosaicing"), 0), 0).spec, typed
+    verdict = grade_answer(
+        ask_part(draw_variant(bank.template("why-bayer-green-and-demosaicing"), 0), 0).spec, typed
     )
     assert verdict.note == "self-mark"
     assert set(verdict.fields["found"]) == found
@@ -133,8 +133,8 @@ def test_the_solution_of_a_text_question_shows_its_key_points(bank):
     ],
 )
 def test_any_other_point_of_the_ray_in_front_of_the_camera_counts(bank, typed, verdict):
-    spec = build(reference_variant(bank.template("points-on-one-ray")), 1).spec
-    assert mark(spec, typed).verdict == verdict
+    spec = ask_part(reference_variant(bank.template("points-on-one-ray")), 1).spec
+    assert grade_answer(spec, typed).verdict == verdict
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -143,4 +143,4 @@ def test_the_numbers_asked_for_are_those_of_the_picture(bank, seed):
     one = draw_variant(bank.template("hsv-edit-from-pictures"), seed)
     order = bank.figure("hsv_edits").order_edits(float(int(one.shown["order"].p)))
     expected = [["1234"[order.index(edit)]] for edit in ("V", "S", "H")]
-    assert [gap[:1] for gap in build(one, 0).spec.accept] == expected
+    assert [gap[:1] for gap in ask_part(one, 0).spec.accept] == expected

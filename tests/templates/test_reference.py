@@ -13,7 +13,7 @@ import pytest
 from msgspec import to_builtins
 
 from quizgen.bank.variant import reference_variant
-from quizgen.question.kinds import build
+from quizgen.question.part_context import ask_part
 
 ROWS = [
     {**row, "file": path.name}
@@ -32,7 +32,7 @@ def flat(spec):
 @pytest.mark.parametrize("row", ROWS, ids=lambda r: f"{r['template']}-{r['part']}")
 def test_the_notes_are_reproduced(bank, row):
     spec = to_builtins(
-        build(reference_variant(bank.template(row["template"])), row["part"] - 1).spec
+        ask_part(reference_variant(bank.template(row["template"])), row["part"] - 1).spec
     )
     if "spec" in row:
         for name, value in row["spec"].items():

@@ -90,7 +90,7 @@ FLINT = {key: fmpq(value.numerator, value.denominator) for key, value in VALUES.
 SHOWN = {"x": number("3/7"), "f": quantity("-5", "mm"), "a": quantity("2", "m")}
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(tree=_trees(), inline=st.booleans(), numbers=st.booleans())
 def test_printed_brackets_keep_the_value(tree, inline, numbers):
     try:

@@ -18,7 +18,7 @@ assert_type(key, quizgen.QuestionKey)
 assert_type(question.title, str)
 assert_type(question.figure, quizgen.Figure | None)
 
-verdict = quizgen.mark(key.specs[0], "(4; 6)", decimal="comma")
+verdict = quizgen.grade_answer(key.specs[0], "(4; 6)", decimal="comma")
 assert_type(verdict, quizgen.Verdict)
 assert_type(verdict.message, str)
 
@@ -35,5 +35,5 @@ quizgen.compose_question(template, sed=3)  # type: ignore[call-arg]
 quizgen.compose_question(template, lang=7)  # type: ignore[arg-type]
 quizgen.build_paper(quizgen.builtin_bank(), "trial", seed=7)  # type: ignore[arg-type]
 quizgen.build_paper("nonsense")  # type: ignore[call-arg,arg-type]
-quizgen.mark(key.specs[0], 3)  # type: ignore[arg-type]
+quizgen.grade_answer(key.specs[0], 3)  # type: ignore[arg-type]
 print(quizgen.nonsense)  # type: ignore[attr-defined]

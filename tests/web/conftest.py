@@ -22,8 +22,8 @@ ADDRESS = "http://127.0.0.1:8000"
 def pytest_generate_tests(metafunc):
     if "database" in metafunc.fixturenames:
         marked = metafunc.definition.get_closest_marker
-        long = [pytest.mark.slow] if marked("browser") else []
-        both = [pytest.param("postgresql", marks=long)] if marked("both_databases") else []
+        second = [pytest.param("postgresql", marks=pytest.mark.slow)]
+        both = second if marked("both_databases") else []
         metafunc.parametrize("database", ["sqlite", *both], indirect=True, scope="module")
 
 

@@ -142,7 +142,7 @@ def test_a_template_that_cannot_be_read_hides_no_other(author, root):
     try:
         page = author.get("/author")
         assert page.status_code == 200
-        assert re.search(r"templates/projection/new/template\.toml: .*teir", page.text)
+        assert re.search(r"templates/projection/new/template\.toml:\d+: .*teir", page.text)
         assert f'href="/author/{NAME}"' in page.text
     finally:
         (other / "template.toml").unlink()
@@ -155,7 +155,7 @@ def test_authors_are_told_what_is_wrong_with_their_bank(author, root):
     try:
         page = author.get("/author")
         assert page.status_code == 500
-        assert re.search(r"<pre>.*bank\.toml: unknown key .*nmae", page.text)
+        assert re.search(r"<pre>.*bank\.toml:\d+: unknown key .*nmae", page.text)
     finally:
         about.unlink()
 

@@ -20,7 +20,7 @@ from alembic.migration import MigrationContext
 from sqlalchemy import create_engine, insert, inspect, text
 from sqlalchemy.exc import IntegrityError
 
-from quizgen.core.errors import StoreError
+from quizgen.core.errors import MissingExtraError, StoreError
 from quizgen.practice.scheduler import ReviewEvent, ReviewRating
 from quizgen.store import OutcomeRecord, QuestionRef, Store, migrate
 from quizgen.store.schema import METADATA
@@ -229,7 +229,7 @@ class TestAddresses:
 
     def test_a_driver_that_is_missing_is_named(self, monkeypatch):
         monkeypatch.setitem(sys.modules, "psycopg", None)
-        with pytest.raises(StoreError, match=r"psycopg.*quizgen\[postgres\]"):
+        with pytest.raises(MissingExtraError, match=r"quizgen\[postgres\]"):
             Store("postgresql+psycopg://me:geheim@127.0.0.1:1/x")
 
     def test_errors_of_the_database_do_not_hold_what_was_written(self, database):

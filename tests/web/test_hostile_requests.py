@@ -163,7 +163,7 @@ def test_nothing_of_a_key_is_sent_before_it_is_handed_in(client, token, app):
 )  # fmt: skip
 def test_no_paper_of_days_is_made(client, token, app, monkeypatch, sent):
     asked = []
-    monkeypatch.setattr(app.state.site.workers, "_asked", asked.append)
+    monkeypatch.setattr(app.state.site.workers, "_submit", asked.append)
     answer = client.post("/exam", data={"token": token, **sent}, follow_redirects=False)
     assert answer.headers["location"].startswith("/exam?problem=")
     assert asked == []

@@ -11,6 +11,8 @@ from served import Served
 
 from quizgen.cli.main import root_group
 
+pytestmark = pytest.mark.slow  # servers in processes of their own
+
 PASSWORDS = ("drei gelbe Bohnen", "geheimes Wort")
 TYPED = ("98765.4321", "abweichend")
 

@@ -33,8 +33,8 @@ def site(client):
 @pytest.fixture
 def asked(site, monkeypatch):
     """What the processes are asked, in turn."""
-    found, ask = [], site.workers._make_in_free_process
-    monkeypatch.setattr(site.workers, "_asked", lambda one: found.append(one) or ask(one))
+    found, ask = [], site.workers._submit
+    monkeypatch.setattr(site.workers, "_submit", lambda one: found.append(one) or ask(one))
     return found
 
 

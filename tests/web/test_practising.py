@@ -82,6 +82,18 @@ def test_three_wrong_answers_show_the_solution(client, token, begin):
     assert verdicts(after) == ["wrong"]
 
 
+def test_an_answer_sent_after_the_solution_was_shown_does_not_count(client, token, begin, bank):
+    """A page left open still has its fields; what they send must not make the part right."""
+    at = begin("point-to-image-plane")
+    _, key = compose_question(bank.template("point-to-image-plane"), "3", "en")
+    answer = key.solution.parts[0].answer.strip("()").split("; ")
+    client.post(f"{at}/1", data={"token": token, "do": "solution", "a": ["", ""]})
+    late = client.post(f"{at}/1", data={"token": token, "a": answer})
+    assert late.status_code == 200
+    assert verdicts(late.text) == []
+    assert verdicts(client.get(at).text) == []
+
+
 def test_the_language_changes_and_the_numbers_stay(client, token, begin):
     at = begin("point-to-image-plane")
     english = client.get(at).text

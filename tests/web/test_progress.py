@@ -34,7 +34,7 @@ def answers(bank):
 @pytest.fixture
 def topic(bank):
     """How many templates stand in the topic of the question."""
-    return sum(bank.rules(name).topic == bank.rules(QUESTION).topic for name in bank.paths)
+    return sum(bank.rules(name).topic == bank.rules(QUESTION).topic for name in bank.template_paths)
 
 
 def test_nothing_yet(client, topic):

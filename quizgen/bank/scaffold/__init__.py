@@ -24,7 +24,7 @@ KINDS = {
 
 _HERE = files(__name__)
 FIRST = ("example", "travel-time")
-"""Topic and name of a new bank's first template."""
+"""Topic and name of a new bank's first template, an example from life."""
 
 
 def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
@@ -44,7 +44,7 @@ def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
     found = {
         "templates/bank.toml": _fill_scaffold_file(_HERE / "bank.toml", blanks),
         **{f"schemas/{kind}.json": build_json_schema(kind) for kind in SCHEMAS},
-        **scaffold_template(*FIRST, "solver", langs),
+        **scaffold_template(*FIRST, FIRST[1], langs),
     }
     for lang in langs:
         if lang not in list_languages():
@@ -78,7 +78,7 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
     topic, name : str
         Where it stands: ``templates/TOPIC/NAME``.
     kind : str
-        One of ``KINDS``.
+        One of ``KINDS``, or the first template of a bank.
     langs : tuple of str
         Languages of the bank; each gets the English words, to be translated.
     """
@@ -91,7 +91,7 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
     }
     for lang in langs:
         found[f"templates/{topic}/{name}/{lang}.md"] = _fill_scaffold_file(folder / "en.md", blanks)
-    if kind == "solver":
+    if (folder / "solver.py.txt").is_file():
         found[f"solvers/{solver}.py"] = _fill_scaffold_file(folder / "solver.py.txt", blanks)
     return found
 

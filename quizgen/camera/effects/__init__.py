@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from functools import cache
 from types import MappingProxyType
 
+from quizgen.camera.effect import Effect
 from quizgen.camera.effects import (
     axial_colour,
     binning,
@@ -46,10 +47,8 @@ from quizgen.camera.effects import (
     vignetting,
     white_balance,
 )
-from quizgen.camera.effects.effect import Effect
-from quizgen.camera.setup.body import BODY, VELOCITY
-from quizgen.camera.setup.settings import AnySetting
-from quizgen.camera.view import View
+from quizgen.camera.setup.settings import BODY, VELOCITY, AnySetting
+from quizgen.camera.setup.view import View
 
 EFFECTS: tuple[Effect, ...] = (
     projection.EFFECT,
@@ -88,12 +87,12 @@ EFFECTS: tuple[Effect, ...] = (
 """Every effect in the order of the light's way."""
 
 
-def present(view: View) -> tuple[Effect, ...]:
+def present_effects(view: View) -> tuple[Effect, ...]:
     """The effects that a camera has, in order."""
     return tuple(effect for effect in EFFECTS if effect.is_present(view))
 
 
-def idle(view: View) -> dict[str, str]:
+def ineffective_settings(view: View) -> dict[str, str]:
     """Settings that are given and do nothing, and what they need."""
     absent = [effect for effect in EFFECTS if effect.needs and not effect.is_present(view)]
     found = {setting.name: effect.needs for effect in absent for setting in effect.settings}
@@ -102,18 +101,18 @@ def idle(view: View) -> dict[str, str]:
     return {name: found[name] for name in view.camera.given if name in found}
 
 
-def by_name(name: str) -> Effect:
+def get_effect(name: str) -> Effect:
     """The effect of a name."""
     return next(effect for effect in EFFECTS if effect.name == name)
 
 
-def questions() -> tuple[str, ...]:
+def question_kinds() -> tuple[str, ...]:
     """Kinds of question that effects decide."""
     return tuple(sorted({kind for effect in EFFECTS for kind in effect.answers}))
 
 
 @cache
-def settings() -> Mapping[str, AnySetting]:
+def all_settings() -> Mapping[str, AnySetting]:
     """Every key of ``[camera]``: the body's and the effects'."""
     found = (*BODY, *(setting for effect in EFFECTS for setting in effect.settings))
     return MappingProxyType({setting.name: setting for setting in found})

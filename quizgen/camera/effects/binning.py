@@ -4,17 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    Size,
-    on_picture,
-)
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.settings import Setting, between
-from quizgen.camera.setup.values import whole
-from quizgen.camera.view import View
+from quizgen.camera.effect import Effect, EffectSize, on_composite
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import Setting, in_range
+from quizgen.camera.setup.value_parsers import parse_integer
+from quizgen.camera.setup.view import View
 
-BINNING = Setting("binning", whole, 1, (between(1, 1000, "px"),))
+BINNING = Setting("binning", parse_integer, 1, (in_range(1, 1000, "px"),))
 """Side of a block, px."""
 
 
@@ -34,11 +30,12 @@ def run(image: Image, view: View) -> Image:
 
 EFFECT = Effect(
     name="binning",
-    stage="processing",
     answers=("resolution", "sampling", "artefacts"),
     settings=(BINNING,),
     is_present=lambda view: view.camera[BINNING] > 1,
-    run=on_picture(run),
+    run=on_composite(run),
     omission_bound=lambda signal, _: signal.span,
-    size=Size(lambda view: view.camera[BINNING], "make one pixel of blocks {:.3g} px wide", 2.0),
+    size=EffectSize(
+        lambda view: view.camera[BINNING], "make one pixel of blocks {:.3g} px wide", 2.0
+    ),
 )

@@ -6,14 +6,13 @@ import math
 
 import numpy as np
 
-from quizgen.camera.effects.effect import Effect, on_picture
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.body import NEEDS_FULL_WELL
-from quizgen.camera.setup.settings import Setting
-from quizgen.camera.setup.values import truth
-from quizgen.camera.view import Signal, View
+from quizgen.camera.effect import Effect, on_composite
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import NEEDS_FULL_WELL, Setting
+from quizgen.camera.setup.value_parsers import parse_bool
+from quizgen.camera.setup.view import Signal, View
 
-BLOOMING = Setting("blooming", truth, False, (NEEDS_FULL_WELL,))
+BLOOMING = Setting("blooming", parse_bool, False, (NEEDS_FULL_WELL,))
 
 
 def run(image: Image, view: View) -> Image:
@@ -28,18 +27,14 @@ def run(image: Image, view: View) -> Image:
     for start in range(0, full.size, _COLUMNS):
         some = full[start : start + _COLUMNS]
         sites = image[:, some].swapaxes(1, 2).reshape(-1, some.size)
-        result[:, some] = _drained(sites).reshape(len(image), -1, some.size).swapaxes(1, 2)
+        half = np.maximum(sites - 1.0, 0.0) * 0.5
+        drained = _spill(_spill(np.minimum(sites, 1.0), half)[::-1], half[::-1])[::-1]
+        result[:, some] = drained.reshape(len(image), -1, some.size).swapaxes(1, 2)
     return result
 
 
 _COLUMNS = 1024
 """Columns worked on at once: others have nothing to spill."""
-
-
-def _drained(columns: Image) -> Image:
-    half = np.maximum(columns - 1.0, 0.0) * 0.5
-    kept = np.minimum(columns, 1.0)
-    return _spill(_spill(kept, half)[::-1], half[::-1])[::-1]
 
 
 def _spill(kept: Image, excess: Image) -> Image:
@@ -70,11 +65,10 @@ def carry_error(error: float, signal: Signal, view: View) -> float:
 
 EFFECT = Effect(
     name="blooming",
-    stage="sensor",
     answers=("blooming", "saturation", "artefacts"),
     settings=(BLOOMING,),
     is_present=lambda view: view.camera[BLOOMING],
-    run=on_picture(run),
+    run=on_composite(run),
     omission_bound=omission_bound,
     carry_error=carry_error,
     range_after=lambda signal, _: signal.clipped(-math.inf, 1.0),

@@ -13,12 +13,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import Effect, PointByPoint
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.settings import Setting, between
-from quizgen.camera.setup.values import number, truth
-from quizgen.camera.view import Signal, View
+from quizgen.camera.effect import Effect, PointByPoint
+from quizgen.camera.pixels.tiles import Tile, TileOperation
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import Setting, in_range
+from quizgen.camera.setup.value_parsers import parse_bool, parse_plain_number
+from quizgen.camera.setup.view import Signal, View
 from quizgen.numerics.luminosity import luminous_efficiency
 
 Curve = NDArray[np.float64]
@@ -30,12 +30,12 @@ def _kelvin(value: object) -> float:
     match = _KELVIN.fullmatch(value) if isinstance(value, str) else None
     if match is None:
         raise ValueError("expected a colour temperature such as '2856 K'")
-    return number(float(match[1]))
+    return parse_plain_number(float(match[1]))
 
 
-LIGHT = Setting[float | None]("light", _kelvin, None, (between(1000.0, 25000.0, "K"),))
+LIGHT = Setting[float | None]("light", _kelvin, None, (in_range(1000.0, 25000.0, "K"),))
 """Colour temperature of the light, K; it is as bright to the eye as daylight would be."""
-INFRARED_FILTER = Setting("infrared_filter", truth, identity=True)
+INFRARED_FILTER = Setting("infrared_filter", parse_bool, identity=True)
 """Whether a filter before the sensor holds the infrared back."""
 
 DAYLIGHT = 5500.0
@@ -60,7 +60,7 @@ def _dye(centre: float, width: float, opens: float) -> Curve:
     return np.maximum(bell, _line((opens, 0.0), (opens + 120.0, 1.0)))
 
 
-def spectrum(temperature: float) -> Curve:
+def lamp_spectrum(temperature: float) -> Curve:
     """Planck's law at `WAVELENGTHS`, of the luminous flux 1 (any unit)."""
     power = WAVELENGTHS**-5.0 / np.expm1(_PLANCK / (WAVELENGTHS * temperature))
     return np.asarray(power / (power * luminous_efficiency(WAVELENGTHS)).sum())
@@ -82,23 +82,23 @@ def _curves() -> tuple[Curve, Curve, Curve]:
 
 
 @lru_cache(maxsize=64)
-def mixture(temperature: float, *, infrared_filter: bool) -> Curve:
+def mixing_matrix(temperature: float, *, infrared_filter: bool) -> Curve:
     """What each site (row) makes of the scene's red, green and blue: 3 x 3, none negative.
 
     White under `DAYLIGHT`, behind the filter against infrared, makes 1 in every row.
     """
     sites, infrared, bands = _curves()
-    white = (sites * infrared * spectrum(DAYLIGHT)).sum(axis=1)
-    seen = sites * spectrum(temperature) * (infrared if infrared_filter else 1.0)
+    white = (sites * infrared * lamp_spectrum(DAYLIGHT)).sum(axis=1)
+    seen = sites * lamp_spectrum(temperature) * (infrared if infrared_filter else 1.0)
     return np.asarray((seen[:, None, :] * bands).sum(axis=2) / white[:, None])
 
 
 def _mixture(view: View) -> Curve:
     camera = view.camera
-    return mixture(camera[LIGHT] or DAYLIGHT, infrared_filter=camera[INFRARED_FILTER])
+    return mixing_matrix(camera[LIGHT] or DAYLIGHT, infrared_filter=camera[INFRARED_FILTER])
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """Mix the colours of every pixel."""
     weights = _mixture(view).astype(view.precision)
 
@@ -127,11 +127,10 @@ def range_after(signal: Signal, view: View) -> Signal:
 
 EFFECT = Effect(
     name="colour filters",
-    stage="sensor",
     answers=("colour filters", "infrared"),
     settings=(LIGHT, INFRARED_FILTER),
     is_present=lambda view: view.camera[LIGHT] is not None,
-    run=PointByPoint(work),
+    run=PointByPoint(operation),
     omission_bound=omission_bound,
     carry_error=lambda error, _, view: error * float(_mixture(view).sum(axis=1).max()),
     range_after=range_after,

@@ -6,28 +6,33 @@ import math
 
 import numpy as np
 
-from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import Effect, PointByPoint, Size
-from quizgen.camera.noise import WORDS, electrons_at_white, farthest_count, luck
-from quizgen.camera.scene import Image, Precision
-from quizgen.camera.setup.body import NEEDS_FULL_WELL, SHUTTER
-from quizgen.camera.setup.settings import NOT_NEGATIVE, SHARE, Rule, Setting, Settings
-from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import Signal, View
+from quizgen.camera.effect import Effect, EffectSize, PointByPoint
+from quizgen.camera.pixels.noise import WORDS, effect_random, electrons_at_white, farthest_count
+from quizgen.camera.pixels.tiles import Tile, TileOperation
+from quizgen.camera.setup.scene import Image, Precision
+from quizgen.camera.setup.settings import (
+    NEEDS_FULL_WELL,
+    NOT_NEGATIVE,
+    SHARE,
+    SHUTTER,
+    Setting,
+    SettingRule,
+)
+from quizgen.camera.setup.value_parsers import quantity_parser
+from quizgen.camera.setup.view import Signal, View
 
 MOST_CHARGE = 1e8
 """Electrons whose counts are still told apart one by one."""
 
 
-def _not_flooded(current: float, camera: Settings) -> bool:
-    return current * camera[SHUTTER] <= MOST_CHARGE
-
-
-_CHARGE = Rule(_not_flooded, f"makes more than {MOST_CHARGE:g} e- while the shutter is open")
-DARK_CURRENT = Setting(
-    "dark_current", quantity("e-/s"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE, _CHARGE)
+_CHARGE = SettingRule[float](
+    lambda current, camera: current * camera[SHUTTER] <= MOST_CHARGE,
+    f"makes more than {MOST_CHARGE:g} e- while the shutter is open",
 )
-HOT_PIXELS = Setting("hot_pixels", quantity("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
+DARK_CURRENT = Setting(
+    "dark_current", quantity_parser("e-/s"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIVE, _CHARGE)
+)
+HOT_PIXELS = Setting("hot_pixels", quantity_parser("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
 """Share of photosites stuck at full well."""
 
 
@@ -54,21 +59,21 @@ _MOSTLY_NONE = WORDS * 15 // 16
 """Luck without an electron from which on it is faster to look for the places with one."""
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """Add the dark charge and its own shot noise; hot pixels are stuck at full well."""
-    charge, stuck = luck(view, "dark current"), luck(view, "hot pixels")
+    charge, stuck = effect_random(view, "dark current"), effect_random(view, "hot pixels")
     share, counts = view.camera[HOT_PIXELS], _poisson(dark_electrons(view), view.precision)
     signals = counts * (1.0 / electrons_at_white(view))
     first = int(np.searchsorted(signals, 0.0, side="right"))
 
     def darkened(part: Image, tile: Tile) -> None:
         if first <= _MOSTLY_NONE:
-            part += charge.pick(signals, tile.number, part.size)
+            part += charge.draw_from_table(signals, tile.number, part.size)
         elif first < WORDS:
-            where, drawn = charge.beyond(first, tile.number, part.size)
+            where, drawn = charge.table_places(first, tile.number, part.size)
             part[where] += signals[drawn]
         if share:
-            part.reshape(-1, 3)[stuck.uniform(tile.number, part.size // 3) < share] = 1.0
+            part.reshape(-1, 3)[stuck.draw_uniform(tile.number, part.size // 3) < share] = 1.0
 
     return darkened
 
@@ -87,21 +92,18 @@ def omission_bound(signal: Signal, view: View) -> float:
 def range_after(signal: Signal, view: View) -> Signal:
     """Brighter: no charge makes anything darker, but a hot pixel what is beyond the full well."""
     bright = signal.widened(0.0, _most(view))
-    if not view.camera[HOT_PIXELS]:
-        return bright
-    return Signal(min(bright.low, 1.0), max(bright.high, 1.0))
+    return bright.including(1.0, 1.0) if view.camera[HOT_PIXELS] else bright
 
 
 EFFECT = Effect(
     name="dark current",
-    stage="sensor",
     answers=("dark current", "hot pixels", "noise", "snr", "histogram"),
     settings=(DARK_CURRENT, HOT_PIXELS),
     is_present=lambda view: dark_electrons(view) > 0.0 or view.camera[HOT_PIXELS] > 0.0,
-    run=PointByPoint(work),
+    run=PointByPoint(operation),
     omission_bound=omission_bound,
     range_after=range_after,
-    size=Size(dark_electrons, "add {:.3g} electrons to a pixel"),
+    size=EffectSize(dark_electrons, "add {:.3g} electrons to a pixel"),
     speckles=True,
     needs="shutter",
 )

@@ -6,27 +6,31 @@ import math
 
 import numpy as np
 
-from quizgen.camera.blocks import in_turn, times
+from quizgen.camera.effect import Effect, on_composite
 from quizgen.camera.effects import fixed_pattern, mosaic
 from quizgen.camera.effects.dark_current import dark_electrons
-from quizgen.camera.effects.effect import Effect, on_picture
-from quizgen.camera.effects.gain import gain
+from quizgen.camera.effects.gain import gain_factor
 from quizgen.camera.effects.read_noise import READ_NOISE
-from quizgen.camera.noise import FARTHEST, electrons_at_white, luck, normal_noise
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.body import NEEDS_FULL_WELL
-from quizgen.camera.setup.settings import Setting, between
-from quizgen.camera.setup.values import whole
-from quizgen.camera.view import Signal, View
+from quizgen.camera.pixels.noise import (
+    FARTHEST,
+    add_normal_noise,
+    effect_random,
+    electrons_at_white,
+)
+from quizgen.camera.pixels.tiles import apply_tilewise, multiply_by
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import NEEDS_FULL_WELL, Setting, in_range
+from quizgen.camera.setup.value_parsers import parse_integer
+from quizgen.camera.setup.view import Signal, View
 
-DARK_FRAMES = Setting("dark_frames", whole, 0, (NEEDS_FULL_WELL, between(0, 10**6)))
+DARK_FRAMES = Setting("dark_frames", parse_integer, 0, (NEEDS_FULL_WELL, in_range(0, 10**6)))
 """Pictures with the lens covered, whose mean is subtracted; 0 subtracts nothing."""
 
 
 def _mean(view: View) -> float:
     """Pedestal and mean dark charge, 1 = white."""
     dark = dark_electrons(view) / electrons_at_white(view)
-    return (fixed_pattern.level(view) + dark) * gain(view)
+    return (fixed_pattern.pedestal(view) + dark) * gain_factor(view)
 
 
 def _left(view: View) -> float:
@@ -36,27 +40,27 @@ def _left(view: View) -> float:
     """
     variance = view.camera[READ_NOISE] ** 2 + dark_electrons(view)
     frames = view.camera[DARK_FRAMES]
-    return math.sqrt(variance / frames) / electrons_at_white(view) * gain(view)
+    return math.sqrt(variance / frames) / electrons_at_white(view) * gain_factor(view)
 
 
-def master(shape: tuple[int, ...], view: View) -> Image:
+def master_dark(shape: tuple[int, ...], view: View) -> Image:
     """Mean of the dark frames, shape (H, W, 3)."""
     dark = dark_electrons(view) / electrons_at_white(view)
-    left = normal_noise(_left(view), luck(view, "dark frame"))
-    works = [fixed_pattern.work(view), times(gain(view)), left]
+    left = add_normal_noise(_left(view), effect_random(view, "dark frame"))
+    works = [fixed_pattern.operation(view), multiply_by(gain_factor(view)), left]
     even = np.full((*shape[:2], 3), dark, view.precision)
-    return in_turn(even, works, into=even)[0]
+    return apply_tilewise(even, works, into=even)[0]
 
 
 def run(image: Image, view: View) -> Image:
     """Subtract the mean of the dark frames."""
-    dark = master(image.shape, view)
+    dark = master_dark(image.shape, view)
     return image - (mosaic.run(dark, view) if image.shape[2] == 1 else dark)
 
 
 def _farthest(view: View) -> float:
     """How far the mean of the frames is from its own mean, 1 = white."""
-    return fixed_pattern.farthest(view) * gain(view) + FARTHEST * _left(view)
+    return fixed_pattern.farthest(view) * gain_factor(view) + FARTHEST * _left(view)
 
 
 def range_after(signal: Signal, view: View) -> Signal:
@@ -67,11 +71,10 @@ def range_after(signal: Signal, view: View) -> Signal:
 
 EFFECT = Effect(
     name="dark frame",
-    stage="processing",
     answers=("dark frame",),
     settings=(DARK_FRAMES,),
     is_present=lambda view: view.camera[DARK_FRAMES] > 0,
-    run=on_picture(run),
+    run=on_composite(run),
     omission_bound=lambda _, view: _mean(view) + _farthest(view),
     range_after=range_after,
     needs_effects=("fixed pattern", "dark current"),

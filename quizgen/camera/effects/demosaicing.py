@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.blocks import pieces
-from quizgen.camera.effects.effect import (
-    Effect,
-    on_picture,
-)
-from quizgen.camera.effects.mosaic import CHANNELS, MOSAIC, colour_at
-from quizgen.camera.scene import Image
-from quizgen.camera.view import View
+from quizgen.camera.effect import Effect, on_composite
+from quizgen.camera.effects.mosaic import CHANNELS, MOSAIC, channel_pattern
+from quizgen.camera.pixels.tiles import split_range
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.view import View
 
 
 def run(raw: Image, view: View) -> Image:
@@ -28,15 +25,9 @@ def run(raw: Image, view: View) -> Image:
     if raw.shape[2] != 1:
         return raw
     plane = np.pad(raw[..., 0], 1, mode="reflect")
-    return _bilinear(plane, colour_at(view))
-
-
-def _bilinear(plane: Image, tile: tuple[tuple[int, int], ...]) -> Image:
-    """Means of the nearest photosites of each colour, from a plane padded by one."""
-    height, width = plane.shape[0] - 2, plane.shape[1] - 2
-    result = np.empty((height, width, 3), plane.dtype)
-    for start, stop in pieces(height, _ROWS):
-        _fill(result[start:stop], plane[start : stop + 2], tile)
+    result = np.empty((*raw.shape[:2], 3), raw.dtype)
+    for start, stop in split_range(len(raw), _ROWS):
+        _fill(result[start:stop], plane[start : stop + 2], channel_pattern(view))
     return result
 
 
@@ -83,10 +74,9 @@ def _same_colour(tile: tuple[tuple[int, int], ...], row: int, column: int, chann
 
 EFFECT = Effect(
     name="demosaicing",
-    stage="processing",
     answers=("bayer", "demosaicing", "moire"),
     is_present=lambda view: view.camera[MOSAIC] != "",
-    run=on_picture(run),
+    run=on_composite(run),
     omission_bound=lambda signal, _: signal.span,
     pair="bayer",
 )

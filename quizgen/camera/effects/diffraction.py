@@ -2,70 +2,66 @@
 
 from __future__ import annotations
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    LayerByLayer,
-    Size,
+from quizgen.camera.effect import Effect, EffectSize, LayerByLayer
+from quizgen.camera.pixels.kernels import airy_kernel, airy_radius, moved_share
+from quizgen.camera.raster.layers import blur_layer, bound_layers, largest_margin
+from quizgen.camera.raster.rasterizer import Layer
+from quizgen.camera.setup.settings import (
+    NEEDS_LENS,
+    Setting,
+    SettingRule,
+    aperture_diameter,
+    in_range,
 )
-from quizgen.camera.kernels import Kernel, airy, airy_radius, moved_share
-from quizgen.camera.raster.draw import Layer
-from quizgen.camera.raster.layers import blurred, bound_layers, farthest
-from quizgen.camera.setup.body import NEEDS_LENS, aperture
-from quizgen.camera.setup.settings import Rule, Setting, Settings, between
-from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import View
-
-
-def _has_aperture(_: object, camera: Settings) -> bool:
-    return aperture(camera) is not None
-
+from quizgen.camera.setup.value_parsers import quantity_parser
+from quizgen.camera.setup.view import View
 
 WAVELENGTH = Setting[float | None](
     "wavelength",
-    quantity("m"),
+    quantity_parser("m"),
     None,
     (
-        between(1e-9, 1e-3, "m"),
+        in_range(1e-9, 1e-3, "m"),
         NEEDS_LENS,
-        Rule(_has_aperture, "needs f_number or pinhole: a point has no diffraction"),
+        SettingRule[object](
+            lambda _, camera: aperture_diameter(camera) is not None,
+            "needs f_number or pinhole: a point has no diffraction",
+        ),
     ),
 )
 """Wavelength of the light whose diffraction is shown, m; green is 550 nm."""
 
 
-def scale(view: View) -> float:
+def airy_scale(view: View) -> float:
     """Wavelength times image distance over aperture, px: 1.22 of it is the first dark ring."""
-    wavelength, opening = view.camera[WAVELENGTH], aperture(view.camera)
+    wavelength, opening = view.camera[WAVELENGTH], aperture_diameter(view.camera)
     if wavelength is None or opening is None:
         return 0.0
     return wavelength * view.image_distance / opening
 
 
-def _kernel(view: View) -> Kernel:
-    return airy(scale(view))
-
-
-def work(layer: Layer, view: View) -> Layer:
+def operation(layer: Layer, view: View) -> Layer:
     """Blur every layer alike: all light comes through the same aperture."""
-    return blurred(layer, _kernel(view))
+    return blur_layer(layer, airy_kernel(airy_scale(view)))
 
 
-def outside(view: View) -> tuple[float, float]:
+def margin(view: View) -> tuple[float, float]:
     """As far as the last ring."""
-    radius = airy_radius(scale(view)) + 1.0
-    return farthest(view, lambda _: (radius, radius))
+    radius = airy_radius(airy_scale(view)) + 1.0
+    return largest_margin(view, lambda _: (radius, radius))
 
 
 EFFECT = Effect(
     name="diffraction",
-    stage="optics",
     answers=("diffraction", "sharpness"),
     settings=(WAVELENGTH,),
     is_present=lambda view: view.camera[WAVELENGTH] is not None,
-    run=LayerByLayer(work),
+    run=LayerByLayer(operation),
     omission_bound=lambda signal, view: bound_layers(
-        signal, view, lambda _: moved_share(_kernel(view))
+        signal, view, lambda _: moved_share(airy_kernel(airy_scale(view)))
     ),
-    outside=outside,
-    size=Size(lambda view: 2.44 * scale(view), "blur by an Airy disc {:.3g} px wide", 1.5),
+    margin=margin,
+    size=EffectSize(
+        lambda view: 2.44 * airy_scale(view), "blur by an Airy disc {:.3g} px wide", 1.5
+    ),
 )

@@ -10,27 +10,21 @@ from typing import TypeVar
 import numpy as np
 from msgspec.structs import replace
 
-from quizgen.camera.blocks import pieces
-from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
-from quizgen.camera.filters import sample, sample_nearest
-from quizgen.camera.raster.draw import Box, Layer
-from quizgen.camera.raster.layers import (
-    Field,
-    bound_shift,
-    farthest,
-    worked_on,
-)
-from quizgen.camera.raster.uneven import places
-from quizgen.camera.scene import Image, Precision, SceneError
-from quizgen.camera.setup.body import NEEDS_LENS, aperture
-from quizgen.camera.setup.settings import Setting
-from quizgen.camera.setup.values import number
-from quizgen.camera.view import Signal, View
+from quizgen.camera.effect import Effect, EffectSize, LayerByLayer
+from quizgen.camera.pixels.filters import sample_bilinear, sample_nearest
+from quizgen.camera.pixels.tiles import split_range
+from quizgen.camera.raster.detail_regions import sampled_regions
+from quizgen.camera.raster.layers import Field, bound_shift, largest_margin, replace_regions
+from quizgen.camera.raster.rasterizer import Layer, PixelBox
+from quizgen.camera.setup.scene import Image, Precision, SceneError
+from quizgen.camera.setup.settings import NEEDS_LENS, Setting, aperture_diameter
+from quizgen.camera.setup.value_parsers import parse_plain_number
+from quizgen.camera.setup.view import Signal, View
 from quizgen.numerics.distortion import fold_radius, inverse_radius
 
-K1 = Setting("k1", number, 0.0, (NEEDS_LENS,))
+K1 = Setting("k1", parse_plain_number, 0.0, (NEEDS_LENS,))
 """k1 < 0 is barrel."""
-K2 = Setting("k2", number, 0.0, (NEEDS_LENS,))
+K2 = Setting("k2", parse_plain_number, 0.0, (NEEDS_LENS,))
 
 _NODES = 4096
 _LEAST_SLOPE = 1.0 / 50.0
@@ -39,12 +33,12 @@ _LEAST_SLOPE = 1.0 / 50.0
 Radius = TypeVar("Radius", float, Field)
 
 
-def stretch(radius: Radius, k1: float, k2: float) -> Radius:
+def radial_factor(radius: Radius, k1: float, k2: float) -> Radius:
     """Factor L(r) = 1 + k1 r^2 + k2 r^4 from undistorted to distorted radius."""
     return 1.0 + radius**2 * (k1 + k2 * radius**2)
 
 
-def slope(radius: Radius, k1: float, k2: float) -> Radius:
+def radial_slope(radius: Radius, k1: float, k2: float) -> Radius:
     """Derivative of r L(r); zero where the picture folds over."""
     return 1.0 + radius**2 * (3.0 * k1 + 5.0 * k2 * radius**2)
 
@@ -55,13 +49,6 @@ def _reach(k1: float, k2: float) -> float:
     rest = 1.0 - _LEAST_SLOPE
     steep = float(fold_radius(k1 / rest, k2 / rest))
     return steep * (1.0 + steep**2 * (k1 + k2 * steep**2))
-
-
-def _largest_share(distorted: float, k1: float, k2: float) -> float:
-    """Share of a distortion, of two digits, with which a radius lies before the fold."""
-    shares = (digits * 10.0**power for power in range(-1, -40, -1) for digits in range(9, 0, -1))
-    fits = (share for share in shares if _reach(share * k1, share * k2) >= distorted)
-    return next(fits, 0.0)
 
 
 @lru_cache(maxsize=32)
@@ -75,7 +62,9 @@ def undistorted_radius(distorted: float, k1: float, k2: float) -> float:
         than 50 times there.
     """
     if _reach(k1, k2) < distorted:
-        weaker = _largest_share(distorted, k1, k2)
+        shares = (digit * 10.0**power for power in range(-1, -40, -1) for digit in range(9, 0, -1))
+        fits = (share for share in shares if _reach(share * k1, share * k2) >= distorted)
+        weaker = next(fits, 0.0)  # of one digit
         raise SceneError(
             f"the distortion k1={k1:g}, k2={k2:g} folds before the corner of the picture; "
             f"k1={weaker * k1:.3g}, k2={weaker * k2:.3g} does not"
@@ -89,8 +78,8 @@ def _inverse_table(reach: float, k1: float, k2: float) -> tuple[Field, Field, fl
     undistorted_radius(reach, k1, k2)
     nodes = np.linspace(0.0, reach**2, _NODES)
     radius = np.asarray(inverse_radius(np.sqrt(nodes), k1, k2))
-    factor = stretch(radius, k1, k2)
-    rate = -(k1 + 2.0 * k2 * radius**2) / (factor**3 * slope(radius, k1, k2))
+    factor = radial_factor(radius, k1, k2)
+    rate = -(k1 + 2.0 * k2 * radius**2) / (factor**3 * radial_slope(radius, k1, k2))
     spacing = nodes[1]
     return 1.0 / factor, rate * spacing, 1.0 / spacing
 
@@ -108,7 +97,9 @@ def _hermite(q: Field, table: tuple[Field, Field, float]) -> Field:
 
 
 @lru_cache(maxsize=2)
-def quadrant(width: int, height: int, focal: float, k1: float, k2: float, corner: float) -> Field:
+def ratio_quadrant(
+    width: int, height: int, focal: float, k1: float, k2: float, corner: float
+) -> Field:
     """Undistorted over distorted radius in the upper left quadrant, middle lines included.
 
     Beyond the corner of the frame, where the picture may fold, it stays what it is there.
@@ -128,7 +119,7 @@ _ROWS = 64
 """Rows worked on at once, so that what lies in between stays small."""
 
 
-def source(view: View, box: Box = (slice(None), slice(None))) -> tuple[Image, Image]:
+def source_positions(view: View, box: PixelBox = (slice(None), slice(None))) -> tuple[Image, Image]:
     """Where the pixels of a box come from; small maps are kept, large ones made when needed."""
     camera, sides = view.camera, (view.width, view.height)
     lens = *sides, view.focal, camera[K1], camera[K2], view.frame_corner, view.precision
@@ -158,7 +149,7 @@ def _map(lens: _Lens, rows: range, columns: range) -> tuple[Image, Image]:
     width, height = lens[:2]
     across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
     line, half = np.asarray(rows), (width + 1) // 2
-    left = quadrant(*lens[:6])[np.minimum(line, height - 1 - line)]
+    left = ratio_quadrant(*lens[:6])[np.minimum(line, height - 1 - line)]
     straight = left[:, columns.start : min(columns.stop, half)]
     first, last = max(columns.start, half), columns.stop
     mirrored = left[:, width - last : width - first][:, ::-1]
@@ -171,36 +162,29 @@ def _map(lens: _Lens, rows: range, columns: range) -> tuple[Image, Image]:
     return x, y
 
 
-def work(layer: Layer, view: View) -> Layer:
+def operation(layer: Layer, view: View) -> Layer:
     """Read every pixel where it comes from."""
 
-    def warp(images: list[Image], box: Box) -> list[Image]:
-        x, y = source(view, box)
-        return [sample(image, x, y) for image in images]
+    def warp(images: list[Image], box: PixelBox) -> list[Image]:
+        x, y = source_positions(view, box)
+        return [sample_bilinear(image, x, y) for image in images]
 
     far = largest_displacement(view)
-    where = places(layer, (far, far))
-    return _with_depth(worked_on(layer, where, warp, (_BAND, sys.maxsize)), view)
-
-
-def _with_depth(layer: Layer, view: View) -> Layer:
+    where = sampled_regions(layer, (far, far))
+    layer = replace_regions(layer, where, warp, (_BAND, sys.maxsize))
     if not isinstance(layer.depth, np.ndarray):
         return layer
     depth = np.empty_like(layer.depth)
-    for start, stop in pieces(len(depth), _BAND):
+    for start, stop in split_range(len(depth), _BAND):
         depth[start:stop] = sample_nearest(
-            layer.depth, *source(view, (slice(start, stop), slice(None)))
+            layer.depth, *source_positions(view, (slice(start, stop), slice(None)))
         )
     return replace(layer, depth=depth)
 
 
 def _top_radius(view: View) -> float:
+    """Undistorted radius of the corner; the picture may not fold over before it."""
     return undistorted_radius(view.frame_corner / view.focal, view.camera[K1], view.camera[K2])
-
-
-def check(view: View) -> None:
-    """The picture may not fold over."""
-    _top_radius(view)
 
 
 def largest_displacement(view: View) -> float:
@@ -213,12 +197,12 @@ def largest_displacement(view: View) -> float:
     return distance * (view.corner / view.frame_corner if any(view.margin) else 1.0)
 
 
-def outside(view: View) -> tuple[float, float]:
+def margin(view: View) -> tuple[float, float]:
     """A barrel shows what stands beside the frame: every distance from the centre grows."""
     k1, k2 = view.camera[K1], view.camera[K2]
-    beside = max(0.0, 1.0 / min(stretch(radius, k1, k2) for radius in _turning(view)) - 1.0)
+    beside = max(0.0, 1.0 / min(radial_factor(radius, k1, k2) for radius in _turning(view)) - 1.0)
     x, y = view.centre
-    return farthest(view, lambda _: (x * beside, y * beside))
+    return largest_margin(view, lambda _: (x * beside, y * beside))
 
 
 def _turning(view: View) -> list[float]:
@@ -231,20 +215,19 @@ def _turning(view: View) -> list[float]:
 def omission_bound(signal: Signal, view: View) -> float:
     """As far as points move, times the largest step; anything where a depth map moves along."""
     distance = largest_displacement(view)
-    if aperture(view.camera) is not None and view.has_depth_map and distance >= 0.5:
+    if aperture_diameter(view.camera) is not None and view.has_depth_map and distance >= 0.5:
         return signal.span
     return bound_shift(signal, view, distance)
 
 
 EFFECT = Effect(
     name="distortion",
-    stage="optics",
     answers=("distortion", "geometry", "artefacts"),
     settings=(K1, K2),
     is_present=lambda view: view.camera[K1] != 0.0 or view.camera[K2] != 0.0,
-    outside=outside,
-    check=check,
-    run=LayerByLayer(work),
+    margin=margin,
+    check_camera=_top_radius,
+    run=LayerByLayer(operation),
     omission_bound=omission_bound,
-    size=Size(largest_displacement, "move points by up to {:.3g} px", 1.0),
+    size=EffectSize(largest_displacement, "move points by up to {:.3g} px", 1.0),
 )

@@ -4,17 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    Size,
-    on_picture,
-)
-from quizgen.camera.scene import Image
+from quizgen.camera.effect import Effect, EffectSize, on_composite
+from quizgen.camera.setup.scene import Image
 from quizgen.camera.setup.settings import SHARE, Setting
-from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import View
+from quizgen.camera.setup.value_parsers import quantity_parser
+from quizgen.camera.setup.view import View
 
-FLARE = Setting("flare", quantity("%"), 0.0, (SHARE,))
+FLARE = Setting("flare", quantity_parser("%"), 0.0, (SHARE,))
 """Share of the light that is spread evenly (the veiling glare index of ISO 9358)."""
 
 
@@ -27,14 +23,13 @@ def run(image: Image, view: View) -> Image:
 
 EFFECT = Effect(
     name="flare",
-    stage="sensor",
     answers=("flare", "contrast", "artefacts"),
     settings=(FLARE,),
     is_present=lambda view: view.camera[FLARE] > 0.0,
-    run=on_picture(run),
+    run=on_composite(run),
     # the mean lies inside the range, so that a pixel is at most the whole range away from it
     omission_bound=lambda signal, view: view.camera[FLARE] * signal.span,
-    size=Size(
+    size=EffectSize(
         lambda view: 100.0 * view.camera[FLARE], "spread {:.3g} % of the light over the picture"
     ),
 )

@@ -6,17 +6,14 @@ import math
 
 import numpy as np
 
-from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-)
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.body import FULL_WELL
-from quizgen.camera.view import View
+from quizgen.camera.effect import Effect, PointByPoint
+from quizgen.camera.pixels.tiles import Tile, TileOperation
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import FULL_WELL
+from quizgen.camera.setup.view import View
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """A photosite holds no more than its full well."""
 
     def full(part: Image, _: Tile) -> None:
@@ -27,10 +24,9 @@ def work(view: View) -> Work:
 
 EFFECT = Effect(
     name="full well",
-    stage="sensor",
     answers=("clipping", "saturation", "dynamic range"),
     is_present=lambda view: view.camera[FULL_WELL] is not None,
-    run=PointByPoint(work),
+    run=PointByPoint(operation),
     omission_bound=lambda signal, _: signal.outside(-math.inf, 1.0),
     range_after=lambda signal, _: signal.clipped(-math.inf, 1.0),
 )

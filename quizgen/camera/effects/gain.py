@@ -4,28 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from quizgen.camera.blocks import times
-from quizgen.camera.effects.effect import Effect, PointByPoint, Size
-from quizgen.camera.setup.settings import AnySetting, Setting, between
-from quizgen.camera.setup.values import number
-from quizgen.camera.view import View
+from quizgen.camera.effect import Effect, EffectSize, PointByPoint
+from quizgen.camera.pixels.tiles import multiply_by
+from quizgen.camera.setup.settings import AnySetting, Setting, in_range
+from quizgen.camera.setup.value_parsers import parse_plain_number
+from quizgen.camera.setup.view import View
 
 BASE_ISO = 100.0
-ISO = Setting("iso", number, BASE_ISO, (between(1.0, 1e7),))
+ISO = Setting("iso", parse_plain_number, BASE_ISO, (in_range(1.0, 1e7),))
 """At ISO 100 a full well is white."""
 
 
-def gain(view: View) -> float:
+def gain_factor(view: View) -> float:
     """Factor between electrons and codes, 1 at ISO 100."""
     return view.camera[ISO] / BASE_ISO
 
 
-def amplifier(
-    name: str,
-    factor: Callable[[View], float],
-    *,
-    settings: tuple[AnySetting, ...],
-    answers: tuple[str, ...],
+def make_gain_effect(
+    name: str, factor: Callable[[View], float], settings: tuple[AnySetting, ...], *answers: str
 ) -> Effect:
     """An effect of the sensor that multiplies by a factor >= 0, absent where that is 1.
 
@@ -36,22 +32,21 @@ def amplifier(
         What a camera multiplies by.
     settings : tuple of Setting
         What the factor depends on.
-    answers : tuple of str
+    *answers : str
         Kinds of question whose answer it is.
     """
     return Effect(
         name=name,
-        stage="sensor",
         answers=answers,
         settings=settings,
         is_present=lambda view: factor(view) != 1.0,
-        run=PointByPoint(lambda view: times(factor(view))),
+        run=PointByPoint(lambda view: multiply_by(factor(view))),
         omission_bound=lambda signal, view: abs(factor(view) - 1.0) * signal.size,
         carry_error=lambda error, _, view: error * factor(view),
         range_after=lambda signal, view: signal.scaled(factor(view), factor(view)),
-        size=Size(factor, "make the picture {:.3g} times as bright"),
+        size=EffectSize(factor, "make the picture {:.3g} times as bright"),
         always="brightness",
     )
 
 
-EFFECT = amplifier("gain", gain, settings=(ISO,), answers=("iso", "exposure", "noise", "snr"))
+EFFECT = make_gain_effect("gain", gain_factor, (ISO,), "iso", "exposure", "noise", "snr")

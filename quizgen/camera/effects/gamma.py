@@ -4,32 +4,34 @@ from __future__ import annotations
 
 import math
 
-from quizgen.camera.blocks import Work
-from quizgen.camera.effects.effect import Effect, PointByPoint
-from quizgen.camera.power import CURVE_ERROR, encode_number, encoder
-from quizgen.camera.setup.settings import Rule, Setting, Settings
-from quizgen.camera.setup.values import number
-from quizgen.camera.view import Signal, View
+from quizgen.camera.effect import Effect, PointByPoint
+from quizgen.camera.pixels.tiles import TileOperation
+from quizgen.camera.pixels.tone_curve import (
+    CURVE_ERROR,
+    encode_exact,
+    encode_piecewise,
+    encode_value,
+)
+from quizgen.camera.setup.settings import Setting, SettingRule
+from quizgen.camera.setup.value_parsers import parse_plain_number
+from quizgen.camera.setup.view import Signal, View
 
 
 def _read(value: object) -> str | float:
-    return str(value) if value in ("srgb", "linear") else number(value)
+    return str(value) if value in ("srgb", "linear") else parse_plain_number(value)
 
 
-def _known(gamma: str | float, _: Settings) -> bool:
-    if isinstance(gamma, str):
-        return gamma in ("linear", "srgb")
-    return 1.0 <= gamma <= 100.0
-
-
-GAMMA = Setting[str | float](
-    "gamma", _read, "linear", (Rule(_known, "must be 'linear', 'srgb' or a number from 1 to 100"),)
+_KNOWN = SettingRule[str | float](
+    lambda gamma, _: gamma in ("linear", "srgb") if isinstance(gamma, str) else 1 <= gamma <= 100,
+    "must be 'linear', 'srgb' or a number from 1 to 100",
 )
+GAMMA = Setting[str | float]("gamma", _read, "linear", (_KNOWN,))
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """Encode linear light for display; clips to [0, 1]."""
-    return encoder(view.camera[GAMMA], view.precision)
+    encode = encode_piecewise if view.precision == "float32" else encode_exact
+    return encode(view.camera[GAMMA])
 
 
 def _as_steep(gamma: str | float) -> float:
@@ -46,30 +48,29 @@ def omission_bound(signal: Signal, view: View) -> float:
     gamma = view.camera[GAMMA]
     # a concave curve is farthest from the diagonal where it is as steep, or at the nearest end
     farthest = min(max(low, _as_steep(gamma)), high)
-    gap = encode_number(farthest, gamma) - farthest
+    gap = encode_value(farthest, gamma) - farthest
     return signal.outside(0.0, 1.0) + gap + CURVE_ERROR
 
 
 def carry_error(error: float, signal: Signal, view: View) -> float:
     """Tone curves are concave: the darkest values are spread most."""
     start, gamma = max(0.0, signal.low - error), view.camera[GAMMA]
-    return encode_number(start + error, gamma) - encode_number(start, gamma) + CURVE_ERROR
+    return encode_value(start + error, gamma) - encode_value(start, gamma) + CURVE_ERROR
 
 
 def range_after(signal: Signal, view: View) -> Signal:
     """Encoded."""
     gamma = view.camera[GAMMA]
-    ends = encode_number(signal.low, gamma), encode_number(signal.high, gamma)
+    ends = encode_value(signal.low, gamma), encode_value(signal.high, gamma)
     return Signal(*ends).widened(CURVE_ERROR, CURVE_ERROR)
 
 
 EFFECT = Effect(
     name="gamma",
-    stage="processing",
     answers=("gamma",),
     settings=(GAMMA,),
     is_present=lambda view: view.camera[GAMMA] not in ("linear", 1.0),
-    run=PointByPoint(work),
+    run=PointByPoint(operation),
     omission_bound=omission_bound,
     carry_error=carry_error,
     range_after=range_after,

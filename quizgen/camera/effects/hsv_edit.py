@@ -4,29 +4,29 @@ from __future__ import annotations
 
 import math
 
-from quizgen.camera.blocks import Work
-from quizgen.camera.effects.effect import Effect, PointByPoint
-from quizgen.camera.hsv import hsv_work
-from quizgen.camera.power import CURVE_ERROR
+from quizgen.camera.effect import Effect, PointByPoint
+from quizgen.camera.pixels.hsv import hsv_operation
+from quizgen.camera.pixels.tiles import TileOperation
+from quizgen.camera.pixels.tone_curve import CURVE_ERROR
 from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting
-from quizgen.camera.setup.values import number, quantity
-from quizgen.camera.view import Signal, View
+from quizgen.camera.setup.value_parsers import parse_plain_number, quantity_parser
+from quizgen.camera.setup.view import Signal, View
 
-HUE = Setting("hue", quantity("deg"), 0.0)
+HUE = Setting("hue", quantity_parser("deg"), 0.0)
 """rad added."""
-SATURATION = Setting("saturation", number, 1.0, (NOT_NEGATIVE,))
-VALUE = Setting("value", number, 1.0, (NOT_NEGATIVE,))
+SATURATION = Setting("saturation", parse_plain_number, 1.0, (NOT_NEGATIVE,))
+VALUE = Setting("value", parse_plain_number, 1.0, (NOT_NEGATIVE,))
 
 
 def _turn(view: View) -> float:
     return math.fmod(view.camera[HUE], 2 * math.pi)
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """`edit_hsv` with the camera's parameters."""
     camera = view.camera
     turn = math.degrees(camera[HUE])
-    return hsv_work(turn, camera[SATURATION], camera[VALUE], view.precision)
+    return hsv_operation(turn, camera[SATURATION], camera[VALUE], view.precision)
 
 
 def omission_bound(signal: Signal, view: View) -> float:
@@ -60,11 +60,10 @@ def is_present(view: View) -> bool:
 
 EFFECT = Effect(
     name="hsv edit",
-    stage="edit",
     answers=("hsv", "hue", "saturation edit"),
     settings=(HUE, SATURATION, VALUE),
     is_present=is_present,
-    run=PointByPoint(work),
+    run=PointByPoint(operation),
     omission_bound=omission_bound,
     carry_error=carry_error,
     range_after=range_after,

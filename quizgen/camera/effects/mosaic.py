@@ -4,29 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    on_picture,
-)
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.settings import Rule, Setting, Settings
-from quizgen.camera.setup.values import one_of
-from quizgen.camera.view import View
+from quizgen.camera.effect import Effect, on_composite
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import Setting, SettingRule
+from quizgen.camera.setup.value_parsers import choice_parser
+from quizgen.camera.setup.view import View
 
 TILES = ("RGGB", "BGGR", "GRBG", "GBRG")
 CHANNELS = {"R": 0, "G": 1, "B": 2}
 
 
-def _known(tile: str, _: Settings) -> bool:
-    return tile in TILES
-
-
-_KNOWN = Rule(_known, f"must be one of {', '.join(TILES)}")
-MOSAIC = Setting("mosaic", one_of(*TILES), "", (_KNOWN,))
+_KNOWN = SettingRule[str](lambda tile, _: tile in TILES, f"must be one of {', '.join(TILES)}")
+MOSAIC = Setting("mosaic", choice_parser(*TILES), "", (_KNOWN,))
 """Colours of the 2x2 tile, rows first."""
 
 
-def colour_at(view: View) -> tuple[tuple[int, int], ...]:
+def channel_pattern(view: View) -> tuple[tuple[int, int], ...]:
     """Channel at each place of the 2x2 tile, as rows of columns."""
     tile = [CHANNELS[letter] for letter in view.camera[MOSAIC]]
     return (tile[0], tile[1]), (tile[2], tile[3])
@@ -35,7 +28,7 @@ def colour_at(view: View) -> tuple[tuple[int, int], ...]:
 def run(image: Image, view: View) -> Image:
     """Keep one colour per photosite, shape (H, W, 1)."""
     raw = np.empty((*image.shape[:2], 1), image.dtype)
-    for row, channels in enumerate(colour_at(view)):
+    for row, channels in enumerate(channel_pattern(view)):
         for column, channel in enumerate(channels):
             raw[row::2, column::2, 0] = image[row::2, column::2, channel]
     return raw
@@ -43,11 +36,10 @@ def run(image: Image, view: View) -> Image:
 
 EFFECT = Effect(
     name="mosaic",
-    stage="sensor",
     answers=("bayer", "demosaicing", "moire"),
     settings=(MOSAIC,),
     is_present=lambda view: view.camera[MOSAIC] != "",
-    run=on_picture(run),
+    run=on_composite(run),
     omission_bound=lambda *_: 0.0,  # what it loses shows after demosaicing
     pair="bayer",
 )

@@ -6,63 +6,63 @@ import math
 
 import numpy as np
 
-from quizgen.camera.effects.effect import Effect, LayerByLayer, Size
-from quizgen.camera.kernels import Kernel, line, moved_share
-from quizgen.camera.raster.draw import Layer, Motion, Sheet, sheets
+from quizgen.camera.effect import Effect, EffectSize, LayerByLayer
+from quizgen.camera.pixels.kernels import BlurKernel, motion_kernel, moved_share
 from quizgen.camera.raster.layers import (
-    anything_moves,
-    blurred,
+    blur_layer,
     bound_layers,
-    chord,
-    farthest,
-    path,
-    turned,
+    displacement,
+    has_motion,
+    largest_chord,
+    largest_margin,
+    rotate_layer,
 )
-from quizgen.camera.setup.body import SHUTTER
-from quizgen.camera.view import Signal, View
+from quizgen.camera.raster.rasterizer import Layer, LayerSpec, Motion, layer_specs
+from quizgen.camera.setup.settings import SHUTTER
+from quizgen.camera.setup.view import Signal, View
 
 MOST_TURNS = 64
 
 
-def turns(motion: Motion, shutter: float) -> int:
+def rotation_samples(motion: Motion, shutter: float) -> int:
     """Samples of a rotating layer: at most 1 px apart at its rim, `MOST_TURNS` at most."""
     return min(MOST_TURNS, max(1, math.ceil(abs(motion.spin) * shutter * motion.reach)))
 
 
-def _streak(motion: Motion, view: View) -> Kernel:
-    return line(*path(motion, view, view.camera[SHUTTER]))
+def _streak(motion: Motion, view: View) -> BlurKernel:
+    return motion_kernel(*displacement(motion, view, view.camera[SHUTTER]))
 
 
-def work(layer: Layer, view: View) -> Layer:
+def operation(layer: Layer, view: View) -> Layer:
     """A box along straight paths, sampled positions for rotation."""
     motion, shutter = layer.motion, view.camera[SHUTTER]
-    moved = blurred(layer, _streak(motion, view))
+    moved = blur_layer(layer, _streak(motion, view))
     if not motion.spin:
         return moved
-    count = turns(motion, shutter)
+    count = rotation_samples(motion, shutter)
     angles = ((np.arange(count) + 0.5) / count - 0.5) * motion.spin * shutter
-    return turned(moved, angles.tolist(), chord(motion, view, shutter / 2))
+    return rotate_layer(moved, angles.tolist(), largest_chord(motion, view, shutter / 2))
 
 
-def outside(view: View) -> tuple[float, float]:
+def margin(view: View) -> tuple[float, float]:
     """Half the path to either side, and as far as things turn."""
     shutter = view.camera[SHUTTER]
 
-    def reach(sheet: Sheet) -> tuple[float, float]:
-        moves = path(sheet.motion, view, shutter)
+    def reach(spec: LayerSpec) -> tuple[float, float]:
+        moves = displacement(spec.motion, view, shutter)
         across, down = (abs(part) / 2.0 + bool(part) for part in moves)
-        turn = chord(sheet.motion, view, shutter / 2.0)
+        turn = largest_chord(spec.motion, view, shutter / 2.0)
         return across + turn, down + turn
 
-    return farthest(view, reach)
+    return largest_margin(view, reach)
 
 
 def omission_bound(signal: Signal, view: View) -> float:
     """The light that the box along the path takes from where it was, and the chord of a turn."""
 
-    def share(sheet: Sheet) -> float:
-        turn = chord(sheet.motion, view, view.camera[SHUTTER] / 2.0)
-        return moved_share(_streak(sheet.motion, view)) + math.sqrt(2.0) * turn
+    def share(spec: LayerSpec) -> float:
+        turn = largest_chord(spec.motion, view, view.camera[SHUTTER] / 2.0)
+        return moved_share(_streak(spec.motion, view)) + math.sqrt(2.0) * turn
 
     return bound_layers(signal, view, share)
 
@@ -70,19 +70,18 @@ def omission_bound(signal: Signal, view: View) -> float:
 def _longest(view: View) -> float:
     """Longest path of anything over the sensor, px."""
     shutter, paths = view.camera[SHUTTER], [0.0]
-    for sheet in sheets(view):
-        paths.append(math.hypot(*path(sheet.motion, view, shutter)))
-        paths.append(abs(sheet.motion.spin) * shutter * sheet.motion.reach)
+    for spec in layer_specs(view):
+        paths.append(math.hypot(*displacement(spec.motion, view, shutter)))
+        paths.append(abs(spec.motion.spin) * shutter * spec.motion.reach)
     return max(paths)
 
 
 EFFECT = Effect(
     name="motion blur",
-    stage="optics",
     answers=("motion blur", "motion", "artefacts"),
-    is_present=lambda view: view.camera[SHUTTER] > 0.0 and anything_moves(view),
-    run=LayerByLayer(work),
+    is_present=lambda view: view.camera[SHUTTER] > 0.0 and has_motion(view),
+    run=LayerByLayer(operation),
     omission_bound=omission_bound,
-    outside=outside,
-    size=Size(_longest, "smear over up to {:.3g} px", 1.5),
+    margin=margin,
+    size=EffectSize(_longest, "smear over up to {:.3g} px", 1.5),
 )

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import Effect, PointByPoint
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.settings import Rule, Setting, Settings
-from quizgen.camera.setup.values import number, several
-from quizgen.camera.view import Signal, View
+from quizgen.camera.effect import Effect, PointByPoint
+from quizgen.camera.pixels.tiles import Tile, TileOperation
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import Setting, SettingRule
+from quizgen.camera.setup.value_parsers import list_parser, parse_plain_number
+from quizgen.camera.setup.view import Signal, View
 
 Ends = tuple[float, float, float, float]
 
 
 def _read(value: object) -> Ends:
-    low, high, new_low, new_high = several(number, 4)(value)
+    low, high, new_low, new_high = list_parser(parse_plain_number, 4)(value)
     return low, high, new_low, new_high
 
 
@@ -23,13 +23,11 @@ NARROWEST = 1e-6
 """Least width of a range that is stretched."""
 
 
-def _rises(ends: Ends | None, _: Settings) -> bool:
-    return ends is None or ends[1] - ends[0] >= NARROWEST
-
-
-NORMALISE = Setting[Ends | None](
-    "normalise", _read, None, (Rule(_rises, f"needs max - min >= {NARROWEST:g}"),)
+_RISES = SettingRule[Ends | None](
+    lambda ends, _: ends is None or ends[1] - ends[0] >= NARROWEST,
+    f"needs max - min >= {NARROWEST:g}",
 )
+NORMALISE = Setting[Ends | None]("normalise", _read, None, (_RISES,))
 """min, max, new min, new max; 1 = white."""
 
 
@@ -49,7 +47,7 @@ def stretch_range(
     return share
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """`stretch_range` with the camera's limits."""
     ends = _ends(view)
 
@@ -86,11 +84,10 @@ def range_after(signal: Signal, view: View) -> Signal:
 
 EFFECT = Effect(
     name="normalisation",
-    stage="edit",
     answers=("normalisation", "contrast"),
     settings=(NORMALISE,),
     is_present=lambda view: view.camera[NORMALISE] is not None,
-    run=PointByPoint(work),
+    run=PointByPoint(operation),
     omission_bound=omission_bound,
     carry_error=carry_error,
     range_after=range_after,

@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from quizgen.camera.effects.effect import (
-    Effect,
-    keep_stack,
-)
-from quizgen.camera.scene import Length, Scene, SceneError, Thing
-from quizgen.camera.view import View
+from quizgen.camera.effect import Effect
+from quizgen.camera.setup.scene import Length, Scene, SceneError, SceneObject
+from quizgen.camera.setup.view import View
 
 
-def project(scene: Scene, view: View) -> Scene:
+def project_scene(scene: Scene, view: View) -> Scene:
     """Turn lengths in metres at a depth into pixels.
 
     Parameters
@@ -28,7 +25,7 @@ def project(scene: Scene, view: View) -> Scene:
     )
 
 
-def _project(thing: Thing, distance: float) -> Thing:
+def _project(thing: SceneObject, distance: float) -> SceneObject:
     def on_sensor(length: Length) -> Length:
         if not length.metric:
             return length
@@ -43,10 +40,9 @@ def _project(thing: Thing, distance: float) -> Thing:
 
 EFFECT = Effect(
     name="projection",
-    stage="scene",
     answers=("projection", "geometry", "artefacts"),
-    is_present=lambda view: view.scene.metric,
-    prepare=project,
-    run=keep_stack,
+    is_present=lambda view: view.scene.is_metric,
+    prepare=project_scene,
+    run=lambda stack, _: stack,  # all is done once the scene is drawn
     always="lengths in metres",
 )

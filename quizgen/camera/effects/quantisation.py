@@ -6,14 +6,14 @@ import math
 
 import numpy as np
 
-from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import Effect, PointByPoint, Size
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.settings import Setting, between
-from quizgen.camera.setup.values import whole
-from quizgen.camera.view import Signal, View
+from quizgen.camera.effect import Effect, EffectSize, PointByPoint
+from quizgen.camera.pixels.tiles import Tile, TileOperation
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import Setting, in_range
+from quizgen.camera.setup.value_parsers import parse_integer
+from quizgen.camera.setup.view import View
 
-BIT_DEPTH = Setting[int | None]("bit_depth", whole, None, (between(1, 16),))
+BIT_DEPTH = Setting[int | None]("bit_depth", parse_integer, None, (in_range(1, 16),))
 """Bits of the converter; None is analog."""
 
 
@@ -21,7 +21,7 @@ def _largest_code(view: View) -> int:
     return (1 << (view.camera[BIT_DEPTH] or 16)) - 1
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """Clip to [0, 1] and round to the converter's codes, halves upward."""
     top = float(_largest_code(view))
 
@@ -40,21 +40,15 @@ def _step(view: View) -> float:
     return 1.0 / _largest_code(view)
 
 
-def range_after(signal: Signal, view: View) -> Signal:
-    """Half a code wider, and clipped."""
-    return signal.widened(_step(view) / 2.0, _step(view) / 2.0).clipped(0.0, 1.0)
-
-
 EFFECT = Effect(
     name="quantisation",
-    stage="sensor",
     answers=("quantisation", "bit depth"),
     settings=(BIT_DEPTH,),
     is_present=lambda view: view.camera[BIT_DEPTH] is not None,
-    run=PointByPoint(work),
+    run=PointByPoint(operation),
     omission_bound=lambda signal, view: _step(view) / 2.0 + signal.outside(0.0, 1.0),
     # any difference may become a whole code
     carry_error=lambda error, _, view: math.ceil(error / _step(view) - 1e-9) * _step(view),
-    range_after=range_after,
-    size=Size(lambda view: _largest_code(view) + 1.0, "leave {:.5g} levels"),
+    range_after=lambda signal, view: signal.widened(_step(view) / 2, _step(view) / 2).clipped(0, 1),
+    size=EffectSize(lambda view: _largest_code(view) + 1.0, "leave {:.5g} levels"),
 )

@@ -6,30 +6,34 @@ import math
 
 import numpy as np
 
-from quizgen.camera.blocks import Tile, Work
-from quizgen.camera.effects.effect import Effect, PointByPoint, Size
-from quizgen.camera.noise import FARTHEST, electrons_at_white, farthest_count, luck
-from quizgen.camera.poisson import poisson_quantiles
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.body import FULL_WELL
-from quizgen.camera.setup.settings import Setting
-from quizgen.camera.setup.values import truth
-from quizgen.camera.view import Signal, View
+from quizgen.camera.effect import Effect, EffectSize, PointByPoint
+from quizgen.camera.pixels.noise import (
+    FARTHEST,
+    effect_random,
+    electrons_at_white,
+    farthest_count,
+    poisson_quantiles,
+)
+from quizgen.camera.pixels.tiles import Tile, TileOperation
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import FULL_WELL, Setting
+from quizgen.camera.setup.value_parsers import parse_bool
+from quizgen.camera.setup.view import Signal, View
 
-SHOT_NOISE = Setting("shot_noise", truth, True)
+SHOT_NOISE = Setting("shot_noise", parse_bool, True)
 """Needs a full well; without one no electrons are counted."""
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """Electrons arrive at random: Poisson with mean (signal times full well)."""
-    source, well = luck(view, "shot noise"), electrons_at_white(view)
+    source, well = effect_random(view, "shot noise"), electrons_at_white(view)
     to_electrons, to_signal = float(well), 1.0 / well
 
     def counted(part: Image, tile: Tile) -> None:
         np.clip(part, 0.0, math.inf, out=part)
         part *= to_electrons
         counts = poisson_quantiles(
-            part, source.normal(tile.number, part.size, part.dtype, fine=True)
+            part, source.draw_normal(tile.number, part.size, part.dtype, fine=True)
         )
         np.multiply(counts, to_signal, out=part)
 
@@ -70,16 +74,15 @@ _MANY = FARTHEST**2
 
 EFFECT = Effect(
     name="shot noise",
-    stage="sensor",
     answers=("shot noise", "noise", "snr", "histogram"),
     settings=(SHOT_NOISE,),
     is_present=lambda view: view.camera[FULL_WELL] is not None and view.camera[SHOT_NOISE],
-    run=PointByPoint(work),
+    run=PointByPoint(operation),
     omission_bound=omission_bound,
     carry_error=carry_error,
     range_after=range_after,
-    size=Size(
-        lambda view: math.sqrt(max(view.scene.range[1], 0.0) * electrons_at_white(view)),
+    size=EffectSize(
+        lambda view: math.sqrt(max(view.scene.radiance_range[1], 0.0) * electrons_at_white(view)),
         "spread counts by up to {:.3g} electrons",
     ),
     speckles=True,

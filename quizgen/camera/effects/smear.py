@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.effects.effect import Effect, Size, on_picture
-from quizgen.camera.scene import Image
-from quizgen.camera.setup.body import NEEDS_FULL_WELL
-from quizgen.camera.setup.settings import SHARE, Setting
-from quizgen.camera.setup.values import quantity
-from quizgen.camera.view import Signal, View
+from quizgen.camera.effect import Effect, EffectSize, on_composite
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.settings import NEEDS_FULL_WELL, SHARE, Setting
+from quizgen.camera.setup.value_parsers import quantity_parser
+from quizgen.camera.setup.view import Signal, View
 
-SMEAR = Setting("smear", quantity("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
+SMEAR = Setting("smear", quantity_parser("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
 """Share of a column's mean that is added to the column while its rows are shifted."""
 
 
@@ -29,13 +28,14 @@ def range_after(signal: Signal, view: View) -> Signal:
 
 EFFECT = Effect(
     name="smear",
-    stage="sensor",
     answers=("smear", "saturation", "artefacts"),
     settings=(SMEAR,),
     is_present=lambda view: view.camera[SMEAR] > 0.0,
-    run=on_picture(run),
+    run=on_composite(run),
     omission_bound=lambda signal, view: view.camera[SMEAR] * signal.size,
     carry_error=lambda error, _, view: error * (1.0 + view.camera[SMEAR]),
     range_after=range_after,
-    size=Size(lambda view: 100.0 * view.camera[SMEAR], "add {:.3g} % of each column's mean to it"),
+    size=EffectSize(
+        lambda view: 100.0 * view.camera[SMEAR], "add {:.3g} % of each column's mean to it"
+    ),
 )

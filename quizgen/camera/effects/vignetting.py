@@ -11,31 +11,21 @@ from functools import lru_cache
 
 import numpy as np
 
-from quizgen.camera.blocks import Work, at_pixels
-from quizgen.camera.effects.effect import (
-    Effect,
-    PointByPoint,
-    Size,
-)
+from quizgen.camera.effect import Effect, EffectSize, PointByPoint
+from quizgen.camera.pixels.tiles import TileOperation, multiply_by_map
 from quizgen.camera.raster.layers import Field
-from quizgen.camera.scene import Image, Precision
-from quizgen.camera.setup.body import NEEDS_LENS
-from quizgen.camera.setup.settings import Rule, Setting, Settings
-from quizgen.camera.setup.values import number, truth
-from quizgen.camera.view import View
+from quizgen.camera.setup.scene import Image, Precision
+from quizgen.camera.setup.settings import NEEDS_LENS, Setting, SettingRule
+from quizgen.camera.setup.value_parsers import parse_bool, parse_plain_number
+from quizgen.camera.setup.view import View
 
-
-def _below_one(shift: float, _: Settings) -> bool:
-    return 0 <= shift < 1
-
-
-NATURAL = Setting("natural_vignetting", truth, False, (NEEDS_LENS,))
+NATURAL = Setting("natural_vignetting", parse_bool, False, (NEEDS_LENS,))
 """cos^4 fall-off."""
 MECHANICAL = Setting(
     "mechanical_vignetting",
-    number,
+    parse_plain_number,
     0.0,
-    (Rule(_below_one, "must be in [0, 1)"),),
+    (SettingRule[float](lambda shift, _: 0 <= shift < 1, "must be in [0, 1)"),),
 )
 """Shift of the lens rim at the corner in aperture diameters."""
 
@@ -46,32 +36,25 @@ def rim_overlap(shift: Field) -> Field:
     return np.asarray((2.0 / math.pi) * (np.arccos(half) - half * np.sqrt(1.0 - half * half)))
 
 
-def fall_off(radius: Field, view: View) -> Field:
+def light_falloff(radius: Field, view: View) -> Field:
     """Share of light kept at a distance from the principal point, px.
 
     Natural: cos^4 of the field angle, (1 + (r/f)^2)^-2. Mechanical: lens rim and aperture as two
     discs that slide apart, by ``mechanical_vignetting`` diameters at the corner.
     """
-    return _kept(radius, *_lens(view))
-
-
-def _lens(view: View) -> tuple[float, float, float]:
-    """Focal length (0 without the natural fall-off), the rim's shift and where, px."""
-    camera = view.camera
-    return view.focal if camera[NATURAL] else 0.0, camera[MECHANICAL], view.corner
-
-
-def _kept(radius: Field, focal: float, mechanical: float, corner: float) -> Field:
+    focal, mechanical = _lens(view)
     kept: Field = 1.0 / (1.0 + (radius / focal) ** 2) ** 2 if focal else np.ones_like(radius)
-    if mechanical:
-        kept = kept * rim_overlap(mechanical * radius / corner)
-    return kept
+    return kept * rim_overlap(mechanical * radius / view.corner) if mechanical else kept
 
 
-def fall_off_map(view: View) -> Image:
-    """`fall_off` at every pixel, shape (H, W, 1)."""
-    focal, mechanical, _ = _lens(view)
-    return _fall_off_map(view.width, view.height, focal, mechanical, view.precision)
+def _lens(view: View) -> tuple[float, float]:
+    """Focal length (0 without the natural fall-off) in px, and the rim's shift."""
+    return view.focal if view.camera[NATURAL] else 0.0, view.camera[MECHANICAL]
+
+
+def falloff_map(view: View) -> Image:
+    """`light_falloff` at every pixel, shape (H, W, 1)."""
+    return _fall_off_map(view.width, view.height, *_lens(view), view.precision)
 
 
 @lru_cache(maxsize=2)
@@ -90,15 +73,14 @@ def _fall_off_map(
     return kept.astype(precision)[..., None]
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """Multiply by the fall-off map."""
-    return at_pixels(fall_off_map(view))
+    return multiply_by_map(falloff_map(view))
 
 
-def corner_light(view: View) -> float:
+def corner_falloff(view: View) -> float:
     """Share of light kept at the picture's corner."""
-    focal, mechanical, corner = _lens(view)
-    return float(_kept(np.array([corner]), focal, mechanical, corner)[0])
+    return float(light_falloff(np.array([view.corner]), view)[0])
 
 
 def is_present(view: View) -> bool:
@@ -108,14 +90,13 @@ def is_present(view: View) -> bool:
 
 EFFECT = Effect(
     name="vignetting",
-    stage="sensor",
     answers=("vignetting", "artefacts"),
     settings=(NATURAL, MECHANICAL),
     is_present=is_present,
-    run=PointByPoint(work),
-    omission_bound=lambda signal, view: (1.0 - corner_light(view) + 1e-6) * signal.size,
-    range_after=lambda signal, view: signal.scaled(corner_light(view) * (1.0 - 1e-6), 1.0),
-    size=Size(
-        lambda view: 100.0 * (1.0 - corner_light(view)), "darken the corners by {:.3g} %", 5.0
+    run=PointByPoint(operation),
+    omission_bound=lambda signal, view: (1.0 - corner_falloff(view) + 1e-6) * signal.size,
+    range_after=lambda signal, view: signal.scaled(corner_falloff(view) * (1.0 - 1e-6), 1.0),
+    size=EffectSize(
+        lambda view: 100.0 * (1.0 - corner_falloff(view)), "darken the corners by {:.3g} %", 5.0
     ),
 )

@@ -4,27 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from quizgen.camera.blocks import BLOCK, Tile, Work
-from quizgen.camera.effects.effect import Effect, PointByPoint
-from quizgen.camera.scene import Colour, Image
-from quizgen.camera.setup.settings import NOT_NEGATIVE, Rule, Setting, Settings
-from quizgen.camera.setup.values import triple
-from quizgen.camera.view import Signal, View
-
-
-def _no_gain_negative(gains: Colour, _: Settings) -> bool:
-    return min(gains) >= 0.0
-
+from quizgen.camera.effect import Effect, PointByPoint
+from quizgen.camera.pixels.tiles import TILE_VALUES, Tile, TileOperation
+from quizgen.camera.setup.scene import Colour, Image
+from quizgen.camera.setup.settings import NOT_NEGATIVE, Setting, SettingRule
+from quizgen.camera.setup.value_parsers import parse_triple
+from quizgen.camera.setup.view import Signal, View
 
 WHITE_BALANCE = Setting(
-    "white_balance", triple, (1.0, 1.0, 1.0), (Rule(_no_gain_negative, NOT_NEGATIVE.message),)
+    "white_balance",
+    parse_triple,
+    (1.0, 1.0, 1.0),
+    (SettingRule[Colour](lambda gains, _: min(gains) >= 0.0, NOT_NEGATIVE.message),),
 )
 """Gains of red, green and blue."""
 
 
-def work(view: View) -> Work:
+def operation(view: View) -> TileOperation:
     """Multiply the channels by their gains."""
-    gains = np.tile(np.asarray(view.camera[WHITE_BALANCE], view.precision), BLOCK // 3)
+    gains = np.tile(np.asarray(view.camera[WHITE_BALANCE], view.precision), TILE_VALUES // 3)
 
     def balanced(part: Image, _: Tile) -> None:
         part *= gains[: part.size]
@@ -51,11 +49,10 @@ def range_after(signal: Signal, view: View) -> Signal:
 
 EFFECT = Effect(
     name="white balance",
-    stage="processing",
     answers=("white balance",),
     settings=(WHITE_BALANCE,),
     is_present=lambda view: view.camera[WHITE_BALANCE] != (1.0, 1.0, 1.0),
-    run=PointByPoint(work),
+    run=PointByPoint(operation),
     omission_bound=omission_bound,
     carry_error=carry_error,
     range_after=range_after,

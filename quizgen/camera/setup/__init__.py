@@ -1,4 +1,5 @@
-"""Settings of a camera: how each is read, what it may be, and those that effects share.
+"""Plain values before any pixel: the scene, the settings of a camera, and one view of both.
 
-In: values as a scene file has them. Out: numbers in base units. Must never know: pixels.
+In: values as a scene file has them. Out: numbers in base units, a view of everything in px. Must
+never know: how a picture is made.
 """

@@ -6,19 +6,25 @@ given costs nothing and changes nothing.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from difflib import get_close_matches
 from typing import Any, Generic, TypeVar
 
 import msgspec
 
-from quizgen.camera.setup.values import Reader
+from quizgen.camera.setup.value_parsers import (
+    ValueParser,
+    pair_parser,
+    parse_plain_number,
+    quantity_parser,
+)
 
 T = TypeVar("T")
 Judged_contra = TypeVar("Judged_contra", contravariant=True)
 
 
-class Settings:
+class CameraSettings:
     """The values of a camera; what was not given is the identity.
 
     Parameters
@@ -34,7 +40,7 @@ class Settings:
         return self.given.get(setting.name, setting.identity)  # type: ignore[return-value]
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Settings) and self.given == other.given
+        return isinstance(other, CameraSettings) and self.given == other.given
 
     def __hash__(self) -> int:
         return hash(frozenset(self.given.items()))
@@ -44,10 +50,10 @@ class Settings:
         return f"{type(self).__name__}({named})"
 
 
-class Rule(msgspec.Struct, Generic[Judged_contra], frozen=True):
+class SettingRule(msgspec.Struct, Generic[Judged_contra], frozen=True):
     """What a value that is not the identity must fulfil, and what is said after its name if not."""
 
-    holds: Callable[[Judged_contra, Settings], bool]
+    holds: Callable[[Judged_contra, CameraSettings], bool]
     message: str
 
 
@@ -59,19 +65,19 @@ class Setting(msgspec.Struct, Generic[T], frozen=True):
     name : str
         The key.
     read : callable
-        From what TOML gives to a value in base units; see `quizgen.camera.setup.values`.
+        From what TOML gives to a value in base units; see `quizgen.camera.setup.value_parsers`.
     identity : object
         The value that changes nothing.
-    rules : tuple of Rule
+    rules : tuple of SettingRule
         What it may be, also beside the other settings.
     """
 
     name: str
-    read: Reader[T]
+    read: ValueParser[T]
     identity: T
-    rules: tuple[Rule[T], ...] = ()
+    rules: tuple[SettingRule[T], ...] = ()
 
-    def faults(self, settings: Settings) -> Iterator[str]:
+    def find_faults(self, settings: CameraSettings) -> Iterator[str]:
         """Message of every rule that the value breaks, with the setting's name."""
         value = settings[self]
         if value != self.identity:
@@ -83,24 +89,77 @@ AnySetting = Setting[Any]
 """A setting of any type: tables hold numbers, flags and words side by side."""
 
 
-def between(low: float, high: float, unit: str = "") -> Rule[float | None]:
+def in_range(low: float, high: float, unit: str = "") -> SettingRule[float | None]:
     """Rule that a number lies in a range, its ends included."""
 
-    def holds(value: float | None, _: Settings) -> bool:
+    def holds(value: float | None, _: CameraSettings) -> bool:
         return value is None or low <= value <= high
 
-    return Rule(holds, f"must be {low:g} to {high:g} {unit}".rstrip())
+    return SettingRule(holds, f"must be {low:g} to {high:g} {unit}".rstrip())
 
 
-def _not_negative(value: float, _: Settings) -> bool:
-    return value >= 0.0
+NOT_NEGATIVE = SettingRule[float](lambda value, _: value >= 0.0, "must be >= 0")
+SHARE = in_range(0.0, 1.0)
 
 
-NOT_NEGATIVE = Rule(_not_negative, "must be >= 0")
-SHARE = between(0.0, 1.0)
-
-
-def nearest(name: str, known: Iterable[str]) -> str:
+def suggest_setting(name: str, known: Iterable[str]) -> str:
     """A hint at the key that was probably meant."""
     close = get_close_matches(name, known, 1)
     return f"; did you mean {close[0]!r}?" if close else ""
+
+
+# Settings that several effects share: the lens, the shutter, the size of a photosite
+
+
+def _f_number(value: object) -> float:
+    if not isinstance(value, str):
+        return parse_plain_number(value)
+    try:
+        return parse_plain_number(float(value.strip().lower().removeprefix("f/")))
+    except ValueError:
+        raise ValueError(f"cannot read {value!r}; expected 2.8 or 'f/2.8'") from None
+
+
+def _maybe(
+    name: str, read: ValueParser[float], *rules: SettingRule[float | None]
+) -> Setting[float | None]:
+    return Setting(name, read, None, rules)
+
+
+FOCAL_LENGTH = _maybe("focal_length", quantity_parser("m"), in_range(1e-6, 1e3, "m"))
+PIXEL_PITCH = _maybe("pixel_pitch", quantity_parser("m"), in_range(1e-9, 1.0, "m"))
+FULL_WELL = _maybe("full_well", quantity_parser("e-"), in_range(1.0, 1e12, "e-"))
+"""Electrons at signal 1; None counts no electrons."""
+NEEDS_LENS = SettingRule[object](
+    lambda _, camera: camera[FOCAL_LENGTH] is not None and camera[PIXEL_PITCH] is not None,
+    "needs focal_length and pixel_pitch (or sensor_width)",
+)
+NEEDS_FULL_WELL = SettingRule[object](
+    lambda _, camera: camera[FULL_WELL] is not None, "needs full_well"
+)
+F_NUMBER = _maybe("f_number", _f_number, in_range(0.01, 1e6), NEEDS_LENS)
+"""None is a pinhole without width."""
+_FOCUS = SettingRule[float](
+    lambda distance, camera: distance > (camera[FOCAL_LENGTH] or 0.0), "must exceed focal_length"
+)
+FOCUS_DISTANCE = Setting("focus_distance", quantity_parser("m"), math.inf, (_FOCUS,))
+_NO_LENS = SettingRule[object](
+    lambda _, camera: camera[F_NUMBER] is None and math.isinf(camera[FOCUS_DISTANCE]),
+    "stands instead of f_number and focus_distance",
+)
+PINHOLE = _maybe("pinhole", quantity_parser("m"), in_range(1e-6, 1.0, "m"), NEEDS_LENS, _NO_LENS)
+"""Diameter of a hole without a lens, m; `FOCAL_LENGTH` is then its distance from the sensor."""
+SHUTTER = Setting("shutter", quantity_parser("s"), 0.0, (NOT_NEGATIVE,))
+"""Exposure time, s."""
+VELOCITY = Setting("velocity", pair_parser(quantity_parser("px/s")), (0.0, 0.0))
+"""Movement of the picture over the sensor, px/s."""
+
+BODY: tuple[AnySetting, ...] = (
+    FOCAL_LENGTH, PIXEL_PITCH, F_NUMBER, FOCUS_DISTANCE, PINHOLE, SHUTTER, VELOCITY, FULL_WELL,
+)  # fmt: skip
+
+
+def aperture_diameter(camera: CameraSettings) -> float | None:
+    """Diameter of the opening that light comes through, m; None for a point."""
+    length, number = camera[FOCAL_LENGTH], camera[F_NUMBER]
+    return camera[PINHOLE] if number is None or length is None else length / number

@@ -10,7 +10,6 @@ from quizgen.cards.kinds._entry_note import entry_note
 from quizgen.cards.markup import CardPicture
 from quizgen.cards.note import Note
 from quizgen.cards.request import DeckRequest
-from quizgen.core.errors import BankError
 from quizgen.figures import draw_figure
 from quizgen.question.entry_prose import entry_blocks
 
@@ -31,9 +30,7 @@ def notes(wish: DeckRequest) -> Iterator[Note]:
 
 
 def _draw_entry_picture(entry: FigureEntry, wish: DeckRequest, *, quiz: bool) -> CardPicture:
-    try:
+    with entry.located("figure"):
         figure = wish.bank.figure(entry.figure)
         drawn = [draw_figure(figure, entry.values, quiz=quiz, lang=lang) for lang in wish.langs]
-    except BankError as error:
-        raise BankError(f"{entry.place}: {error}") from error
     return CardPicture(entry.figure, drawn[0], " / ".join(one.alt for one in drawn))

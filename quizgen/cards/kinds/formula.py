@@ -12,7 +12,6 @@ from quizgen.cards.kinds._entry_note import entry_note
 from quizgen.cards.markup import ClozeHole
 from quizgen.cards.note import CardWords, Note
 from quizgen.cards.request import DeckRequest
-from quizgen.core.errors import BankError
 from quizgen.question.entry_prose import entry_blocks, entry_inlines
 from quizgen.question.formula_lines import parse_formula_line
 from quizgen.question.inlines import TypesetMaths
@@ -37,9 +36,10 @@ def notes(wish: DeckRequest) -> Iterator[Note]:
 
 def _iter_cloze_holes(entry: FormulaEntry) -> Iterator[ClozeHole]:
     for index, line in enumerate(entry.lines):
-        signs, parts = parse_formula_line(line, entry.inside, entry.place)
+        with entry.located("lines"):
+            signs, parts = parse_formula_line(line, entry.inside)
         if not signs:
-            raise BankError(f"{entry.place}: {line!r} has only one side")
+            raise entry.fault(f"{line!r} has only one side", "QG155", "lines")
         cut = signs.index("⇒") + 1 if "⇒" in signs else 1
         yield ClozeHole(
             _typeset_visible_sides(parts[:cut], signs[:cut]),

@@ -54,7 +54,7 @@ def _draw_sample_points(
     domains: tuple[tuple[str, SampleInterval], ...],
 ) -> tuple[dict[str, fmpq], ...]:
     """The sample points of some domains: the same in every process."""
-    source = random.Random("|".join(map(str, domains)))
+    source = random.Random("|".join(map(str, domains)))  # noqa: S311 - points, not secrets
     return tuple(
         {name: _draw_sample_value(domain, source) for name, domain in domains} for _ in range(TRIES)
     )

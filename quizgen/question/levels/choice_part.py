@@ -8,9 +8,10 @@ from fractions import Fraction
 
 from quizgen.bank.markdown import Block, Inline, PlainText
 from quizgen.bank.variant import Variant
-from quizgen.grading.kinds.choice import LETTERS, Spec
 from quizgen.grading.spec import decode_spec
-from quizgen.question.contract import Control
+from quizgen.kinds.asking import LETTERS
+from quizgen.kinds.choice import ChoiceSpec
+from quizgen.kinds.contract import InputControl
 from quizgen.question.inlines import to_inlines
 from quizgen.question.interpolation import inlines_as_typed, inlines_to_text
 from quizgen.question.levels.contract import LevelPart
@@ -62,10 +63,10 @@ def make_choice_part(
     )  # fmt: skip
     shown = tuple((mark, option.said(lang)) for mark, option in marked.items())
     spec = _build_choice_spec(drawn.template.languages, marked)
-    return LevelPart(Fraction(1), body, spec, solved, Control("one", lines=0), shown)
+    return LevelPart(Fraction(1), body, spec, solved, InputControl("one", lines=0), shown)
 
 
-def _build_choice_spec(langs: Sequence[str], marked: Mapping[str, LevelOption]) -> Spec:
+def _build_choice_spec(langs: Sequence[str], marked: Mapping[str, LevelOption]) -> ChoiceSpec:
     """What the choice is marked by; its wordings are those of the first language."""
     table = {
         "kind": "choice",
@@ -75,4 +76,4 @@ def _build_choice_spec(langs: Sequence[str], marked: Mapping[str, LevelOption]) 
             lang: {m: inlines_to_text(o.why(lang)) for m, o in marked.items()} for lang in langs
         },
     }
-    return decode_spec(Spec, table)
+    return decode_spec(ChoiceSpec, table)

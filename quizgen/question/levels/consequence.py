@@ -11,8 +11,11 @@ from quizgen import typeset
 from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph, PlainText
 from quizgen.bank.sampler import pick_index, shuffle
 from quizgen.bank.variant import Variant
-from quizgen.grading.kinds.number import Spec
 from quizgen.grading.spec import decode_spec
+from quizgen.kinds import KINDS
+from quizgen.kinds.asking import misconception_specs
+from quizgen.kinds.contract import AskedPart
+from quizgen.kinds.number import NumberSpec
 from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import (
     format_exact,
@@ -24,10 +27,8 @@ from quizgen.maths.numbers import (
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Num, Sym
 from quizgen.maths.values import Value
-from quizgen.question.contract import Built
 from quizgen.question.inlines import TypesetMaths, to_inlines, translate_inlines
 from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, join_unit
-from quizgen.question.kinds import KINDS
 from quizgen.question.levels.choice_part import LevelOption, make_choice_part
 from quizgen.question.levels.contract import LevelPart
 from quizgen.question.levels.perturbations import (
@@ -44,7 +45,6 @@ from quizgen.question.solution import (
     solution_step,
     solved_misconceptions,
 )
-from quizgen.question.specs import mistaken
 from quizgen.question.worked_steps import quantity_inlines, value_node, value_typed
 
 DIRECTIONS = ("larger", "smaller", "unchanged")
@@ -125,11 +125,11 @@ def _ask_factor(change: Perturbation, lang: str) -> LevelPart:
         for each in langs
     }
     table = {"kind": "number", "value": format_for_key(to_rational(found)), "rel": "0.005"}
-    spec = decode_spec(Spec, {**table, "traps": traps, "notes": notes} if traps else table)
+    spec = decode_spec(NumberSpec, {**table, "traps": traps, "notes": notes} if traps else table)
     solved = PartSolution(
         label="",
         lines=tuple(_iter_proof_lines(change, found, lang)),
-        shown=to_inlines(KINDS["number"].printed(spec, lang)),
+        shown=to_inlines(KINDS["number"].explain_key(spec, lang)),
         mistakes=tuple(
             SolvedMisconception(
                 trap,
@@ -212,9 +212,11 @@ def _ask_new_value(change: Perturbation, lang: str) -> LevelPart:
     solved = PartSolution(
         label="",
         lines=_build_solution_lines(change, lang),
-        shown=to_inlines(KINDS[spec.kind].printed(spec, lang)),
+        shown=to_inlines(KINDS[spec.kind].explain_key(spec, lang)),
         mistakes=tuple(
-            solved_misconceptions(filler, Built(spec, mistakes=mistaken(spec, "value")))
+            solved_misconceptions(
+                filler, AskedPart(spec, mistakes=misconception_specs(spec, "value"))
+            )
         ),
     )
     return LevelPart(Fraction(1), _build_effect_body(change, lang, "transfer.value"), spec, solved)

@@ -11,7 +11,7 @@ import msgspec
 from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
 from quizgen.bank.variant import Variant
 from quizgen.grading.spec import AnySpec
-from quizgen.question.contract import LINE, Control
+from quizgen.kinds.contract import LINE, InputControl
 from quizgen.question.solution import PartSolution, Solution
 
 Choice = tuple[str, tuple[Inline, ...]]
@@ -28,7 +28,7 @@ class LevelPart(msgspec.Struct, frozen=True):
     body: tuple[Block, ...]
     spec: AnySpec
     solved: PartSolution
-    control: Control = LINE
+    control: InputControl = LINE
     options: tuple[Choice, ...] = ()
     targets: tuple[Choice, ...] = ()
 

@@ -6,17 +6,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from quizgen.bank.markdown import Block, Emphasis, Inline, ListBlock, Paragraph, PlainText
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant, leading_digits
 from quizgen.core.errors import MathError
+from quizgen.kinds import NUMERIC
+from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.numbers import format_rounded
 from quizgen.question.inlines import translate_inlines
 from quizgen.question.interpolation import Interpolator
 from quizgen.question.levels.choice_part import LevelOption, make_choice_part
 from quizgen.question.levels.contract import LevelPart
-from quizgen.question.levels.guided import NUMERIC
 from quizgen.question.levels.perturbations import required_steps
 from quizgen.question.levels.steps import (
     differs_in_unit_only,
@@ -156,7 +156,7 @@ def _list_steps_to_answer(drawn: Variant, index: int) -> tuple[ChainStep, ...]:
     answer = drawn.template.rules.part[index].answer
     if answer["kind"] not in NUMERIC:
         return ()
-    names = {step.name for of in answer_names(answer) for step in required_steps(drawn, of)}
+    names = {step.name for of in asked_quantities(answer) for step in required_steps(drawn, of)}
     steps = tuple(step for step in drawn.template.chain.steps if step.name in names)
     named = all(
         has_name(drawn, step.name) and has_sentence(drawn, "steps", step.name) for step in steps
@@ -169,7 +169,7 @@ def _iter_usable_misconceptions(
 ) -> Iterator[tuple[str, int]]:
     """Mistakes that change the answer, and the place of their first wrong step."""
     places = {step.name: place for place, step in enumerate(steps)}
-    answer = answer_names(drawn.template.rules.part[index].answer)
+    answer = asked_quantities(drawn.template.rules.part[index].answer)
     for trap, wrong in drawn.template.chain.traps.items():
         inside = [step for step in wrong if step.name in places]
         if (

@@ -8,11 +8,11 @@ from typing import Any
 from quizgen.bank.markdown import Block, Emphasis, ListBlock, Paragraph, slot_names
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
+from quizgen.kinds.contract import AskedPart, LabelledName
 from quizgen.maths.numbers import parse_written_number
-from quizgen.question.contract import Built, Named
 from quizgen.question.interpolation import Interpolator
-from quizgen.question.kinds import build
 from quizgen.question.levels.contract import Choice, LevelPart, LevelQuestion
+from quizgen.question.part_context import ask_part
 from quizgen.question.solution import build_solution, solve_part
 
 STATEMENT = "claim"
@@ -27,7 +27,7 @@ def is_applicable(_drawn: Variant) -> bool:
 @lru_cache(maxsize=32)
 def ask(drawn: Variant, lang: str) -> LevelQuestion:
     """Stem and parts as authored, with the whole worked solution."""
-    built = [build(drawn, index) for index in range(len(drawn.template.rules.part))]
+    built = [ask_part(drawn, index) for index in range(len(drawn.template.rules.part))]
     hidden, told = Interpolator(drawn, lang, hidden=True), Interpolator(drawn, lang)
     parts = tuple(_build_asked_part(hidden, told, index, part) for index, part in enumerate(built))
     stem = hidden.blocks(hidden.text.stem)
@@ -37,13 +37,14 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 
 
 def _build_asked_part(
-    hidden: Interpolator, told: Interpolator, index: int, built: Built[Any]
+    hidden: Interpolator, told: Interpolator, index: int, built: AskedPart[Any]
 ) -> LevelPart:
     template = hidden.drawn.template
     label = template.labels[index]
     body = _build_part_body(hidden, label, built.statements)
     if label and not body:
-        raise BankError(f"{template.path / hidden.lang}.md: section {label!r} is missing")
+        file = template.path / f"{hidden.lang}.md"
+        raise BankError(f"section {label!r} is missing", rule="QG157", file=file)
     return LevelPart(
         parse_written_number(template.rules.part[index].points),
         body,
@@ -56,7 +57,7 @@ def _build_asked_part(
 
 
 def _build_part_body(
-    filler: Interpolator, label: str, statements: tuple[Named, ...]
+    filler: Interpolator, label: str, statements: tuple[LabelledName, ...]
 ) -> tuple[Block, ...]:
     """The section of a part, and what it asks: its statement, or several in a numbered list."""
     section = filler.text.sections.get(label, ()) if label else ()
@@ -69,5 +70,5 @@ def _build_part_body(
     return (*filler.blocks(section), *((ListBlock(listed, ordered=True),) if listed else ()))
 
 
-def _label_choices(filler: Interpolator, names: tuple[Named, ...]) -> tuple[Choice, ...]:
+def _label_choices(filler: Interpolator, names: tuple[LabelledName, ...]) -> tuple[Choice, ...]:
     return tuple((mark, filler.sentence("options", name)) for mark, name in names)

@@ -15,15 +15,15 @@ import msgspec
 from msgspec.structs import replace
 
 from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.sampler import pick_index
 from quizgen.bank.variant import Variant
+from quizgen.kinds import KINDS, NUMERIC
+from quizgen.kinds.asking import misconception_specs
+from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.tree import Sym, names_in
-from quizgen.question.contract import Built
 from quizgen.question.inlines import join_inlines, to_inlines, translate_inlines
 from quizgen.question.interpolation import Interpolator
-from quizgen.question.kinds import KINDS
 from quizgen.question.levels import exam
 from quizgen.question.levels.choice_part import LevelOption, make_choice_part
 from quizgen.question.levels.contract import (
@@ -47,11 +47,9 @@ from quizgen.question.levels.steps import (
     step_value_spec,
     wrong_options,
 )
+from quizgen.question.part_context import authored_answer
 from quizgen.question.solution import PartSolution, solution_step, solved_misconceptions
-from quizgen.question.specs import authored_answer, mistaken
 from quizgen.question.worked_steps import quantity_inlines
-
-NUMERIC = frozenset({"number", "quantity", "angle", "point", "table", "set", "interval"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +95,7 @@ def guided_stages(drawn: Variant) -> tuple[GuidedStage, ...]:
 
 def _build_stage(drawn: Variant, index: int, asked: frozenset[str]) -> GuidedStage:
     of, numeric = (
-        answer_names(authored_answer(drawn, index)),
+        asked_quantities(authored_answer(drawn, index)),
         authored_answer(drawn, index)["kind"] in NUMERIC,
     )
     known = (
@@ -117,7 +115,7 @@ def _build_stage(drawn: Variant, index: int, asked: frozenset[str]) -> GuidedSta
 
 def _list_required_steps(drawn: Variant, index: int) -> list[ChainStep]:
     """The steps on which the answer rests in the branches that apply to this draw."""
-    todo, found = list(answer_names(authored_answer(drawn, index))), set[str]()
+    todo, found = list(asked_quantities(authored_answer(drawn, index))), set[str]()
     steps = {step.name: step for step in drawn.steps_of_part(index)}
     while todo:
         name = todo.pop()
@@ -230,9 +228,11 @@ class _Guide:
         solved = PartSolution(
             label="",
             lines=(solution_step(self.filler, step),),
-            shown=to_inlines(KINDS[spec.kind].printed(spec, self.lang)),
+            shown=to_inlines(KINDS[spec.kind].explain_key(spec, self.lang)),
             mistakes=tuple(
-                solved_misconceptions(self.filler, Built(spec, mistakes=mistaken(spec, "value")))
+                solved_misconceptions(
+                    self.filler, AskedPart(spec, mistakes=misconception_specs(spec, "value"))
+                )
             ),
         )
         return LevelPart(Fraction(1), body, spec, solved)
@@ -251,7 +251,7 @@ class _Guide:
             for lang, texts in usual.spec.notes.items()
         }
         spec = msgspec.structs.replace(usual.spec, traps=kept, notes=told if kept else {})
-        of = answer_names(authored_answer(self.drawn, stage.index))
+        of = asked_quantities(authored_answer(self.drawn, stage.index))
         numeric = spec.kind in NUMERIC
         solved = replace(
             usual.solved,

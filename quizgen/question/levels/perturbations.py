@@ -10,10 +10,11 @@ from functools import cached_property
 from flint import fmpq
 
 from quizgen.bank.markdown import Inline, PlainText
-from quizgen.bank.misconceptions import answer_names
 from quizgen.bank.sampler import list_candidates, shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import MathError
+from quizgen.kinds import NUMERIC
+from quizgen.kinds.contract import asked_quantities
 from quizgen.locale import translate
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import pretty
@@ -23,9 +24,8 @@ from quizgen.maths.scaling import scaling_exponent
 from quizgen.maths.tree import Call, names_in, walk_tree
 from quizgen.maths.values import Value
 from quizgen.question.inlines import translate_inlines
-from quizgen.question.levels.guided import NUMERIC
 from quizgen.question.levels.steps import applicable_branch, has_name, level_seed, stated_quantities
-from quizgen.question.specs import authored_answer
+from quizgen.question.part_context import authored_answer
 from quizgen.question.worked_steps import quantity_inlines
 
 SCALES = tuple(map(Fraction, ("2", "3", "4", "1/2", "1/3", "1/4")))
@@ -181,7 +181,7 @@ def askable_results(drawn: Variant) -> Iterator[tuple[int, str]]:
     """The results of a question that can be called by a name."""
     for index, part in enumerate(drawn.template.rules.part):
         if part.answer["kind"] in NUMERIC:
-            for name in answer_names(part.answer):
+            for name in asked_quantities(part.answer):
                 if name in drawn.template.chain.by_name and has_name(drawn, name):
                     yield index, name
 

@@ -22,12 +22,13 @@ from quizgen.bank.markdown import (
     leaves,
     slot_names,
 )
-from quizgen.bank.misconceptions import APART, answer_names
+from quizgen.bank.misconceptions import APART
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import MathError
-from quizgen.grading.kinds import angle, number, quantity
 from quizgen.grading.spec import ScalarSpec, decode_spec
+from quizgen.kinds import angle, number, quantity
+from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.canonical import canonical_forms
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree
@@ -38,7 +39,7 @@ from quizgen.maths.tolerance import RULES
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, walk_tree
 from quizgen.maths.values import Value
 from quizgen.question.inlines import TypesetMaths
-from quizgen.question.specs import authored_answer, count_nouns, misconception_notes
+from quizgen.question.part_context import VariantPart, authored_answer
 from quizgen.question.worked_steps import value_node, value_typed
 
 USUAL = {"rel": "0.005"}
@@ -301,9 +302,8 @@ def step_value_spec(drawn: Variant, index: int, step: ChainStep) -> ScalarSpec:
         traps = dict(
             _iter_telling_misconceptions(drawn, step, _decode_step_spec(table), value, unit)
         )
-    return _decode_step_spec(
-        {**table, "traps": traps, "notes": misconception_notes(drawn, traps)} if traps else table
-    )
+    notes = VariantPart(drawn, index).misconception_notes(traps) if traps else {}
+    return _decode_step_spec({**table, "traps": traps, "notes": notes} if traps else table)
 
 
 def _decode_step_spec(table: Mapping[str, object]) -> ScalarSpec:
@@ -311,7 +311,7 @@ def _decode_step_spec(table: Mapping[str, object]) -> ScalarSpec:
 
 
 _SHAPES: dict[str, type[ScalarSpec]] = {
-    "number": number.Spec, "quantity": quantity.Spec, "angle": angle.Spec
+    "number": number.NumberSpec, "quantity": quantity.QuantitySpec, "angle": angle.AngleSpec
 }  # fmt: skip
 
 
@@ -336,7 +336,7 @@ def _rule_of(drawn: Variant, index: int, step: ChainStep) -> Mapping[str, Any]:
     answer = dict(authored_answer(drawn, index))
     of = answer.get("of", ())
     labels = {name: label for label, name in of.items()} if isinstance(of, Mapping) else {}
-    if step.name in answer_names(answer):
+    if step.name in asked_quantities(answer):
         cell = answer.get("cells", {}).get(labels.get(step.name), {})
         kept = {k: v for k, v in answer.items() if k not in RULES} if {*RULES} & {*cell} else answer
         return {**kept, **cell, "own": True}
@@ -346,9 +346,9 @@ def _rule_of(drawn: Variant, index: int, step: ChainStep) -> Mapping[str, Any]:
 def _find_count_nouns(drawn: Variant, index: int, step: ChainStep) -> dict[str, list[str]]:
     """The words for what an asked quantity counts."""
     answer = authored_answer(drawn, index)
-    if step.name not in answer_names(answer):
+    if step.name not in asked_quantities(answer):
         return {}
-    found = count_nouns(drawn, index).get("counts", [])
+    found = VariantPart(drawn, index).count_nouns().get("counts", [])
     if isinstance(found, Mapping):
         of = answer["of"]
         labels = [

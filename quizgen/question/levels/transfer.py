@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from quizgen.bank.markdown import Block, Emphasis, ListBlock, Paragraph, PlainText
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
+from quizgen.kinds import NUMERIC
 from quizgen.locale import translate
 from quizgen.question.interpolation import Interpolator
 from quizgen.question.levels import exam
@@ -28,7 +29,6 @@ from quizgen.question.levels.contract import (
     without_bold_questions,
 )
 from quizgen.question.levels.error_spotting import choose_faulty_solution
-from quizgen.question.levels.guided import NUMERIC
 from quizgen.question.levels.perturbations import Perturbations
 from quizgen.question.levels.steps import level_seed, part_labels
 
@@ -87,8 +87,9 @@ def _iter_task_blocks(drawn: Variant, lang: str, usual: LevelQuestion) -> Iterat
     )
     kinds = [part.answer["kind"] for part in drawn.template.rules.part]
     bodies = [
-        tuple(map(without_bold_questions, part.body)) for part, kind in zip(usual.parts, kinds, strict=True)
+        tuple(map(without_bold_questions, part.body))
+        for part, kind in zip(usual.parts, kinds, strict=True)
         if kind in NUMERIC and part.body
-    ]  # fmt: skip
+    ]
     if bodies:
         yield ListBlock(tuple(bodies))

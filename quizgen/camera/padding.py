@@ -1,0 +1,73 @@
+"""Pixels beyond the frame: how far each effect looks, and layers cut back to what is needed."""
+
+from __future__ import annotations
+
+import math
+
+from msgspec.structs import replace
+
+from quizgen.camera.effect import Effect
+from quizgen.camera.raster.rasterizer import Layer
+from quizgen.camera.setup.scene import Image
+from quizgen.camera.setup.view import View
+
+WIDEST = 4
+"""A margin is at most this part of the frame's side, as a barrel needs that just does not fold."""
+
+
+def padded_views(present: tuple[Effect, ...], frame: View) -> tuple[View, ...]:
+    """What each effect works on: the frame, and what it and the later effects need around it.
+
+    Parameters
+    ----------
+    present : tuple of Effect
+        In physical order.
+    frame : View
+        All lengths in px.
+    """
+    found = [frame] * len(present)
+    if frame.scene.image is not None:
+        return tuple(found)
+    view = frame
+    for index in range(len(present) - 1, -1, -1):
+        view = found[index] = _with_margin(view, present[index].margin(view))
+    return tuple(found)
+
+
+def _with_margin(view: View, reach: tuple[float, float]) -> View:
+    sides = view.scene.width, view.scene.height
+    wanted = (had + far for had, far in zip(view.margin, reach, strict=True))
+    across, down = (
+        math.ceil(min(far, side // WIDEST)) for far, side in zip(wanted, sides, strict=True)
+    )
+    return view if (across, down) == view.margin else replace(view, margin=(across, down))
+
+
+def crop_layer(layer: Layer, view: View) -> Layer:
+    """The middle of a layer that was drawn or computed with a wider margin: nothing is copied."""
+    height, width = layer.colour.shape[:2]
+    down, across = (height - view.height) // 2, (width - view.width) // 2
+    if not down and not across:
+        return layer
+    part = slice(down, down + view.height), slice(across, across + view.width)
+    cover, (x, y) = layer.cover, layer.motion.pivot
+    motion = replace(layer.motion, pivot=(x - across, y - down))
+    seen = None if cover is None else cover[part]
+    return replace(layer, colour=layer.colour[part], cover=seen, motion=motion)
+
+
+def crop_in_place(picture: Image, view: View) -> Image:
+    """The middle of a picture nobody else needs, row after row in the memory of the whole.
+
+    New memory for a large picture takes longer than copying it.
+    """
+    down, across = (picture.shape[0] - view.height) // 2, (picture.shape[1] - view.width) // 2
+    if not down and not across:
+        return picture
+    if not picture.flags.c_contiguous:
+        return picture[down : down + view.height, across : across + view.width]
+    length, flat = view.width * picture.shape[2], picture.reshape(-1)
+    for row in range(view.height):  # what is written lies before all that is still to be read
+        line = picture[down + row, across : across + view.width]
+        flat[row * length : (row + 1) * length] = line.reshape(-1)
+    return flat[: view.height * length].reshape(view.height, view.width, -1)

@@ -1,0 +1,60 @@
+"""8-bit codes of pictures, their histograms, and what can be read off them by name."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+GREY_LEVELS = 255.0
+
+Numbers = NDArray[np.integer] | NDArray[np.floating]
+
+
+def to_8bit(values: NDArray[np.floating]) -> NDArray[np.uint8]:
+    """8-bit codes of values in [0, 255]: clipped, halves rounded upward (as OpenCV's demosaicing).
+
+    Nothing is truncated (errata EC8) and nothing wraps (errata E21).
+    """
+    return np.asarray(np.clip(values + 0.5, 0, 255), np.uint8)  # which leaves out the fraction
+
+
+def count_histogram(image: Numbers, bins: int = 256, top: float = 1.0) -> NDArray[np.int64]:
+    """Counts of values in equal bins over [0, top]; values outside fall into the end bins.
+
+    Parameters
+    ----------
+    image : numpy.ndarray
+        Any shape. With integer pictures use ``top = 255`` and 256 bins: one bin per level.
+    """
+    if image.dtype == np.uint8:  # each level once, not each pixel
+        counts = np.bincount(image.reshape(-1), minlength=256)
+        index = _bins(np.arange(256), bins, top)
+        return np.bincount(index, counts, bins).astype(np.int64)
+    return np.bincount(_bins(image, bins, top).reshape(-1), minlength=bins)
+
+
+def _bins(values: Numbers, bins: int, top: float) -> NDArray[np.int64]:
+    steps = bins - 1 if np.issubdtype(values.dtype, np.integer) else bins
+    index = (values.astype(np.float64) * (steps / top)).astype(np.int64)
+    return np.clip(index, 0, bins - 1)
+
+
+def _patch(levels: NDArray[np.floating], down: float, across: float) -> float:
+    """Mean of a sixteenth of the sides, so far (0 to 1) from the first row and column."""
+    height, width = levels.shape[:2]
+    rows, columns = max(1, height // 16), max(1, width // 16)
+    top, left = int((height - rows) * down), int((width - columns) * across)
+    return float(levels[top : top + rows, left : left + columns].mean())
+
+
+_CORNERS = (0, 0), (0, 1), (1, 0), (1, 1)
+
+MEASURES = {
+    "mean": lambda levels: float(levels.mean()),
+    "centre": lambda levels: _patch(levels, 0.5, 0.5),
+    "corner": lambda levels: float(np.mean([_patch(levels, *place) for place in _CORNERS])),
+    "deviation": lambda levels: float(levels.std(axis=(0, 1)).mean()),
+    "darkest": lambda levels: float(levels.min()),
+    "brightest": lambda levels: float(levels.max()),
+}
+"""What can be read off a picture by name, in grey levels from 0 to 255."""

@@ -1,0 +1,417 @@
+"""Draw a scene as a stack of layers, farthest first, with one-pixel soft edges.
+
+Layers are kept apart only where something needs it: different blur or different motion.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import groupby, starmap
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from quizgen.camera.pixels.tiles import split_range
+from quizgen.camera.raster.shapes import CLOSEST, SHAPES, TEXTURES, Coordinates
+from quizgen.camera.setup.scene import Image, SceneError, SceneObject
+from quizgen.camera.setup.settings import aperture_diameter
+from quizgen.camera.setup.view import View
+from quizgen.numerics.ufunc import warm_allocator
+
+
+class Motion(msgspec.Struct, frozen=True):
+    """How a layer moves: px/s, rad/s about a pivot (px from the first pixel), and its reach."""
+
+    velocity: tuple[float, float] = (0.0, 0.0)
+    spin: float = 0.0
+    pivot: tuple[float, float] = (0.0, 0.0)
+    reach: float = 0.0
+
+    @property
+    def is_still(self) -> bool:
+        """Whether nothing moves."""
+        return self.velocity == (0.0, 0.0) and self.spin == 0.0
+
+
+STILL = Motion()
+
+
+ALL_CHANNELS = (0, 1, 2)
+
+
+class Layer(msgspec.Struct, frozen=True):
+    """One depth of the picture.
+
+    Parameters
+    ----------
+    colour : numpy.ndarray
+        Shape (H, W, 3), linear radiance times coverage.
+    cover : numpy.ndarray or None
+        Shape (H, W, 1) or (H, W, 3), coverage in [0, 1]; None is opaque everywhere.
+    depth : float or numpy.ndarray
+        m; a map of shape (H, W) for a picture with depth.
+    motion : Motion
+    sharp : tuple of int
+        Channels that are not out of focus yet: axial colour takes red and blue before the rest.
+    own : bool
+        Whether nobody else needs its memory, so that it may be written over.
+    """
+
+    colour: Image
+    cover: Image | None = None
+    depth: float | Image = math.inf
+    motion: Motion = STILL
+    sharp: tuple[int, ...] = ALL_CHANNELS
+    own: bool = False
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether it has a single colour and covers everything."""
+        if self.cover is not None or not (self.colour[0] == self.colour[0, 0]).all():
+            return False
+        bands = range(0, len(self.colour), _ROWS)
+        return all((self.colour[at : at + _ROWS] == self.colour[0]).all() for at in bands)
+
+
+_ROWS = 64
+"""Rows looked at at once."""
+
+LayerStack = tuple[Layer, ...]
+PixelBox = tuple[slice, slice]
+"""Rows and columns."""
+
+
+def composite_layers(stack: LayerStack) -> Image:
+    """Lay the layers over each other, farthest first; one opaque layer is returned as it is."""
+    if len(stack) == 1:
+        return stack[0].colour
+    picture = stack[0].colour.copy()
+    for layer in stack[1:]:
+        picture = composite_over(layer, picture)
+    return picture
+
+
+def composite_over(layer: Layer, picture: Image) -> Image:
+    """Lay a layer over a picture that nobody else needs."""
+    cover = layer.cover
+    if cover is None:
+        return layer.colour
+    rows, columns = bounding_box(cover)
+    height = max(1, _BAND // max(1, columns.stop - columns.start))
+    for start in range(rows.start, rows.stop, height):
+        part = slice(start, min(start + height, rows.stop)), columns
+        blend_into(picture[part], 1.0 - cover[part], layer.colour[part])
+    return picture
+
+
+def blend_into(behind: Image, keep: Image, image: Image) -> None:
+    """Keep a share of what is behind, one for all channels or one for each, and add an image."""
+    if keep.shape == behind.shape:
+        behind *= keep
+    else:
+        for channel in range(behind.shape[2]):  # far faster than NumPy's loops over three values
+            plane = behind[..., channel]
+            plane *= keep[..., 0]
+    behind += image
+
+
+def bounding_box(cover: Image) -> PixelBox:
+    """Where a cover is not empty: the smallest box, none at all if there is nothing."""
+    rows = np.flatnonzero(cover.reshape(len(cover), -1).any(axis=1))
+    if not rows.size:
+        return slice(0, 0), slice(0, 0)
+    columns = np.flatnonzero(np.any(cover[rows[0] : rows[-1] + 1], axis=0).any(axis=1))
+    return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+
+
+def _place(thing: SceneObject, view: View) -> tuple[float, float]:
+    return view.centre[0] + thing.x.value, view.centre[1] + thing.y.value
+
+
+_BAND = 1 << 16
+"""Pixels laid over each other at once, about, so that what lies in between stays small."""
+
+
+def _extent(thing: SceneObject) -> tuple[float, float]:
+    """Across and down from a thing's centre, where it covers nothing, soft edge included, px."""
+    if thing.shape == "box" and not thing.angle:
+        return thing.width.value / 2 + 1.0, thing.height.value / 2 + 1.0
+    if thing.shape == "disc":  # which may have been given the sides of a box besides
+        return thing.radius.value + 1.0, thing.radius.value + 1.0
+    if thing.shape in ("grid", "full") or (thing.shape == "blades" and thing.count == 1):
+        return math.inf, math.inf
+    far = outline_radius(thing) + thing.stroke.value
+    if thing.shape == "ellipse":  # the edge of a thin one is softer along its length
+        far *= 1.0 + 1.0 / min(thing.width.value, thing.height.value)
+    return far, far
+
+
+def extends_beyond_frame(spec: LayerSpec, view: View) -> bool:
+    """Whether anything but an even surface stands outside the frame."""
+    right, lower = (view.scene.width - 1) / 2.0, (view.scene.height - 1) / 2.0
+    for thing in spec.things:
+        across, down = _extent(thing)
+        beyond = abs(thing.x.value) + across > right or abs(thing.y.value) + down > lower
+        if beyond and not (thing.shape == "full" and thing.texture == "plain"):
+            return True
+    return False
+
+
+def _box(thing: SceneObject, view: View) -> PixelBox:
+    """The part of the picture that a thing can cover."""
+
+    def part(middle: float, far: float, length: int) -> slice:
+        if math.isinf(far):
+            return slice(0, length)
+        ends = math.floor(middle - far), math.ceil(middle + far) + 1
+        return slice(*(min(max(end, 0), length) for end in ends))
+
+    (column, row), (across, down) = _place(thing, view), _extent(thing)
+    return part(row, down, view.height), part(column, across, view.width)
+
+
+def intersect_boxes(one: PixelBox, other: PixelBox) -> PixelBox | None:
+    """What two boxes share."""
+    rows, columns = (
+        slice(max(a.start, b.start), min(a.stop, b.stop)) for a, b in zip(one, other, strict=True)
+    )
+    return (rows, columns) if rows.start < rows.stop and columns.start < columns.stop else None
+
+
+def _own_axes(
+    thing: SceneObject, view: View, rows: Coordinates, columns: Coordinates
+) -> tuple[Coordinates, Coordinates]:
+    """Places from a thing's centre along its own axes: a row and a column, or planes if turned."""
+    column, row = _place(thing, view)
+    x, y = columns[None, :] - column, rows[:, None] - row
+    if not thing.angle:
+        return x, y
+    cosine, sine = math.cos(thing.angle), math.sin(thing.angle)
+    return cosine * x + sine * y, cosine * y - sine * x
+
+
+def _pixels(part: slice) -> Coordinates:
+    return np.arange(part.start, part.stop, dtype=np.float64)
+
+
+def _add(layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty: bool) -> bool:
+    """Draw the edge upon a part of a layer, empty or not; say whether anything is there to draw.
+
+    Memory nothing is written to is not taken from the system.
+    """
+    place = _own_axes(thing, view, *map(_pixels, part))
+    share = np.subtract(0.5, SHAPES[thing.shape](thing, *place))
+    np.maximum(share, 0.0, out=share)
+    np.minimum(share, 1.0, out=share)
+    cover = share.astype(view.precision)
+    if not cover.any():
+        return False
+    image = np.empty((*cover.shape, 3), view.precision)
+    for channel, plane in enumerate(_planes(thing, view, place)):
+        np.multiply(cover, plane, out=image[..., channel])  # far faster than all three together
+    if empty:  # nothing behind is kept
+        _lay(layer, part, image, cover[..., None])
+        return True
+    keep = 1.0 - cover[..., None]
+    blend_into(layer.colour[part], keep, image)
+    if layer.cover is not None:
+        blend_into(layer.cover[part], keep, cover[..., None])
+    return True
+
+
+def _lay(layer: Layer, part: PixelBox, image: Image, cover: Image | float) -> None:
+    layer.colour[part] = image
+    if layer.cover is not None:
+        layer.cover[part] = cover
+
+
+def _fill(layer: Layer, thing: SceneObject, view: View, part: PixelBox) -> None:
+    """Draw upon a part of a layer that a thing covers; of an even one a row stands for all."""
+    rows, columns = map(_pixels, part)
+    planes = _planes(thing, view, _own_axes(thing, view, rows, columns))
+    shape = np.broadcast_shapes((1, columns.size), *map(np.shape, planes))
+    image = np.empty((*shape, 3), view.precision)
+    for channel, plane in enumerate(planes):
+        image[..., channel] = plane
+    _lay(layer, part, image, 1.0)
+
+
+def _planes(
+    thing: SceneObject, view: View, place: tuple[Coordinates, Coordinates]
+) -> Sequence[float | Image]:
+    """A thing's colours over a part."""
+    texture = TEXTURES[thing.texture]
+    if texture is None:
+        return thing.colour
+    share = texture(thing, *place).astype(view.precision)
+    rest, pairs = 1.0 - share, zip(thing.colour, thing.other, strict=True)
+    return [rest * one + share * two for one, two in pairs]
+
+
+def outline_radius(thing: SceneObject) -> float:
+    """Largest distance of a thing's outline from its own centre, px."""
+    corners = [math.hypot(*point) for point in thing.points]
+    box = math.hypot(thing.width.value, thing.height.value) / 2.0
+    return max(thing.radius.value, box, *corners, 0.0) + 1.0
+
+
+def thing_motion(thing: SceneObject, view: View) -> Motion:
+    """How a thing moves over the picture."""
+    across, down = thing.velocity[0].value, thing.velocity[1].value
+    if not thing.spin:
+        return Motion((across, down)) if across or down else STILL
+    return Motion((across, down), thing.spin, _place(thing, view), outline_radius(thing))
+
+
+class LayerSpec(msgspec.Struct, frozen=True):
+    """A layer before it is drawn: its depth (None for a depth map), motion and things."""
+
+    depth: float | None
+    motion: Motion
+    things: tuple[SceneObject, ...]
+    opaque: bool
+
+
+def layer_specs(view: View) -> tuple[LayerSpec, ...]:
+    """Which layers a scene needs, farthest first: things that share blur and motion share one."""
+    scene = view.scene
+    behind = scene.background_depth if scene.image is None else scene.depth
+    base = None if isinstance(behind, np.ndarray) else behind
+    bare = LayerSpec(base, STILL, (), opaque=True)
+    if not scene.things:
+        return (bare,)
+    found = [bare]
+    ordered = sorted(scene.things, key=lambda thing: -thing.depth)
+    focused = aperture_diameter(view.camera) is not None
+
+    def key(thing: SceneObject) -> tuple[float | None, Motion]:
+        return (thing.depth if focused else None), thing_motion(thing, view)
+
+    for (depth, moves), group in groupby(ordered, key=key):
+        things = tuple(group)
+        if found == [bare] and moves.is_still and depth in (base, None):
+            found[0] = LayerSpec(base, STILL, things, opaque=True)
+        elif scene.image is None and any(thing.shape == "full" for thing in things):
+            found = [LayerSpec(depth, moves, things, opaque=True)]  # nothing behind it is seen
+        else:
+            found.append(LayerSpec(depth, moves, things, opaque=False))
+    return tuple(found)
+
+
+_SETTLED = 30 << 20
+"""Bytes, just below the most that the C library takes note of (32 MiB)."""
+
+
+def rasterize(view: View) -> LayerStack:
+    """Draw everything.
+
+    Parameters
+    ----------
+    view : View
+        All lengths in px (see `quizgen.camera.effects.projection`).
+
+    Returns
+    -------
+    tuple of Layer
+        Farthest first; the first is opaque. A bare picture is returned untouched.
+    """
+    if view.scene.is_metric:
+        raise SceneError("lengths in metres must be projected first")
+    warm_allocator(_SETTLED)
+    return tuple(_draw_layer(spec, view) for spec in layer_specs(view))
+
+
+# Cells: which parts of a picture a drawn thing covers as a whole, and where nothing of it is.
+# A band of rows is as high as a cell; of what covers or leaves out all of one no edge is computed.
+
+CELL = 64
+"""Columns of a cell, and rows unless the picture is narrow."""
+_CELLS_AT_ONCE = 16
+"""Cells drawn at once, few enough for the cache."""
+
+CellStates = NDArray[np.int8]
+"""Of each row and column of cells: `NOTHING` of a thing, an edge of it maybe, or `ALL` covered."""
+NOTHING, ALL = 0, 2
+
+
+def cell_height(width: int) -> int:
+    """Rows of a cell: as many pixels in more rows, where the picture is narrow."""
+    return max(CELL, _CELLS_AT_ONCE * CELL * CELL // width)
+
+
+def classify_cells(away: NDArray[np.float64], reach: float) -> CellStates:
+    """What becomes of cells.
+
+    Parameters
+    ----------
+    away : numpy.ndarray
+        From `quizgen.camera.raster.shapes.CLOSEST` in the middle of each.
+    reach : float
+        From there to a corner, px; the soft edge is half a pixel more.
+    """
+    far = reach + 0.5
+    return np.asarray(1 - (away >= far) + (away <= -far), np.int8)
+
+
+def iter_runs(row: list[int]) -> Iterator[tuple[slice, bool]]:
+    """Cells beside each other that are covered alike, unless not at all, and whether all are."""
+    start = 0
+    for state, alike in groupby(row):
+        stop = start + len(list(alike))
+        if state != NOTHING:
+            for first in range(start, stop, _CELLS_AT_ONCE):
+                yield slice(first, min(first + _CELLS_AT_ONCE, stop)), state == ALL
+        start = stop
+
+
+def _draw_layer(spec: LayerSpec, view: View) -> Layer:
+    """One band after the other, each with all that it shows."""
+    layer, boxes = _bare(spec, view), [_box(thing, view) for thing in spec.things]
+    if view.scene.image is not None and not spec.things:
+        return layer
+    line = np.empty((view.width, 3), view.precision)
+    line[...] = view.scene.background
+    each = [_states(thing, view) for thing in spec.things]
+    for number, rows in enumerate(
+        starmap(slice, split_range(view.height, cell_height(view.width)))
+    ):
+        hidden = bool(each) and (each[0][number] == ALL).all()
+        if spec.opaque and view.scene.image is None and not hidden:
+            layer.colour[rows] = line
+        drawn = [spec.opaque] * -(-view.width // CELL)
+        for thing, box, found in zip(spec.things, boxes, each, strict=True):
+            for cells, full in iter_runs(found[number].tolist()):
+                part = intersect_boxes((rows, slice(cells.start * CELL, cells.stop * CELL)), box)
+                if part is None:
+                    continue
+                if full:
+                    _fill(layer, thing, view, part)
+                if full or _add(layer, thing, view, part, empty=not any(drawn[cells])):
+                    drawn[cells] = [True] * len(drawn[cells])
+    return layer
+
+
+def _states(thing: SceneObject, view: View) -> CellStates:
+    """What a thing does to every cell of the picture."""
+    height = cell_height(view.width)
+    rows, columns = (
+        np.arange(0.0, length, side) + (side - 1) / 2.0
+        for length, side in ((view.height, height), (view.width, CELL))
+    )
+    place = _own_axes(thing, view, rows, columns)
+    return classify_cells(CLOSEST[thing.shape](thing, *place), math.hypot(height, CELL) / 2.0)
+
+
+def _bare(spec: LayerSpec, view: View) -> Layer:
+    """A layer on which nothing is drawn yet; a picture that is not kept will be drawn upon."""
+    scene, shape = view.scene, (view.height, view.width)
+    depth = math.inf if spec.depth is None else spec.depth
+    if not spec.opaque:
+        colour, cover = (np.zeros((*shape, channels), view.precision) for channels in (3, 1))
+        return Layer(colour, cover, depth, spec.motion)
+    if scene.image is not None:
+        image = scene.image.astype(view.precision, copy=bool(spec.things))
+        return Layer(image, depth=scene.depth)
+    return Layer(np.empty((*shape, 3), view.precision), depth=depth, motion=spec.motion)

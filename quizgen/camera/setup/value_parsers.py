@@ -1,0 +1,158 @@
+"""Readers of a scene file's values: text with a unit, numbers, words, colours."""
+
+# ruff: noqa: TRY004 - a wrong value in a file is a ValueError, whatever its type
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from typing import TypeVar
+
+from quizgen.camera.setup.scene import Colour, Length
+from quizgen.core.errors import FormulaError
+from quizgen.maths.numbers import parse_written_number
+from quizgen.maths.units import Dimension, get_unit
+from quizgen.numerics.gamma import srgb_decode
+
+T = TypeVar("T")
+ValueParser = Callable[[object], T]
+"""Takes what TOML gives; raises ValueError with what was expected."""
+
+LARGEST = 1e12
+"""Magnitude of the largest number, in base units: nobody means more, and products stay finite."""
+BRIGHTEST = 1e6
+"""Largest radiance, 1 = white."""
+
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?:/\d+)?"
+_QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER})\s*(?P<unit>.*?)\s*")
+
+
+def _meant(value: float) -> float:
+    if abs(value) > LARGEST:
+        raise ValueError(f"expected at most {LARGEST:g} in base units")
+    return value
+
+
+def _measure(text: object) -> tuple[float, Dimension]:
+    """Number in base units and its dimension; degrees become radians."""
+    if not isinstance(text, str):
+        raise ValueError("expected a quantity with its unit in quotes")
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise ValueError(f"cannot read {text!r}; expected a number and a unit")
+    try:
+        found = get_unit(match["unit"])
+        value = _meant(float(parse_written_number(match["number"]) * found.factor))
+    except (FormulaError, OverflowError) as error:
+        raise ValueError(str(error)) from error
+    turn = math.pi / 180.0 if ("deg", 1) in found.dimension else 1.0
+    return value * turn, found.dimension
+
+
+def quantity_parser(name: str) -> ValueParser[float]:
+    """Reader of a number with a unit of the same dimension as ``name``."""
+    expected = get_unit(name).dimension
+
+    def read(text: object) -> float:
+        if text == "inf" and expected == get_unit("m").dimension:
+            return math.inf
+        value, dimension = _measure(text)
+        if dimension != expected:
+            raise ValueError(f"expected a unit like {name!r}")
+        return value
+
+    return read
+
+
+def length_parser(per: str = "") -> ValueParser[Length]:
+    """Reader of a length in px or m, or of one per time."""
+
+    def read(text: object) -> Length:
+        value, dimension = _measure(text)
+        for metric in (True, False):
+            if dimension == get_unit(("m" if metric else "px") + per).dimension:
+                return Length(value, metric)
+        raise ValueError(f"expected a length in px{per} or m{per}")
+
+    return read
+
+
+def parse_plain_number(value: object) -> float:
+    """A plain number."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ValueError("expected a number")
+    return _meant(float(value))
+
+
+def parse_integer(value: object) -> int:
+    """A whole number."""
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise ValueError("expected a whole number")
+    return value
+
+
+def parse_bool(value: object) -> bool:
+    """True or false."""
+    if not isinstance(value, bool):
+        raise ValueError("expected true or false")
+    return value
+
+
+def parse_text(value: object) -> str:
+    """Text."""
+    if not isinstance(value, str):
+        raise ValueError("expected text in quotes")
+    return value
+
+
+def choice_parser(*allowed: str) -> ValueParser[str]:
+    """Reader of one of the given words."""
+
+    def read(value: object) -> str:
+        if value not in allowed:
+            raise ValueError(f"expected one of {', '.join(allowed)}")
+        return str(value)
+
+    return read
+
+
+def list_parser(part: ValueParser[T], count: int | None = None) -> ValueParser[tuple[T, ...]]:
+    """Reader of a list."""
+
+    def read(value: object) -> tuple[T, ...]:
+        if not isinstance(value, list) or count not in (None, len(value)):
+            raise ValueError(f"expected a list of {count or 'several'} values")
+        return tuple(part(item) for item in value)
+
+    return read
+
+
+def pair_parser(part: ValueParser[T]) -> ValueParser[tuple[T, T]]:
+    """Reader of a list of two."""
+
+    def read(value: object) -> tuple[T, T]:
+        first, second = list_parser(part, 2)(value)
+        return first, second
+
+    return read
+
+
+def parse_triple(value: object) -> Colour:
+    """Three numbers, for red, green and blue."""
+    red, green, blue = list_parser(parse_plain_number, 3)(value)
+    return red, green, blue
+
+
+def parse_colour(value: object) -> Colour:
+    """``#rrggbb`` in sRGB, or three linear radiances."""
+    if isinstance(value, str) and re.fullmatch(r"#[0-9a-fA-F]{6}", value):
+        codes = [int(value[place : place + 2], 16) / 255.0 for place in (1, 3, 5)]
+        red, green, blue = (float(light) for light in srgb_decode(codes))
+        return red, green, blue
+    red, green, blue = parse_triple(value)
+    if min(red, green, blue) < 0.0:
+        raise ValueError("radiance cannot be negative")
+    if max(red, green, blue) > BRIGHTEST:
+        raise ValueError(f"expected a radiance of at most {BRIGHTEST:g}")
+    return red, green, blue

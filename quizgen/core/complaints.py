@@ -1,0 +1,165 @@
+"""What is wrong in an authored table, in words an author knows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Any, get_args, get_origin, get_type_hints
+
+import msgspec
+
+from quizgen.core.decoding import convert
+from quizgen.core.errors import BankError
+from quizgen.core.positions import Place
+
+_TYPES = {
+    "int": "a whole number",
+    "float": "a number",
+    "str": 'a text in "quotes"',
+    "bool": "true or false",
+    "array": "a list [...]",
+    "object": "a table",
+    "null": "",
+}
+_GOT = _TYPES | {"str": "a text", "array": "a list", "bool": "true or false"}
+_PLACE = re.compile(r" - at `(?:key in )?\$\.?(.*)`$")
+_EXPECTED = re.compile(r"Expected `(.*)`, got `(.*)`$")
+_UNKNOWN = re.compile(r"Object contains unknown field `(.*)`$")
+_MISSING = re.compile(r"Object missing required field `(.*)`$")
+_NONE_OF = re.compile(r"Invalid enum value '?(.*?)'?$")
+_STEP = re.compile(r"\[(\d+)\]|\[(\.\.\.)\]|([^.\[\]]+)")
+
+
+def complaint_of(
+    error: Exception, kind: object, table: object = None, before: Place = ()
+) -> BankError:
+    """What msgspec says of a table that should be of a kind: key, what is there, what may be.
+
+    Parameters
+    ----------
+    error : Exception
+        Any but msgspec's keep their words.
+    kind : type
+        What the table was converted to.
+    table : object
+        The table: msgspec does not say which of several names has the fault, and it is looked for.
+    before : tuple of str or int
+        Where the table stands in its file.
+    """
+    text = str(error)
+    if not isinstance(error, msgspec.ValidationError):
+        return BankError(text, rule="QG100", place=before)
+    found = _PLACE.search(text)
+    place = _place(found[1] if found else "", kind, table)
+    rule, what, key = _explain_type_error(
+        text[: found.start()] if found else text, _kind_at(kind, place)
+    )
+    said = written_place((*before, *place))
+    whole = (*before, *place, *([key] if key else []))
+    return BankError(f"{said}: {what}" if said else what, rule=rule, place=whole)
+
+
+def written_place(place: Place) -> str:
+    """``("part", 0, "points")`` as ``part 1: points``: as it is counted by people."""
+    text = ""
+    for step in place:
+        text += f" {step + 1}" if isinstance(step, int) else f".{step}"
+    return re.sub(r"^part (\d+)\.?", r"part \1: ", text.removeprefix(".")).rstrip(": ")
+
+
+def _place(path: str, kind: object, table: object) -> Place:
+    """Msgspec's path as keys; for any name of a table the one whose value is at fault."""
+    place: list[str | int] = []
+    for number, dots, name in _STEP.findall(path):
+        step: str | int | None = int(number) if number else name or None
+        if dots:
+            inside = _find_type_at_step(_kind_at(kind, tuple(place)), "...")
+            step = next((key for key, value in _items(table) if not _fits(value, inside)), None)
+        if step is None:
+            break
+        place.append(step)
+        table = _within(table, step)
+    return tuple(place)
+
+
+def _items(table: object) -> Iterable[tuple[Any, object]]:
+    if isinstance(table, dict):
+        return table.items()
+    return enumerate(table) if isinstance(table, list | tuple) else ()
+
+
+def _within(table: object, step: str | int) -> object:
+    return dict(_items(table)).get(step)
+
+
+def _fits(value: object, kind: Any) -> bool:
+    try:
+        convert(value, kind)
+    except msgspec.ValidationError:
+        return False
+    return True
+
+
+def _explain_type_error(text: str, kind: object) -> tuple[str, str, str]:
+    """Code, message and the key that it is about, if it is one in the table."""
+    if match := _EXPECTED.match(text):
+        wanted = (_TYPES.get(name, name) for name in match[1].split(" | "))
+        got = _GOT.get(match[2], match[2])
+        expected = " or ".join(filter(None, wanted))
+        return "QG106", f"{got} stands there, {expected} is expected", ""
+    if match := _UNKNOWN.match(text):
+        known = _list_allowed_keys(kind)
+        return "QG104", f"unknown key {match[1]!r}{_suggest_name(match[1], known)}", match[1]
+    if match := _MISSING.match(text):
+        return "QG105", f"the key {match[1]!r} is missing", ""
+    if match := _NONE_OF.match(text):
+        allowed = list(map(str, _list_allowed_values(kind)))
+        return "QG107", f"{match[1]!r} is not allowed{_suggest_name(match[1], allowed)}", ""
+    return "QG106", text, ""
+
+
+def _suggest_name(name: str, known: Iterable[str]) -> str:
+    allowed = sorted(known)
+    from difflib import get_close_matches
+
+    close = get_close_matches(name, allowed, 1)
+    meant = f"; did you mean {close[0]!r}?" if close else ""
+    return f"{meant} (allowed: {', '.join(allowed)})" if allowed else meant
+
+
+def _list_allowed_keys(kind: object) -> list[str]:
+    if isinstance(kind, type) and issubclass(kind, msgspec.Struct):
+        names = (field.encode_name for field in msgspec.structs.fields(kind))
+        return [name for name in names if not name.startswith("/")]
+    return []
+
+
+def _list_allowed_values(kind: object) -> tuple[Any, ...]:
+    inside = [value for one in get_args(kind) for value in (get_args(one) or (one,))]
+    return tuple(value for value in inside if isinstance(value, str))
+
+
+def _kind_at(kind: object, place: Place) -> object:
+    """The type that stands at a place."""
+    for step in place:
+        kind = _find_type_at_step(kind, step)
+    return _struct_in(kind)
+
+
+def _find_type_at_step(kind: object, step: str | int) -> object:
+    kind = _struct_in(kind)
+    if isinstance(kind, type) and issubclass(kind, msgspec.Struct):
+        names = {f.encode_name: f.name for f in msgspec.structs.fields(kind)}
+        return get_type_hints(kind).get(names.get(str(step), str(step)))
+    args = [one for one in get_args(kind) if one is not Ellipsis]
+    return args[-1] if args else None
+
+
+def _struct_in(kind: object) -> object:
+    """The table among several types, else the types."""
+    for one in get_args(kind) if get_origin(kind) not in {dict, tuple, list} else ():
+        if isinstance(one, type) and issubclass(one, msgspec.Struct):
+            return one
+        if get_origin(one) in {dict, tuple, list}:
+            return one
+    return kind

@@ -1,0 +1,291 @@
+"""Where in a file something stands: keys and texts of TOML, lists of Markdown, calls of Python.
+
+A place is said in the words of the file: in TOML the path of a key (``("part", 0, "answer")``), in
+Markdown a heading and the name of an item of its list (``("steps", "F")``), in Python a function
+and its first argument (``("Step", "F")``) or a keyword and a text in it (``("traps", "added")``).
+``(TEXT, "m*a")`` is the first text that is this one, in TOML and Markdown.
+
+``tomllib`` gives no positions and ``tomlkit`` keeps none, hence the scan below. It is asked only
+for what was read without error, or up to the line that could not be read.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import suppress
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import msgspec
+
+if TYPE_CHECKING:
+    import ast
+
+Place = tuple[str | int, ...]
+
+TEXT = "\0text"
+"""Begins a place that is a text. No key and no heading can be called so."""
+
+
+class Span(msgspec.Struct, frozen=True):
+    """Line and column, both from 1, at which something begins."""
+
+    line: int
+    column: int = 1
+
+
+def find_span(file: Path, place: Place) -> Span | None:
+    """Where in a file a place is; the nearest table, list or heading around it if it is missing.
+
+    Parameters
+    ----------
+    file : pathlib.Path
+        Of TOML, Markdown or Python, by its suffix; in others nothing is found.
+    place : tuple of str or int
+    """
+    if not place or file.suffix not in _FINDERS:
+        return None
+    try:
+        text = file.read_bytes().decode("utf-8-sig")
+        return _FINDERS[file.suffix](text.replace("\r\n", "\n").replace("\r", "\n"), place)
+    except (OSError, ValueError, SyntaxError):
+        return None
+
+
+# TOML ---------------------------------------------------------------------------------------------
+
+_BLANK = re.compile(r"(?:[ \t\n]|#[^\n]*)*")
+_STRING = re.compile(
+    r'"""(?P<a>(?:[^\\]|\\.)*?"{0,2})"""(?!")'
+    r"|'''(?P<b>.*?'{0,2})'''(?!')"
+    r'|"(?P<c>(?:[^"\\\n]|\\.)*)"'
+    r"|'(?P<d>[^'\n]*)'",
+    re.DOTALL,
+)
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+_ATOM = re.compile(r"[^,\]}#\n]*")
+_ESCAPE = re.compile(r'\\(["\\])')
+
+
+class TomlPositions:
+    """Keys, items of lists and texts of TOML that can be read, each with its offset.
+
+    Parameters
+    ----------
+    text : str
+    """
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.keys: dict[Place, int] = {}
+        self.texts: dict[str, int] = {}
+        self._at = 0
+        # ``[[part]]`` counts its tables, and ``[part.answer]`` speaks of the last one.
+        self._counts: dict[Place, int] = {}
+        with suppress(_ScanError, RecursionError):  # what stands before it is known
+            self._scan()
+
+    def find(self, place: Place) -> Span | None:
+        """Where a key or a text is, else what is around it."""
+        if place[0] == TEXT:
+            offset = self.texts.get(str(place[1]))
+            return None if offset is None else _span_at(self.text, offset)
+        for end in range(len(place), 0, -1):
+            if place[:end] in self.keys:
+                return _span_at(self.text, self.keys[place[:end]])
+        return None
+
+    def _scan(self) -> None:
+        table: Place = ()
+        while self._skip_blank() < len(self.text):
+            if self._is_next("[["):
+                table = self._header("]]")
+            elif self._is_next("["):
+                table = self._header("]")
+            else:
+                self._pair(table)
+
+    def _skip_blank(self) -> int:
+        found = _BLANK.match(self.text, self._at)
+        self._at = found.end() if found else self._at
+        return self._at
+
+    def _is_next(self, mark: str) -> bool:
+        if not self.text.startswith(mark, self._at):
+            return False
+        self._at += len(mark)
+        return True
+
+    def _expect(self, mark: str) -> None:
+        self._skip_blank()
+        if not self._is_next(mark):
+            raise _ScanError
+
+    def _header(self, closing: str) -> Place:
+        begin = self._at - len(closing)
+        path: Place = ()
+        names = self._dotted()
+        for depth, name in enumerate(names):
+            path = (*path, name)
+            last = depth == len(names) - 1
+            self.keys.setdefault(path, begin)
+            if last and closing == "]]":
+                self._counts[path] = self._counts.get(path, -1) + 1
+            if path in self._counts:
+                path = (*path, self._counts[path])
+                self.keys.setdefault(path, begin)
+        self._expect(closing)
+        return path
+
+    def _dotted(self) -> list[str]:
+        names = [self._name()]
+        while self._skip_blank() < len(self.text) and self._is_next("."):
+            names.append(self._name())
+        return names
+
+    def _name(self) -> str:
+        self._skip_blank()
+        found = _STRING.match(self.text, self._at) or _BARE.match(self.text, self._at)
+        if found is None:
+            raise _ScanError
+        self._at = found.end()
+        return _content(found) if found.re is _STRING else found[0]
+
+    def _pair(self, table: Place) -> None:
+        begin, path = self._at, table
+        for name in self._dotted():
+            path = (*path, name)
+            self.keys.setdefault(path, begin)
+        self._expect("=")
+        self._value(path)
+
+    def _value(self, path: Place) -> None:
+        begin = self._skip_blank()
+        self.keys.setdefault(path, begin)
+        if self._is_next("["):
+            for count in self._entries("]"):
+                self._value((*path, count))
+        elif self._is_next("{"):
+            for _ in self._entries("}"):
+                self._pair(path)
+        elif found := _STRING.match(self.text, begin):
+            self._at = found.end()
+            self.texts.setdefault(_content(found), begin)
+        elif found := _ATOM.match(self.text, begin):
+            self._at = found.end()
+
+    def _entries(self, closing: str) -> Iterator[int]:
+        """Count what stands between brackets; who asks reads each."""
+        count = 0
+        while self._skip_blank() < len(self.text) and not self._is_next(closing):
+            yield count
+            count += 1
+            self._skip_blank()
+            if not self._is_next(",") and not self.text.startswith(closing, self._at):
+                raise _ScanError
+
+
+class _ScanError(Exception):
+    """Something that TOML does not have."""
+
+
+def _content(found: re.Match[str]) -> str:
+    """What a string says. Of escapes only those that formulas have are undone."""
+    kind = str(found.lastgroup)
+    text = found[kind]
+    if kind in "ab":
+        text = text.removeprefix("\n")
+    return _ESCAPE.sub(r"\1", text) if kind in "ac" else text
+
+
+def _span_at(text: str, offset: int) -> Span:
+    return Span(text.count("\n", 0, offset) + 1, offset - text.rfind("\n", 0, offset))
+
+
+@lru_cache(maxsize=64)
+def _positions(text: str) -> TomlPositions:
+    return TomlPositions(text)
+
+
+def _in_toml(text: str, place: Place) -> Span | None:
+    return _positions(text).find(place)
+
+
+# Markdown -----------------------------------------------------------------------------------------
+
+_HEADING = re.compile(r"^## +(\S.*?)\s*$")
+_ITEM = re.compile(r"^- ([^:\[]*?)\s*(?:\[[^\]]*\])?\s*:")
+
+
+def _in_markdown(text: str, place: Place) -> Span | None:
+    if place[0] == TEXT:
+        return _quoted(text, str(place[1]))
+    heading, found = "", None
+    for number, line in enumerate(text.split("\n"), 1):
+        if head := _HEADING.match(line):
+            heading = head[1]
+            found = Span(number) if (heading,) == place[:1] and found is None else found
+        elif (item := _ITEM.match(line)) and (heading, item[1]) == place[:2]:
+            return Span(number)
+    return found
+
+
+def _quoted(text: str, quoted: str) -> Span | None:
+    """Where a sentence begins; it may be broken into lines there otherwise."""
+    words = [re.escape(part) for part in re.findall(r"\w+|[^\w\s]", quoted)]
+    found = re.search(r"\s*".join(words), text) if words else None
+    return _span_at(text, found.start()) if found else None
+
+
+# Python -------------------------------------------------------------------------------------------
+
+
+def _in_python(text: str, place: Place) -> Span | None:
+    import ast
+
+    tree = ast.parse(text)
+    inside, name = str(place[0]), str(place[-1])
+    variables = {name, *_variables(tree, name)}
+    keywords = [node for node in ast.walk(tree) if isinstance(node, ast.keyword)]
+    # A mistake replaces a step by another one of the same name.
+    replaced = {id(n) for word in keywords if word.arg == "traps" for n in ast.walk(word)}
+    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and id(n) not in replaced]
+    found: list[ast.AST] = [
+        call for call in calls if _called(call) == inside
+        and call.args and isinstance(call.args[0], ast.Name) and call.args[0].id in variables
+    ]  # fmt: skip
+    found += [n for word in keywords if word.arg == inside for n in _texts(word, name)]
+    return next((Span(n.lineno, n.col_offset + 1) for n in found), None)  # type: ignore[attr-defined]
+
+
+def _called(call: ast.Call) -> str:
+    return str(getattr(call.func, "id", "") or getattr(call.func, "attr", ""))
+
+
+def _texts(node: ast.AST, text: str) -> Iterator[ast.AST]:
+    import ast
+
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Constant) and inner.value == text:
+            yield inner
+
+
+def _variables(tree: ast.AST, symbol: str) -> Iterator[str]:
+    """What Python calls a symbol: ``f, image = symbols("f z'")``."""
+    import ast
+
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.Assign) and isinstance(node.value, ast.Call)):
+            continue
+        first = node.value.args[0] if node.value.args else None
+        if isinstance(first, ast.Constant) and isinstance(first.value, str):
+            target = node.targets[0]
+            names = target.elts if isinstance(target, ast.Tuple) else [target]
+            for variable, name in zip(names, re.split(r"[,\s]+", first.value), strict=False):
+                if name == symbol and isinstance(variable, ast.Name):
+                    yield variable.id
+
+
+_FINDERS = {".toml": _in_toml, ".md": _in_markdown, ".py": _in_python}

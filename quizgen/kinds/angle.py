@@ -1,0 +1,134 @@
+"""Kind ``angle``: degrees (or radians, converted), compared on the circle."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from flint import fmpq
+
+from quizgen.grading.diagnosis.carry_forward import diagnosis_for
+from quizgen.grading.diagnosis.numeric_slips import agrees_within_half_percent, is_in_radians
+from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.equalities import EqualitySide, read_plain_side, read_sides
+from quizgen.grading.reading.labels import drop_name
+from quizgen.grading.reading.normalise import normalise_typed
+from quizgen.grading.reading.numbers import ReadNumber
+from quizgen.grading.reading.quantities import TypedQuantity
+from quizgen.grading.rounding import format_key
+from quizgen.grading.spec import ScalarSpec
+from quizgen.grading.verdict import Verdict, attach_values, wrong
+from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first
+from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartContext
+from quizgen.kinds.quantity import DEGREES
+from quizgen.locale import translate
+from quizgen.maths.constants import Scalar, parse_exact
+from quizgen.maths.notation import pretty
+from quizgen.maths.tolerance import AngleTolerance
+from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.values import Value
+
+
+class AuthoredAngle(AuthoredNumeric, tag="angle", frozen=True):
+    """An angle in degrees."""
+
+    period: Scalar = 360
+
+
+class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
+    """Angle: ``value`` in degrees; ``period`` (default 360, 0 for none).
+
+    Without a tolerance half a degree is accepted. A bare number counts as degrees.
+    """
+
+    period: Scalar = 360
+
+    unstated: ClassVar[tuple[str, Scalar]] = AngleTolerance.unstated
+
+    def validate(self) -> None:
+        """Check tolerance, value, period and traps."""
+        super().validate()
+        parse_exact(self.period)
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge a typed angle."""
+        plain = read_plain_side(typed, options.decimal)
+        if plain is not None:
+            return _resolved(self, plain, options)
+        sides = read_sides(drop_name(normalise_typed(typed)), options.decimal)
+        return best_verdict(_resolved(self, side, options) for side in sides)
+
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        return f"{pretty.format_number(format_key(self, parse_exact(self.value)))}°"
+
+
+def _resolved(spec: AngleSpec, side: EqualitySide, options: GradingOptions) -> Verdict:
+    return judge_readings(
+        side.readings, lambda n: _judge(spec, n, side.quantity, options), spec.decimals
+    )
+
+
+def _judge(
+    spec: AngleSpec, number: ReadNumber, quantity: TypedQuantity, options: GradingOptions
+) -> Verdict:
+    read_as = f"{number.read_as}°" if quantity.unit is None else _echo(number, quantity)
+    factor = fmpq(1)
+    if quantity.unit is not None:
+        if quantity.unit.dimension != DEGREES:
+            return wrong(read_as, "unit-clash", given=shown_unit(quantity.unit.text), asked="°")
+        factor = quantity.unit.factor
+    value = number.value * factor
+    verdict = _on_circle(spec, number, value, read_as, options)
+    bare = quantity.unit is None and not verdict.credit
+    if (
+        bare
+        and not verdict.note.startswith("trap:")
+        and is_in_radians(number.value, parse_exact(spec.value))
+    ):
+        verdict = wrong(read_as, "radians")
+    elif (
+        not verdict.credit
+        and not verdict.note
+        and agrees_within_half_percent(-value, parse_exact(spec.value))
+    ):
+        verdict = wrong(read_as, "sign")
+    return attach_values(verdict, value)
+
+
+def _echo(number: ReadNumber, quantity: TypedQuantity) -> str:
+    text = quantity.unit.text if quantity.unit else ""
+    return f"{number.read_as}°" if text in {"deg", "°"} else f"{number.read_as} {text}"
+
+
+def _on_circle(
+    spec: AngleSpec, number: ReadNumber, value: Value, read_as: str, options: GradingOptions
+) -> Verdict:
+    key = parse_exact(spec.value)
+    traps = [(name, nearest_turn(spec, trap, value)) for name, trap in spec.trap_values()]
+    hints = diagnosis_for(spec, number, fmpq(1), options)
+    asked = NumberTarget(spec, nearest_turn(spec, key, value), traps, hints=hints)
+    return judge_value(asked, number, value, read_as)
+
+
+def nearest_turn(spec: AngleSpec, target: Value, value: Value) -> Value:
+    """Return the representative of a target on the circle that is nearest to a value."""
+    period = parse_exact(spec.period)
+    if period == 0:
+        return target
+    turns = (value - target) / period
+    exact = turns if isinstance(turns, fmpq) else turns.mid().fmpq()
+    return target + period * fmpq((exact + fmpq(1, 2)).floor())
+
+
+def ask(part: PartContext) -> AskedPart[AngleSpec]:
+    """One angle, and the angle that each mistake gives."""
+    return ask_numeric(AngleSpec, part)
+
+
+def input_hints(spec: AngleSpec, lang: str) -> tuple[str, ...]:
+    """Degrees and rounding."""
+    return numeric_hints(spec, lang, translate(lang, "ask.degrees"))
+
+
+KIND = AnswerKind(AuthoredAngle, AngleSpec, ask, input_hints, show_exact_first)

@@ -1,0 +1,253 @@
+"""What kinds share when they ask: from the numbers of a variant to a spec, and how to type them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
+
+import msgspec
+
+from quizgen.core.complaints import complaint_of
+from quizgen.core.decoding import convert
+from quizgen.core.errors import FormulaError
+from quizgen.grading.judge import show_spec
+from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, VectorSpec
+from quizgen.kinds.contract import AskedPart, LabelledName, PartContext, S, asked_quantities
+from quizgen.locale import translate
+from quizgen.maths.constants import Scalar, parse_exact
+from quizgen.maths.notation import pretty
+from quizgen.maths.numbers import format_for_key, is_short_decimal, to_float, to_rational
+from quizgen.maths.units import format_unit
+from quizgen.maths.values import Value
+
+# Grading loads every kind, and never sets a sentence: what typesets is imported where it is used.
+if TYPE_CHECKING:
+    from quizgen.bank.markdown import Inline
+    from quizgen.question.inlines import TextOrInlines
+
+LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+ROUNDED_MISTAKE = 4
+"""Significant figures of a mistake's answer that has no short exact form."""
+
+KeyNumbers: TypeAlias = Scalar | list[Scalar] | dict[str, Scalar]
+"""The numbers of a key or of a mistake: one, several in order, or several by name."""
+T = TypeVar("T", bound="TextOrInlines")
+
+
+def make_spec(shape: type[S], part: PartContext, **given: object) -> S:
+    """The spec of a part: the authored keys handed on, and what the variant gives.
+
+    Raises
+    ------
+    BankError
+        If the answer has a key that the kind does not know, or one of the wrong type.
+    """
+    answer = part.answer
+    fields = {field.encode_name for field in msgspec.structs.fields(shape)} - {"of"}
+    table = {name: value for name, value in answer.items() if name in fields}
+    if "accept" in answer:
+        table["accept"] = [format_for_key(part.evaluate(str(bound))) for bound in answer["accept"]]
+    try:
+        spec = convert({**table, **given}, shape)
+        with spec.known_units().activate():
+            spec.validate()
+    except (msgspec.ValidationError, FormulaError, ValueError) as error:
+        raise part.error(complaint_of(error, shape).message) from error
+    return spec
+
+
+def ask_numeric(
+    shape: type[S],
+    part: PartContext,
+    write: Callable[[tuple[Value, ...]], KeyNumbers] | None = None,
+    **given: object,
+) -> AskedPart[S]:
+    """A part whose key and mistakes are numbers of the chain.
+
+    Parameters
+    ----------
+    shape : type
+        The kind's ``Spec``.
+    part : PartContext
+    write : callable, optional
+        From the components of an answer to what the key holds; by default the one number of a
+        ``value``, a list of ``values``.
+    **given
+        Further fields of the spec.
+    """
+    key = "value" if "value" in shape.__struct_fields__ else "values"
+    write = write or (_single_text if key == "value" else _texts)
+    wrong = {trap: write(values) for trap, values in part.misconception_answers().items()}
+    found = {"of": list(asked_quantities(part.answer)), key: write(part.answer_values())}
+    found |= {"define": list(part.defined_units)} if part.defined_units else {}
+    found |= part.count_nouns() if "counts" in shape.__struct_fields__ else {}
+    traps = {"traps": wrong, "notes": part.misconception_notes(wrong)} if wrong else {}
+    spec = make_spec(shape, part, **{**found, **traps, **given})
+    return AskedPart(spec, mistakes=misconception_specs(spec, key))
+
+
+def _single_text(values: tuple[Value, ...]) -> str:
+    (value,) = values
+    return format_for_key(value)
+
+
+def _texts(values: tuple[Value, ...]) -> list[Scalar]:
+    return [format_for_key(value) for value in values]
+
+
+def append_source(said: Mapping[str, Mapping[str, str]], source: str) -> dict[str, dict[str, str]]:
+    """Reasons with their source after them, if one is known."""
+    tail = f" [{source}]" if source else ""
+    return {
+        lang: {mark: f"{sentence}{tail}" for mark, sentence in reasons.items()}
+        for lang, reasons in said.items()
+    }
+
+
+def misconception_specs(spec: S, key: str) -> dict[str, S]:
+    """Each mistake of a spec with the spec of which its answer would be the key."""
+    return {
+        trap: msgspec.structs.replace(spec, traps={}, notes={}, **{key: wrong})
+        for trap, wrong in spec.traps.items()
+    }
+
+
+def assign_letters(names: Iterable[str]) -> tuple[LabelledName, ...]:
+    """Names under A, B, C, ..."""
+    return tuple(zip(LETTERS, names, strict=False))
+
+
+def show_exact_first(spec: ScalarSpec | VectorSpec, lang: str) -> str:
+    """The key with its exact value before the rounded one, where that says more."""
+    rounded = show_spec(spec, lang)
+    if spec.decimals is not None or not are_readable_fractions(_key_of(spec)):
+        return rounded
+    exactly = show_spec(
+        msgspec.structs.replace(
+            spec, exact=True, abs=None, rel=None, sigfigs=None, within=1, accept=None
+        ),
+        lang,
+    )
+    return f"{exactly} ≈ {rounded}" if exactly != rounded and "/" in exactly else rounded
+
+
+def are_readable_fractions(key: KeyNumbers) -> bool:
+    """Whether numbers are whole and short fractions, some fraction among them."""
+    texts = number_texts(key)
+    return all(re.fullmatch(r"-?\d{1,6}(/\d{1,3})?", t) for t in texts) and any(
+        "/" in t for t in texts
+    )
+
+
+def as_student_writes(wrong: AnySpec, answer: KeyNumbers) -> AnySpec:
+    """A wrong answer as it would be given: like the key, rounded where that is exact.
+
+    Parameters
+    ----------
+    wrong : Spec
+        Has the wrong answer as its key.
+    answer : number, list or mapping
+        The wrong answer.
+    """
+    if not isinstance(wrong, NumericSpec):
+        return wrong
+    freed: dict[str, object] = {"accept": None}
+    if "form" in wrong.__struct_fields__:
+        freed["form"] = ""
+    if wrong.exact and not all(
+        is_short_decimal(to_rational(text)) for text in number_texts(answer)
+    ):
+        freed |= {"exact": False, "sigfigs": ROUNDED_MISTAKE}
+    return msgspec.structs.replace(wrong, **freed)
+
+
+def number_texts(key: KeyNumbers) -> list[str]:
+    """Numbers as a list of texts."""
+    if isinstance(key, dict):
+        return [str(value) for value in key.values()]
+    return [str(value) for value in key] if isinstance(key, list) else [str(key)]
+
+
+def _key_of(spec: ScalarSpec | VectorSpec) -> KeyNumbers:
+    return spec.value if isinstance(spec, ScalarSpec) else spec.values
+
+
+def numeric_hints(spec: ScalarSpec | VectorSpec, lang: str, *sentences: str) -> tuple[str, ...]:
+    """The sentences that are not empty, and how exactly the numbers must be given."""
+    return nonempty(*sentences, rounding_hint(spec, _key_of(spec), lang))
+
+
+def hint(key: str, **program: str) -> Callable[[AnySpec, str], tuple[TextOrInlines, ...]]:
+    """The hints of a kind that says one sentence of the locales, whatever its key.
+
+    Parameters
+    ----------
+    key : str
+        Of the sentence, such as ``ask.code``.
+    **program
+        Program text for its blanks.
+    """
+
+    def input_hints(_spec: AnySpec, lang: str) -> tuple[TextOrInlines, ...]:
+        return (sentence_with_code(lang, key, **program) if program else translate(lang, key),)
+
+    return input_hints
+
+
+def sentence_with_code(lang: str, key: str, **program: str) -> tuple[Inline, ...]:
+    """A sentence of the locales with program text in its blanks."""
+    from quizgen.bank.markdown import InlineCode
+    from quizgen.question.inlines import translate_inlines
+
+    return translate_inlines(
+        lang, key, **{name: (InlineCode(text),) for name, text in program.items()}
+    )
+
+
+def explain_as_code(spec: AnySpec, lang: str) -> TextOrInlines:
+    """The key as it is typed, as program text."""
+    from quizgen.bank.markdown import InlineCode
+
+    return (InlineCode(show_spec(spec, lang)),)
+
+
+def explain_assigned(values: Iterable[tuple[str, str]]) -> TextOrInlines:
+    """Names with their values: ``n₁ = 128; n₂ = 3``."""
+    from quizgen.question.inlines import assignment_inlines
+
+    return assignment_inlines(values)
+
+
+def nonempty(*sentences: T) -> tuple[T, ...]:
+    """The sentences that are not empty."""
+    return tuple(sentence for sentence in sentences if sentence)
+
+
+def unit_hint(text: str, lang: str) -> str:
+    """The unit that an answer is meant in, if it has one."""
+    return translate(lang, "ask.unit", unit=format_unit(text)) if text else ""
+
+
+def rounding_hint(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
+    """How exactly an answer must be given, if that was stated."""
+    rule, number = spec.stated or ("", "")
+    if rule == "decimals":
+        name = f"ask.decimals_{number}" if number in {0, 1} else "ask.decimals"
+        return translate(lang, name, n=number)
+    if rule == "sigfigs":
+        return translate(lang, "ask.sigfigs", n=number)
+    if rule == "exact":
+        return translate(lang, "ask.whole" if _is_whole(spec, key) else "ask.exact")
+    if rule == "rel":
+        percent = pretty.format_number(f"{to_float(parse_exact(str(number)) * 100):g}")
+        return translate(lang, "ask.rel", percent=percent)
+    return (
+        translate(lang, "ask.abs", abs=pretty.format_number(str(number))) if rule == "abs" else ""
+    )
+
+
+def _is_whole(spec: NumericSpec, key: KeyNumbers) -> bool:
+    """Whether key and mistakes are all whole numbers, so that no one thinks of fractions."""
+    answers = [key, *spec.traps.values()]
+    return not any("/" in text for answer in answers for text in number_texts(answer))

@@ -1,0 +1,292 @@
+"""Kinds ``choice``, ``multi`` and ``tf``: letters, numbers or the option's own words."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+
+import msgspec
+
+from quizgen.grading.echo import safe_echo
+from quizgen.grading.judging.spelling import fold_word
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import Verdict, correct, partial, wrong
+from quizgen.kinds.asking import LETTERS, assign_letters, hint, make_spec
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredPooled,
+    Condition,
+    FieldProblem,
+    InputControl,
+    PartContext,
+)
+from quizgen.locale import fallback_language, translate
+from quizgen.maths.notation import FormulaReadError
+
+_TRUE = frozenset(
+    {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r", "stimmt"}
+    | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
+)
+_FALSE = frozenset(
+    {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein"}
+    | {"মিথ্যা", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
+)
+_SHORTEST = 4
+"""Letters that a part of an option's words must have to be recognised."""
+
+_AROUND = " .!()[]{}\"'*_।॥“”‘’«»"
+_QUOTED = " \"'*_“”«»"
+_LABELLED = re.compile(
+    r"[\[(]?(?P<mark>[A-Za-zক-ঞ]|\d{1,2})(?:[\])]? ?[).:=,-]+ ?|[\])] ?| (?!\())(?P<words>\S.+)"
+)
+_BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
+_FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
+_IT_IS = re.compile(
+    r"^(?:(?:it|this|that)(?: is|'s)|the statement is|বিবৃতিটি|es ist|das ist|এটা|এটি) ",
+    re.IGNORECASE,
+)
+_PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
+_BENGALI = re.compile(r"[\u0980-\u09ff]")
+_SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
+"""A letter with a sign before or behind words of more than one letter."""
+_UNFINISHED = re.compile(r"[+/&|(\[{][\s*+/&|(\[{]*$")
+"""A sign behind which more was to come: no answer yet."""
+_FILLERS = re.compile(
+    r"(?<![\w\u0980-\u09ff])(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
+    re.IGNORECASE,
+)
+
+
+class AuthoredChoice(AuthoredPooled, kw_only=True, tag="choice", frozen=True):
+    """One of several options."""
+
+    listed = "options"
+    options: dict[str, Condition]
+    right: tuple[int, int] | None = None
+    in_order: bool = False
+
+    def find_problems(self) -> Iterator[FieldProblem]:
+        """The number of right options can only be asked of what is taken."""
+        yield from super().find_problems()
+        if self.right and not (self.take and 1 <= self.right[0] <= self.right[1]):
+            yield ("right",), "QG115", "is [least, most] right options among those that take names"
+
+
+class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
+    """Choice: ``options``; ``correct`` = positions from 1.
+
+    ``multi`` gives credit for right minus wrong crosses when ``negative``, else all or nothing
+    wrong crosses take right ones away down to zero. ``tf`` needs no options; 1 is true, 2 false.
+    """
+
+    correct: list[int]
+    options: list[str] = msgspec.field(default_factory=list)
+    negative: bool = True
+    traps: dict[str, int | list[int]] = msgspec.field(default_factory=dict)
+
+    def choices(self) -> list[str]:
+        """What there is to choose from."""
+        return self.options or (["true", "false"] if self.kind == "tf" else [])
+
+    def validate(self) -> None:
+        """Positions must exist; ``choice`` and ``tf`` have one right option."""
+        count = len(self.choices())
+        if not count or not all(1 <= i <= count for i in self.correct):
+            raise ValueError("correct holds positions from 1 within options")
+        if self.kind != "multi" and len(self.correct) != 1:
+            raise ValueError("exactly one option can be correct")
+
+    def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
+        """Judge chosen options."""
+        if len(typed) > 1000:
+            raise FormulaReadError("too-long", 1001, "1000")
+        if self.kind == "tf":
+            return _judge_one(self, _truth(self, typed))
+        whole = _by_text(self, typed)
+        chosen = [whole] if whole else _labelled(self, typed) or _positions(self, typed)
+        if self.kind == "multi":
+            return _judge_many(self, chosen)
+        if len(chosen) > 1:
+            raise FormulaReadError("one-option", 1, safe_echo(typed))
+        return _judge_one(self, chosen[0])
+
+    def show(self) -> str:
+        """Return the letters of the right options, or the word for true or false."""
+        return _echo(self, self.correct)
+
+    def show_in(self, lang: str, /) -> str:
+        """Return the same with the word for true or false in a language."""
+        return (
+            translate(fallback_language(lang), f"ask.{self.show()}")
+            if self.kind == "tf"
+            else self.show()
+        )
+
+
+def _truth(spec: ChoiceSpec, typed: str) -> int:
+    text = normalise_typed(typed, keep_x=True, longest=1000).text
+    labelled = _LABELLED.fullmatch(text.translate(BANGLA_LETTERS))
+    if labelled and labelled["mark"].lower() in {"a", "b", "1", "2"}:
+        first, second = "ab12".index(labelled["mark"].lower()) % 2 + 1, _word(labelled["words"])
+        if second and first != second:
+            raise FormulaReadError("two-readings", 1, safe_echo(typed))
+        text = labelled["words"] if second else text
+    word = _IT_IS.sub("", text.strip(_AROUND)).casefold()
+    found = _word(word) or _by_text(spec, typed)
+    if found or word in {"a", "b"}:
+        return found or "ab".index(word) + 1
+    raise FormulaReadError("true-or-false", 1, safe_echo(typed))
+
+
+def _word(text: str) -> int:
+    """1 for a word that says true, 2 for one that says false."""
+    word = text.strip(_AROUND).casefold()
+    return 1 if word in _TRUE else 2 if word in _FALSE else 0
+
+
+def _labelled(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Positions of options written with their letter and their words; none if they are not.
+
+    Raises
+    ------
+    ReadError
+        If the words are those of another option than the letter.
+    """
+    pieces = _PIECES.split(typed.strip()) if spec.kind == "multi" else [typed]
+    found = [_both(spec, piece) or _by_text(spec, piece) for piece in pieces]
+    return list(dict.fromkeys(found)) if all(found) else []
+
+
+def _both(spec: ChoiceSpec, piece: str) -> int:
+    text = normalise_typed(piece, keep_x=True, longest=1000).text.strip(_QUOTED)
+    match = _LABELLED.fullmatch(_FILLING.sub("", text)) or _BEHIND.fullmatch(text)
+    if match is None:
+        return 0
+    mark = match["mark"].translate(BANGLA_LETTERS)
+    position = int(mark) if mark.isdecimal() else LETTERS.find(mark.upper()) + 1
+    meant = _meant(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
+    if not 1 <= position <= len(spec.choices()) or not meant:
+        return 0
+    if position not in meant:
+        raise FormulaReadError("two-readings", 1, safe_echo(piece))
+    return position
+
+
+def _meant(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[int]:
+    """Options that words can mean: whole, in part, or (foreign) in a script they do not use."""
+    folded = fold_word(words)
+    options = [fold_word(option) for option in spec.choices()]
+    same = [place for place, option in enumerate(options, 1) if option == folded]
+    if same:
+        return same
+    if foreign and _BENGALI.search(words) and not any(map(_BENGALI.search, options)):
+        return list(range(1, len(options) + 1))
+    return [
+        place
+        for place, option in enumerate(options, 1)
+        if len(folded) >= _SHORTEST <= len(option) and (folded in option or option in folded)
+    ]
+
+
+def _by_text(spec: ChoiceSpec, typed: str) -> int:
+    folded = fold_word(typed)
+    hits = [i + 1 for i, option in enumerate(spec.choices()) if fold_word(option) == folded]
+    return hits[0] if len(hits) == 1 else 0
+
+
+def _positions(spec: ChoiceSpec, typed: str) -> list[int]:
+    source = normalise_typed(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
+    text = PICTURES.sub(" ", source.text).translate(BANGLA_LETTERS)
+    marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:!\[\]{}\"'*_।॥“”«»]", _FILLERS.sub(" ", text))
+    found = [position for mark in marks for position in _mark(spec, mark)]
+    if not found or _UNFINISHED.search(text):
+        raise FormulaReadError("option-expected", 1, safe_echo(typed), _range(spec))
+    return list(dict.fromkeys(found))
+
+
+def _mark(spec: ChoiceSpec, mark: str) -> list[int]:
+    """Positions of one mark: ``B``, ``2`` or several letters run together."""
+    positions = [int(mark)] if mark.isdecimal() else [LETTERS.find(c.upper()) + 1 for c in mark]
+    if not all(1 <= position <= len(spec.choices()) for position in positions):
+        raise FormulaReadError("option-expected", 1, mark, _range(spec))
+    return positions
+
+
+def _range(spec: ChoiceSpec) -> list[str]:
+    return list(LETTERS[: len(spec.choices())])
+
+
+def _judge_one(spec: ChoiceSpec, chosen: int) -> Verdict:
+    read_as = _echo(spec, [chosen])
+    if chosen in spec.correct:
+        return correct(read_as)
+    return wrong(read_as, _trap(spec, [chosen]), because=_marks([chosen]))
+
+
+def _judge_many(spec: ChoiceSpec, chosen: list[int]) -> Verdict:
+    read_as = _echo(spec, chosen)
+    right = len(set(chosen) & set(spec.correct))
+    extra = len(set(chosen) - set(spec.correct))
+    if right == len(spec.correct) and not extra:
+        return correct(read_as)
+    credit = max(Fraction(right - extra, max(len(spec.correct), 1)), Fraction(0))
+    note = _trap(spec, chosen) or ("options-extra" if extra else "options-missing")
+    extras = _marks(sorted(set(chosen) - set(spec.correct)))
+    fields = {"right": right, "of": len(spec.correct), "because": extras}
+    if spec.negative and 0 < credit < 1:
+        return partial(credit, read_as, note, **fields)
+    return wrong(read_as, note, **fields)
+
+
+def _trap(spec: ChoiceSpec, chosen: list[int]) -> str:
+    for name, positions in spec.traps.items():
+        if sorted(positions if isinstance(positions, list) else [positions]) == sorted(chosen):
+            return f"trap:{name}"
+    return ""
+
+
+def _marks(chosen: list[int]) -> tuple[str, ...]:
+    return tuple(LETTERS[place - 1] for place in chosen)
+
+
+def _echo(spec: ChoiceSpec, chosen: list[int]) -> str:
+    if spec.kind == "tf":
+        return ("true", "false")[chosen[0] - 1]
+    return ", ".join(LETTERS[i - 1] for i in sorted(chosen))
+
+
+def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
+    """The options in a drawn order; exactly one is right."""
+    asked = ask_options(part, InputControl("one", lines=0))
+    if len(asked.right) != 1:
+        raise part.error(f"{len(asked.right)} options are right")
+    return asked
+
+
+def option_order(part: PartContext) -> tuple[list[str], list[str]]:
+    """Names of the options in a drawn order, and of those that are right in this variant."""
+    conditions = part.answer["options"]
+    order = part.shuffle_names(part.selection()[0])
+    return order, [name for name in order if part.condition_holds(conditions[name])]
+
+
+def ask_options(part: PartContext, control: InputControl) -> AskedPart[ChoiceSpec]:
+    """The options in a drawn order, with those that are right in this variant."""
+    order, right = option_order(part)
+    wordings, options = part.option_texts(order), assign_letters(order)
+    correct = [order.index(name) + 1 for name in right]
+    why = part.reasons(options)
+    return AskedPart(
+        make_spec(ChoiceSpec, part, options=wordings, correct=correct, why=why),
+        control,
+        options=options,
+        reasons=part.with_reason(options),
+        right=tuple(("options", name) for name in right),
+    )
+
+
+KIND = AnswerKind(AuthoredChoice, ChoiceSpec, ask, hint("ask.choice"))

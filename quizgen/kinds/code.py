@@ -1,0 +1,145 @@
+"""Kind ``code``: what a program prints, after folding blanks."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import msgspec
+
+from quizgen.grading.echo import safe_echo
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.normalise import (
+    LONGEST_PROSE,
+    REWRITES,
+    refuse_invisible,
+    strip_code_fence,
+)
+from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
+from quizgen.kinds.asking import explain_as_code, hint, make_spec, misconception_specs
+from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, InputControl, PartContext
+from quizgen.maths.notation import FormulaReadError
+
+
+class AuthoredCode(AuthoredAnswer, kw_only=True, tag="code", frozen=True):
+    """What a program prints."""
+
+    output: str
+    also: tuple[str, ...] = ()
+    traps: dict[str, str] = msgspec.field(default_factory=dict)
+
+
+class CodeSpec(WordSpec, kw_only=True, frozen=True):
+    """Code: ``output``; ``also`` = other outputs that count (another library version)."""
+
+    output: str
+    also: list[str] = msgspec.field(default_factory=list)
+    traps: dict[str, str] = msgspec.field(default_factory=dict)
+
+    def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
+        """Judge typed program output."""
+        if len(typed) > LONGEST_PROSE:
+            raise FormulaReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+        source = SourceText.of(typed)
+        for name in ("direction marks around", "blanks", "digits", "minus and dashes"):
+            source = source.substitute(*REWRITES[name])
+        source = source.substitute(_QUOTES, lambda quote: _STRAIGHT[quote[0]])
+        refuse_invisible(source, "\r\n")
+        given = fold_blanks(strip_code_fence(source).text.strip("` \r\n"))
+        if not given:
+            raise FormulaReadError("no-answer", 1)
+        for output in (self.output, *self.also):
+            if unify_quotes(given) == unify_quotes(fold_blanks(output)):
+                return correct(safe_echo(given))
+        note = _note(self, given)
+        if note in SET_OTHERWISE:
+            return partial(HALF, safe_echo(given), note)
+        return wrong(safe_echo(given), note)
+
+    def show(self) -> str:
+        """Return the output."""
+        return self.output
+
+
+SET_OTHERWISE = frozenset({"output-brackets", "output-separators"})
+"""Notes on output whose values are right: it earns half."""
+
+_BRACKETS = re.compile(r"[\[\](){}]")
+_SEPARATORS = re.compile(r"[\[\](){},\s]+")
+_STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
+"""Quotation marks that an editor puts in place of those of a program."""
+_QUOTES = re.compile(f"[{''.join(_STRAIGHT)}]")
+_INSIDE = re.compile(r"\s*([\[\](){},:=])\s*")
+
+
+def fold_blanks(text: str) -> str:
+    """Fold blanks: line ends, runs, and those beside brackets and commas."""
+    lines = [" ".join(line.split()) for line in text.replace("\r", "").split("\n")]
+    joined = "\n".join(line for line in lines if line)
+    return "\n".join(_INSIDE.sub(r"\1", line) for line in joined.split("\n"))
+
+
+def unify_quotes(text: str) -> str:
+    """One kind of quotation marks, as Python reads both alike; how many there are counts."""
+    return text.replace('"', "'")
+
+
+def _note(spec: CodeSpec, given: str) -> str:
+    """What is wrong with an output: a mistake as it is printed, the way of writing, a mistake."""
+    wanted = fold_blanks(spec.output)
+    return (
+        _mistake(spec, given, str)
+        or _written_otherwise(given, wanted)
+        or _mistake(spec, given, _values)
+        or ("output-type" if _same_numbers(given, wanted) else "")
+    )
+
+
+def _mistake(spec: CodeSpec, given: str, reduced: Callable[[str], str]) -> str:
+    for name, output in spec.traps.items():
+        if reduced(given) == reduced(fold_blanks(output)):
+            return f"trap:{name}"
+    return ""
+
+
+def _written_otherwise(given: str, wanted: str) -> str:
+    if given.casefold() == wanted.casefold():
+        return "output-case"
+    if re.sub(r"\s", "", given) == re.sub(r"\s", "", wanted):
+        return "output-lines"
+    if re.sub(r"['\"]", "", given) == re.sub(r"['\"]", "", wanted):
+        return "output-quotes"
+    if _values(given) != _values(wanted):
+        return ""
+    missing = _BRACKETS.search(wanted) and not _BRACKETS.search(given)
+    return "output-brackets" if missing else "output-separators"
+
+
+def _values(text: str) -> str:
+    """What is printed, without brackets and commas."""
+    return _SEPARATORS.sub(" ", text).strip()
+
+
+def _same_numbers(given: str, wanted: str) -> bool:
+    """``4`` for ``4.0``: the numbers are right, their type is not."""
+    numbers = [re.findall(r"-?\d+(?:\.\d*)?", text) for text in (given, wanted)]
+    if not numbers[0] or len(numbers[0]) != len(numbers[1]) or len(given) > 400:
+        return False
+    return all(float(a) == float(b) for a, b in zip(*numbers, strict=True))
+
+
+def ask(part: PartContext) -> AskedPart[CodeSpec]:
+    """Printed output and wrong outputs, with the drawn values in place."""
+    output = part.fill_program(str(part.answer["output"]))
+    traps = part.answer.get("traps", {})
+    wrong = {trap: part.fill_program(str(text)) for trap, text in traps.items()}
+    usable = {trap: text for trap, text in wrong.items() if text != output}
+    notes = part.misconception_notes(usable)
+    spec = make_spec(CodeSpec, part, output=output, traps=usable, notes=notes)
+    control = InputControl("lines", lines=3)
+    return AskedPart(spec, control, mistakes=misconception_specs(spec, "output"))
+
+
+KIND = AnswerKind(AuthoredCode, CodeSpec, ask, hint("ask.code"), explain_as_code)

@@ -1,0 +1,165 @@
+"""Kind ``expression``: a formula over declared names; equality, with its ground stated."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import msgspec
+from flint import arb, fmpq
+
+from quizgen.core.errors import FormulaError
+from quizgen.grading.judging.algebraic_equality import prove_equal
+from quizgen.grading.judging.numeric import choose_reading
+from quizgen.grading.judging.sampled_equality import (
+    Domain,
+    SamplingResult,
+    are_equal,
+    compare_by_sampling,
+    values_agree,
+)
+from quizgen.grading.judging.sympy_equality import decide_by_sympy
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.formulas import TypedFormula, parse_authored, read_formula
+from quizgen.grading.rounding import format_exact_or_figures
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import Verdict, ambiguous, correct, wrong
+from quizgen.kinds.asking import hint, make_spec, misconception_specs
+from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext, SymbolDomain
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.notation import format_tree, pretty
+from quizgen.maths.tree import Expr, names_in
+from quizgen.maths.values import Value
+
+if TYPE_CHECKING:
+    from quizgen.question.inlines import TextOrInlines
+
+EXAMPLE = "(a+b)^2/2"
+"""A formula as it is typed, and no answer to any question."""
+
+
+class AuthoredExpression(AuthoredAnswer, kw_only=True, tag="expression", frozen=True):
+    """A formula."""
+
+    value: str
+    symbols: dict[str, SymbolDomain]
+    traps: dict[str, str] = msgspec.field(default_factory=dict)
+
+
+class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
+    """Expression: ``value``; ``symbols`` = {name: "real", "positive" or [low, high]}."""
+
+    value: str
+    symbols: dict[str, Domain]
+    traps: dict[str, str] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check the key, its names and the domains."""
+        used = names_in(parse_authored(self.value, tuple(self.symbols)))
+        unknown = used - self.symbols.keys()
+        if unknown:
+            raise FormulaError(f"value uses undeclared names {', '.join(sorted(unknown))}")
+        for name, domain in self.symbols.items():
+            _check_domain(name, domain)
+        for trap in self.traps.values():
+            parse_authored(trap, tuple(self.symbols))
+        if not used:
+            parse_exact(self.value)
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge a typed formula."""
+        formula = read_formula(typed, self.symbols, options.decimal)
+        verdict = _judge(self, formula.tree, options)
+        if formula.other is None or formula.doubt is None:
+            return verdict
+        return _choose(self, formula, verdict, options)
+
+    def show(self) -> str:
+        """Return the key as it can be typed."""
+        return pretty.format_formula(format_tree(parse_authored(self.value, tuple(self.symbols))))
+
+
+def _check_domain(name: str, domain: Domain) -> None:
+    if isinstance(domain, str):
+        if domain not in {"real", "positive"}:
+            raise ValueError(f"symbols.{name}: {domain!r} is not real, positive or [low, high]")
+    elif len(domain) != 2 or not parse_exact(domain[0]) < parse_exact(domain[1]):
+        raise ValueError(f"symbols.{name}: [low, high] needs low < high")
+
+
+def _judge(spec: ExpressionSpec, tree: Expr, options: GradingOptions) -> Verdict:
+    read_as = pretty.format_formula(format_tree(tree))
+    key = parse_authored(spec.value, tuple(spec.symbols))
+    if tree == key:
+        return correct(read_as, ground="proved")
+    found = compare_by_sampling(key, tree, spec.symbols)
+    if found.equal is None and options.settle:
+        found = _settled(key, tree, spec, found)
+    if found.equal is None:
+        return ambiguous("undecided", read_as)
+    if found.equal:
+        ground = "proved" if prove_equal(key, tree) else found.ground
+        return correct(read_as, ground=ground, points=found.points)
+    return _wrong(spec, tree, found, read_as)
+
+
+def _choose(
+    spec: ExpressionSpec, formula: TypedFormula, verdict: Verdict, options: GradingOptions
+) -> Verdict:
+    if formula.other is None or formula.doubt is None or (formula.doubt.native and verdict.credit):
+        return verdict
+    echoes = (formula.read_as, pretty.format_formula(format_tree(formula.other)))
+    return choose_reading(verdict, _judge(spec, formula.other, options), formula.doubt, echoes)
+
+
+def _settled(key: Expr, tree: Expr, spec: ExpressionSpec, found: SamplingResult) -> SamplingResult:
+    return msgspec.structs.replace(
+        found, equal=decide_by_sympy(key, tree, spec.symbols), ground="settled"
+    )
+
+
+def _wrong(spec: ExpressionSpec, tree: Expr, found: SamplingResult, read_as: str) -> Verdict:
+    for name, trap in spec.traps.items():
+        if are_equal(parse_authored(trap, tuple(spec.symbols)), tree, spec.symbols):
+            return wrong(read_as, f"trap:{name}")
+    if found.ground == "domain":
+        return wrong(read_as, "domain")
+    if found.ratio is not None:
+        note = "sign" if values_agree(found.ratio, fmpq(-1)) else "constant-factor"
+        return wrong(read_as, note, factor=_short(found.ratio))
+    if found.difference is not None:
+        return wrong(read_as, "constant-offset", offset=_short(found.difference))
+    return wrong(read_as, _missing(spec, tree))
+
+
+def _missing(spec: ExpressionSpec, tree: Expr) -> str:
+    """Note that a quantity of the key does not occur at all."""
+    key = names_in(parse_authored(spec.value, tuple(spec.symbols)))
+    return "name-missing" if key - names_in(tree) else ""
+
+
+def _short(value: Value) -> str:
+    if isinstance(value, fmpq) and value.q < 1000:
+        return pretty.format_number(str(value))
+    exact = value.mid().fmpq() if isinstance(value, arb) else value
+    return pretty.format_number(format_exact_or_figures(exact, 4))
+
+
+def ask(part: PartContext) -> AskedPart[ExpressionSpec]:
+    """The formula as it is written."""
+    traps = part.answer.get("traps", {})
+    notes = part.misconception_notes(traps) if traps else {}
+    spec = make_spec(ExpressionSpec, part, notes=notes)
+    return AskedPart(spec, mistakes=misconception_specs(spec, "value"))
+
+
+def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:
+    """The formula as it is written by hand."""
+    from quizgen import typeset
+    from quizgen.question.inlines import TypesetMaths
+
+    formula = parse_authored(spec.value, tuple(spec.symbols))
+    return (TypesetMaths(typeset.lay_out(formula, inline=True), format_tree(formula)),)
+
+
+HOW_TO_TYPE = hint("ask.expression", example=EXAMPLE)
+KIND = AnswerKind(AuthoredExpression, ExpressionSpec, ask, HOW_TO_TYPE, explain_key)

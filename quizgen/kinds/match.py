@@ -1,0 +1,185 @@
+"""Kind ``match``: pairs of labels, ``A3 B1`` or ``A:3, B:1`` or one per line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+
+import msgspec
+
+from quizgen.grading.echo import safe_echo
+from quizgen.grading.judging.spelling import fold_word
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import Verdict, correct, verdict_by_share
+from quizgen.kinds.asking import assign_letters, hint, make_spec
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredPooled,
+    FieldProblem,
+    InputControl,
+    PartContext,
+    find_extra_problems,
+    find_name_problems,
+)
+from quizgen.maths.notation import FormulaReadError
+
+_SEPARATORS = re.compile(r"[\s,;.|\[\]{}।॥]+")
+_ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*")
+_FILLERS = frozenset(
+    {"and", "und", "with", "mit", "to", "zu", "is", "ist", "goes", "belongs"}
+    | {"gehoert", "passt", "এবং", "ও", "হলো", "হল", "এর", "সাথে", "সঙ্গে"}
+)
+"""Words between the two sides of a pair, folded."""
+
+
+class AuthoredMatch(AuthoredPooled, kw_only=True, tag="match", frozen=True):
+    """What belongs together."""
+
+    listed = "pairs"
+    pairs: dict[str, str]
+    distractors: tuple[str, ...] = ()
+    extra: int | None = None
+    in_order: bool = False
+    reuse: bool = False
+
+    def find_problems(self) -> Iterator[FieldProblem]:
+        """There are as many distractors as are shown; those of other pairs count."""
+        yield from find_name_problems("distractors", self.distractors, self.take, 0)
+        yield from super().find_problems()
+        others = {*self.pairs.values()} if self.take else ()
+        yield from find_extra_problems(self.extra, len(self.distractors) + len(others))
+
+
+class MatchSpec(WordSpec, kw_only=True, frozen=True):
+    """Match: ``pairs`` = {left label: right label}; ``reuse`` allows a right label twice."""
+
+    pairs: dict[str, str]
+    reuse: bool = False
+    traps: dict[str, dict[str, str]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """There must be pairs."""
+        if not self.pairs:
+            raise ValueError("pairs must not be empty")
+
+    def allows_reuse(self) -> bool:
+        """Whether a right label may be used more than once."""
+        return self.reuse or len(set(self.pairs.values())) < len(self.pairs)
+
+    def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
+        """Judge typed pairs."""
+        if len(typed) > 1000:
+            raise FormulaReadError("too-long", 1001, "1000")
+        found = _pairs(self, typed)
+        read_as = " ".join(f"{safe_echo(left)}{safe_echo(right)}" for left, right in found.items())
+        right = sum(self.pairs[left] == chosen for left, chosen in found.items())
+        if right == len(self.pairs):
+            return correct(read_as)
+        missed = tuple(left for left, wanted in self.pairs.items() if found.get(left) != wanted)
+        note = "pairs-missing" if all(name not in found for name in missed) else "pairs"
+        trap = _trap(self, found)
+        return verdict_by_share(
+            Fraction(right, len(self.pairs)),
+            read_as,
+            trap or note,
+            right=right,
+            of=len(self.pairs),
+            names=missed,
+            because=tuple(label for left in missed for label in _labels(left, found.get(left))),
+        )
+
+    def show(self) -> str:
+        """Return the pairs as they can be typed."""
+        return ", ".join(f"{left}:{right}" for left, right in self.pairs.items())
+
+
+def _labels(left: str, chosen: str | None) -> tuple[str, ...]:
+    """What a reason can be given for: this pair, else any wrong one of its left side."""
+    return (f"{left}{chosen}", left) if chosen else ()
+
+
+def _trap(spec: MatchSpec, found: dict[str, str]) -> str:
+    for name, pairs in spec.traps.items():
+        if pairs == found:
+            return f"trap:{name}"
+    return ""
+
+
+def _pairs(spec: MatchSpec, typed: str) -> dict[str, str]:
+    source = normalise_typed(re.sub(r"[\r\n]+", " ", typed.strip()), keep_x=True, longest=1000)
+    text = PICTURES.sub(" ", source.text)
+    text = LONE_LETTER.sub(lambda letter: letter[0].translate(BANGLA_LETTERS), text)
+    left = {fold_word(label): label for label in spec.pairs}
+    right = {fold_word(label): label for label in spec.pairs.values()}
+    found: dict[str, str] = {}
+    for first, second in _tokens(text, left):
+        _place(spec, found, left.get(first, ""), _right(second, right), (first, second))
+    if not found:
+        raise FormulaReadError("pairs-expected", 1, safe_echo(typed))
+    return found
+
+
+def _right(second: str, right: dict[str, str]) -> str:
+    """Return the right label; one that no pair uses (a distractor) stands for itself."""
+    return right.get(second) or (second.upper() if len(second) <= 3 else "")
+
+
+def _tokens(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
+    """Cut into pairs: ``A3``, ``A 3``, or several run together, ``A3B1``.
+
+    ``3A 1B`` has the numbers first: that is certain only when every left label comes second.
+    """
+    words = [w for w in map(fold_word, _SEPARATORS.split(_ARROWS.sub(" ", text))) if w]
+    words = [w for w in words if w not in _FILLERS or w in left]
+    label = "|".join(re.escape(name) for name in sorted(left, key=len, reverse=True))
+    run = re.compile(rf"(?:(?:{label})\d{{1,2}})+|(?:\d{{1,2}}(?:{label}))+")
+    flat: list[str] = []
+    for piece in words:
+        together = piece not in left and run.fullmatch(piece)
+        flat += re.findall(rf"{label}|\d{{1,2}}", piece) if together else [piece]
+    if len(flat) % 2:
+        raise FormulaReadError("pairs-expected", 1, safe_echo(text))
+    firsts, seconds = flat[::2], flat[1::2]
+    if {*seconds} >= left.keys() and not {*firsts} & left.keys():
+        firsts, seconds = seconds, firsts
+    return list(zip(firsts, seconds, strict=True))
+
+
+def _place(
+    spec: MatchSpec, found: dict[str, str], name: str, chosen: str, typed: tuple[str, str]
+) -> None:
+    if not name or not chosen:
+        raise FormulaReadError("pairs-expected", 1, safe_echo(typed[1] if name else typed[0]))
+    if name in found:
+        raise FormulaReadError("used-twice", 1, name)
+    if chosen in found.values() and not spec.allows_reuse():
+        raise FormulaReadError("used-twice", 1, chosen)
+    found[name] = chosen
+
+
+def ask(part: PartContext) -> AskedPart[MatchSpec]:
+    """Both sides in a drawn order of their own."""
+    (names, extra), pairs = part.selection(), part.matching_pairs()
+    left = assign_letters(part.shuffle_names(names, "/left"))
+    targets = sorted({*(pairs[name] for name in names), *extra})
+    right = part.shuffle(targets, "/right")
+    places = {name: str(place) for place, name in enumerate(right, 1)}
+    named = [
+        *left,
+        *((f"{mark}{places[n]}", f"{name} = {n}") for mark, name in left for n in right),
+    ]
+    matched = {mark: places[pairs[name]] for mark, name in left}
+    return AskedPart(
+        make_spec(MatchSpec, part, pairs=matched, why=part.reasons(named)),
+        InputControl("pairs"),
+        options=left,
+        targets=tuple((places[n], n) for n in right),
+        reasons=part.with_reason(named),
+    )
+
+
+KIND = AnswerKind(AuthoredMatch, MatchSpec, ask, hint("ask.match"))

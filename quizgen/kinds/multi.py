@@ -1,0 +1,21 @@
+"""Kind ``multi``: any number of options is right; graded as ``choice``."""
+
+from __future__ import annotations
+
+from quizgen.kinds.asking import hint
+from quizgen.kinds.choice import AuthoredChoice, ChoiceSpec, ask_options
+from quizgen.kinds.contract import AnswerKind, AskedPart, InputControl, PartContext
+
+
+class AuthoredMulti(AuthoredChoice, tag="multi", frozen=True):
+    """Any number of several options."""
+
+    negative: bool = True
+
+
+def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
+    """The options in a drawn order."""
+    return ask_options(part, InputControl("many", lines=0))
+
+
+KIND = AnswerKind(AuthoredMulti, ChoiceSpec, ask, hint("ask.multi"))

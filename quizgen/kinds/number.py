@@ -1,0 +1,273 @@
+"""Kind ``number``: a plain number, with decimals, significant figures, form or percent asked."""
+
+from __future__ import annotations
+
+import re
+from typing import Literal
+
+import msgspec
+from flint import fmpq
+from msgspec.structs import replace
+
+from quizgen.grading.diagnosis.carry_forward import diagnosis_for
+from quizgen.grading.judge import show_spec
+from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.count_nouns import (
+    check_count_nouns,
+    count_noun_name,
+    count_noun_unit,
+    drop_count_noun,
+)
+from quizgen.grading.reading.equalities import EqualitySide, read_sides
+from quizgen.grading.reading.labels import drop_name
+from quizgen.grading.reading.normalise import normalise_typed
+from quizgen.grading.reading.numbers import (
+    Readings,
+    ReadNumber,
+    as_percent,
+    map_readings,
+    percent_to_fraction,
+    read_number,
+    read_plain_number,
+    scale_number,
+)
+from quizgen.grading.reading.quantities import TypedQuantity
+from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.units import TypedUnit, listed_unit
+from quizgen.grading.rounding import format_key
+from quizgen.grading.spec import ScalarSpec
+from quizgen.grading.verdict import Verdict, attach_values, unreadable, wrong
+from quizgen.kinds import quantity
+from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first, unit_hint
+from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartContext
+from quizgen.locale import translate
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.notation import FormulaReadError, pretty
+from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.units import get_unit
+from quizgen.maths.values import Value
+
+
+class AuthoredNumber(AuthoredNumeric, tag="number", frozen=True):
+    """A number without a unit, a share, a count."""
+
+    form: Literal["", "fraction", "lowest", "decimal"] = ""
+    percent: bool = False
+    unit: str = ""
+    notation: Literal["", "f-number"] = ""
+    counts: str | tuple[str, ...] = ()
+
+
+class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
+    """Number: ``value``; ``form`` = fraction, lowest, decimal; ``percent``; ``notation``.
+
+    With ``percent`` the value is the fraction, tolerances and ``accept`` are in percent, and
+    ``4.55 %``, ``4.55`` and ``0.0455`` are read alike. ``notation = "f-number"`` reads ``1:8``
+    as 8. With ``unit`` (printed beside the field) the unit may be typed or left out. ``counts``
+    are a unit or words for what is counted, which may be typed, too.
+    """
+
+    form: Literal["", "fraction", "lowest", "decimal"] = ""
+    percent: bool = False
+    unit: str = ""
+    notation: Literal["", "f-number"] = ""
+    counts: list[str] = msgspec.field(default_factory=list)
+
+    def validate(self) -> None:
+        """Check tolerance, value and traps."""
+        super().validate()
+        get_unit(self.unit)
+        check_count_nouns(self.counts)
+
+    def value_unit(self) -> str:
+        """The unit printed beside the field; a percentage stands for a plain fraction."""
+        return "1" if self.percent else self.unit
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge a typed number."""
+        if self.unit:
+            return _with_unit(self, typed, options)
+        plain = read_plain_number(typed, options.decimal)
+        if plain is not None:
+            return _resolved(self, plain, options)
+        source = _without_lens(self, drop_name(normalise_typed(typed)))
+        return best_verdict(
+            _judged(self, side, source, options) for side in _read(self, source, options)
+        )
+
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        value = parse_exact(self.value) * (100 if self.percent else 1)
+        unit_text = "%" if self.percent else shown_unit(self.unit)
+        return f"{pretty.format_number(format_key(self, value, self.form))} {unit_text}".rstrip()
+
+
+def _with_unit(spec: NumberSpec, typed: str, options: GradingOptions) -> Verdict:
+    """Judge as a quantity whose unit need not be typed."""
+    fields = {n: getattr(spec, n) for n in quantity.QuantitySpec.__struct_fields__ if n != "bare"}
+    return quantity.QuantitySpec(**fields, bare=True).judge(typed, options)
+
+
+def _resolved(spec: NumberSpec, readings: Readings, options: GradingOptions) -> Verdict:
+    return judge_readings(readings, lambda n: _judge(spec, n, options), spec.decimals)
+
+
+def _judge(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Verdict:
+    if spec.percent:
+        return _judge_percent(spec, number, options)
+    if number.percent:
+        return _judge_share(spec, number, options)
+    return _judge_as(spec, number, number.value, options)
+
+
+def _judge_share(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Verdict:
+    """Read ``5 %`` as 0.05; ask back where it was 5 that was asked."""
+    share = percent_to_fraction(number)
+    verdict = _judge_as(spec, share, share.value, options)
+    plain = replace(number, percent=False)
+    if spec.counts or (not verdict.credit and _judge_as(spec, plain, plain.value, options).credit):
+        return unreadable("percent-not-asked", number.read_as)
+    return verdict
+
+
+def _judge_percent(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Verdict:
+    """Read a bare number as percent, or as the fraction if only that is right."""
+    first = _judge_as(spec, number, number.value, options)
+    if number.percent or first.credit:
+        return first
+    second = _judge_as(spec, number, number.value * 100, options)
+    trapped = second.note.startswith("trap:") and not first.note.startswith("trap:")
+    return second if second.credit or trapped else first
+
+
+def _judge_as(
+    spec: NumberSpec, number: ReadNumber, value: Value, options: GradingOptions
+) -> Verdict:
+    scale = 100 if spec.percent else 1
+    asked = NumberTarget(
+        spec,
+        parse_exact(spec.value) * scale,
+        spec.trap_values(scale),
+        spec.form,
+        diagnosis_for(spec, number, fmpq(1, scale), options),
+        ratio=not (spec.percent or spec.counts),
+    )
+    verdict = judge_value(asked, number, value)
+    return attach_values(verdict, value / scale)
+
+
+_TIMES = re.compile(r" ?-? ?(?<![^\W\d_])(?:times|fold|fach|mal|[xX*]|গুণ|বার|টি|টা)$", re.IGNORECASE)
+_PER_HUNDRED = re.compile(r"^শতকরা (.+)$")
+_REMARK = re.compile(r"(-?\d[\d.,/]*) \((?:[=≈] ?)?([^()]*\d[^()]*)\)")
+_LENS = re.compile(r"[fFƒ] ?/? ?(?=\d)|1 ?: ?(?=\d)")
+_RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
+
+
+def _read(spec: NumberSpec, source: SourceText, options: GradingOptions) -> list[EqualitySide]:
+    """Read a number; several if equal things are chained."""
+    source = drop_count_noun(source, spec.counts)
+    if found := _with_remark(source, options):
+        return found
+    try:
+        return [EqualitySide(TypedQuantity(source, None), read_number(source, options.decimal))]
+    except FormulaReadError as error:
+        found = [] if error.code == "two-readings" else _sides(source, options)
+        if not found:
+            raise
+    return found
+
+
+def _with_remark(source: SourceText, options: GradingOptions) -> list[EqualitySide]:
+    """``6.67 (20/3)``: no product where both are the same number, but one and a remark on it."""
+    if not _REMARK.fullmatch(source.text):
+        return []
+    try:
+        return _sides(source.substitute(_REMARK, lambda m: f"{m[1]} = {m[2]}"), options)
+    except FormulaReadError:
+        return []
+
+
+def _sides(source: SourceText, options: GradingOptions) -> list[EqualitySide]:
+    """The sides of what is no plain number; none if they cannot be read either."""
+    try:
+        bare = source.substitute(_TIMES, lambda _m: "").substitute(
+            _PER_HUNDRED, lambda m: f"{m[1]} %"
+        )
+        return read_sides(bare, options.decimal)
+    except FormulaReadError as error:
+        if error.code == "two-readings":
+            raise
+        return []
+
+
+def _judged(
+    spec: NumberSpec, side: EqualitySide, source: SourceText, options: GradingOptions
+) -> Verdict:
+    """Judge one side, whose unit may be what is counted, or percent as a word.
+
+    Raises
+    ------
+    ReadError
+        If it has a unit, and nobody said of what.
+    """
+    typed = side.quantity.unit
+    if typed is None:
+        return _resolved(spec, side.readings, options)
+    if typed.text == "%":
+        return _resolved(spec, map_readings(side.readings, as_percent), options)
+    if not spec.counts:
+        raise FormulaReadError("unit-not-asked", source.column(0), typed.text)
+    unit_counted = listed_unit(count_noun_unit(spec.counts))
+    if typed.dimension != unit_counted.dimension:
+        return _other_thing(spec, side.readings, typed, options)
+    factor = typed.factor / unit_counted.factor
+    return _resolved(
+        spec, map_readings(side.readings, lambda n: _converted(n, typed, factor)), options
+    )
+
+
+def _converted(number: ReadNumber, typed: TypedUnit, factor: Value) -> ReadNumber:
+    read_as = f"{number.read_as} {shown_unit(typed.text)}"
+    return replace(scale_number(number, factor), read_as=read_as)
+
+
+def _other_thing(
+    spec: NumberSpec, readings: Readings, typed: TypedUnit, options: GradingOptions
+) -> Verdict:
+    """Say that something else is counted than what was typed."""
+    right = _resolved(spec, readings, options).credit
+    fields = {"given": shown_unit(typed.text), "asked": count_noun_name(spec.counts, options.lang)}
+    read_as = f"{readings.main.read_as} {fields['given']}"
+    return wrong(read_as, "unit-wrong" if right else "unit-clash", **fields)
+
+
+def _without_lens(spec: NumberSpec, source: SourceText) -> SourceText:
+    """Read ``f/2.8`` and, where it cannot be a ratio, ``1:2.8`` as the f-number 2.8.
+
+    Any other colon between numbers is a division.
+    """
+    match = _LENS.match(source.text)
+    ratio = match is not None and match[0].startswith("1") and spec.notation != "f-number"
+    if match is None or (ratio and not re.search(r"[.,]\d", source.text)):
+        return source.substitute(_RATIO, lambda _m: "/")
+    return source.slice(match.end())
+
+
+def ask(part: PartContext) -> AskedPart[NumberSpec]:
+    """One number, and the number that each mistake gives."""
+    return ask_numeric(NumberSpec, part)
+
+
+def input_hints(spec: NumberSpec, lang: str) -> tuple[str, ...]:
+    """Percent, unit and rounding."""
+    percent = translate(lang, "ask.percent") if spec.percent else ""
+    return numeric_hints(spec, lang, percent, unit_hint(spec.unit, lang))
+
+
+def explain_key(spec: NumberSpec, lang: str) -> str:
+    """The exact value first, unless a percentage is asked."""
+    return show_spec(spec, lang) if spec.percent else show_exact_first(spec, lang)
+
+
+KIND = AnswerKind(AuthoredNumber, NumberSpec, ask, input_hints, explain_key)

@@ -1,0 +1,279 @@
+"""Kind ``order``: steps of a derivation; every order that respects ``before`` is right."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+
+import msgspec
+
+from quizgen.grading.echo import safe_echo
+from quizgen.grading.judging.spelling import fold_word
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.normalise import BANGLA_LETTERS, normalise_typed
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import Verdict, correct, verdict_by_share
+from quizgen.kinds.asking import assign_letters, make_spec
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredPooled,
+    FieldProblem,
+    InputControl,
+    PartContext,
+    find_extra_problems,
+    find_name_problems,
+)
+from quizgen.locale import translate
+from quizgen.maths.notation import FormulaReadError
+
+MOST_STEPS = 40
+_LINE = re.compile(
+    r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
+    r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
+)
+_FILLERS = frozenset({"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং"})
+
+
+class AuthoredOrder(AuthoredPooled, kw_only=True, tag="order", frozen=True):
+    """Steps in their order."""
+
+    listed = "steps"
+    steps: tuple[str, ...]
+    before: tuple[tuple[str, str], ...] = ()
+    distractors: tuple[str, ...] = ()
+    extra: int | None = None
+    traps: dict[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
+
+    def listed_names(self) -> Sequence[str]:
+        """Steps, and those that belong to no place."""
+        return (*self.steps, *self.distractors)
+
+    def find_problems(self) -> Iterator[FieldProblem]:
+        """What comes before what are steps; part of them can only be taken of one order."""
+        yield from super().find_problems()
+        yield from find_name_problems("distractors", self.distractors, self.take, 0)
+        strangers = {name for pair in self.before for name in pair} - set(self.steps)
+        if strangers:
+            yield ("before",), "QG116", f"names {sorted(strangers)}, which are not steps"
+        if self.take and self.before:
+            wrong = "some of the steps can be taken only of one order, without before"
+            yield ("take",), "QG115", wrong
+        yield from find_extra_problems(self.extra, len(self.distractors))
+
+
+class OrderSpec(WordSpec, kw_only=True, frozen=True):
+    """Order: ``steps``; ``before`` = [[a, b], ...]; ``distractors`` that must stay out.
+
+    Without ``before`` the listed order is the only one. Steps are typed by their labels.
+    """
+
+    steps: list[str]
+    before: list[tuple[str, str]] | None = None
+    distractors: list[str] = msgspec.field(default_factory=list)
+    traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """``before`` must speak of the steps and contain no circle."""
+        if not 1 <= len(self.steps) <= MOST_STEPS:
+            raise ValueError(f"steps must be 1 to {MOST_STEPS}")
+        if len({*self.steps}) < len(self.steps):
+            raise ValueError("a step stands twice")
+        for pair in self.before or ():
+            if not {*pair} <= {*self.steps}:
+                raise ValueError(f"before: {pair[0]!r}, {pair[1]!r} are not both steps")
+        if any(step in later for step, later in later_steps(self).items()):
+            raise ValueError("before contains a circle")
+
+    def pairs(self) -> list[tuple[str, str]]:
+        """Which step directly precedes which."""
+        if self.before:
+            return self.before
+        return list(zip(self.steps, self.steps[1:], strict=False))
+
+    def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
+        """Judge a typed order."""
+        if len(typed) > 1000:
+            raise FormulaReadError("too-long", 1001, "1000")
+        chosen = _labels(self, typed)
+        read_as = " ".join(safe_echo(label) for label in chosen)
+        later = later_steps(self)
+        steps = [label for label in chosen if label in later]
+        intruders = [label for label in chosen if label not in later]
+        line = first_misplaced(self, chosen, later)
+        if line == 0 and len(steps) == len(self.steps):
+            return correct(read_as)
+        kept = len(steps) - count_misplaced(steps, later)
+        total = max(len(self.steps) - 1, 1)
+        credit = max(Fraction(kept - 1 - len(intruders), total), Fraction(0))
+        note = "order-distractor" if intruders else "order-missing" if line == 0 else "order-line"
+        if line == 0:
+            line = len(chosen) + 1
+        elif note == "order-distractor":
+            line = chosen.index(intruders[0]) + 1
+        because = tuple(chosen[line - 1 : line])
+        known = _trap(self, chosen) or note
+        return verdict_by_share(
+            min(credit, Fraction(9, 10)), read_as, known, line=line, because=because
+        )
+
+    def show(self) -> str:
+        """Return one right order."""
+        later = later_steps(self)
+        rest, shown = list(self.steps), list[str]()
+        while rest:
+            step = next(s for s in rest if not any(s in later[other] for other in rest))
+            rest.remove(step)
+            shown.append(step)
+        return " ".join(shown)
+
+
+def _trap(spec: OrderSpec, chosen: list[str]) -> str:
+    return next((f"trap:{name}" for name, order in spec.traps.items() if order == chosen), "")
+
+
+def later_steps(spec: OrderSpec) -> dict[str, set[str]]:
+    """Every step that must come later than a step (closed under chains)."""
+    later: dict[str, set[str]] = {step: set() for step in spec.steps}
+    for first, second in spec.pairs():
+        later[first].add(second)
+    for middle in spec.steps:
+        for step in spec.steps:
+            if middle in later[step]:
+                later[step] |= later[middle]
+    return later
+
+
+def first_misplaced(spec: OrderSpec, chosen: list[str], later: dict[str, set[str]]) -> int:
+    """Return the first line (from 1) that stands too early or does not belong; 0 if none."""
+    seen: set[str] = set()
+    for position, label in enumerate(chosen, 1):
+        needed = {step for step in spec.steps if label in later[step]}
+        if label not in later or not needed <= seen:
+            return position
+        seen.add(label)
+    return 0
+
+
+def count_misplaced(steps: list[str], later: dict[str, set[str]]) -> int:
+    """Return how many steps must be taken out so that the rest is in order.
+
+    Pairs in the wrong order form a partial order, so the largest set without such a pair is found
+    by matching (Dilworth).
+    """
+    matched: dict[int, int] = {}
+    wrong = {
+        i: [j for j in range(i + 1, len(steps)) if steps[i] in later[steps[j]]]
+        for i in range(len(steps))
+    }
+
+    def place(i: int, tried: set[int]) -> bool:
+        for j in wrong[i]:
+            if j not in tried:
+                tried.add(j)
+                if j not in matched or place(matched[j], tried):
+                    matched[j] = i
+                    return True
+        return False
+
+    return sum(place(i, set()) for i in range(len(steps)))
+
+
+def _labels(spec: OrderSpec, typed: str) -> list[str]:
+    text = re.sub(r"[\r\n]+", " ", typed.strip())
+    source = normalise_typed(text, keep_x=True, longest=1000)
+    known = {fold_word(label): label for label in (*spec.steps, *spec.distractors)}
+    words = _numbered(source.text) or _words(source.text, known)
+    if len(words) == 1 and fold_word(words[0]) not in known:
+        words = list(words[0])
+    found = [_known(word, known) for word in words]
+    for label in found:
+        if found.count(label) > 1:
+            raise FormulaReadError("used-twice", 1, label)
+    return found
+
+
+def _numbered(text: str) -> list[str]:
+    """Labels behind the numbers of lines, ``1. B 2. D``, in the order of the numbers."""
+    pairs = dict(_LINE.findall(text))
+    whole = not _LINE.sub("", text).strip(" ,;.")
+    if not whole or len(pairs) < 2 or {*map(int, pairs)} != {*range(1, len(pairs) + 1)}:
+        return []
+    return [pairs[number] for number in sorted(pairs, key=int)]
+
+
+def _words(text: str, known: dict[str, str]) -> list[str]:
+    """Cut at blanks, separators and arrows; ``B-D`` alone could be a range and stays whole."""
+    words = [w for w in re.split(r"[\s,;.<>|=()\[\]{}।॥→⇒⟶/:]+|-+>", text) if w.strip("-")]
+    words = [w for w in words if w.casefold() not in _FILLERS or fold_word(w) in known]
+    cut = [w for word in words for w in word.split("-") if w]
+    return cut if len(cut) > 2 and any(fold_word(w) not in known for w in words) else words
+
+
+def _known(word: str, known: dict[str, str]) -> str:
+    label = known.get(fold_word(word)) or known.get(fold_word(word.translate(BANGLA_LETTERS)))
+    if label is None:
+        raise FormulaReadError("label-expected", 1, safe_echo(word), list(known.values()))
+    return label
+
+
+def ask(part: PartContext) -> AskedPart[OrderSpec]:
+    """The steps and those that do not belong to them, in a drawn order."""
+    steps, extra = part.selection()
+    options = assign_letters(part.shuffle_names([*steps, *extra]))
+    marks = {name: mark for mark, name in options}
+    _check_traps(part)
+    traps = _wrong_orders(part.answer.get("traps", {}), steps, marks)
+    spec = make_spec(
+        OrderSpec,
+        part,
+        traps=traps,
+        notes=part.misconception_notes(traps) if traps else {},
+        why=part.reasons(options),
+        steps=[marks[name] for name in steps],
+        before=[(marks[first], marks[second]) for first, second in part.answer.get("before", ())],
+        distractors=[marks[name] for name in extra],
+    )
+    return AskedPart(
+        spec,
+        InputControl("order"),
+        options=options,
+        reasons=part.with_reason(options),
+        mistakes={
+            trap: msgspec.structs.replace(
+                spec, steps=wrong, before=None, distractors=[], traps={}, notes={}
+            )
+            for trap, wrong in traps.items()
+        },
+    )
+
+
+def _check_traps(part: PartContext) -> None:
+    """Refuse a wrong order of other steps, or of one step twice."""
+    known = {*part.answer["steps"], *part.answer.get("distractors", ())}
+    for trap, order in part.answer.get("traps", {}).items():
+        for step in order:
+            if step not in known or order.count(step) > 1:
+                wrong = "twice" if step in known else "unknown"
+                raise part.error(f"answer: traps.{trap}: step {step!r} is {wrong}")
+
+
+def _wrong_orders(
+    traps: Mapping[str, Sequence[str]], steps: Sequence[str], marks: Mapping[str, str]
+) -> dict[str, list[str]]:
+    """The known wrong orders of what is shown; one that is right or known already is left out."""
+    found: dict[str, list[str]] = {}
+    for name, wrong in traps.items():
+        order = [marks[step] for step in wrong if step in marks]
+        if order != [marks[step] for step in steps] and order not in found.values():
+            found[name] = order
+    return found
+
+
+def input_hints(spec: OrderSpec, lang: str) -> tuple[str, ...]:
+    """Whether all steps belong to the order."""
+    return (translate(lang, "ask.order" if spec.distractors else "ask.order_all"),)
+
+
+KIND = AnswerKind(AuthoredOrder, OrderSpec, ask, input_hints)

@@ -1,0 +1,204 @@
+"""Kind ``quantity``: a number with a unit; compared in base units, judged in the key's unit."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import fmpq
+
+from quizgen.grading.diagnosis.carry_forward import diagnosis_for
+from quizgen.grading.diagnosis.numeric_slips import (
+    agrees_within_half_percent,
+    is_in_radians,
+    power_of_ten_off,
+)
+from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.equalities import EqualitySide, read_plain_side, read_sides
+from quizgen.grading.reading.labels import drop_name
+from quizgen.grading.reading.normalise import normalise_typed
+from quizgen.grading.reading.numbers import ReadNumber
+from quizgen.grading.reading.quantities import TypedQuantity
+from quizgen.grading.reading.units import TypedUnit, listed_unit
+from quizgen.grading.rounding import format_key
+from quizgen.grading.spec import ScalarSpec
+from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
+from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredNumeric,
+    PartContext,
+    asked_quantities,
+)
+from quizgen.locale import translate
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.notation import pretty
+from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.values import Value
+
+DEGREES = (("deg", 1),)
+POWERS = frozenset({"power-of-ten", "percent-slip"})
+"""Slips of a number that are those of a prefix where the number has a unit."""
+
+
+class AuthoredQuantity(AuthoredNumeric, tag="quantity", frozen=True):
+    """A number with its unit."""
+
+    unit: str = ""
+    bare: bool = False
+
+
+class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
+    """Quantity: ``value`` in ``unit``; with ``bare`` the unit is printed beside the field."""
+
+    unit: str
+    bare: bool = False
+
+    def validate(self) -> None:
+        """Check tolerance, value, unit and traps."""
+        super().validate()
+        listed_unit(self.unit)
+
+    def value_unit(self) -> str:
+        """The unit of the key."""
+        return self.unit
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge a typed quantity."""
+        plain = read_plain_side(typed, options.decimal)
+        if plain is not None:
+            return _resolved(self, plain, options)
+        sides = read_sides(drop_name(normalise_typed(typed)), options.decimal)
+        return best_verdict(_resolved(self, side, options) for side in sides)
+
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        number = pretty.format_number(format_key(self, parse_exact(self.value)))
+        return f"{number} {shown_unit(self.unit)}".strip()
+
+
+def _resolved(spec: QuantitySpec, side: EqualitySide, options: GradingOptions) -> Verdict:
+    return judge_readings(
+        side.readings, lambda n: _judge(spec, n, side.quantity, options), spec.decimals
+    )
+
+
+def _judge(
+    spec: QuantitySpec, number: ReadNumber, quantity: TypedQuantity, options: GradingOptions
+) -> Verdict:
+    wanted = listed_unit(spec.unit)
+    if quantity.unit is None:
+        return _without_unit(spec, number, wanted, options)
+    read_as = f"{number.read_as} {shown_unit(quantity.unit.text)}"
+    if quantity.unit.dimension != wanted.dimension:
+        return _clash(spec, number, quantity.unit, read_as)
+    value = number.value * quantity.unit.factor / wanted.factor
+    verdict = judge_in_unit(spec, number, value, options, read_as)
+    return _prefix(spec, number, value, quantity.unit, verdict)
+
+
+def judge_in_unit(
+    spec: QuantitySpec, number: ReadNumber, value: Value, options: GradingOptions, read_as: str
+) -> Verdict:
+    """Judge a value that stands in the key's unit."""
+    asked = NumberTarget(
+        spec,
+        parse_exact(spec.value),
+        spec.trap_values(),
+        hints=diagnosis_for(spec, number, fmpq(1), options),
+    )
+    verdict = judge_value(asked, number, value, read_as)
+    return attach_values(verdict, value)
+
+
+def _without_unit(
+    spec: QuantitySpec, number: ReadNumber, wanted: TypedUnit, options: GradingOptions
+) -> Verdict:
+    verdict = judge_in_unit(spec, number, number.value, options, number.read_as)
+    if spec.unit == "%" and not verdict.credit:
+        fraction = judge_in_unit(spec, number, number.value * 100, options, number.read_as)
+        verdict = fraction if fraction.credit else verdict
+    if not wanted.dimension and wanted.factor == 1:
+        return verdict
+    if spec.bare:
+        return _prefix(spec, number, number.value, wanted, verdict)
+    if verdict.credit:
+        return _missing(spec, number, verdict, options.points)
+    ratio = _logarithm(spec, number.value, number.read_as)
+    return ratio or _prefix(spec, number, number.value, wanted, verdict)
+
+
+def _missing(spec: QuantitySpec, number: ReadNumber, verdict: Verdict, points: Fraction) -> Verdict:
+    """Take off for the unit: half, but never more than half a point, and nothing besides."""
+    credit = max(HALF, 1 - HALF / points)
+    if verdict.credit < credit:
+        return verdict
+    unit = shown_unit(spec.unit)
+    return attach_values(partial(credit, number.read_as, "unit-missing", unit=unit), number.value)
+
+
+def _clash(spec: QuantitySpec, number: ReadNumber, typed: TypedUnit, read_as: str) -> Verdict:
+    note = "unit-clash"
+    if agrees_within_half_percent(number.value, parse_exact(spec.value)):
+        note = "unit-wrong"
+    asked = shown_unit(spec.unit)
+    return attach_values(wrong(read_as, note, given=shown_unit(typed.text), asked=asked), None)
+
+
+def _prefix(
+    spec: QuantitySpec, number: ReadNumber, value: Value, typed: TypedUnit, verdict: Verdict
+) -> Verdict:
+    """Name a wrong power of ten as a slip of the prefix."""
+    key = parse_exact(spec.value)
+    if verdict.note == "factor" and spec.unit == "dB":
+        return _decibel(value, key, verdict)
+    if verdict.credit or verdict.note.startswith("trap:"):
+        return verdict
+    if typed.dimension == DEGREES and typed.factor == 1 and is_in_radians(number.value, key):
+        return attach_values(wrong(verdict.read_as, "radians"), *verdict.values)
+    same = agrees_within_half_percent(number.value, key) and typed.text != spec.unit
+    power = power_of_ten_off(value, key)
+    if not (same and power) and verdict.note not in POWERS:
+        return verdict
+    if abs(power) == 1 and not any(base == "m" for base, _ in typed.dimension):
+        return verdict  # ten times is a prefix of lengths only: cm and mm
+    asked = shown_unit(spec.unit)
+    note = "unit-prefix" if same else "unit-prefix-power"
+    fields = {"asked": asked, "power": power}
+    return attach_values(wrong(verdict.read_as, note, **fields), *verdict.values)
+
+
+def _decibel(value: Value, key: Value, verdict: Verdict) -> Verdict:
+    if agrees_within_half_percent(value * 2, key):
+        return attach_values(wrong(verdict.read_as, "decibel-ten"), *verdict.values)
+    if agrees_within_half_percent(value, key * 2):
+        return attach_values(wrong(verdict.read_as, "decibel-twenty"), *verdict.values)
+    return verdict
+
+
+def _logarithm(spec: QuantitySpec, value: Value, read_as: str) -> Verdict | None:
+    """Report a ratio given where decibels were asked."""
+    if spec.unit != "dB" or not value > 0:
+        return None
+    key = float(parse_exact(spec.value))
+    for per_decade in (10, 20):
+        if abs(float(value) - 10 ** (key / per_decade)) <= 0.005 * float(value):
+            return wrong(read_as, "ratio-for-decibel")
+    return None
+
+
+def ask(part: PartContext) -> AskedPart[QuantitySpec]:
+    """One number in the unit asked, else in the unit it is shown in."""
+    shown_in = part.units.get(asked_quantities(part.answer)[0], "")
+    unit = part.answer.get("unit", shown_in)
+    return ask_numeric(QuantitySpec, part, unit=unit)
+
+
+def input_hints(spec: QuantitySpec, lang: str) -> tuple[str, ...]:
+    """Unit and rounding."""
+    unit = translate(lang, "ask.unit" if spec.bare else "ask.quantity", unit=shown_unit(spec.unit))
+    return numeric_hints(spec, lang, unit)
+
+
+KIND = AnswerKind(AuthoredQuantity, QuantitySpec, ask, input_hints, show_exact_first)

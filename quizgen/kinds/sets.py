@@ -1,0 +1,124 @@
+"""Kind ``set``: numbers in any order; duplicates are ignored."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.equalities import read_items
+from quizgen.grading.reading.lists import read_list
+from quizgen.grading.reading.numbers import ReadNumber
+from quizgen.grading.rounding import format_key
+from quizgen.grading.spec import VectorSpec, matches_target
+from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
+from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first, unit_hint
+from quizgen.kinds.contract import MOST_OPTIONS, AnswerKind, AskedPart, AuthoredNumeric, PartContext
+from quizgen.locale import translate
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.notation import FormulaReadError, pretty
+from quizgen.maths.values import Value
+
+
+class AuthoredSet(AuthoredNumeric, tag="set", frozen=True):
+    """Numbers in any order."""
+
+    most = MOST_OPTIONS
+    unit: str = ""
+
+
+class SetSpec(VectorSpec, kw_only=True, frozen=True):
+    """Set: ``values``; ``unit`` of all."""
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge a typed set."""
+        if typed.strip() in _EMPTY:
+            return _judge(self, [])
+        if not _ONE_COMMA.fullmatch(typed.strip()):
+            return _judge(self, _elements(self, typed, None, options))
+        return self._with_one_comma(typed, options)
+
+    def _with_one_comma(self, typed: str, options: GradingOptions) -> Verdict:
+        """Judge ``{0,5}``, which is one decimal or two whole numbers."""
+        two = _judge(self, _elements(self, typed, 2, options))
+        one = _judge(self, _elements(self, typed, 1, options))
+        own = one if options.decimal == "comma" else two
+        if options.decimal == "auto" and _NOUGHT.search(typed) and (one.credit or two.credit):
+            raise FormulaReadError("comma-twice", 1, typed)
+        if own.credit == 1 or not (one.credit or two.credit):
+            return own
+        if own is one and one.credit:
+            return one
+        raise FormulaReadError("comma-twice", 1, typed)
+
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        return (
+            "{"
+            + "; ".join(pretty.format_number(format_key(self, key)) for key in self.keys())
+            + "}"
+        )
+
+
+_ONE_COMMA = re.compile(r"[^\W\d]?[^,;|\d]*[\[({]? *[-+−–]?\d+,\d+ *[\])}]?[^,;|\d]*")
+_NOUGHT = re.compile(r"(?<!\d)[0০],")
+"""How decimals begin: ``0,5`` may be one even where 0 and 5 are asked."""
+_EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"})
+
+
+def _elements(
+    spec: SetSpec, typed: str, count: int | None, options: GradingOptions
+) -> list[ReadNumber]:
+    items, _ = read_list(typed, count, options.decimal)
+    return read_items(items, spec.unit, None, options.decimal)[0]
+
+
+def _judge(spec: SetSpec, numbers: list[ReadNumber]) -> Verdict:
+    read_as = "{" + "; ".join(number.read_as for number in numbers) + "}"
+    keys = spec.keys()
+    found, extra, twice = _matched(spec, numbers, keys)
+    if len(found) == len(keys) and not extra:
+        return correct(read_as, "duplicates" if twice else "")
+    for name, values in spec.traps.items():
+        wanted = [parse_exact(value) for value in values]
+        if _covers(spec, numbers, wanted):
+            return wrong(read_as, f"trap:{name}")
+    credit = max(Fraction(len(found) - extra, max(len(keys), 1)), Fraction(0))
+    note = "set-extra" if extra else "set-missing"
+    return verdict_by_share(credit, read_as, note, right=len(found), of=len(keys))
+
+
+def _matched(
+    spec: SetSpec, numbers: list[ReadNumber], keys: list[Value]
+) -> tuple[set[int], int, bool]:
+    """Elements found, elements that do not belong, and whether one came twice."""
+    found: set[int] = set()
+    extra, twice = 0, False
+    for number in numbers:
+        hits = [i for i, key in enumerate(keys) if spec.accepts(number.value, key)]
+        if not hits:
+            extra += 1
+        elif set(hits) <= found:
+            twice = True
+        else:
+            found.add(next(i for i in hits if i not in found))
+    return found, extra, twice
+
+
+def _covers(spec: SetSpec, numbers: list[ReadNumber], wanted: list[Value]) -> bool:
+    return len(numbers) == len(wanted) and all(
+        any(matches_target(spec, n, n.value, value) for n in numbers) for value in wanted
+    )
+
+
+def ask(part: PartContext) -> AskedPart[SetSpec]:
+    """The elements, and those that each mistake gives."""
+    return ask_numeric(SetSpec, part)
+
+
+def input_hints(spec: SetSpec, lang: str) -> tuple[str, ...]:
+    """Shape, unit and rounding."""
+    return numeric_hints(spec, lang, translate(lang, "ask.set"), unit_hint(spec.unit, lang))
+
+
+KIND = AnswerKind(AuthoredSet, SetSpec, ask, input_hints, show_exact_first)

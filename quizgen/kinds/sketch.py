@@ -1,0 +1,315 @@
+"""Kind ``sketch``: lines that are drawn in a field with axes, judged by what makes them right."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from itertools import pairwise
+from typing import Any, TypeAlias
+
+import msgspec
+
+from quizgen.core.decoding import convert
+from quizgen.grading.drawing import AnyFeature
+from quizgen.grading.drawing.sheet import DrawingComparison, Feature, FieldScale, to_floats
+from quizgen.grading.drawing.strokes import (
+    FieldBounds,
+    FieldPoint,
+    StrokePoints,
+    format_strokes,
+    parse_key_line,
+    read_strokes,
+)
+from quizgen.grading.echo import safe_echo
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import Verdict, verdict_by_share
+from quizgen.kinds.asking import explain_as_code, hint, make_spec, misconception_specs
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredAnswer,
+    DrawingField,
+    Formulas,
+    InputControl,
+    PartContext,
+)
+from quizgen.maths.constants import Scalar
+from quizgen.maths.notation import parse_formula
+from quizgen.maths.number_systems import CompiledFormula, compile_expr, float64_system
+from quizgen.maths.numbers import MINUS, to_float
+
+SHOWN = 5
+"""Points of a line beyond which every second one is printed."""
+
+SketchLines = dict[str, str]
+"""Name to a line as it is typed."""
+
+
+SAMPLES = 8
+"""Pieces of a curve."""
+DIGITS = 4, 4
+"""Decimals of a point, as shares of what is typed they are far finer than any hand."""
+COMMON = {"reads", *Feature.__struct_fields__}
+"""Keys of every feature: no formulas."""
+
+
+class ParametricCurve(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A curved line: formulas in ``t``, which runs from the first to the last of ``t``."""
+
+    x: Scalar
+    y: Scalar
+    t: Formulas
+
+
+AuthoredLine: TypeAlias = ParametricCurve | list[Formulas]
+"""A line: formulas of its points, or a curve."""
+
+
+class AuthoredSketch(AuthoredAnswer, kw_only=True, tag="sketch", frozen=True):
+    """Lines to draw in a field with axes."""
+
+    view: tuple[Scalar, Scalar, Scalar, Scalar]
+    grid: Formulas
+    lines: dict[str, AuthoredLine]
+    features: dict[str, dict[str, Any]]
+    tall: Scalar = 0
+    cuts: list[Scalar] = msgspec.field(default_factory=list)
+    given: dict[str, AuthoredLine] = msgspec.field(default_factory=dict)
+    bars: bool = False
+    marks: dict[str, Formulas] = msgspec.field(default_factory=dict)
+    axes: tuple[str, str] = ("", "")
+    traps: dict[str, dict[str, Scalar]] = msgspec.field(default_factory=dict)
+
+
+class SketchSpec(WordSpec, kw_only=True, frozen=True):
+    """Sketch: ``view`` = from and to along x and y; wanted ``lines`` as points; ``features``.
+
+    ``tall`` is the height of the field over its width where both axes do not have one scale;
+    ``cuts`` are places along x where one line ends and another begins, so that strokes are cut
+    there. A trap gives all lines as they are with the mistake.
+    """
+
+    view: tuple[Scalar, Scalar, Scalar, Scalar]
+    lines: SketchLines
+    features: dict[str, AnyFeature]
+    tall: Scalar = 0
+    cuts: list[Scalar] = msgspec.field(default_factory=list)
+    traps: dict[str, SketchLines] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Lines need two ends and room in the field, features known lines."""
+        left, right, low, high = self.field
+        if not (left < right and low < high):
+            raise ValueError("view: from must be below to")
+        if not self.features or any(one.worth < 1 for one in self.features.values()):
+            raise ValueError("there must be features, each worth something")
+        if any({*lines} != {*self.lines} for lines in self.traps.values()):
+            raise ValueError("every mistake has the lines that the key has")
+        to_floats([self.tall, *self.cuts])
+        if any(not one.of or not {*one.of} <= {*self.lines} for one in self.features.values()):
+            raise ValueError("features: of names lines")
+        for sheet in self._sheets([]):
+            for one in self.features.values():
+                one.validate(sheet)
+
+    @property
+    def field(self) -> FieldBounds:
+        """What the field shows."""
+        left, right, low, high = to_floats(self.view)
+        return left, right, low, high
+
+    def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
+        """Judge drawn lines by the features of the wanted ones."""
+        strokes = read_strokes(typed, self.field)
+        line = self.scale.line
+        drawn = [line(piece) for stroke in strokes for piece in self._cut(stroke)]
+        sheet, *mistaken = self._sheets(drawn)
+        note, shares = "sketch", self._shares(sheet)
+        if not any(one.is_judgeable(sheet) for one in self.features.values()):
+            note = "sketch-elsewhere"
+        elif any(share < 1 for share in shares.values()):
+            note = self._trap(shares, mistaken) or note
+        worth = {name: one.worth for name, one in self.features.items()}
+        credit = sum((worth[name] * share for name, share in shares.items()), Fraction(0))
+        missed = tuple(name for name, share in shares.items() if share < 1)
+        return verdict_by_share(
+            credit / sum(worth.values()),
+            safe_echo(self._told(strokes), 80),
+            note,
+            right=len(shares) - len(missed),
+            of=len(shares),
+            because=missed,
+        )
+
+    @property
+    def digits(self) -> tuple[int, int]:
+        """Decimals along x and along y that show a three hundredth of the field."""
+        left, right, low, high = self.field
+        return _decimals(right - left), _decimals(high - low)
+
+    def show(self) -> str:
+        """The wanted lines, curved ones by a few of their points."""
+        return self._told([_few(parse_key_line(line)) for line in self.lines.values()])
+
+    def _told(self, lines: Sequence[Sequence[FieldPoint]]) -> str:
+        """Lines as people write them, and as they can be typed."""
+        return format_strokes(lines, self.digits).replace("-", MINUS)
+
+    @property
+    def scale(self) -> FieldScale:
+        """From the numbers on the axes to shares of the width."""
+        return FieldScale(self.field, to_floats([self.tall])[0])
+
+    def _cut(self, stroke: StrokePoints) -> list[list[FieldPoint]]:
+        """A stroke in pieces between the upright lines at which it is cut."""
+        found = [[stroke[0]]]
+        for (x, y), (to_x, to_y) in pairwise(stroke):
+            places = [
+                place for place in to_floats(self.cuts) if min(x, to_x) < place <= max(x, to_x)
+            ]
+            for place in sorted(places, reverse=to_x < x):
+                at = (place, y + (to_y - y) * (place - x) / (to_x - x))
+                found[-1].append(at)
+                found.append([at])
+            found[-1].append((to_x, to_y))
+        return [piece for piece in found if len({*piece}) > 1]
+
+    def _sheets(self, drawn: Sequence[StrokePoints]) -> list[DrawingComparison]:
+        """What was drawn beside the wanted lines, and beside those of each mistake."""
+        scale = self.scale
+        ways = [{name: scale.line(parse_key_line(line)) for name, line in lines.items()}
+                for lines in (self.lines, *self.traps.values())]  # fmt: skip
+        return [
+            DrawingComparison(scale, drawn, way, [*ways[:place], *ways[place + 1 :]])
+            for place, way in enumerate(ways)
+        ]
+
+    def _shares(self, sheet: DrawingComparison) -> dict[str, Fraction]:
+        return {name: one.satisfied_share(sheet) for name, one in self.features.items()}
+
+    def _trap(self, shares: Mapping[str, Fraction], mistaken: Sequence[DrawingComparison]) -> str:
+        """The known mistake that explains most of what is missed."""
+        missed = [name for name, share in shares.items() if share < 1]
+        found, most = "", 0
+        for trap, sheet in zip(self.traps, mistaken, strict=True):
+            explained = sum(self.features[name].satisfied_share(sheet) == 1 for name in missed)
+            if explained > most:
+                found, most = trap, explained
+            if most == len(missed):
+                break
+        return f"trap:{found}" if found else ""
+
+
+def _decimals(extent: float) -> int:
+    return max(0, 2 - math.floor(math.log10(extent)))
+
+
+def _few(line: list[FieldPoint]) -> list[FieldPoint]:
+    return [*line[:-1:2], line[-1]] if len(line) > SHOWN else line
+
+
+def ask(part: PartContext) -> AskedPart[SketchSpec]:
+    """The wanted lines and those of each mistake, and the field that they are drawn in."""
+    answer = convert(part.answer, AuthoredSketch)
+    right = _Place({name: to_float(value) for name, value in part.shown_values.items()})
+    traps = {
+        trap: _typed(right.but(changed).lines(answer.lines))
+        for trap, changed in answer.traps.items()
+    }
+    features = {name: _feature(right, one) for name, one in answer.features.items()}
+    lines, tall = right.lines(answer.lines), right.number(answer.tall)
+    spec = make_spec(
+        SketchSpec,
+        part,
+        view=[right.number(limit) for limit in answer.view],
+        tall=tall,
+        cuts=[right.number(place) for place in answer.cuts],
+        lines=_typed(lines),
+        features=features,
+        traps=traps,
+        notes=part.misconception_notes(traps) if traps else {},
+        why=part.reasons([(name, name) for name in features]),
+    )
+    board = DrawingField(
+        view=spec.field,
+        grid=right.point(answer.grid),
+        tall=tall,
+        given=tuple(map(tuple, right.lines(answer.given).values())),
+        bars=answer.bars,
+        marks=tuple((label, right.point(at)) for label, at in answer.marks.items()),
+        axes=answer.axes,
+    )
+    return AskedPart(
+        spec,
+        InputControl("lines", lines=4, board=board),
+        right=tuple(("points", name) for name in features),
+        drawn=tuple(map(tuple, lines.values())),
+        mistakes=misconception_specs(spec, "lines"),
+    )
+
+
+class _Place:
+    """Formulas of a template over the values of a variant."""
+
+    def __init__(self, values: Mapping[str, float]) -> None:
+        self._values = values
+
+    def but(self, changed: Mapping[str, Scalar]) -> _Place:
+        """The same with wrong values in place of some."""
+        return _Place({**self._values, **{name: self.number(to) for name, to in changed.items()}})
+
+    def number(self, formula: Scalar) -> float:
+        """The value of a formula."""
+        return self._compiled(formula)(0.0)
+
+    def point(self, formulas: Formulas) -> FieldPoint:
+        """The values of two."""
+        return self.number(formulas[0]), self.number(formulas[1])
+
+    def filled(self, value: Scalar | list[Scalar]) -> float | list[float]:
+        """The value of a formula or of several; what is true or false stays so."""
+        if isinstance(value, bool):
+            return value
+        return [*map(self.number, value)] if isinstance(value, list) else self.number(value)
+
+    def lines(self, authored: Mapping[str, AuthoredLine]) -> dict[str, list[FieldPoint]]:
+        """Lines by their names."""
+        return {name: self._line(line) for name, line in authored.items()}
+
+    def _line(self, line: AuthoredLine) -> list[FieldPoint]:
+        if not isinstance(line, ParametricCurve):
+            return [_rounded(*self.point(point)) for point in line]
+        x, y = self._compiled(line.x), self._compiled(line.y)
+        first, last = self.point(line.t)
+        steps = [first + (last - first) * i / SAMPLES for i in range(SAMPLES + 1)]
+        return [_rounded(x(t), y(t)) for t in steps]
+
+    def _compiled(self, formula: Scalar) -> Callable[[float], float]:
+        compiled = _formula(str(formula), (*self._values, "t"))
+        return lambda t: float(compiled({**self._values, "t": t}))
+
+
+@lru_cache(maxsize=512)
+def _formula(text: str, symbols: tuple[str, ...]) -> CompiledFormula:
+    """A formula of a template over its symbols, the same for all of its variants."""
+    return compile_expr(parse_formula(text, symbols=symbols), float64_system())
+
+
+def _typed(lines: Mapping[str, list[FieldPoint]]) -> dict[str, str]:
+    return {name: format_strokes([line], DIGITS) for name, line in lines.items()}
+
+
+def _rounded(x: float, y: float) -> FieldPoint:
+    return round(x, DIGITS[0]) + 0.0, round(y, DIGITS[1]) + 0.0
+
+
+def _feature(place: _Place, authored: Mapping[str, Any]) -> dict[str, Any]:
+    """A feature with numbers in place of formulas, whichever keys its way to read has."""
+    return {key: value if key in COMMON else place.filled(value) for key, value in authored.items()}
+
+
+HOW_TO_TYPE = hint("ask.sketch", example="0,0 1,0.4 2,0; 0,1 2,1")
+KIND = AnswerKind(AuthoredSketch, SketchSpec, ask, HOW_TO_TYPE, explain_as_code)

@@ -1,0 +1,272 @@
+"""Kind ``table``: several named numbers, each judged as a number, quantity or angle."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+from msgspec.structs import replace
+
+from quizgen.core.decoding import convert
+from quizgen.grading.diagnosis.numeric_slips import find_common_slip
+from quizgen.grading.judge import show_spec
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.labels import find_name, split_name
+from quizgen.grading.reading.lists import read_list
+from quizgen.grading.reading.numbers import relocate_error
+from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.spec import NumericSpec, decode_spec
+from quizgen.grading.verdict import (
+    Verdict,
+    ambiguous,
+    attach_values,
+    correct,
+    partial,
+    verdict_by_share,
+    wrong,
+)
+from quizgen.kinds import angle, number, quantity
+from quizgen.kinds.asking import ask_numeric, explain_assigned, nonempty, rounding_hint
+from quizgen.kinds.contract import (
+    MOST_OPTIONS,
+    AnswerKind,
+    AskedPart,
+    AuthoredNumeric,
+    InputBox,
+    InputControl,
+    PartContext,
+    asked_quantities,
+)
+from quizgen.maths.constants import Scalar
+from quizgen.maths.notation import FormulaReadError, pretty
+from quizgen.maths.numbers import format_for_key
+from quizgen.maths.tolerance import RULES
+from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.values import Value
+
+if TYPE_CHECKING:
+    from quizgen.bank.markdown import Inline
+    from quizgen.question.inlines import TextOrInlines
+
+Cell = number.NumberSpec | quantity.QuantitySpec | angle.AngleSpec
+
+CELLS: dict[str, type[Cell]] = {
+    "number": number.NumberSpec,
+    "quantity": quantity.QuantitySpec,
+    "angle": angle.AngleSpec,
+}
+
+
+class AuthoredTable(AuthoredNumeric, tag="table", frozen=True):
+    """Numbers by their labels."""
+
+    least, most = 2, MOST_OPTIONS
+    counts: dict[str, str | tuple[str, ...]] = msgspec.field(default_factory=dict)
+    cells: dict[str, dict[str, bool | Scalar]] = msgspec.field(default_factory=dict)
+
+
+class TableSpec(NumericSpec, kw_only=True, frozen=True):
+    """Table: ``values`` (name to value); ``units`` (name to unit); ``cells`` (name to a table).
+
+    ``counts`` maps a name to the unit or words for what it counts.
+
+    A cell is a number with the table's tolerance unless ``cells`` says otherwise:
+    ``cells = {H = {kind = "angle", abs = "0.5"}}``.
+    """
+
+    values: dict[str, Scalar]
+    units: dict[str, str] = msgspec.field(default_factory=dict)
+    counts: dict[str, list[str]] = msgspec.field(default_factory=dict)
+    cells: dict[str, dict[str, Any]] = msgspec.field(default_factory=dict)
+    traps: dict[str, dict[str, Scalar]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check tolerance and every cell."""
+        super().validate()
+        if not self.values:
+            raise ValueError("values must not be empty")
+        for name in (*self.units, *self.counts, *self.cells):
+            if name not in self.values:
+                raise ValueError(f"no value is named {name!r}")
+        for name in self.values:
+            decode_spec(*_shape(self, name))
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge each cell."""
+        names = list(self.values)
+        placed = _placed(typed, names, options.decimal)
+        asked = {name: cell_spec(self, name) for name in names}
+        cells = [_one(asked[name], name, placed.get(name), options) for name in names]
+        stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
+        shown = zip(map(pretty.format_name, names), cells, strict=True)
+        read_as = "; ".join(f"{name} = {c.read_as}" for name, c in shown if c.read_as)
+        if stopped is not None:
+            return ambiguous(stopped.note, stopped.read_as, **stopped.fields)
+        missed = any(c.credit < 1 for c in cells)
+        trap = _trap(self.traps, asked, placed, options) if missed else ""
+        verdict = _together(names, cells, read_as, trap)
+        values = tuple(c.values[0] if c.values else None for c in cells)
+        return attach_values(replace(verdict, cells=tuple(cells)), *values)
+
+    def show(self) -> str:
+        """Return the key as printed and as it can be typed back."""
+        return "; ".join(
+            f"{pretty.format_name(n)} = {cell_spec(self, n).show()}" for n in self.values
+        )
+
+    def value_units(self) -> list[str]:
+        """The unit of each cell."""
+        return [cell_spec(self, name).value_unit() for name in self.values]
+
+
+_INHERITED = (*RULES, "within", "strict")
+
+
+def cell_spec(spec: TableSpec, name: str) -> Cell:
+    """Return the spec of one cell."""
+    shape, table = _shape(spec, name)
+    return convert(table, shape)
+
+
+def _shape(spec: TableSpec, name: str) -> tuple[type[Cell], dict[str, Any]]:
+    """The kind of one cell and what its spec says."""
+    own = spec.cells.get(name, {})
+    table: dict[str, Any] = {"kind": "number", "value": spec.values[name], "define": spec.define}
+    if not {*RULES} & own.keys():
+        table |= {key: getattr(spec, key) for key in _INHERITED}
+    if spec.units.get(name):
+        table["unit"] = spec.units[name]
+    if spec.counts.get(name):
+        table["counts"] = spec.counts[name]
+    table["traps"] = {trap: values[name] for trap, values in spec.traps.items() if name in values}
+    if isinstance(spec.of, dict) and name in spec.of:
+        table["of"] = [spec.of[name]]
+    table |= own
+    if table["kind"] == "angle":
+        table.pop("unit", None)
+    if table["kind"] not in CELLS:
+        raise ValueError(f"cells.{name}: kind is one of {', '.join(CELLS)}")
+    return CELLS[table["kind"]], table
+
+
+def _placed(typed: str, names: list[str], decimal: str) -> dict[str, SourceText]:
+    """Name to what was typed for it: by name, or all in order."""
+    count = None if any(mark in typed for mark in "=:") else len(names)
+    items, _ = read_list(typed, count, decimal)
+    pairs = [split_name(item) for item in items]
+    if not any(name for name, _ in pairs):
+        if len(items) != len(names):
+            raise FormulaReadError("item-count", 1, str(len(items)), [str(len(names))])
+        return dict(zip(names, items, strict=True))
+    placed: dict[str, SourceText] = {}
+    for (label, rest), item in zip(pairs, items, strict=True):
+        name = find_name(label, names)
+        if not name or name in placed:
+            raise FormulaReadError(
+                "used-twice" if name else "unknown-name", item.column(0), label, names
+            )
+        placed[name] = rest
+    return placed
+
+
+def _one(asked: Cell, name: str, item: SourceText | None, options: GradingOptions) -> Verdict:
+    if item is None:
+        return wrong("", "missing", names=(name,))
+    try:
+        verdict = asked.judge(item.text, options)
+    except FormulaReadError as error:
+        raise relocate_error(error, item) from None
+    if verdict.verdict == "unreadable":
+        raise FormulaReadError(verdict.note, item.column(0), verdict.read_as)
+    return verdict
+
+
+def _together(names: list[str], cells: list[Verdict], read_as: str, trap: str) -> Verdict:
+    credit = sum((c.credit for c in cells), Fraction(0)) / len(cells)
+    missed = tuple(n for n, c in zip(names, cells, strict=True) if c.credit < 1)
+    if not missed:
+        notes = {c.note for c in cells if c.verdict == "partial"}
+        return partial(credit, read_as, notes.pop()) if notes else correct(read_as)
+    note, fields = (f"trap:{trap}", {}) if trap else find_common_slip(cells)
+    return verdict_by_share(credit, read_as, note or "cells", names=missed, **fields)
+
+
+def _trap(
+    traps: Mapping[str, Mapping[str, Scalar]],
+    asked: Mapping[str, Cell],
+    placed: Mapping[str, SourceText],
+    options: GradingOptions,
+) -> str:
+    """Return the one known mistake that gives every cell as it was typed."""
+    if len(placed) < len(asked):
+        return ""
+    typed = {name: source.text for name, source in placed.items()}
+    fitting = [trap for trap in traps if _gives(trap, traps[trap], asked, typed, options)]
+    return fitting[0] if len(fitting) == 1 else ""
+
+
+def _gives(
+    trap: str,
+    values: Mapping[str, Scalar],
+    asked: Mapping[str, Cell],
+    typed: Mapping[str, str],
+    options: GradingOptions,
+) -> bool:
+    """Whether a mistake explains all cells: whoever made it typed its values throughout."""
+    return all(
+        _gives_cell(replace(one, traps={trap: values.get(name, one.value)}), typed[name], options)
+        for name, one in asked.items()
+    )
+
+
+def _gives_cell(cell: Cell, typed: str, options: GradingOptions) -> bool:
+    """Whether a cell's one mistake gives what was typed, which may be right all the same."""
+    verdict = cell.judge(typed, options)
+    ((trap, value),) = cell.traps.items()
+    if not verdict.credit:
+        return verdict.note == f"trap:{trap}"
+    return replace(cell, value=value, traps={}).judge(typed, options).credit == 1
+
+
+def ask(part: PartContext) -> AskedPart[TableSpec]:
+    """The cells by their labels, and those that each mistake gives."""
+    of, names = part.answer["of"], asked_quantities(part.answer)
+    labels = list(of) if isinstance(of, Mapping) else list(names)
+
+    def write(values: tuple[Value, ...]) -> dict[str, Scalar]:
+        return {label: format_for_key(v) for label, v in zip(labels, values, strict=True)}
+
+    units = [str(part.answer.get("unit", part.units.get(name, ""))) for name in names]
+    stated = {label: unit for label, unit in zip(labels, units, strict=True) if unit}
+    by_label = dict(zip(labels, names, strict=True))
+    asked = ask_numeric(TableSpec, part, write, of=by_label, units=stated)
+    boxes = tuple(map(InputBox, labels, units))
+    return replace(asked, control=InputControl("line", boxes=boxes, named=True))
+
+
+def input_hints(spec: TableSpec, lang: str) -> tuple[TextOrInlines, ...]:
+    """Names with their units, and rounding."""
+    from quizgen.question.inlines import join_inlines, translate_inlines
+
+    names = join_inlines((_with_unit(name, spec.units.get(name, "")) for name in spec.values), ", ")
+    rounding = rounding_hint(spec, spec.values, lang)
+    return nonempty(translate_inlines(lang, "ask.table", names=names), rounding)
+
+
+def _with_unit(name: str, unit: str) -> tuple[Inline, ...]:
+    from quizgen.bank.markdown import PlainText
+    from quizgen.question.inlines import name_inline
+
+    return (
+        (name_inline(name), PlainText(f" ({shown_unit(unit)})")) if unit else (name_inline(name),)
+    )
+
+
+def explain_key(spec: TableSpec, lang: str) -> TextOrInlines:
+    """The cells by their names."""
+    return explain_assigned((name, show_spec(cell_spec(spec, name), lang)) for name in spec.values)
+
+
+KIND = AnswerKind(AuthoredTable, TableSpec, ask, input_hints, explain_key)

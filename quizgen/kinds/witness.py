@@ -1,0 +1,351 @@
+"""Kind ``witness``: any example or counterexample; it is tested, never compared."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+
+from quizgen.core.errors import FormulaError
+from quizgen.grading.judge import show_spec
+from quizgen.grading.judging.sampled_equality import BITS, Domain, compile_exact
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.equalities import most_precise_side, read_sides
+from quizgen.grading.reading.formulas import parse_authored
+from quizgen.grading.reading.labels import NAME, find_name, name_key, split_name
+from quizgen.grading.reading.lists import (
+    NAMED_NEXT,
+    bracket_depth,
+    normalise_separators,
+    read_list,
+    split_prefix,
+    strip_brackets,
+)
+from quizgen.grading.reading.normalise import normalise_typed
+from quizgen.grading.reading.numbers import ReadNumber, as_percent, percent_to_fraction
+from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.rounding import format_exact_or_figures
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import Verdict, ambiguous, attach_values, correct, wrong
+from quizgen.kinds.asking import explain_assigned, make_spec, sentence_with_code
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredAnswer,
+    InputBox,
+    InputControl,
+    PartContext,
+    SymbolDomain,
+)
+from quizgen.maths.constants import Scalar, parse_exact
+from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula, pretty
+from quizgen.maths.notation.names import FUNCTIONS
+from quizgen.maths.numbers import format_exact, format_for_key
+from quizgen.maths.operators import CONDITIONS
+from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import Call, Expr, Num, substitute
+
+if TYPE_CHECKING:
+    from quizgen.question.inlines import TextOrInlines
+
+
+class AuthoredWitness(AuthoredAnswer, kw_only=True, tag="witness", frozen=True):
+    """Any values that meet a condition."""
+
+    predicate: str
+    symbols: dict[str, SymbolDomain] | tuple[str, ...]
+    where: tuple[str, ...] = ()
+    let: dict[str, str] = msgspec.field(default_factory=dict)
+    example: dict[str, Scalar] = msgspec.field(default_factory=dict)
+
+
+class WitnessSpec(WordSpec, kw_only=True, frozen=True):
+    """Witness: ``predicate`` to satisfy; ``symbols`` to give; ``where`` = constraints.
+
+    ``symbols`` is a list of names, or a table from names to ``real``, ``positive`` or
+    ``[low, high]``. Names such as ``a_1 a_2 a_3`` can be typed together: ``a = (1; 0; 0)``.
+    ``let`` = names with formulas over the symbols, to be used in ``predicate`` and ``where``.
+    ``example`` is one right answer to show; typed answers are never compared with it.
+    """
+
+    predicate: str
+    symbols: dict[str, Domain] | list[str]
+    where: list[str] = msgspec.field(default_factory=list)
+    let: dict[str, str] = msgspec.field(default_factory=dict)
+    example: dict[str, Scalar] = msgspec.field(default_factory=dict)
+
+    def names(self) -> tuple[str, ...]:
+        """Names to give, in order."""
+        return tuple(self.symbols)
+
+    def known(self) -> tuple[str, ...]:
+        """Names that conditions may use."""
+        return (*self.symbols, *self.let)
+
+    def validate(self) -> None:
+        """The predicate and every constraint must be relations over the names."""
+        for text in self.let.values():
+            parse_authored(text, self.known())
+        for text in (self.predicate, *self.where):
+            tree = parse_authored(text, self.known())
+            if not isinstance(tree, Call) or tree.op not in CONDITIONS:
+                raise FormulaError(f"{text!r} is not a relation")
+        domains = self.symbols.values() if isinstance(self.symbols, dict) else ()
+        if not all(
+            len(domain) == len(("low", "high")) for domain in domains if isinstance(domain, list)
+        ):
+            raise ValueError("symbols: a range is [low, high]")
+        if self.example and {*self.example} != {*self.names()}:
+            raise ValueError("example must give every symbol")
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Test a typed example."""
+        numbers = _numbers(self, typed, options.decimal)
+        env = {name: number.value for name, number in numbers.items()}
+        read_as = "; ".join(
+            f"{pretty.format_name(n)} = {number.read_as}" for n, number in numbers.items()
+        )
+        with working_precision(BITS):
+            verdict = _tested(self, _extended(self, env), read_as)
+        return attach_values(verdict, *env.values())
+
+    def show(self) -> str:
+        """Return one right example if there is one, else what an example must satisfy."""
+        if self.example:
+            given = {n: pretty.format_number(str(self.example[n])) for n in self.names()}
+            return "; ".join(f"{pretty.format_name(n)} = {value}" for n, value in given.items())
+        return "; ".join(map(pretty.format_formula, (self.predicate, *self.where)))
+
+
+@lru_cache(maxsize=1024)
+def _compiled(text: str, symbols: tuple[str, ...]) -> Any:
+    return compile_exact(parse_authored(text, symbols))
+
+
+def _extended(spec: WitnessSpec, env: dict[str, Any]) -> dict[str, Any]:
+    """Add the quantities that ``let`` derives, in order."""
+    full = dict(env)
+    for name, text in spec.let.items():
+        full[name] = _compiled(text, spec.known())(full)
+    return full
+
+
+def _tested(spec: WitnessSpec, env: dict[str, Any], read_as: str) -> Verdict:
+    for text, shown in _domains(spec):
+        if _holds(spec, text, env) is not True:
+            return wrong(read_as, "constraint", constraint=shown)
+    for text in spec.where:
+        if _holds(spec, text, env) is not True:
+            return wrong(read_as, "constraint", claim=_filled(spec, text, env))
+    held = _holds(spec, spec.predicate, env)
+    if held is True:
+        return correct(read_as)
+    if held is None:
+        return ambiguous("undecided", read_as)
+    return wrong(read_as, "predicate", claim=_filled(spec, spec.predicate, env))
+
+
+def _holds(spec: WitnessSpec, text: str, env: dict[str, Any]) -> bool | None:
+    """Whether a relation holds; False where it has no value, None if it cannot be told."""
+    result = _compiled(text, spec.known())(env)
+    if isinstance(result, type):
+        return None
+    return bool(result)
+
+
+def _domains(spec: WitnessSpec) -> Iterator[tuple[str, str]]:
+    """Constraints that the symbols' domains state, and how they are shown."""
+    if not isinstance(spec.symbols, dict):
+        return
+    for name, domain in spec.symbols.items():
+        if domain == "positive":
+            yield f"{name} > 0", pretty.format_formula(f"{name} > 0")
+        elif isinstance(domain, list):
+            low, high = (format_exact_or_figures(parse_exact(bound), 12) for bound in domain)
+            relation = f"{_signed(low)} <= {name} <= {_signed(high)}"
+            yield relation, pretty.format_formula(f"{low} ≤ {name} ≤ {high}")
+
+
+def _signed(text: str) -> str:
+    return f"({text})" if text.startswith("-") else text
+
+
+_SIGNS = {"lt": "<", "le": "≤", "gt": ">", "ge": "≥", "eq": "=", "ne": "≠"}
+
+
+def _filled(spec: WitnessSpec, text: str, env: dict[str, Any]) -> str:
+    """Return a failing relation with both sides' values, ``4 < 2``; empty if they say nothing.
+
+    The relation itself is program text and may hold names that no question mentions.
+    """
+    tree = parse_authored(text, spec.known())
+    sides = tree.args if isinstance(tree, Call) and tree.op in _SIGNS else ()
+    values = [_side(side, env) for side in sides]
+    if len(values) != 2 or None in values:
+        return ""
+    return f"{values[0]} {_SIGNS[tree.op]} {values[1]}"  # type: ignore[union-attr]
+
+
+def _side(side: Expr, env: dict[str, Any]) -> str | None:
+    value = compile_exact(side)(env)
+    if value is None or isinstance(value, (type, bool)):
+        return None
+    return pretty.format_number(format_exact_or_figures(value, 6))
+
+
+_FRONT = re.compile(rf"({NAME}) ?(?=[(\[])")
+_SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
+
+
+def _numbers(spec: WitnessSpec, typed: str, decimal: str) -> dict[str, ReadNumber]:
+    """Read the example: by name, in groups, or all in order."""
+    lines = filter(None, map(str.strip, typed.split("\n")))
+    source = normalise_separators(normalise_typed("; ".join(lines), longest=400))
+    names, placed = list(spec.names()), dict[str, ReadNumber]()
+    items = list(_items(source, names, decimal))
+    if len(items) == 1 and not items[0][0]:
+        items = [("", piece) for piece in _alone(items[0][1], len(names))]
+    for label, item in items:
+        targets = _targets(label, item, [n for n in names if n not in placed], names)
+        for name, piece in targets:
+            placed[name] = _number(piece, decimal)
+    if len(placed) < len(names):
+        missing = [name for name in names if name not in placed]
+        raise FormulaReadError("values-missing", 1, "", missing)
+    return {name: placed[name] for name in names}
+
+
+def _alone(item: SourceText, count: int) -> list[SourceText]:
+    """Cut values that stand in a row without separators of their own: ``0.2 0.3``."""
+    for separator in (re.compile(r" +"), re.compile(r",")):
+        parts = _cut(item, separator)
+        if len(parts) == count and bracket_depth(item.text, len(item.text)) == 0:
+            return parts
+    return [item]
+
+
+def _number(piece: SourceText, decimal: str) -> ReadNumber:
+    side = most_precise_side(read_sides(piece, decimal))
+    readings, unit = side.readings, side.quantity.unit
+    if readings.other is not None and readings.doubt is not None and not readings.doubt.native:
+        raise FormulaReadError("two-readings", piece.column(0), piece.text)
+    percent = readings.main.percent or (unit is not None and unit.text == "%")
+    return percent_to_fraction(as_percent(readings.main)) if percent else readings.main
+
+
+def _items(source: SourceText, names: list[str], decimal: str) -> Iterator[tuple[str, SourceText]]:
+    fronts, rest = split_prefix(source)
+    if fronts:
+        items, _ = read_list(rest.text, len(fronts), decimal)
+        yield from zip(fronts, items, strict=True)
+        return
+    inner, _ = strip_brackets(source)
+    source = inner if inner.text[:1] == "(" else source
+    for piece in _cut(source, _SEPARATOR):
+        label, rest = split_name(piece)
+        label, rest = (label, rest) if label else _named_point(piece, names)
+        if label or rest.text:
+            yield label, rest
+
+
+def _named_point(piece: SourceText, names: list[str]) -> tuple[str, SourceText]:
+    """``A(0.5|0)``: the name before a bracket; a word that names nothing is passed over."""
+    match = _FRONT.match(piece.text)
+    if match is None or match[1] in FUNCTIONS:
+        return "", piece
+    typed, keys = name_key(match[1]), [name_key(name) for name in names]
+    known = {key[: len(typed)] for key in keys if key.lower().startswith(typed.lower())}
+    label = typed if typed in known else known.pop() if len(known) == 1 else ""
+    return label, piece.slice(match.end())
+
+
+def _cut(source: SourceText, separator: re.Pattern[str]) -> list[SourceText]:
+    start, pieces = 0, []
+    for match in separator.finditer(source.text):
+        if bracket_depth(source.text, match.start()) == 0:
+            pieces.append(source.slice(start, match.start()).strip())
+            start = match.end()
+    pieces.append(source.slice(start).strip(" ,"))
+    return [piece for piece in pieces if piece.text]
+
+
+def _targets(
+    label: str, item: SourceText, free: list[str], names: list[str]
+) -> list[tuple[str, SourceText]]:
+    """Which names an item gives: its own, those of a group, or the next free ones."""
+    inner, _ = strip_brackets(item)
+    parts = _parts(inner) if inner.text != item.text else [item]
+    own = find_name(label, names) if label else ""
+    if label and not own:
+        return _group(label, item, parts, free)
+    if own:
+        free = [own]
+    if len(parts) > len(free):
+        raise FormulaReadError("item-count", item.column(0), str(len(parts)), [str(len(free))])
+    return list(zip(free, parts, strict=False))
+
+
+def _group(
+    label: str, item: SourceText, parts: list[SourceText], free: list[str]
+) -> list[tuple[str, SourceText]]:
+    members = [name for name in free if name_key(name).startswith(name_key(label))]
+    if not members or len(members) != len(parts):
+        raise FormulaReadError("unknown-name", item.column(0), label, free)
+    return list(zip(members, parts, strict=True))
+
+
+def _parts(inner: SourceText) -> list[SourceText]:
+    for separator in (re.compile(r"[;|]"), re.compile(r","), re.compile(r" +")):
+        if separator.search(inner.text):
+            return _cut(inner, separator)
+    return [inner]
+
+
+def ask(part: PartContext) -> AskedPart[WitnessSpec]:
+    """Conditions and an example with the drawn values in place."""
+    answer = part.answer
+    known = {n: Num(Fraction(format_for_key(v)), decimal=v.q != 1) for n, v in part.shown.items()}
+    let, example = answer.get("let", {}), answer.get("example", {})
+    symbols = (*answer["symbols"], *let, *known)
+
+    def stated(text: object) -> str:
+        return format_tree(substitute(parse_formula(str(text), symbols=symbols), known))
+
+    spec = make_spec(
+        WitnessSpec,
+        part,
+        example={name: _short_text(part, formula) for name, formula in example.items()},
+        let={name: stated(text) for name, text in let.items()},
+        predicate=stated(answer["predicate"]),
+        where=[stated(text) for text in answer.get("where", ())],
+    )
+    boxes = tuple(map(InputBox, spec.symbols))
+    return AskedPart(spec, InputControl("lines", lines=2, boxes=boxes, named=True))
+
+
+def _short_text(part: PartContext, formula: str | int) -> str:
+    """A decimal where it is short, else the exact fraction."""
+    value = part.evaluate(str(formula))
+    return format_exact(value, minus="-") or format_for_key(value)
+
+
+def input_hints(spec: WitnessSpec, lang: str) -> tuple[TextOrInlines, ...]:
+    """Which names to give, as they are typed."""
+    names = "; ".join(f"{name} = ..." for name in spec.symbols)
+    return (sentence_with_code(lang, "ask.witness", names=names),)
+
+
+def explain_key(spec: WitnessSpec, lang: str) -> TextOrInlines:
+    """One right example, else what an example must satisfy."""
+    if not spec.example:
+        return show_spec(spec, lang)
+    return explain_assigned(
+        (name, pretty.format_number(str(spec.example[name]))) for name in spec.names()
+    )
+
+
+KIND = AnswerKind(AuthoredWitness, WitnessSpec, ask, input_hints, explain_key)

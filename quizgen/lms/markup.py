@@ -1,0 +1,261 @@
+"""Questions as HTML for pages of a course, which have neither our style sheet nor our fields.
+
+How formulas are written is one choice for a whole file: ``formula_dialect`` sets it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import partial
+from html import escape
+from itertools import islice, zip_longest
+
+from markupsafe import Markup
+from msgspec.structs import replace
+
+from quizgen import typeset
+from quizgen.bank.markdown import Block, Inline, PlainText
+from quizgen.bank.pictures import PictureFile
+from quizgen.core.errors import require_one_of
+from quizgen.kinds.asking import nonempty
+from quizgen.kinds.asking import unit_hint as in_unit
+from quizgen.lms.images import FigureAddress, image_tag
+from quizgen.lms.interactions import (
+    ChoiceInteraction,
+    FeedbackText,
+    Interaction,
+    MatchInteraction,
+    NumericInteraction,
+    OrderInteraction,
+    TextEntryInteraction,
+    needs_manual_grading,
+)
+from quizgen.lms.items import ExportItem
+from quizgen.locale import translate
+from quizgen.maths.units import format_unit as shown_unit
+from quizgen.paper.paper import PaperItem
+from quizgen.question import html
+from quizgen.question.compose import QuestionPart
+from quizgen.question.html import HtmlDialect, display_mathml
+from quizgen.question.inlines import name_inline
+from quizgen.question.solution import PartSolution
+from quizgen.render.html import render_html_fragment
+from quizgen.render.text import inlines_to_plain_text as in_text
+
+# Tries after which Moodle shows a hint.
+HINT_COUNT = 3
+
+# Classes mean nothing without our style sheet; the language stands once around the whole.
+_STYLING = re.compile(r' (?:class|lang)="[^"]*"')
+
+
+def _tex_formula(node: typeset.Node, lang: str, marks: str = "()") -> str:
+    return rf"\{marks[0]}{escape(typeset.to_latex(node, lang), quote=False)}\{marks[1]}"
+
+
+# How formulas are written: as MathML, or for a filter such as MathJax.
+FORMULA_DIALECTS = {
+    "mathml": HtmlDialect(typeset.to_mathml, display_mathml, ours=False),
+    "tex": HtmlDialect(_tex_formula, partial(_tex_formula, marks="[]"), ours=False),
+}
+_manner = ContextVar("manner", default=FORMULA_DIALECTS["mathml"])
+
+
+@contextmanager
+def pictures_from(source: Callable[[PictureFile], str]) -> Iterator[None]:
+    """Let pages refer to pictures of a bank instead of embedding them, within this context."""
+    before = _manner.set(_manner.get()._replace(source=source))
+    try:
+        yield
+    finally:
+        _manner.reset(before)
+
+
+@contextmanager
+def formula_dialect(name: str) -> Iterator[None]:
+    """Write formulas as one of ``FORMULA_DIALECTS`` within this context.
+
+    Raises
+    ------
+    ChoiceError
+        Naming the dialects there are.
+    """
+    before = _manner.set(
+        FORMULA_DIALECTS[require_one_of("way of formulas", name, FORMULA_DIALECTS)]
+    )
+    try:
+        yield
+    finally:
+        _manner.reset(before)
+
+
+def to_course_html(words: Inline | FeedbackText, lang: str) -> Markup:
+    """Return a sentence, or pieces of one, as HTML."""
+    return html.inlines_to_html(words, lang, _manner.get())
+
+
+def _blocks_html(parts: Sequence[Block], lang: str) -> Markup:
+    return html.blocks_to_html(parts, lang, _manner.get())
+
+
+def with_language(page: Markup, lang: str) -> Markup:
+    """Return a page that says its language, since that of the course may be another."""
+    return Markup('<div lang="{}">{}</div>').format(lang, page)
+
+
+def stem_html(item: ExportItem, source: FigureAddress) -> Markup:
+    """Return what stands before the parts."""
+    return _blocks_html(item.question.stem, item.lang) + image_tag(item.question.figure, source)
+
+
+def part_html(
+    part: QuestionPart, interactions: Sequence[Interaction], lang: str, source: FigureAddress
+) -> Markup:
+    """Return a part, with its options if a person grades it, and how its answer is to be typed."""
+    label = Markup("<p><strong>({})</strong></p>").format(part.label) if part.label else Markup("")
+    options = _options_list(part, lang) if needs_manual_grading(interactions) else Markup("")
+    advice = Markup(" ").join(_typing_advice(part, interactions, lang))
+    hint = Markup("<p><small>{}</small></p>").format(advice) if advice else Markup("")
+    drawing = part.field.drawing
+    field = image_tag(drawing.figure if drawing else None, source)
+    return label + _blocks_html(part.body, lang) + field + options + hint
+
+
+def _options_list(part: QuestionPart, lang: str) -> Markup:
+    options = (*part.field.options, *part.field.targets)
+    rows = [option_html(letter, words, lang) for letter, words in options]
+    items = Markup("").join(Markup("<li>{}</li>").format(row) for row in rows)
+    return Markup("<ul>{}</ul>").format(items) if rows else Markup("")
+
+
+def option_html(letter: str, words: FeedbackText, lang: str) -> Markup:
+    """Return an option after its letter, which the worked solution names it by."""
+    return Markup("{}. {}").format(letter, to_course_html(words, lang))
+
+
+def field_html(
+    interaction: NumericInteraction, field: Markup, lang: str, number: str = ""
+) -> Markup:
+    """Return a field between the name of its value, else its number, and its unit."""
+    name = (
+        to_course_html((name_inline(interaction.name),), lang) + " = "
+        if interaction.name
+        else number
+    )
+    unit = "" if interaction.unit in {"", "1"} else f" {shown_unit(interaction.unit)}"
+    return Markup("<p>{}{}{}</p>").format(name, field, unit)
+
+
+def target_texts(pairs: MatchInteraction) -> dict[str, str]:
+    """Return the targets of a match as plain text, which is all that a drop-down can show."""
+    return {
+        letter: letter if words == (PlainText(letter),) else f"{letter}. {in_text(words)}"
+        for letter, words in pairs.targets
+    }
+
+
+def question_mark(item: ExportItem, suffix: str) -> Markup:
+    """Return the token of a question, which reports of a course carry with its text."""
+    return Markup("<p><small>[{}]</small></p>").format(item.token(suffix))
+
+
+def _typing_advice(
+    part: QuestionPart, interactions: Sequence[Interaction], lang: str
+) -> Iterable[Markup]:
+    """Sentences that say what to type, each once."""
+    if needs_manual_grading(interactions):
+        return [to_course_html(part.field.hint, lang)]
+    advice = [text for one in interactions for text in _interaction_advice(one, lang)]
+    if len(interactions) == 1 and isinstance(interactions[0], NumericInteraction):
+        return map(Markup.escape, nonempty(_unit_text(interactions[0].unit, lang), *advice))
+    return map(Markup.escape, dict.fromkeys(advice))
+
+
+def _unit_text(unit: str, lang: str) -> str:
+    names = {"%": "ask.percent", "°": "ask.degrees"}
+    if unit in names:
+        return translate(lang, names[unit])
+    return in_unit(unit, lang) if unit != "1" else ""
+
+
+def _interaction_advice(interaction: Interaction, lang: str) -> Iterator[str]:
+    match interaction:
+        case NumericInteraction():
+            yield translate(lang, "export.number")
+            if interaction.precision:
+                yield interaction.precision
+        case ChoiceInteraction(many=True):
+            yield translate(lang, "ask.multi")
+        case TextEntryInteraction(printed=True):
+            yield translate(lang, "ask.code")
+        case OrderInteraction():
+            yield translate(lang, "export.places")
+
+
+def solution_html(
+    item: ExportItem,
+    source: FigureAddress,
+    labels: Sequence[str] = (),
+    *,
+    has_feedback: bool = True,
+) -> Markup:
+    """Return the worked solution, with its figure if it has one of its own.
+
+    Parameters
+    ----------
+    item : ExportItem
+    source : callable
+    labels : sequence of str
+        Of the parts to show; all parts if it is empty.
+    has_feedback : bool
+        Whether the system itself gives feedback on misconceptions, so that the solution need not.
+    """
+    rows = zip(item.parts, item.key.solution.parts, strict=True)
+    parts, solutions = [], []
+    for (part, interactions), solution in rows:
+        if labels and part.label not in labels:
+            continue
+        is_automatic = has_feedback and not needs_manual_grading(interactions)
+        parts.append(part)
+        solutions.append(_without_feedback(interactions, solution) if is_automatic else solution)
+    whole = item.key.solution
+    if len(parts) < len(item.parts):
+        # Remarks are on all parts together.
+        whole = replace(whole, check=(), note=(), why=(), precision=())
+    key = replace(item.key, solution=replace(whole, parts=tuple(solutions)))
+    question = replace(item.question, parts=tuple(parts))
+    shown = PaperItem(question.number, (question,), (key,))
+    page = render_html_fragment(
+        "worked.html.j2",
+        _manner.get(),
+        item=shown,
+        figure=item.solution_figure,
+        draw=lambda figure: image_tag(figure, source),
+    )
+    return Markup(_STYLING.sub("", page))  # noqa: S704 - a page without some attributes
+
+
+def _without_feedback(interactions: Sequence[Interaction], solution: PartSolution) -> PartSolution:
+    """Feedback on single pairs and places shows in no system, so it stays in their solution."""
+    if any(isinstance(one, MatchInteraction | OrderInteraction) for one in interactions):
+        return solution
+    return replace(solution, mistakes=(), reasons=())
+
+
+def hint_html(item: ExportItem) -> Iterator[Markup]:
+    """Yield a hint for each try: why the next step of each part is taken."""
+    parts = item.key.solution.parts
+    for row in islice(zip_longest(*(part.lines for part in parts)), HINT_COUNT):
+        steps = [
+            _labelled(part.label, to_course_html(line.why, item.lang))
+            for part, line in zip(parts, row, strict=True)
+            if line
+        ]
+        yield Markup("").join(steps)
+
+
+def _labelled(label: str, words: Markup) -> Markup:
+    return Markup("<p>{}{}</p>").format(f"({label}) " if label else "", words)

@@ -1,0 +1,173 @@
+"""What answer kinds may ask of a part of a draw: its values, its sentences, their order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+from quizgen.bank.pools import condition_holds, matching_pairs, select_from_pool, selected_claims
+from quizgen.bank.rules import get_claim
+from quizgen.bank.sampler import shuffle
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import BankError
+from quizgen.kinds import KINDS
+from quizgen.kinds.contract import (
+    AskedPart,
+    Condition,
+    LabelledName,
+    PartContext,
+    asked_quantities,
+)
+from quizgen.locale import localise_numbers
+from quizgen.maths.values import Value
+from quizgen.question.interpolation import (
+    Interpolator,
+    fill_program,
+    inlines_as_typed,
+    inlines_to_text,
+)
+
+
+class VariantPart(PartContext):
+    """A part of a draw as its kind sees it.
+
+    Parameters
+    ----------
+    drawn : Draw
+    index : int
+        Of the part, from 0.
+    """
+
+    def __init__(self, drawn: Variant, index: int) -> None:
+        template = drawn.template
+        self.drawn, self.index = drawn, index
+        self.answer = template.rules.part[index].answer
+        self.shown, self.shown_values, self.words = drawn.shown, drawn.shown_values, drawn.words
+        self.units, self.defined_units = template.units, template.about.units
+        self.terms = template.about.terms
+
+    def error(self, what: str, rule: str = "QG112") -> BankError:
+        said, place = f"part {self.index + 1}: {what}", ("part", self.index, "answer")
+        return BankError(said, rule=rule, file=self.drawn.template.file, place=place)
+
+    def evaluate(self, formula: str) -> Value:
+        return self.drawn.evaluate(formula)
+
+    def answer_values(self) -> tuple[Value, ...]:
+        return self.drawn.answer_of_part(self.index)
+
+    def misconception_answers(self) -> dict[str, tuple[Value, ...]]:
+        return self.drawn.misconception_answers(self.index)
+
+    def count_nouns(self) -> dict[str, Any]:
+        stated = self.answer.get("counts")
+        if isinstance(stated, Mapping):
+            return {"counts": {name: self._nouns(things) for name, things in stated.items()}}
+        names = asked_quantities(self.answer)
+        units = {self.units.get(name, "") for name in names} - {"", "1"}
+        several = self.answer["kind"] == "table" or "unit" in self.answer or len(units) != 1
+        if stated is None and several:
+            return {}
+        return {"counts": self._nouns(stated or [*units])}
+
+    def _nouns(self, things: str | list[str]) -> list[str]:
+        """Listed units as they are, and the bank's words for whatever else is counted."""
+        about, found = self.drawn.template.about, list[str]()
+        for thing in [things] if isinstance(things, str) else things:
+            if thing not in about.system.simple and thing not in about.counted:
+                raise self.error(f"counts: {thing!r} is neither a unit nor in bank.toml")
+            found += about.counted.get(thing, (thing,))
+        return found
+
+    def misconception_notes(self, mistakes: Iterable[str]) -> dict[str, dict[str, str]]:
+        return self._sentences("traps", [(name, name) for name in mistakes])
+
+    def with_reason(self, names: Iterable[LabelledName]) -> tuple[LabelledName, ...]:
+        known = {*self.reason_names()}
+        return tuple((mark, name) for mark, name in names if name in known)
+
+    def reasons(self, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
+        found = self.with_reason(names)
+        return self._sentences("reasons", found) if found else {}
+
+    def _sentences(self, section: str, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
+        named = tuple(names)
+        fillers = {lang: Interpolator(self.drawn, lang) for lang in self.drawn.template.texts}
+        return {
+            lang: {
+                mark: localise_numbers(lang, inlines_to_text(filler.sentence(section, name)))
+                for mark, name in named
+            }
+            for lang, filler in fillers.items()
+        }
+
+    def reason_names(self) -> list[str]:
+        texts = self.drawn.template.texts.values()
+        return list(dict.fromkeys(n for text in texts for n in text.named.get("reasons", ())))
+
+    def shuffle_names(self, names: Iterable[str], side: str = "") -> list[str]:
+        return [*names] if self.answer.get("in_order") else self.shuffle([*names], side)
+
+    def shuffle(self, names: Sequence[str], side: str) -> list[str]:
+        drawn, template = self.drawn, self.drawn.template
+        place = f"{drawn.seed}/{drawn.slot}/order/{self.index}{side}"
+        return shuffle(f"{template.origin}/{template.rules.version}/{place}", names)
+
+    def accepted_words(self, name: str) -> list[str]:
+        found: list[str] = []
+        for lang in self.drawn.template.texts:
+            words = inlines_as_typed(Interpolator(self.drawn, lang).raw_sentence("gaps", name))
+            found += [word.strip() for word in words.split("|")]
+        return list(dict.fromkeys(found))
+
+    def has_gap(self, name: str) -> bool:
+        return any(text.sentence("gaps", name) for text in self.drawn.template.texts.values())
+
+    def option_texts(self, names: Iterable[str]) -> list[str]:
+        filler = Interpolator(self.drawn, self.drawn.template.languages[0])
+        return [inlines_as_typed(filler.sentence("options", name)) for name in names]
+
+    def condition_holds(self, condition: Condition) -> bool:
+        return condition_holds(self.drawn, condition)
+
+    def selection(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        shown = select_from_pool(self.drawn, self.index)
+        return shown.names, shown.extra
+
+    def matching_pairs(self) -> dict[str, str]:
+        return matching_pairs(self.drawn, self.index)
+
+    def claim(self) -> tuple[str, Condition, str]:
+        name = selected_claims(self.drawn)[self.index]
+        claim = get_claim(self.drawn.template.rules, name)
+        return name, claim.true, claim.source
+
+    def fill_program(self, text: str) -> str:
+        return fill_program(text, self.drawn, self.drawn.shown_values)
+
+
+@lru_cache(maxsize=128)
+def ask_part(drawn: Variant, index: int) -> AskedPart[Any]:
+    """One part of a draw as its kind asks it, the same for every language.
+
+    Raises
+    ------
+    BankError
+        If its kind is unknown or its answer is not complete.
+    """
+    part = VariantPart(drawn, index)
+    name = str(part.answer.get("kind", ""))
+    if name not in KINDS:
+        raise part.error(f"unknown kind {name!r} (allowed: {', '.join(sorted(KINDS))})")
+    try:
+        return KINDS[name].ask(part)
+    except KeyError as error:
+        raise part.error(f"answer: {error} is missing") from error
+    except (TypeError, ValueError, AttributeError, ArithmeticError, IndexError) as error:
+        raise part.error(f"answer: not of kind {name!r}: {error}") from error
+
+
+def authored_answer(drawn: Variant, index: int) -> Mapping[str, Any]:
+    """The ``answer`` table of a part as authored."""
+    return drawn.template.rules.part[index].answer
