@@ -196,7 +196,10 @@ def test_commands_in_sentences_exist_with_their_options():
     assert count >= 15
 
 
-PAGES = [*consoles.PAGES, ROOT / "ARCHITECTURE.md", ROOT / "CHANGELOG.md"]
+PAGES = [
+    *consoles.PAGES,
+    *(ROOT / name for name in ("ARCHITECTURE.md", "CHANGELOG.md", "benchmarks/README.md")),
+]
 PLACES = ("quizgen", "solvers", "templates", "tests", "tools", "benchmarks", "examples", "docs")
 CODE_SPAN = re.compile(r"`([^`\n]+)`")
 PYTHON_PATH = re.compile(r"[\w-]+(?:/[\w-]+)+\.py")
