@@ -292,3 +292,18 @@ def test_names_of_the_glossary_stand_in_the_code():
         if not re.search(rf"^ *(?:class |def )?{name}\b", code, re.MULTILINE)
     ]
     assert missing == []
+
+
+IMPORT = re.compile(r"^(?:>>> )?from (quizgen[\w.]*) import (\w+(?:, \w+)*)$", re.MULTILINE)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_what_a_page_imports_exists(page):
+    invented = {"veil", "plain", "hex_colour"}
+    missing = [
+        f"{module}.{name}"
+        for module, names in IMPORT.findall(page.read_text("utf-8"))
+        for name in names.split(", ")
+        if name not in invented and not is_importable(f"{module}.{name}")
+    ]
+    assert missing == []
