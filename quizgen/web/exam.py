@@ -176,7 +176,7 @@ async def _make_paper(request: Request, sitting: ExamRecord) -> PaperView:
 async def show_exam(request: Request) -> Response:
     """The paper, or its results once it is handed in or its time is over."""
     sitting = await _get_sitting(request)
-    if sitting.handed is None and sitting.over(request.app.state.site.store.clock.now()):
+    if sitting.handed is None and sitting.is_over(request.app.state.site.store.clock.now()):
         await _hand_in(request, sitting)
         sitting = await _get_sitting(request)
     paper, now = await _make_paper(request, sitting), request.app.state.site.store.clock.now()
@@ -234,7 +234,7 @@ async def save_answers(request: Request) -> Response:
     sitting, kept = await run_in_threadpool(store.save, learner, name, _read_changed_fields(form))
     if sitting is None:
         raise HTTPException(404)
-    over = sitting.resting is not None or sitting.over(site.store.clock.now() - GRACE)
+    over = sitting.resting is not None or sitting.is_over(site.store.clock.now() - GRACE)
     if not kept and not over:  # a part that the paper has not: nothing of it is handed in
         raise HTTPException(400)
     if field_text(form, "do") == "end":
@@ -251,7 +251,7 @@ async def save_answers(request: Request) -> Response:
 async def submit_exam(request: Request) -> Response:
     """Ask before a paper is handed in, naming what is not answered and what was flagged."""
     sitting = await _get_sitting(request)
-    if sitting.resting is not None or sitting.over(request.app.state.site.store.clock.now()):
+    if sitting.resting is not None or sitting.is_over(request.app.state.site.store.clock.now()):
         return redirect(f"/exam/{sitting.id}")
     paper = await _make_paper(request, sitting)
     store = request.app.state.site.store.sittings
