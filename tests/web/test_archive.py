@@ -1,4 +1,4 @@
-"""Everything of a learner as a file, taken in by another server: added, never doubled, whole or not."""
+"""Everything of a learner as a file, taken in by another server: added, never doubled."""
 
 from __future__ import annotations
 
