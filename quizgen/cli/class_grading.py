@@ -150,12 +150,12 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
     Grades follow scale.toml, else the usual German scale.
     """
     from quizgen.classes.class_folder import ClassFolder
-    from quizgen.classes.results import write_grades_and_reports as write
+    from quizgen.classes.results import write_grades_and_reports
 
     wished = [
         match_choice("reports", name, REPORTS) for name in split_names(reports) if name != "none"
     ]
-    lines, left, files = write(ClassFolder(folder), wished, anonymous=anonymous)
+    lines, left, files = write_grades_and_reports(ClassFolder(folder), wished, anonymous=anonymous)
     there = [one for one in lines if one.marks]
     passed = sum(one.passed for one in there)
     tell(f"{len(there)} of {many(len(lines), 'student')} handed in, {passed} passed")
@@ -173,10 +173,10 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
 @click.option("--lang", type=LanguageParam(), default=FIRST, help="Of the page.")
 def analyse(folder: Path, lang: str) -> None:
     """Write the item analysis of the class in FOLDER: results/analysis.html."""
-    from quizgen.classes.analysis_page import write_analysis_page as write
+    from quizgen.classes.analysis_page import write_analysis_page
     from quizgen.classes.class_folder import ClassFolder
 
-    found, path = write(ClassFolder(folder), lang)
+    found, path = write_analysis_page(ClassFolder(folder), lang)
     tell(f"{many(found.students, 'student')}, {many(len(found.items), 'item')}")
     if found.alpha is not None and found.interval is not None:
         low, high = found.interval

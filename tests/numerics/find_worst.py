@@ -34,7 +34,7 @@ def barrel(rng):
 
 
 SPACES = {
-    "gaussian.inverse_tail": lambda rng: (10 ** rng.uniform(-300, -0.001),),
+    "gaussian.inverse_upper_tail": lambda rng: (10 ** rng.uniform(-300, -0.001),),
     "distortion.inverse_radius": barrel,
     "distortion.distort_x": lambda rng: (
         *rng.uniform(0, 1, 2).tolist(),
@@ -47,8 +47,8 @@ SPACES = {
         rng.uniform(0, 1),
     ),
     "gamma.srgb_decode": lambda rng: (10 ** rng.uniform(-2, 0),),
-    "luminosity.efficiency": lambda rng: (rng.uniform(355, 835),),
-    "projection.pixel": lambda rng: (
+    "luminosity.luminous_efficiency": lambda rng: (rng.uniform(355, 835),),
+    "projection.pixel_coordinate": lambda rng: (
         *(positive(rng) / 1000, 1e-6 * positive(rng)),
         *(round(rng.uniform(-2, 2), 6), positive(rng), rng.uniform(0, 4000)),
     ),

@@ -16,9 +16,9 @@ def gaussian():
         yield "upper_tail", (-k,), "complement"
         yield "two_sided_tail", (k,), "tail"
     for p in (0.5, 0.25, 0.1, 0.02275, 1e-5, 1e-15, 1e-100, 1e-300, TINY, 1e-310, 0.5 - 2**-54):
-        yield "inverse_tail", (p,), "tail"
+        yield "inverse_upper_tail", (p,), "tail"
     for p in (0.5 + 2**-53, 0.75, 0.975, 1 - 2**-53, 1 - 1e-12):
-        yield "inverse_tail", (p,), "complement"
+        yield "inverse_upper_tail", (p,), "complement"
 
 
 def hsv():
@@ -132,7 +132,7 @@ def luminosity():
         830.1,
         LARGE,
     ):
-        yield "efficiency", (at,), "seams and ends of the table"
+        yield "luminous_efficiency", (at,), "seams and ends of the table"
 
 
 FAMILIES = (gaussian, depth_of_field, distortion, hsv, projection, poisson, gamma, luminosity)

@@ -65,4 +65,4 @@ def projection():
         (0.002, 5e-6, -1.0, 2.0, 320.0), (0.005, 5e-6, 0.2, 2.0, 320.0), (0.0035, 2.5e-6, 0.3, 0.7, 319.5),
         (0.05, 5e-6, 0.1 + 0.2, 3.0, 0.1), (0.002, 5e-6, -1.6, 2.0, 320.0), (0.05, 5e-6, 1 / 3, 0.1, -0.25),
     ):  # fmt: skip
-        yield "pixel", args, "integer answers, cancellation with the principal point"
+        yield "pixel_coordinate", args, "integer answers, cancellation with the principal point"

@@ -188,7 +188,7 @@ def photopic(wavelength):
 FORMULAS = {
     "gaussian.upper_tail": upper_tail,
     "gaussian.two_sided_tail": lambda k: mp.erfc(k / mp.sqrt(2)) if k > 0 else mpf(1),
-    "gaussian.inverse_tail": inverse_tail,
+    "gaussian.inverse_upper_tail": inverse_tail,
     "depth_of_field.far_limit": far_limit,
     "distortion.distort_x": distort,
     "distortion.inverse_radius": inverse_radius,
@@ -196,10 +196,10 @@ FORMULAS = {
     "hsv.red": channel(5),
     "hsv.green": channel(3),
     "hsv.blue": channel(1),
-    "projection.pixel": pixel,
+    "projection.pixel_coordinate": pixel,
     "poisson.pmf": poisson_pmf,
     "poisson.lower": poisson_lower,
     "gamma.gap": gap,
     "gamma.srgb_decode": srgb_decode,
-    "luminosity.efficiency": photopic,
+    "luminosity.luminous_efficiency": photopic,
 }

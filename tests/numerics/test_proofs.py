@@ -42,9 +42,9 @@ def drawn(*ranges, count=60):
 
 
 INPUTS = {
-    "gaussian.quantile next to 1/2": ("gaussian.inverse_tail", drawn((0.075, 0.925))),
-    "gaussian.quantile to exp(-25)": ("gaussian.inverse_tail", drawn(("10^", -10.8, -1.2))),
-    "gaussian.quantile below exp(-25)": ("gaussian.inverse_tail", drawn(("10^", -307, -10.9))),
+    "gaussian.quantile next to 1/2": ("gaussian.inverse_upper_tail", drawn((0.075, 0.925))),
+    "gaussian.quantile to exp(-25)": ("gaussian.inverse_upper_tail", drawn(("10^", -10.8, -1.2))),
+    "gaussian.quantile below exp(-25)": ("gaussian.inverse_upper_tail", drawn(("10^", -307, -10.9))),
     "hsv.to_rgb": ("hsv.green", drawn((-720, 720), (-3, 3), (0, 1))),
     "gamma.srgb_decode, dim": ("gamma.srgb_decode", drawn((0, 0.04))),
     "gamma.srgb_decode, bright (log2)": ("gamma.srgb_decode", drawn(("10^", -1.3, 100))),
@@ -64,11 +64,11 @@ INPUTS = {
     "inverse_radius, k2 (log2 of slope)": (
         "distortion.inverse_radius", drawn((0, 0.5), (-0.3, 0.3), (-0.02, 0.02), count=20),
     ),
-    "luminosity.efficiency": ("luminosity.efficiency", drawn((361, 829))),
+    "luminosity.efficiency": ("luminosity.luminous_efficiency", drawn((361, 829))),
 }  # fmt: skip
 """By kernel: a function that runs nothing else on these inputs.
 
-The others are parts of functions: powers of ``srgb_decode``, the shift of ``projection.pixel``.
+The others are parts of functions: powers of ``srgb_decode``, the shift of ``projection.pixel_coordinate``.
 """
 
 

@@ -139,7 +139,7 @@ def test_what_is_due_comes_first_the_longest_due_before(bank, names):
     early = card(bank, names[3], ReviewRating.AGAIN, NOW - 2 * DAY)
     late = card(bank, names[5], ReviewRating.AGAIN, NOW - DAY)
     todo = agenda(bank, late | early)
-    assert todo.ready(names) == [names[3], names[5]]
+    assert todo.due_templates(names) == [names[3], names[5]]
     assert todo.choose_next(names, [], {}) == names[3]
     assert todo.choose_next(names, [], {}, latest=names[3]) == names[5], "not twice in a row"
 
@@ -167,12 +167,12 @@ def test_in_the_end_what_is_due_soonest(bank, names):
 
 
 def test_new_templates_of_a_day(bank, names):
-    assert agenda(bank, {}).fresh(names) == 5
+    assert agenda(bank, {}).new_per_day(names) == 5
     begun = card(bank, names[0], ReviewRating.GOOD, NOW - 60)
-    assert agenda(bank, begun).fresh(names) == 4
+    assert agenda(bank, begun).new_per_day(names) == 4
     left = -(-len(names) // 4)
-    assert agenda(bank, {}, exam=date(2026, 11, 26)).fresh(names) == left
-    assert agenda(bank, begun, exam=date(2026, 11, 26)).fresh(names) == left - 1
+    assert agenda(bank, {}, exam=date(2026, 11, 26)).new_per_day(names) == left
+    assert agenda(bank, begun, exam=date(2026, 11, 26)).new_per_day(names) == left - 1
 
 
 def test_how_far_a_topic_is_known(bank, names):
