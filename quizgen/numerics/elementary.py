@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -31,3 +32,14 @@ def split_exponent(exponent: Fraction) -> Exponent:
     """Nearest double of an exponent, and what that lost."""
     high = float(exponent)
     return high, float(exponent - Fraction(high))
+
+
+def evaluate_polynomial(coefficients: Sequence[float], x: Array) -> Array:
+    """Polynomial with at least two coefficients in ascending order."""
+    *rest, second, last = coefficients
+    total = x * last
+    total += second
+    for c in reversed(rest):
+        total *= x
+        total += c
+    return total
