@@ -179,8 +179,8 @@ def test_marking_a_class_loads_what_marking_one_loads():
 
 def test_a_server_is_ready_without_what_only_its_workers_need(tmp_path):
     code = (
-        "import quizgen.web.server\nfrom quizgen.web.app import application\n"
-        "from quizgen.web.settings import Settings\n"
-        f"application(Settings({f'sqlite:///{tmp_path}/x.sqlite3'!r}))"
+        "import quizgen.web.server\nfrom quizgen.web.app import create_app\n"
+        "from quizgen.web.settings import ServerSettings\n"
+        f"create_app(ServerSettings({f'sqlite:///{tmp_path}/x.sqlite3'!r}))"
     )
     assert not {"numpy", "sympy", "matplotlib", "alembic", "typst"} & loaded(code)

@@ -232,7 +232,10 @@ def document_files(layout: str, body: str, package: str = "quizgen.render") -> d
 def _build_layout_source(name: str, package: str) -> bytes:
     before = '#import "common.typ": *'
     if name == "common.typ":
-        before = f"#let bangla = ({''.join(f'{typst_literal(lang)},' for lang in languages_in_script('Beng'))})"
+        before = (
+            f"#let bangla = "
+            f"({''.join(f'{typst_literal(lang)},' for lang in languages_in_script('Beng'))})"
+        )
     text = (fonts.package_folder(package) / "pages" / name).read_text(encoding="utf-8")
     return f"{before}\n{text}".encode()
 
@@ -262,27 +265,6 @@ def compile_pdf(sources: Mapping[str, bytes]) -> bytes:
     if warnings:
         raise RenderError(f"PDF: {warnings[0]}")
     return bytes(data)
-
-
-def svg_to_png(svg: bytes, width: int) -> bytes:
-    """Draw an SVG on white, at 144 pixels to an inch.
-
-    Parameters
-    ----------
-    svg : bytes
-    width : int
-        Width of the picture in points.
-    """
-    import typst
-
-    _check_not_forked()
-    page = (
-        f"#set page(width: {width}pt, height: auto, margin: 4pt, fill: white)\n"
-        '#image("plot.svg", width: 100%)'
-    )
-    world: Any = {MAIN: page.encode(), "plot.svg": svg}  # the stub knows one file only
-    made: Any = typst.compile(world, format="png", ppi=144.0, font_paths=_load_font_collection())
-    return bytes(made)
 
 
 def _check_not_forked() -> None:

@@ -16,8 +16,8 @@ class Shelf:
     def __init__(self, table=(), **named):
         self.table = dict(table, **named)
         self.template_paths = dict.fromkeys(self.table)
-        self.parts = (self,)
-        self.about = builtin_bank().metadata
+        self.members = (self,)
+        self.metadata = builtin_bank().metadata
 
     def rules(self, name):
         given = {**DEFAULT, **self.table[name]}
@@ -31,5 +31,5 @@ class Shelf:
     def origin(self, name):
         return name
 
-    def home(self, name):
+    def owner_of(self, name):
         return self, name
