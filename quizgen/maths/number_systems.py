@@ -238,6 +238,7 @@ def round_to_float32(x: float) -> float:
 @cache
 def float32_system() -> NumberSystem:
     """Numbers rounded to float32 after every operation; truth values stay."""
+
     def rounding(name: str, op: OperatorFunction) -> OperatorFunction:
         return op if name in CONDITIONS else lambda *args: round_to_float32(op(*args))
 

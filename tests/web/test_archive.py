@@ -63,7 +63,7 @@ def test_what_comes_out_goes_in_elsewhere_and_is_the_same(full, store):
     learner = other.learner().id
     assert other.archives.import_archive(learner, read_archive(data)) == 2
     assert content(other) == content(full)
-    assert other.seen(learner)[0].template == "rgb-to-hsv"
+    assert other.list_outcomes(learner)[0].template == "rgb-to-hsv"
     assert other.archives.import_archive(learner, read_archive(data)) == 0, (
         "a second time adds nothing"
     )

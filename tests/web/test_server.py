@@ -135,9 +135,7 @@ def test_a_request_that_never_comes_whole_is_given_up(monkeypatch, sent):
         await asyncio.Event().wait()
 
     async def ask() -> bytes:
-        config = uvicorn.Config(
-            app, http=own.TimedProtocol, lifespan="off", log_level="critical"
-        )
+        config = uvicorn.Config(app, http=own.TimedProtocol, lifespan="off", log_level="critical")
         config.load()
         server = uvicorn.Server(config)
         listening = _open_listening_socket("127.0.0.1", 0)
