@@ -37,7 +37,7 @@ from quizgen.classes.generation import CHUNK, create_settings, generate_papers
 from quizgen.classes.grading_run import grade_class
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.roster import RosterStudent
-from quizgen.executors import Here, workers
+from quizgen.core.executor import Here, workers
 from quizgen.kinds.grade import show_key
 from quizgen.paper.answer_key import AnswerKey
 from quizgen.paper.blueprint import load_blueprint

@@ -39,8 +39,8 @@ from quizgen.core import cache
 from quizgen.figures import complete_parameters, draw_figure
 from quizgen.figures.axes import Sheet
 from quizgen.figures.contract import parameters_of
+from quizgen.figures.engine import HouseStyle
 from quizgen.figures.kit import COLUMN
-from quizgen.figures.style import HouseStyle
 
 MOST_DRAWS, ROUNDS, STOCK_DRAWS, COLD_ROUNDS = 30, 3, 8, 5
 MIDDLE, LARGEST, NEWCOMER, KEPT = 5.0, 12.0, 12.0, 0.2

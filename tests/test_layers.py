@@ -13,9 +13,7 @@ ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "quizgen"
 
 LAYERS = {
-    "columns": "",
     "core": "",
-    "executors": "core",
     "locale": "core",
     "maths": "core",
     "numerics": "",
@@ -26,19 +24,19 @@ LAYERS = {
     "bank": "core locale maths typeset kinds",
     "figures": "core locale maths camera kinds",
     "question": "core locale maths typeset grading kinds bank figures",
-    "paper": "columns core locale maths typeset grading kinds bank question",
+    "paper": "core locale maths typeset grading kinds bank question",
     "practice": "core locale grading kinds bank question paper",
     "store": "core bank paper practice",
     "render": "core locale typeset figures question paper",
-    "cards": "core executors locale typeset bank figures question paper render",
+    "cards": "core locale typeset bank figures question paper render",
     "tradeoff": "core locale maths numerics bank figures render",
-    "classes": "core executors locale maths grading kinds bank figures paper render",
-    "lms": "columns core locale maths typeset grading kinds bank figures question paper practice render classes",
-    "web": "core executors locale maths typeset camera grading kinds bank figures question paper "
+    "classes": "core locale maths grading kinds bank figures paper render",
+    "lms": "core locale maths typeset grading kinds bank figures question paper practice render classes",
+    "web": "core locale maths typeset camera grading kinds bank figures question paper "
     "practice store render cards tradeoff classes",
     "lint": "core locale maths typeset grading kinds bank figures question paper render",
-    "cli": "columns core executors locale camera grading kinds bank figures question paper practice store "
-    "render cards tradeoff classes lms web lint",
+    "cli": "core locale camera grading kinds bank figures question paper practice store render "
+    "cards tradeoff classes lms web lint",
 }
 """Package to the packages below it that it may use. Solvers use ``maths.model`` alone."""
 

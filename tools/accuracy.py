@@ -6,8 +6,7 @@ import re
 from pathlib import Path
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.tradeoff.page import describe_arrays, describe_digits, describe_questions
-from quizgen.tradeoff.plot import draw_digits
+from quizgen.tradeoff.page import describe_arrays, describe_digits, describe_questions, draw_digits
 from quizgen.tradeoff.report import TradeoffReport, measure_tradeoff
 from quizgen.tradeoff.texts import words
 

@@ -11,7 +11,7 @@ trusted.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
@@ -26,7 +26,6 @@ from quizgen.bank.metadata import (
     read_metadata,
     read_optional,
 )
-from quizgen.bank.names import check_name, find_template_folders
 from quizgen.bank.pictures import pictures_beside, read_pictures
 from quizgen.bank.quantities import QuantityNames, read_quantities
 from quizgen.bank.rules import Rules
@@ -34,7 +33,13 @@ from quizgen.bank.solvers import import_module_file, load_chain, unload_modules
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.core.cache import compute_digest
 from quizgen.core.errors import BankError
-from quizgen.core.untrusted import NAMES, error_context, is_identifier, read_bytes
+from quizgen.core.untrusted import (
+    NAMES,
+    error_context,
+    is_identifier,
+    read_bytes,
+    require_identifier,
+)
 from quizgen.locale import list_languages, register_languages, resolve_language_choice
 from quizgen.locale.custom import TAG
 from quizgen.maths.chain import Chain
@@ -447,3 +452,38 @@ def _make_title_from_name(name: str) -> str:
 def builtin_bank() -> Bank:
     """The built-in bank."""
     return Bank(builtin_root(), trusted=True)
+
+
+def find_template_folders(templates: Path, beside: Collection[str]) -> dict[str, list[Path]]:
+    """Name to all folders that are called so, although one alone may be.
+
+    Parameters
+    ----------
+    templates : pathlib.Path
+    beside : collection of str
+        Folders in it that hold something else.
+    """
+    found: dict[str, list[Path]] = {}
+    others = {templates / name for name in beside}
+    for folder in sorted(path.parent for path in templates.glob("**/template.toml")):
+        if folder not in others:
+            found.setdefault(folder.name, []).append(folder)
+    return found
+
+
+def check_name(folders: Sequence[Path]) -> None:
+    """Refuse a template that cannot be called by its name; the others stay what they are.
+
+    Raises
+    ------
+    BankError
+        If it is no name, or another folder has it, too.
+    """
+    folder, *others = folders
+    file = folder / "template.toml"
+    with error_context(file, BankError):
+        require_identifier(folder.name, "folder", BankError)
+    if others:
+        also = ", ".join(map(str, others))
+        what = f"two templates share the name {folder.name!r}: also {also}"
+        raise BankError(what, rule="QG125", file=file)

@@ -13,7 +13,7 @@ from quizgen.cards.note import Note
 from quizgen.cards.request import SEED, DeckRequest
 from quizgen.cards.versions import note_version
 from quizgen.core.errors import BankError
-from quizgen.executors import in_order, workers
+from quizgen.core.executor import in_order, workers
 
 
 @dataclass(frozen=True)

@@ -34,8 +34,8 @@ from quizgen.classes.lock import locked
 from quizgen.classes.pseudonyms import form_seal, new_secret, student_code, student_seed
 from quizgen.classes.roster import RosterStudent, seat_neighbours
 from quizgen.core.errors import ClassError
+from quizgen.core.executor import run
 from quizgen.core.files import PRIVATE, write_all
-from quizgen.executors import run
 from quizgen.paper.answer_form import has_answers, write_blank_form
 from quizgen.paper.answer_key import make_answer_key
 from quizgen.paper.blueprint import Blueprint

@@ -23,8 +23,8 @@ from quizgen.classes.manual_grading import (
 from quizgen.classes.rulings import FILE, Ruling, RulingBook, note_rulings, read_rulings
 from quizgen.classes.submissions import Submissions
 from quizgen.core.errors import ClassError, KeyFileError
+from quizgen.core.executor import in_order
 from quizgen.core.untrusted import error_context
-from quizgen.executors import in_order
 from quizgen.locale import FIRST
 
 CHUNK = 50

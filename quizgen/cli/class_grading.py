@@ -38,7 +38,7 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
     from quizgen.classes.class_folder import ClassFolder
     from quizgen.classes.grading_run import grade_class
     from quizgen.classes.submissions import store_submissions
-    from quizgen.executors import workers
+    from quizgen.core.executor import workers
 
     found = ClassFolder(folder)
     found.settings  # noqa: B018 - no answers are copied into a folder that is none of a class
@@ -150,7 +150,7 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
     Grades follow scale.toml, else the usual German scale.
     """
     from quizgen.classes.class_folder import ClassFolder
-    from quizgen.classes.results import write_grades_and_reports
+    from quizgen.classes.student_reports import write_grades_and_reports
 
     wished = [
         match_choice("reports", name, REPORTS) for name in split_names(reports) if name != "none"

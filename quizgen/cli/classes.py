@@ -77,7 +77,7 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     from quizgen.classes.generation import generate_papers
     from quizgen.classes.print_file import write_print_file
     from quizgen.classes.roster import read_roster
-    from quizgen.executors import workers
+    from quizgen.core.executor import workers
 
     if options["one_file"]:
         require_extra("print", "quizgen class make --one-file")

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 import click
 
 from quizgen.cli.terminal import columns
-from quizgen.columns import wrap_lines
 from quizgen.core.files import write_all
+from quizgen.core.text_width import wrap_lines
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.figures import Figure
 from quizgen.grading.feedback import format_read_back, load_practice_words

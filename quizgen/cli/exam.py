@@ -13,7 +13,6 @@ import click
 from quizgen import render
 from quizgen.bank.levels import CHOICES, EXAM
 from quizgen.bank.qualified_names import BETWEEN
-from quizgen.cli.command import command
 from quizgen.cli.options import (
     LANGUAGE_HELP,
     LEVEL_HELP,
@@ -28,7 +27,7 @@ from quizgen.cli.options import (
     split_names,
     worthwhile_processes,
 )
-from quizgen.cli.terminal import Progress, many
+from quizgen.cli.terminal import Progress, build_command_line, many
 from quizgen.core.errors import InvalidChoiceError, PaperCodeError, RenderError
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.locale import default_language
@@ -123,7 +122,7 @@ def exam(**options: Unpack[ExamOptions]) -> None:
 
 def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
     """Make papers of consecutive seeds; each is written whole as soon as it is made."""
-    from quizgen.executors import in_order, workers
+    from quizgen.core.executor import in_order, workers
 
     if options["code"] or options["reference"]:
         raise InvalidChoiceError(
@@ -149,7 +148,7 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
             codes.append(code)
             tell(code)
     click.echo(f"{many(count, 'paper')} in {options['out'] or HOME}: {codes[0]} to {codes[-1]}")
-    check = command("check", form.parent / KEY, form)
+    check = build_command_line("check", form.parent / KEY, form)
     click.echo(f"Next: fill in {form}, then: {check}")
 
 
@@ -318,13 +317,13 @@ def _report_paper(
         f"{many(len(paper.items), 'question')}, {float(paper.points):g} points, {paper.minutes} min"
     )
     _report_variety(paper, options["minutes"])
-    again = command("exam", "--code", paper.code, *_list_rebuild_options(options))
-    check = command("check", folder / KEY, form)
+    again = build_command_line("exam", "--code", paper.code, *_list_rebuild_options(options))
+    check = build_command_line("check", folder / KEY, form)
     click.echo(f"Code: {paper.code}")
     click.echo(f"The same paper again: {again}")
     click.echo(f"Next: fill in {form}, then: {check}")
     if "exam.html" in written:
-        page = command("check", folder / KEY, folder / "answers.json")
+        page = build_command_line("check", folder / KEY, folder / "answers.json")
         click.echo(f"  or fill in {folder / 'exam.html'}, save answers.json there, then: {page}")
 
 

@@ -22,8 +22,8 @@ from quizgen.cli.options import (
 )
 from quizgen.cli.terminal import Progress, interrupted, print_table
 from quizgen.core.errors import QuizgenError
+from quizgen.core.executor import in_order, workers
 from quizgen.core.untrusted import escape_control_characters
-from quizgen.executors import in_order, workers
 
 if TYPE_CHECKING:
     from quizgen.bank.bank import Bank

@@ -16,8 +16,8 @@ from quizgen.bank.scaffold import (
     scaffold_language,
     scaffold_template,
 )
-from quizgen.cli.command import command
 from quizgen.cli.options import LanguageParam
+from quizgen.cli.terminal import build_command_line
 from quizgen.core.errors import BankError
 from quizgen.core.files import write_all
 from quizgen.core.untrusted import NAMES, is_identifier
@@ -135,5 +135,5 @@ def _write_new_files(root: Path, contents: Mapping[str, bytes]) -> None:
 def _print_next_steps(root: Path, name: str) -> None:
     where = ("--bank", str(root), "--trust")
     click.echo("Next:")
-    click.echo(f"  {command('preview', name, *where)}")
-    click.echo(f"  {command('lint', *where)}")
+    click.echo(f"  {build_command_line('preview', name, *where)}")
+    click.echo(f"  {build_command_line('lint', *where)}")

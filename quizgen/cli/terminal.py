@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Self
 
 import click
 
-from quizgen.columns import lay_out_table, wrap_lines
+from quizgen.core.text_width import lay_out_table, wrap_lines
 from quizgen.core.untrusted import escape_control_characters
 
 if TYPE_CHECKING:
     from rich.progress import Progress as RichProgress
+import shlex
+from pathlib import Path
 
 NARROWEST = 20
 """Columns that text is laid out for at least."""
@@ -168,3 +170,40 @@ def _open_progress(what: str, total: int) -> RichProgress:
     line.add_task(what, total=total or None, now="")
     line.start()
     return line
+
+
+def build_command_line(*arguments: str | Path) -> str:
+    """A quizgen command that works from where the user stands."""
+    return join_words([*_started(), *map(str, arguments)])
+
+
+def join_words(words: list[str]) -> str:
+    """Words as a line of the shell."""
+    if os.name == "nt":
+        from subprocess import list2cmdline
+
+        return list2cmdline(words)
+    return shlex.join(words)
+
+
+def _started() -> list[str]:
+    """How this program was started: by uv, as a module, or by its name or path."""
+    if os.environ.get("UV_RUN_RECURSION_DEPTH"):
+        return ["uv", "run", *_project(), "quizgen"]
+    script = Path(sys.argv[0])
+    if script.name == "__main__.py":
+        return [_found(Path(sys.executable)), "-m", "quizgen"]
+    return [_found(script) if script.stem == "quizgen" else "quizgen"]
+
+
+def _project() -> list[str]:
+    """What uv must be told if the user stands outside the project."""
+    home = Path(sys.prefix).parent
+    inside = Path.cwd().is_relative_to(home) or not (home / "pyproject.toml").exists()
+    return [] if inside else ["--project", str(home)]
+
+
+def _found(program: Path) -> str:
+    """A program's name if the shell finds the same one by it, else its path."""
+    found = shutil.which(program.name)
+    return program.name if found and Path(found).samefile(program) else str(program)

@@ -7,15 +7,20 @@ draw in which the question does not state that number itself.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import combinations
+from typing import TYPE_CHECKING, NamedTuple
 
 from quizgen.bank.variant import Variant, leading_digits
 from quizgen.core.diagnostics import Diagnostic, diagnose
 from quizgen.core.errors import QuizgenError
 from quizgen.figures import Figure
+from quizgen.figures.inks import INKS
 from quizgen.kinds.contract import asked_quantities
-from quizgen.lint.figure_looks import look_problems
 from quizgen.question.figure import describe_question_figure, draw_question_figure
+
+if TYPE_CHECKING:
+    from quizgen.figures.svg import Label
 
 DRAWN = 6
 """Draws whose figure is drawn, in the quiz and in the solution."""
@@ -113,3 +118,149 @@ def _find_unreadable(
 def _collect_stated_numbers(one: Variant) -> set[str]:
     """Numbers that the question states."""
     return {leading_digits(value) for value in one.shown.values()}
+
+
+COLUMN = 480.0
+"""Points that a page has for a figure: any wider one is made smaller, and its letters with it."""
+SMALLEST, SMALLEST_INDEX = 7.0, 6.0
+"""Points of the smallest letters, and of those raised or lowered."""
+TOUCHING = 0.5
+"""Points by which two labels may overlap: boxes have some air."""
+CONTRAST = {"stroke": 3.0, "fill": 1.5}
+"""Least contrast with white paper, as in WCAG 2, of lines and letters, and of areas."""
+APART = 8.0
+"""Least difference in lightness L* of two lines that differ in colour alone."""
+MOST_COLOURS = 6
+"""More than these are a scale, in which neighbours look alike."""
+_HOUSE = {light for light, _ in INKS.values()}
+
+_PATH = re.compile(r"<path [^>]*>")
+_ATTRIBUTE = re.compile(r' ([a-z-]+)="([^"]*)"')
+
+
+class Stroke(NamedTuple):
+    """How a line is drawn: its colour as #rrggbb and its dashes."""
+
+    colour: str
+    dashes: str
+
+
+def look_problems(figures: Iterable[Figure]) -> Iterator[tuple[str, str]]:
+    """Code and what makes figures hard to read, each by the first figure that has it."""
+    left = list(_LOOKS)
+    for figure in figures:
+        for code, look in [*left]:
+            said = next(look(figure), None)
+            if said:
+                left.remove((code, look))
+                yield code, f"figure: {said}"
+
+
+def _find_overlaps(figure: Figure) -> Iterator[str]:
+    level = [label for label in figure.labels if label.angle % 90 == 0]
+    for one, other in combinations(level, 2):
+        across = min(one.right, other.right) - max(one.left, other.left)
+        down = min(one.bottom, other.bottom) - max(one.top, other.top)
+        if min(across, down) > TOUCHING:
+            yield f"labels {one.text!r} and {other.text!r} overlap by {min(across, down):.1f} pt"
+
+
+def _small_letters(figure: Figure) -> Iterator[str]:
+    for label in figure.labels:
+        least = SMALLEST_INDEX if _has_index(label) else SMALLEST
+        if label.size < least - 0.01:
+            yield f"letters of {label.text!r} are {label.size:.1f} pt, less than {least:g} pt"
+
+
+def _has_index(label: Label) -> bool:
+    return any(sign in label.text for sign in "_^") and "$" in label.text
+
+
+def _too_wide(figure: Figure) -> Iterator[str]:
+    if figure.width_pt > COLUMN:
+        yield f"is {figure.width_pt:g} pt wide, more than the {COLUMN:g} pt of a page"
+
+
+def _find_clipped_markers(figure: Figure) -> Iterator[str]:
+    if figure.outside:
+        yield f"markers that lie outside the axes are clipped: {figure.outside}"
+
+
+def _find_unnamed_axes(figure: Figure) -> Iterator[str]:
+    if figure.unnamed_axes:
+        yield "an axis has numbers and no name"
+
+
+def _find_pale_colours(figure: Figure) -> Iterator[str]:
+    """Colours that white paper swallows; the house's own were chosen, and a scale has pale ends."""
+    if b"<image" in figure.inline_svg or figure.needs_colour:
+        return
+    paths = list(_iter_path_attributes(figure))
+    if len({path.get("fill") for path in paths}) > MOST_COLOURS:
+        return
+    for path in paths:
+        letters = "scale(" in path.get("transform", "")
+        kind = "stroke" if letters or "stroke" in path else "fill"
+        colour = path.get("fill" if letters else kind, "none")
+        if colour.startswith("#") and colour not in _HOUSE:
+            contrast = 1.05 / (_compute_luminance(colour) + 0.05)
+            if contrast < CONTRAST[kind]:
+                what = "letters" if letters else "a line" if kind == "stroke" else "an area"
+                yield f"{what} in {colour} can hardly be seen on white (contrast {contrast:.1f})"
+
+
+def _alike_on_grey(figure: Figure) -> Iterator[str]:
+    """Coloured lines of one kind that a grey print cannot tell apart."""
+    strokes = {
+        Stroke(p["stroke"], p.get("stroke-dasharray", ""))
+        for p in _iter_path_attributes(figure)
+        if p.get("stroke", "").startswith("#")
+    }
+    coloured = sorted(stroke for stroke in strokes if _is_coloured(stroke.colour))
+    if figure.needs_colour or len({stroke.colour for stroke in coloured}) > MOST_COLOURS:
+        return
+    for one, other in combinations(coloured, 2):
+        gap = abs(_compute_lightness(one.colour) - _compute_lightness(other.colour))
+        if one.dashes == other.dashes and one.colour != other.colour and gap < APART:
+            yield f"lines in {one.colour} and {other.colour} look alike on grey paper"
+
+
+_LOOKS: tuple[tuple[str, Callable[[Figure], Iterator[str]]], ...] = (
+    ("QG403", _find_overlaps),
+    ("QG404", _small_letters),
+    ("QG405", _too_wide),
+    ("QG406", _find_clipped_markers),
+    ("QG407", _find_unnamed_axes),
+    ("QG408", _find_pale_colours),
+    ("QG409", _alike_on_grey),
+)
+
+
+def _iter_path_attributes(figure: Figure) -> Iterator[dict[str, str]]:
+    """Attributes of each path, but for its points."""
+    svg = figure.standalone_svg.decode()
+    for found in _PATH.findall(svg):
+        yield {name: value for name, value in _ATTRIBUTE.findall(found) if name != "d"}
+
+
+def _parse_channels(colour: str) -> list[float]:
+    return [int(colour[place : place + 2], 16) / 255 for place in (1, 3, 5)]
+
+
+def _is_coloured(colour: str) -> bool:
+    channels = _parse_channels(colour)
+    return max(channels) - min(channels) > 0.15
+
+
+def _compute_luminance(colour: str) -> float:
+    """Relative luminance of sRGB (IEC 61966-2-1), 0 to 1."""
+    red, green, blue = (
+        c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in _parse_channels(colour)
+    )
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def _compute_lightness(colour: str) -> float:
+    """L* of CIELAB, 0 to 100."""
+    share = _compute_luminance(colour)
+    return 116 * share ** (1 / 3) - 16 if share > 0.008856 else 903.3 * share

@@ -9,22 +9,24 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import product
 from typing import Any, Literal
 
-from quizgen.bank.pools import count_pool_variants
+from quizgen.bank.pools import count_pool_variants, matching_pairs, select_from_pool
+from quizgen.bank.rules import suggested_minutes, total_points
 from quizgen.bank.sampler import sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant
-from quizgen.lint.answer_entropy import CLOSED, AnswerTally
+from quizgen.kinds import choice, true_false
 from quizgen.lint.figures import figure_text
-from quizgen.lint.workload import check_workload
 from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import Call, Expr
 from quizgen.question.compose import variant_identity
 from quizgen.question.interpolation import Interpolator, inlines_to_text
-from quizgen.question.part_context import ask_part
+from quizgen.question.part_context import VariantPart, ask_part
 
 FEW, MANY = 0.8, 1.5
 """Bits that the answer of a part must have: of 2 or 3 options, and of more."""
@@ -240,3 +242,168 @@ def _check_option_letters(one: Variant, index: int) -> Said:
     places = [int(match[1]) for match in found if match]
     if len(places) == len(found) > 1 and places != list(range(1, len(found) + 1)):
         yield "error", "QG312", "numbered pictures are out of order: use in_order"
+
+
+READING = 0.5
+"""Minutes for the stem and the figure."""
+PART, OPERATION = 0.5, 0.3
+"""Minutes for writing down a calculation, and for each operation of a step not done before."""
+ENTRY = {"choice": 0.15, "multi": 0.4, "match": 0.3, "order": 0.5, "gap": 0.4, "text": 0.75,
+         "sketch": 1.0}  # fmt: skip
+"""Minutes for each option, pair, step, gap, key point or feature that is shown or asked."""
+LISTED = {"choice": "options", "multi": "options", "match": "pairs", "order": "steps",
+          "gap": "gaps", "text": "points", "sketch": "features"}  # fmt: skip
+WHOLE = {"tf": 0.5, "code": 1.5, "witness": 3.0, "expression": 2.0}
+"""Minutes for a part that has no entries."""
+FAR = 2.0
+"""Factor by which points or minutes are far from the estimate."""
+
+
+def estimate_minutes(template: Template) -> float:
+    """Minutes that a template takes by its operations, options and key points."""
+    done: set[str] = set()
+    parts = (
+        _estimate_part_minutes(template, index, done) for index in range(len(template.rules.part))
+    )
+    return READING + sum(parts)
+
+
+def _estimate_part_minutes(template: Template, index: int, done: set[str]) -> float:
+    answer: dict[str, Any] = template.rules.part[index].answer
+    kind = answer["kind"]
+    if kind in WHOLE:
+        return WHOLE[kind]
+    if kind in ENTRY:
+        return PART + ENTRY[kind] * answer.get("take", len(answer[LISTED[kind]]))
+    steps = [step for step in sampler_for(template).parts[index].steps if step.name not in done]
+    done.update(step.name for step in steps)
+    return PART + OPERATION * sum(_count_operations(step.expr) for step in steps)
+
+
+def _count_operations(expr: Expr) -> int:
+    """Operations of a formula; of several cases only the longest is computed."""
+    if not isinstance(expr, Call) or not expr.args:
+        return 0
+    if expr.op == "piecewise":
+        return 1 + max(map(_count_operations, expr.args[::2]))
+    return max(1, len(expr.args) - 1) + sum(map(_count_operations, expr.args))
+
+
+def check_workload(template: Template) -> Iterator[str]:
+    """What of a template's points and minutes is far from the estimate."""
+    minutes = estimate_minutes(template)
+    given = (
+        ("points", float(total_points(template.rules))),
+        ("minutes", suggested_minutes(template.rules)),
+    )
+    for name, value in given:
+        if not minutes / FAR <= value <= minutes * FAR:
+            yield f"{value:g} {name}, where its operations take about {minutes:.1f} minutes"
+
+
+CLOSED = frozenset({"choice", "multi", "tf", "match", "order", "gap"})
+"""Kinds whose answer is picked out of what is shown, or is a word that is known before."""
+CLEARLY = 1.1
+"""An option is noticed as the longest if it has a tenth more letters than any other."""
+
+
+@dataclass
+class AnswerTally:
+    """One closed part over many draws.
+
+    Parameters
+    ----------
+    kind : str
+    draws : int
+    answers : Counter
+        What is right, by name; for pairs, steps and gaps also what is shown.
+    shown, right : Counter
+        How often each option came up, and was right.
+    most : int
+        Options shown at once.
+    places : Counter
+        Where the right option stood, from 1.
+    longest : Counter
+        Language to the draws in which a right option was clearly the longest.
+    """
+
+    kind: str
+    draws: int = 0
+    answers: Counter[str] = field(default_factory=Counter)
+    shown: Counter[str] = field(default_factory=Counter)
+    right: Counter[str] = field(default_factory=Counter)
+    most: int = 0
+    places: Counter[int] = field(default_factory=Counter)
+    longest: Counter[str] = field(default_factory=Counter)
+    _lengths: dict[tuple[str, str], int] = field(default_factory=dict)
+
+    @property
+    def bits(self) -> float:
+        """Entropy of the answers."""
+        return entropy_bits(self.answers.values())
+
+    @property
+    def most_bits(self) -> float:
+        """The same, and how far it may be off because the draws are few: two deviations."""
+        shares = [count / self.draws for count in self.answers.values()]
+        squares = sum(share * math.log2(share) ** 2 for share in shares)
+        return self.bits + 2 * math.sqrt(max(0.0, squares - self.bits**2) / self.draws)
+
+    def add(self, drawn: Variant, index: int, fillers: Sequence[Interpolator]) -> None:
+        """Take a draw into account."""
+        self.draws += 1
+        if self.kind not in {"choice", "multi"}:
+            self.answers[_describe_answer(self.kind, drawn, index)] += 1
+            return
+        names, right = choice.option_order(VariantPart(drawn, index))
+        if self.kind == "choice" and len(right) != 1:
+            ask_part(drawn, index)  # says what is wrong
+        self.answers["+".join(sorted(right))] += 1
+        self.most = max(self.most, len(names))
+        for place, name in enumerate(names, 1):
+            self.shown[name] += 1
+            if name in right:
+                self.right[name] += 1
+                self.places[place] += 1
+        for filler in fillers:
+            lengths = {name: self._measure_option(filler, name) for name in names}
+            self.longest[filler.lang] += _find_longest_option(lengths) in right
+
+    def _measure_option(self, filler: Interpolator, name: str) -> int:
+        """Letters of an option; of one that is the same in every draw they are counted once."""
+        known = self._lengths.get((filler.lang, name))
+        if known is None:
+            known = len(inlines_to_text(filler.sentence("options", name)))
+            if ("options", name) in filler.text.unslotted_sentences:
+                self._lengths[filler.lang, name] = known
+        return known
+
+
+def _find_longest_option(lengths: dict[str, int]) -> str:
+    """The option that is clearly the longest; empty if none is."""
+    name = max(lengths, key=lambda one: lengths[one])
+    others = [length for other, length in lengths.items() if other != name]
+    return name if lengths[name] >= CLEARLY * max(others, default=0) else ""
+
+
+def _describe_answer(kind: str, drawn: Variant, index: int) -> str:
+    """What a learner would have to know in this draw: words, pairs or an order."""
+    if kind == "tf":
+        part = VariantPart(drawn, index)
+        return str(part.condition_holds(true_false.selected_statement(part)[1]))
+    shown = select_from_pool(drawn, index)
+    names = [*shown.names, *shown.extra]
+    if kind == "match":
+        pairs = matching_pairs(drawn, index)
+        names = [f"{name}={pairs.get(name, '')}" for name in names]
+    if kind == "gap":
+        names = [drawn.words.get(name, name) for name in names]
+        return "+".join(names if len({*shown.names}) == len(names) else sorted(names))
+    return "+".join(sorted(names))
+
+
+def entropy_bits(counts: Iterable[int]) -> float:
+    """Bits that one answer is worth to whoever has seen all others."""
+    found = [count for count in counts if count]
+    total = sum(found)
+    return math.log2(total) - sum(n * math.log2(n) for n in found) / total if found else 0.0

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from statistics import correlation, fmean
 
-from quizgen.columns import lay_out_table
+from quizgen.core.text_width import lay_out_table
 from quizgen.core.untrusted import escape_control_characters, format_csv
 from quizgen.lms.grading import GradedAttempt
 from quizgen.locale import localise_numbers

@@ -21,7 +21,6 @@ from markupsafe import Markup
 from quizgen.bank.pictures import PictureFile
 from quizgen.core.files import build_zip
 from quizgen.figures import Figure
-from quizgen.lms.images import all_images, image_path
 from quizgen.lms.interactions import (
     Interaction,
     NumericInteraction,
@@ -33,6 +32,8 @@ from quizgen.lms.items import CourseQuestion, ExportItem, group_by_slot, part_su
 from quizgen.lms.manifest import ManifestQuestion
 from quizgen.lms.manifest_writer import manifest_question
 from quizgen.lms.markup import (
+    all_images,
+    image_path,
     option_html,
     part_html,
     pictures_from,

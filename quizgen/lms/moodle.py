@@ -21,7 +21,6 @@ from markupsafe import Markup
 
 from quizgen.bank.markdown import PlainText
 from quizgen.figures import Figure
-from quizgen.lms.images import image_name, question_images, solution_images
 from quizgen.lms.interactions import (
     ChoiceInteraction,
     ExtendedTextInteraction,
@@ -40,10 +39,13 @@ from quizgen.lms.manifest_writer import manifest_question
 from quizgen.lms.markup import (
     field_html,
     hint_html,
+    image_name,
     option_html,
     part_html,
+    question_images,
     question_mark,
     solution_html,
+    solution_images,
     stem_html,
     target_texts,
     to_course_html,

@@ -14,12 +14,12 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from functools import cache, partial, reduce
 from operator import itemgetter
+from struct import pack, unpack
 from typing import TypeAlias
 
 import msgspec
 
 from quizgen.core.errors import MathError
-from quizgen.maths import logic
 from quizgen.maths.operators import CONDITIONS, MANY, OPERATORS
 from quizgen.maths.tree import Call, Expr, Num, Sym, operators_in
 from quizgen.maths.values import AnyNumber
@@ -32,6 +32,12 @@ CompiledFormula: TypeAlias = Callable[[Environment], AnyNumber]
 
 OperatorFunction: TypeAlias = Callable[..., AnyNumber]
 """What an operator does in one number system."""
+
+# In every number system whose relations give Python's true and false.
+_LOGIC: dict[str, OperatorFunction] = {
+    "logical_and": lambda a, b: bool(a and b),
+    "logical_or": lambda a, b: bool(a or b),
+}
 
 
 class NumberSystem(msgspec.Struct, frozen=True):
@@ -205,24 +211,33 @@ def exact_system() -> NumberSystem:
     from quizgen.maths.numbers import to_rational
     from quizgen.maths.precision import at_working_precision
 
-    ops = operator_functions("exact", own, operator, logic, own.BALLS)
+    ops = operator_functions("exact", own, operator, own.BALLS, **_LOGIC)
     return NumberSystem("exact", to_rational, ops, guard=at_working_precision)
 
 
 @cache
 def float64_system() -> NumberSystem:
     """Python floats: the fast approximation used by figures."""
-    from quizgen.maths import floats as own
+    own: dict[str, OperatorFunction] = {
+        "sign": lambda a: 0.0 if a == 0 else math.copysign(1.0, a),
+        "floor": lambda a: float(math.floor(a)),
+        "ceil": lambda a: float(math.ceil(a)),
+        # Half away from zero, as the stems promise; Python's round takes halves to even.
+        "round_float_half_away": lambda a: math.copysign(math.floor(abs(a) + 0.5), a),
+        "pi": lambda: math.pi,
+    }
+    functions = operator_functions("floats", math, operator, builtins, **_LOGIC, **own)
+    return NumberSystem("float64", float, functions)
 
-    return NumberSystem(
-        "float64", float, operator_functions("floats", own, math, operator, builtins, logic)
-    )
+
+def round_to_float32(x: float) -> float:
+    """Round to float32."""
+    return float(unpack("f", pack("f", x))[0])
 
 
 @cache
 def float32_system() -> NumberSystem:
     """Numbers rounded to float32 after every operation; truth values stay."""
-    from quizgen.maths.floats import round_to_float32
 
     def rounding(name: str, op: OperatorFunction) -> OperatorFunction:
         return op if name in CONDITIONS else lambda *args: round_to_float32(op(*args))

@@ -9,6 +9,9 @@ multiply-add, so products are split. Operands must stay within 1e-140 .. 1e140 o
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -155,3 +158,38 @@ def as_pair(value: Operand) -> DoubleDouble:
 def as_pairs(*values: Double) -> tuple[DoubleDouble, ...]:
     """Wrap several."""
     return tuple(DoubleDouble(value) for value in values)
+
+
+Exponent = tuple[float, float]
+"""An exponent and what rounding it lost."""
+
+_UNIT = 2.0**-53
+_LEAST = 5e-324
+
+
+def power_with_remainder(x: Array, exponent: Exponent) -> Array:
+    """Raise to a power with the exponent carried to twice the working precision."""
+    high, low = exponent
+    y: Array = x**high
+    least = x.min()
+    if low == 0 or (least > 0 and abs(low) * max(-math.log(least), math.log(x.max())) < _UNIT):
+        return y
+    y *= 1 + low * np.log(np.maximum(x, _LEAST))
+    return y
+
+
+def split_exponent(exponent: Fraction) -> Exponent:
+    """Nearest double of an exponent, and what that lost."""
+    high = float(exponent)
+    return high, float(exponent - Fraction(high))
+
+
+def evaluate_polynomial(coefficients: Sequence[float], x: Array) -> Array:
+    """Polynomial with at least two coefficients in ascending order."""
+    *rest, second, last = coefficients
+    total = x * last
+    total += second
+    for c in reversed(rest):
+        total *= x
+        total += c
+    return total

@@ -11,8 +11,12 @@ from fractions import Fraction
 import numpy as np
 
 from quizgen.numerics.domain import Interval
-from quizgen.numerics.double_double import DoubleDouble, two_sum
-from quizgen.numerics.elementary import power_with_remainder, split_exponent
+from quizgen.numerics.double_double import (
+    DoubleDouble,
+    power_with_remainder,
+    split_exponent,
+    two_sum,
+)
 from quizgen.numerics.typing import Array, FloatOrArray, Numbers
 from quizgen.numerics.ufunc import StableUfunc
 

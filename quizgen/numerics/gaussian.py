@@ -12,8 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.numerics.domain import Interval
-from quizgen.numerics.double_double import two_product, two_sum
-from quizgen.numerics.polynomial import evaluate_polynomial
+from quizgen.numerics.double_double import evaluate_polynomial, two_product, two_sum
 from quizgen.numerics.tables import MILLS, MILLS_SCALE, MILLS_SHIFT
 from quizgen.numerics.typing import Array, FloatOrArray, Numbers
 from quizgen.numerics.ufunc import StableUfunc

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 
-from quizgen.columns import lay_out_table, wrap_lines
+from quizgen.core.text_width import lay_out_table, wrap_lines
 from quizgen.core.untrusted import format_csv
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.feedback import format_read_back, load_words_inside

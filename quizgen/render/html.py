@@ -19,8 +19,7 @@ from quizgen.question.html import (
     inlines_to_html,
 )
 from quizgen.render import fonts
-from quizgen.render.layouts import jinja_environment
-from quizgen.render.room import answer_rows
+from quizgen.render.layouts import answer_rows, jinja_environment
 
 _HERE = Path(__file__).parent
 

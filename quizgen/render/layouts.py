@@ -7,8 +7,10 @@ Python keeps that of modules.
 from __future__ import annotations
 
 import marshal
+import math
 from collections.abc import Callable
 from contextlib import suppress
+from fractions import Fraction
 from functools import cache
 from importlib.util import MAGIC_NUMBER
 from pathlib import Path
@@ -18,6 +20,15 @@ import jinja2
 from jinja2.bccache import Bucket, BytecodeCache
 
 from quizgen.core.cache import compute_digest, read_cached, write_cached
+
+FIRST, EACH, MOST = 2, 2, 14
+"""Rows of squares for any calculation, for each point of it, and at most."""
+
+
+def answer_rows(points: Fraction) -> int:
+    """Rows of squares to work in: few for half a point, and no whole page for many."""
+    return min(MOST, math.ceil(FIRST + EACH * points))
+
 
 _KIND = "layouts"
 

@@ -8,7 +8,7 @@ from quizgen.locale import format_amount, format_marks, translate
 from quizgen.paper.paper import Paper, PaperItem
 from quizgen.question.compose import AnswerField, Question, QuestionPart
 from quizgen.question.solution import PartSolution, Solution, SolutionStep, SolvedMisconception
-from quizgen.render.room import answer_rows
+from quizgen.render.layouts import answer_rows
 from quizgen.render.typst_document import (
     blocks_to_typst,
     compile_pdf,

@@ -22,9 +22,8 @@ from sqlalchemy import (
 from sqlalchemy.exc import IntegrityError
 
 from quizgen.store.database import Database
-from quizgen.store.records import Invitation, Learner, Person
+from quizgen.store.records import Invitation, Learner, Person, row_to_record
 from quizgen.store.schema import ACCOUNT, INVITATION, LEARNER, PAPER, SESSION, SITTING
-from quizgen.store.values import row_to_record
 
 ALONE = "me"
 """Name of the learner of a server for one person; nobody signs in under it."""

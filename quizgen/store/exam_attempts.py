@@ -12,9 +12,8 @@ from quizgen.core.errors import PaperCodeError
 from quizgen.paper.code import parse_code
 from quizgen.store.clock import Clock
 from quizgen.store.database import Database, upsert
-from quizgen.store.records import ExamRecord, OutcomeRecord, Packed
+from quizgen.store.records import ExamRecord, OutcomeRecord, Packed, row_to_record
 from quizgen.store.schema import ANSWER, FLAG, PAPER, SEEN, SITTING
-from quizgen.store.values import row_to_record
 
 GRACE = 5.0
 """Seconds after the end in which what was typed before it may still arrive."""

@@ -20,7 +20,7 @@ from sqlalchemy import (
 from quizgen.core.errors import StoreError
 from quizgen.store.schema import METADATA
 
-NEWEST = "0006"
+NEWEST = "0001"
 """The last step in ``migrations/versions``."""
 _VERSIONS = Table(
     "alembic_version",

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
+from sqlalchemy import RowMapping
+
+from quizgen.core.decoding import convert
 
 
 class Learner(msgspec.Struct, frozen=True):
@@ -182,3 +185,11 @@ class ExamRecord(msgspec.Struct, frozen=True):
     def is_over(self, now: float) -> bool:
         """Whether it was handed in, or its time is over."""
         return self.handed is not None or (self.ends is not None and now > self.ends)
+
+
+T = TypeVar("T")
+
+
+def row_to_record(row: RowMapping, kind: type[T]) -> T:
+    """A row as a value; names of columns are a kind of text of their own."""
+    return convert({str(name): cell for name, cell in row.items()}, kind)

@@ -16,10 +16,9 @@ from quizgen.store.archive import ArchiveStore
 from quizgen.store.clock import Clock, since_boot
 from quizgen.store.database import Database, upsert
 from quizgen.store.exam_attempts import ExamStore
-from quizgen.store.records import AttemptRecord, Learner, OutcomeRecord, QuestionRef
+from quizgen.store.records import AttemptRecord, Learner, OutcomeRecord, QuestionRef, row_to_record
 from quizgen.store.review_cards import ReviewCardStore
 from quizgen.store.schema import ATTEMPT, LEARNER, SEEN, SERVER
-from quizgen.store.values import row_to_record
 
 
 class Store:

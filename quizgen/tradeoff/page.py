@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import cache
+from itertools import accumulate
 from pathlib import Path
 from typing import Any
 
@@ -11,20 +13,20 @@ import jinja2
 import msgspec
 
 from quizgen.core.files import write_all
+from quizgen.figures import Figure, plot_figure
 from quizgen.figures.inks import write_theme_css
 from quizgen.locale import get_language, list_languages, localise_numbers
 from quizgen.maths.notation import pretty
 from quizgen.render.fonts import bangla_uri
 from quizgen.render.layouts import jinja_environment
-from quizgen.tradeoff.digits import ALL_DIGITS
 from quizgen.tradeoff.formulas import FORMULAS
-from quizgen.tradeoff.plot import ITERATED, draw_digits
 from quizgen.tradeoff.questions import Cost
 from quizgen.tradeoff.report import TradeoffReport
 from quizgen.tradeoff.rivals import Match
 from quizgen.tradeoff.solving import ARITHMETICS
 from quizgen.tradeoff.sweeps import EXAMS, PLACES, FormulaSweep
 from quizgen.tradeoff.texts import script, style_sheet, words
+from quizgen.tradeoff.truth import ALL_DIGITS, MOST_DIGITS
 
 START = 2 * PLACES // 3
 """The place where the slider stands first: two thirds of the way to the hard end."""
@@ -257,3 +259,37 @@ def _build_rival_rows(match: Match, lang: str) -> list[tuple[str, ...]]:
 
 def _format_digit_count(digits: float) -> str:
     return str(min(int(digits), 16))
+
+
+SIZE = (380.0, 170.0)
+ITERATED = "inverse-distortion"  # loses its digits by its steps, not by a subtraction
+
+
+def draw_digits(report: TradeoffReport, alt: str, lang: str) -> Figure:
+    """The printed formulas with their exam inputs, and the stable forms."""
+
+    def draw(ax: Any) -> None:
+        ax.set_xscale("log")
+        ax.set_xlim(1, 1e-15)
+        ax.set_ylim(0, MOST_DIGITS + 0.6)
+        ax.set_xticks([10.0**-n for n in range(0, 16, 3)])
+        ax.set_yticks(range(0, MOST_DIGITS + 1, 4))
+        ax.minorticks_off()
+        ax.tick_params(labelsize=10)
+        ax.grid(True)
+        ax.axvspan(1, report.exam, color="pale-gold", linewidth=0, zorder=0)
+        for one in report.sweeps:
+            colour, width = ("red", 1.6) if one.name == ITERATED else ("blue", 0.7)
+            if "stable" in one.ways:
+                stable = _compute_running_minimum(one.ways["stable"].digits)
+                ax.plot(one.left, stable, color="teal", linewidth=0.8, linestyle="-")
+            printed = _compute_running_minimum(one.ways["float64"].digits)
+            ax.plot(one.left, printed, color=colour, linewidth=width, linestyle="-")
+            ax.plot([one.exam_left], [one.exam_digits], "o", color=colour, markersize=4)
+
+    return plot_figure(draw, alt, lang, SIZE)
+
+
+def _compute_running_minimum(digits: Sequence[float]) -> list[float]:
+    """The fewest digits up to each place: a result that is right by chance is no promise."""
+    return list(accumulate((min(count, MOST_DIGITS) for count in digits), min))

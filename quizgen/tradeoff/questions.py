@@ -22,8 +22,8 @@ from quizgen.maths.values import AnyNumber
 from quizgen.numerics.distortion import inverse_radius
 from quizgen.numerics.gamma import srgb_decode
 from quizgen.numerics.hsv import hsv_to_rgb
+from quizgen.tradeoff.rivals import Timing, in_turns
 from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, solve_in
-from quizgen.tradeoff.timing import Timing, in_turns
 
 _RUNS = 15
 _ALONE: tuple[Callable[[], object], ...] = (

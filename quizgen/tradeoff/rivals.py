@@ -6,8 +6,10 @@ called as its user would write it.
 
 from __future__ import annotations
 
+import statistics
+import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -17,12 +19,35 @@ import numpy as np
 
 from quizgen.numerics.distortion import inverse_radius
 from quizgen.tradeoff import lines
-from quizgen.tradeoff.digits import correct_digits
 from quizgen.tradeoff.formulas import BY_NAME, Columns
 from quizgen.tradeoff.lines import Column
 from quizgen.tradeoff.sweeps import EXAMS, PLACES, SEED
-from quizgen.tradeoff.timing import Timing, in_turns
-from quizgen.tradeoff.truth import truths
+from quizgen.tradeoff.truth import correct_digits, truths
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Seconds of several runs: the least, which is nearest to the work itself, and the median."""
+
+    least: float
+    median: float
+
+    def per(self, count: float) -> Timing:
+        """The same for one of so many."""
+        return Timing(self.least / count, self.median / count)
+
+
+def in_turns(calls: Sequence[Callable[[], Any]], runs: int) -> list[Timing]:
+    """Time calls, one after the other and all over again; the first round warms up."""
+    spent: list[list[float]] = [[] for _ in calls]
+    for turn in range(runs + 1):
+        for call, seconds in zip(calls, spent, strict=True):
+            start = time.perf_counter()
+            call()
+            if turn:
+                seconds.append(time.perf_counter() - start)
+    return [Timing(min(seconds), statistics.median(seconds)) for seconds in spent]
+
 
 ARRAY = 100_000
 """Elements of a timed array."""

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quizgen.tradeoff.digits import correct_digits
 from quizgen.tradeoff.formulas import Columns, Formula
 from quizgen.tradeoff.lines import Column
-from quizgen.tradeoff.truth import truths
+from quizgen.tradeoff.truth import correct_digits, truths
 
 EXAMS, PLACES = 200, 43
 """Inputs drawn as in an exam, and places along a path."""

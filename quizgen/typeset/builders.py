@@ -8,8 +8,8 @@ from fractions import Fraction
 
 from quizgen.core.errors import RenderError
 from quizgen.maths.notation import pretty
+from quizgen.maths.notation.pretty import LOWERED
 from quizgen.maths.numbers import count_decimals
-from quizgen.maths.superscripts import LOWERED
 from quizgen.typeset.nodes import (
     NEGATIVE,
     PRODUCT,

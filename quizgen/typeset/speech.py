@@ -13,9 +13,13 @@ from quizgen.core.errors import RenderError
 from quizgen.locale import localise_numbers
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import GREEK
-from quizgen.typeset.tables import strict_lookup
-from quizgen.typeset.units import UnitPart, split_unit
-from quizgen.typeset.words import SpeechWords, load_speech_words
+from quizgen.typeset.printer import (
+    SpeechWords,
+    UnitPart,
+    load_speech_words,
+    split_unit,
+    strict_lookup,
+)
 
 _known = strict_lookup("reading")
 

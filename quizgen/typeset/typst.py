@@ -12,10 +12,14 @@ from quizgen.core.errors import RenderError
 from quizgen.locale import localise_numbers
 from quizgen.typeset import nodes as n
 from quizgen.typeset.names import KNOWN
-from quizgen.typeset.separators import insert_separators, list_separator
-from quizgen.typeset.tables import strict_lookup
-from quizgen.typeset.units import TIGHT, split_unit
-from quizgen.typeset.words import load_speech_words
+from quizgen.typeset.printer import (
+    TIGHT,
+    insert_separators,
+    list_separator,
+    load_speech_words,
+    split_unit,
+    strict_lookup,
+)
 
 _known = strict_lookup("Typst")
 

@@ -11,7 +11,7 @@ from typing import Generic, TypeVar
 
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import QuizgenError
-from quizgen.executors import Processes
+from quizgen.core.executor import Processes
 from quizgen.web.fairness import FairQueue
 from quizgen.web.question_view import (
     QuestionRequest,

@@ -35,7 +35,7 @@ from quizgen.classes.rulings import (
     read_rulings,
 )
 from quizgen.core.errors import ClassError, FormulaError
-from quizgen.executors import Here
+from quizgen.core.executor import Here
 from quizgen.web.forms import field_text, field_texts, read_form
 from quizgen.web.state import ServerState
 from quizgen.web.views import page_response, redirect, request_language, translate_page

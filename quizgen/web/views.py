@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -13,6 +13,8 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from quizgen.figures.inks import write_theme_css
+from quizgen.grading.drawing.strokes import read_strokes
+from quizgen.kinds.contract import DrawingField
 from quizgen.locale import (
     fallback_language,
     format_amount,
@@ -22,11 +24,11 @@ from quizgen.locale import (
     load_words,
     translate,
 )
+from quizgen.maths.notation import FormulaReadError
 from quizgen.practice.scheduler import local_date
 from quizgen.render.layouts import jinja_environment
 from quizgen.store import Learner
 from quizgen.web.auth import csrf_token
-from quizgen.web.sketches import strokes_to_svg
 from quizgen.web.state import ServerState
 
 
@@ -137,3 +139,19 @@ def safe_redirect_target(address: str) -> str:
     """An address of these pages; the first page instead of any other."""
     own = address.startswith("/") and not address.startswith(("//", "/\\"))
     return address if own else "/"
+
+
+_LINE = Markup('<polyline points="{}"/>')
+
+
+def strokes_to_svg(board: DrawingField, values: Sequence[str]) -> Markup:
+    """The lines of an answer in the picture of its field; nothing if they cannot be read."""
+    try:
+        lines = read_strokes(" ".join(values), board.view)
+    except FormulaReadError:
+        return Markup()
+    _, tall = board.picture_size
+    return Markup().join(
+        _LINE.format(" ".join(f"{x:.1f},{tall - y:.1f}" for x, y in map(board.to_picture, line)))
+        for line in lines
+    )

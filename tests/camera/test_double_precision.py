@@ -18,7 +18,7 @@ from quizgen.camera.pixels.tone_curve import encode_value
 from quizgen.camera.scene_file import load_scene
 from quizgen.camera.simulation import run_plan
 from quizgen.cli.simulate import simulate
-from quizgen.figures.png import encode_png
+from quizgen.figures.svg import encode_png
 from quizgen.numerics.gamma import srgb_decode
 
 SCENE = Path(__file__).parents[2] / "quizgen/camera/scenes/texture.toml"

@@ -21,7 +21,7 @@ from quizgen.camera.question_photo import InvisibleEffectError
 from quizgen.camera.scene_file import load_scene
 from quizgen.cli.simulate import SCENES, simulate
 from quizgen.cli.terminal import Progress
-from quizgen.figures.png import encode_png
+from quizgen.figures.svg import encode_png
 
 NAMES = sorted(path.stem for path in SCENES.glob("*.toml"))
 

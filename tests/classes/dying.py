@@ -8,7 +8,7 @@ import threading
 from functools import partial
 from pathlib import Path
 
-from quizgen.executors import Processes
+from quizgen.core.executor import Processes
 
 
 def once_dead(mark: Path, work, *arguments):

@@ -8,7 +8,7 @@ from quizgen.bank.bank import builtin_bank
 from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.generation import create_settings, generate_papers
 from quizgen.classes.roster import RosterStudent
-from quizgen.executors import Here
+from quizgen.core.executor import Here
 from quizgen.paper.blueprint import Blueprint, load_blueprint
 from quizgen.paper.paper import silent
 

@@ -14,7 +14,7 @@ from quizgen.classes import generation
 from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.roster import RosterStudent
 from quizgen.core.errors import InvalidChoiceError, WorkerError
-from quizgen.executors import Here, Processes, run, workers
+from quizgen.core.executor import Here, Processes, run, workers
 
 STUDENTS = [RosterStudent(f"{n}") for n in range(4)]
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from made import run
 
-from quizgen.classes import plots
+from quizgen.classes import analysis_page
 from quizgen.classes.variant_difficulty import ValueGroup, VariantEffect
 from quizgen.figures.alt_text import strip_mathtext
 
@@ -83,8 +83,8 @@ def test_the_plots_have_the_decimal_sign_of_the_language(lang, sign):
     effect = VariantEffect(
         "t", "q", (ValueGroup("0.5", 9, 0.25, 0.1), ValueGroup("1.5", 9, 0.5, 0.1)), 0.01
     )
-    items = plots.plot_items([("1", 0.4, 0.3), ("2", 0.8, 0.1)], lang, "Items.")
-    for figure in (items, plots.plot_effect(effect, lang, "An effect.")):
+    items = analysis_page.plot_items([("1", 0.4, 0.3), ("2", 0.8, 0.1)], lang, "Items.")
+    for figure in (items, analysis_page.plot_effect(effect, lang, "An effect.")):
         labels = " ".join(strip_mathtext(label.text) for label in figure.labels)
         assert set(re.findall(r"\d([.,])\d", labels)) == {sign}
 

@@ -123,13 +123,13 @@ def test_what_the_page_says_after_saving_works_beside_the_key_as_typed(tmp_path,
 
 
 def test_after_uv_run_the_commands_begin_with_it(tmp_path, monkeypatch):
-    from quizgen.cli.command import command
+    from quizgen.cli.terminal import build_command_line
 
     monkeypatch.setenv("UV_RUN_RECURSION_DEPTH", "1")
     monkeypatch.chdir(ROOT)
-    assert command("check", "a b") == "uv run quizgen check 'a b'"
+    assert build_command_line("check", "a b") == "uv run quizgen check 'a b'"
     monkeypatch.chdir(tmp_path)
     home = Path(sys.prefix).parent
     if (home / "pyproject.toml").exists():
         expected = f"uv run --project {shlex.quote(str(home))} quizgen check x"
-        assert command("check", "x") == expected
+        assert build_command_line("check", "x") == expected

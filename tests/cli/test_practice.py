@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from quizgen.bank.bank import builtin_bank
 from quizgen.cli import practice
 from quizgen.cli.options import own_database
-from quizgen.columns import text_width
+from quizgen.core.text_width import text_width
 from quizgen.grading.feedback import load_practice_words
 from quizgen.kinds.grade import show_key
 from quizgen.locale import list_languages

@@ -10,7 +10,7 @@ import pytest
 
 from quizgen.cli import terminal
 from quizgen.cli.terminal import Progress, many
-from quizgen.columns import lay_out_table, text_width, wrap_lines
+from quizgen.core.text_width import lay_out_table, text_width, wrap_lines
 from quizgen.core.untrusted import escape_control_characters
 
 ENGLISH = "The pupil lets in less light, and shorter wavelengths are refracted with more power."

@@ -21,7 +21,7 @@ from quizgen.bank.variant import draw_variant
 from quizgen.camera import picture_sets
 from quizgen.core.errors import BankError, QuizgenError
 from quizgen.figures import complete_parameters, svg
-from quizgen.figures.png import encode_png
+from quizgen.figures.svg import encode_png
 from quizgen.question.part_context import ask_part
 
 artefacts = module("artefacts")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from quizgen.figures.png import encode_png
+from quizgen.figures.svg import encode_png
 
 
 def noise(*shape):

@@ -22,7 +22,7 @@ from quizgen.camera.scene_file import load_scene
 from quizgen.camera.simulation import run_plan
 from quizgen.cards.content import KINDS as CARDS
 from quizgen.cards.error_deck import deck_from_grades
-from quizgen.figures.png import encode_png
+from quizgen.figures.svg import encode_png
 from quizgen.paper.answer_form import read_filled_form
 from quizgen.paper.answer_key import read_answer_key, write_answer_key
 from quizgen.paper.blueprint import load_blueprint

@@ -10,8 +10,7 @@ import pytest
 from quizgen.bank.bank import Bank
 from quizgen.bank.variant import draw_variant
 from quizgen.figures import plot_figure
-from quizgen.lint.figure_looks import look_problems
-from quizgen.lint.figures import check_figures
+from quizgen.lint.figures import check_figures, look_problems
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "bank"))
 

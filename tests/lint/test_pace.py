@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from msgspec import structs
 
-from quizgen.lint.workload import check_workload, estimate_minutes
+from quizgen.lint.item_quality import check_workload, estimate_minutes
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,7 @@ from click.testing import CliRunner
 
 from quizgen.bank.bank import Bank
 from quizgen.cli.lint import lint
-from quizgen.lint.answer_entropy import entropy_bits
-from quizgen.lint.item_quality import count_pool, review_template
+from quizgen.lint.item_quality import count_pool, entropy_bits, review_template
 
 HEAD = 'topic = "light"\ntier = "A"\n'
 DRAWN = "pool = 36\n[draw]\nk = { pick = [0, 1, 2, 3] }\nn = { range = [1, 9, 1] }\n"

@@ -36,18 +36,18 @@ FORMULAS = {
     "distortion.distort_x": "x*(1 + k_1*(x^2 + y^2) + k_2*(x^2 + y^2)^2)",
     "distortion.fold_radius": "sqrt(2/(sqrt(9*k_1^2 - 20*k_2) - 3*k_1))",
     "depth_of_field.far_limit": "s*f^2/(f^2 - N*c*(s - f))",
-    "projection.pixel": "o + f*x/(p*z)",
+    "projection.pixel_coordinate": "o + f*x/(p*z)",
     "gamma.gap": "((a + b)/2)^(5/11) - (a^(5/11) + b^(5/11))/2",
     "gamma.srgb_decode": "((x + 0.055)/1.055)^2.4",
     "hsv.red": HEXAGON.format(turn=5),
     "hsv.green": HEXAGON.format(turn=3),
     "hsv.blue": HEXAGON.format(turn=1),
-    "luminosity.efficiency": BETWEEN,
+    "luminosity.luminous_efficiency": BETWEEN,
 }
 ORDER = {
     "gaussian.upper_tail": "k", "gaussian.two_sided_tail": "k", "distortion.distort_x": "x y k_1 k_2",
-    "depth_of_field.far_limit": "f N c s", "projection.pixel": "f p x z o", "gamma.gap": "a b",
-    "gamma.srgb_decode": "x", "distortion.fold_radius": "k_1 k_2", "luminosity.efficiency": "w",
+    "depth_of_field.far_limit": "f N c s", "projection.pixel_coordinate": "f p x z o", "gamma.gap": "a b",
+    "gamma.srgb_decode": "x", "distortion.fold_radius": "k_1 k_2", "luminosity.luminous_efficiency": "w",
     "hsv.red": "H S V", "hsv.green": "H S V", "hsv.blue": "H S V",
     "gaussian.inverse_upper_tail": "p", "distortion.inverse_radius": "d k_1 k_2",
     "poisson.pmf": "k m", "poisson.lower": "k m",
@@ -66,7 +66,7 @@ BOUNDS = (STIRLING.format(next=" - 1/(1260*k^5)"), STIRLING.format(next=""))
 STIRLING_FROM = 1000
 LAST = Fraction(1, 10**38)
 """What the rows leave of a value, relative to it."""
-DECIMALS = {"projection.pixel", "gamma.srgb_decode"}
+DECIMALS = {"projection.pixel_coordinate", "gamma.srgb_decode"}
 """Numbers mean the decimals they print as."""
 KNEE = 0.04045
 POLICY = Path(__file__).parents[2] / "docs" / "accuracy.md"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from quizgen.bank.variant import draw_variant
-from quizgen.question.precision_table import precision_table
+from quizgen.question.solution import precision_table
 
 
 def shown(text: str) -> float:

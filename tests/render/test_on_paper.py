@@ -16,7 +16,7 @@ from PIL import Image
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import build_paper, single_question_paper
 from quizgen.render import html, pdf
-from quizgen.render.room import answer_rows
+from quizgen.render.layouts import answer_rows
 from quizgen.render.text import format_question
 from quizgen.render.typst_document import _load_font_collection, compile_pdf
 

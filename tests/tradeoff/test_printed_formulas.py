@@ -13,10 +13,9 @@ import pytest
 
 from quizgen.core.errors import MathError
 from quizgen.tradeoff import lines
-from quizgen.tradeoff.digits import correct_digits
 from quizgen.tradeoff.formulas import BY_NAME, FORMULAS
 from quizgen.tradeoff.sweeps import EXAMS, SEED, sweep_formula
-from quizgen.tradeoff.truth import truths
+from quizgen.tradeoff.truth import correct_digits, truths
 
 ITERATED, SAFE = "inverse-distortion", "hue"
 SUBTRACTING = [name for name in BY_NAME if name not in {ITERATED, SAFE}]

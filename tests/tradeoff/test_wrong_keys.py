@@ -16,8 +16,8 @@ from quizgen.maths.number_systems import exact_system, float64_system
 from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
 from quizgen.tradeoff.questions import Counted, measure_questions, recorded
+from quizgen.tradeoff.rivals import in_turns
 from quizgen.tradeoff.solving import ARITHMETICS
-from quizgen.tradeoff.timing import in_turns
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 

@@ -17,7 +17,7 @@ from served import ran
 from starlette.testclient import TestClient
 
 from quizgen.store import Store
-from quizgen.web import limits
+from quizgen.web import server as own
 from quizgen.web.app import create_app
 from quizgen.web.server import _as_before, _build_browser_url, _open_listening_socket
 from quizgen.web.settings import ServerSettings
@@ -127,17 +127,15 @@ def test_a_connection_outlives_some_seconds_of_thought(served):
     [b"", b"GET / HTTP/1.1\r\nHost: x\r\n", b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 9\r\n\r\nab"],
 )  # fmt: skip
 def test_a_request_that_never_comes_whole_is_given_up(monkeypatch, sent):
-    monkeypatch.setattr(limits, "HEAD", 0.05)
-    monkeypatch.setattr(limits, "BODY", 0.05)
+    monkeypatch.setattr(own, "HEAD", 0.05)
+    monkeypatch.setattr(own, "BODY", 0.05)
 
     async def app(scope, receive, send) -> None:
         await receive()
         await asyncio.Event().wait()
 
     async def ask() -> bytes:
-        config = uvicorn.Config(
-            app, http=limits.TimedProtocol, lifespan="off", log_level="critical"
-        )
+        config = uvicorn.Config(app, http=own.TimedProtocol, lifespan="off", log_level="critical")
         config.load()
         server = uvicorn.Server(config)
         listening = _open_listening_socket("127.0.0.1", 0)

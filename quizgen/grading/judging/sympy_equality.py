@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
+from functools import reduce
+from typing import Any
 
-from quizgen.maths.notation import format_tree
-from quizgen.maths.tree import Expr
+from msgspec.structs import replace
+
+from quizgen.maths.notation import format_tree, parse_formula
+from quizgen.maths.number_systems import compile_expr, sympy_system
+from quizgen.maths.operators import CONDITIONS
+from quizgen.maths.tree import Expr, names_in
 
 SECONDS = 4.0
 """Time limit of the whole attempt, start-up included."""
@@ -40,11 +46,33 @@ def decide_by_sympy(
 
 def run_decider() -> None:
     """Read two formulas from standard input and print ``equal``, ``different`` or ``unknown``."""
-    from quizgen.grading.judging.sympy_form import decide_equality
-
     first, second = sys.stdin.read().split("\n")[:2]
     positive = frozenset(filter(None, sys.argv[1].split(",")))
     sys.stdout.write(decide_equality(first, second, positive))
+
+
+def decide_equality(first: str, second: str, positive: frozenset[str]) -> str:
+    """Simplify the difference of two formulas: ``equal``, ``different`` or ``unknown``."""
+    import sympy
+
+    try:
+        a, b = (_to_sympy(parse_formula(text), positive) for text in (first, second))
+    except KeyError:
+        return "unknown"
+    difference = reduce(lambda value, step: step(value), (sympy.expand, sympy.simplify), a - b)
+    if difference == 0:
+        return "equal"
+    return "different" if difference.is_nonzero else "unknown"
+
+
+def _to_sympy(tree: Expr, positive: frozenset[str]) -> Any:
+    """Build the SymPy object of a tree; KeyError for a condition, which says nothing here."""
+    import sympy
+
+    ops = {name: op for name, op in sympy_system().ops.items() if name not in CONDITIONS}
+    kinds = {name: "positive" if name in positive else "real" for name in names_in(tree)}
+    symbols = {name: sympy.Symbol(name, **{kind: True}) for name, kind in kinds.items()}
+    return compile_expr(tree, replace(sympy_system(), ops=ops))(symbols)
 
 
 if __name__ == "__main__":

@@ -13,8 +13,7 @@ from functools import lru_cache
 
 from quizgen.grading.reading.source_map import Rewrite, SourceText
 from quizgen.maths.notation import FormulaReadError
-from quizgen.maths.notation.pretty import BELOW, FROM_BELOW
-from quizgen.maths.superscripts import LOWERED
+from quizgen.maths.notation.pretty import BELOW, FROM_BELOW, LOWERED
 
 LONGEST = 200
 """Most characters in one typed formula, number or list."""

@@ -11,12 +11,18 @@ from markupsafe import Markup
 
 from quizgen.bank.pictures import PictureFile
 from quizgen.figures import Figure
-from quizgen.lms.images import image_path
 from quizgen.lms.interactions import ExtendedTextInteraction, Interaction
 from quizgen.lms.items import ExportItem
 from quizgen.lms.manifest import ManifestQuestion
 from quizgen.lms.manifest_writer import response_field
-from quizgen.lms.markup import part_html, pictures_from, solution_html, stem_html, to_course_html
+from quizgen.lms.markup import (
+    image_path,
+    part_html,
+    pictures_from,
+    solution_html,
+    stem_html,
+    to_course_html,
+)
 from quizgen.lms.qti.dialect import QTI21, Dialect, format_number_plain
 from quizgen.lms.qti.interactions import RenderedInteraction, render_interaction
 from quizgen.lms.qti.response_rules import ResponseRules

@@ -10,9 +10,8 @@ from pathlib import PurePosixPath
 from markupsafe import Markup
 
 from quizgen.core.files import build_zip
-from quizgen.lms.images import all_images
 from quizgen.lms.items import ExportItem, group_by_slot
-from quizgen.lms.qti.assessment import write_assessment
+from quizgen.lms.markup import all_images
 from quizgen.lms.qti.dialect import QTI3, QTI21, Dialect, xml_element, xml_file
 from quizgen.lms.qti.item import item_identifier, write_item
 from quizgen.locale import FIRST
@@ -111,3 +110,49 @@ def _resource_identifier(path: str) -> str:
     """The identifier of a file; it must begin with a letter, which a figure's name may not."""
     pure = PurePosixPath(path)
     return f"figure-{pure.stem}" if pure.suffix != ".xml" else pure.stem
+
+
+# Outcomes of items that are summed up over the test.
+_SUMMED = ("SCORE", "MAXSCORE")
+
+
+def write_assessment(lang: str, items: list[ExportItem], dialect: Dialect) -> bytes:
+    """Return the test of the questions in one language, slot after slot."""
+    tag = dialect.tag
+    control = tag("itemSessionControl", {"showFeedback": "true", "allowReview": "true"})
+    part = {
+        "identifier": "part",
+        "navigationMode": "nonlinear",
+        "submissionMode": "simultaneous",
+    }
+    sections = Markup("").join(_write_sections(items, dialect))
+    named = {"identifier": f"test-{lang}", "title": f"quizgen ({lang})", "toolName": "quizgen"}
+    return dialect.file(
+        "assessmentTest",
+        named,
+        *(dialect.outcome(name, "single float", {}) for name in _SUMMED),
+        tag("testPart", part, control, sections),
+        tag("outcomeProcessing", {}, *(_sum_outcome(name, dialect) for name in _SUMMED)),
+    )
+
+
+def _write_sections(items: list[ExportItem], dialect: Dialect) -> Iterator[Markup]:
+    slots = groupby(items, key=lambda item: item.slot)
+    for number, (slot, found) in enumerate(slots, 1):
+        named = {"identifier": f"slot-{number}", "title": slot, "visible": "false"}
+        refs = (_item_reference(item, dialect) for item in found)
+        yield dialect.tag(
+            "assessmentSection", named, dialect.tag("selection", {"select": 1}), *refs
+        )
+
+
+def _item_reference(item: ExportItem, dialect: Dialect) -> Markup:
+    name = item_identifier(item)
+    named = {"identifier": name, "href": f"items/{name}.xml", "category": item.question.topic}
+    return dialect.tag("assessmentItemRef", named)
+
+
+def _sum_outcome(name: str, dialect: Dialect) -> Markup:
+    values = dialect.tag("testVariables", {"variableIdentifier": name})
+    total = dialect.tag("sum", {}, values)
+    return dialect.tag("setOutcomeValue", {"identifier": name}, total)

@@ -14,7 +14,14 @@ from collections.abc import Callable
 from functools import lru_cache
 
 from quizgen.maths.notation.names import FUNCTIONS, GREEK, KEYWORDS
-from quizgen.maths.superscripts import RAISED
+
+_PLAIN_SIGNS, _RAISED_SIGNS = "+-0123456789", "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
+
+RAISED = str.maketrans(_PLAIN_SIGNS, _RAISED_SIGNS)
+"""Signs and digits to superscripts: ``text.translate(RAISED)``."""
+
+LOWERED = str.maketrans(_RAISED_SIGNS, _PLAIN_SIGNS)
+"""Superscripts back to signs and digits."""
 
 GAP = "\u202f"
 """Between groups of three digits: narrow, and no line ends at it."""
