@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 import msgspec
 from flint import fmpq
 
+from quizgen.bank.pools import build_identity
 from quizgen.bank.rules import Scalar
 from quizgen.bank.sampler import Sampler, sampler_for, test_candidate
 from quizgen.bank.template import Template
@@ -88,6 +89,7 @@ class Variant:
     elsewhere: SiblingContent = field(default_factory=SiblingContent)
     shown_values: Values = field(init=False, repr=False, compare=False)
     _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
+    _identity: list[str] = field(init=False, repr=False, compare=False, default_factory=list)
     _computed: dict[str, Value] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __repr__(self) -> str:
@@ -98,6 +100,17 @@ class Variant:
             object.__setattr__(
                 self, "shown_values", self.sampler.in_shown_units(self.shown, self.values)
             )
+
+    @property
+    def identity(self) -> str:
+        """Name of the question: two variants ask the same if and only if this is the same.
+
+        Worked out once, when it is first asked for: it makes the selections of the pools, whose
+        faults are those of a question and not of its numbers.
+        """
+        if not self._identity:
+            self._identity.append(build_identity(self))
+        return self._identity[0]
 
     @property
     def sampler(self) -> Sampler:
