@@ -9,8 +9,8 @@ In: Python values. Out: questions, papers, verdicts. Must never know: a terminal
 Examples
 --------
 >>> import quizgen
->>> template = quizgen.builtin().template("point-to-image-plane")
->>> question, key = quizgen.compose(template, seed="reference")
+>>> template = quizgen.builtin_bank().template("point-to-image-plane")
+>>> question, key = quizgen.compose_question(template, seed="reference")
 >>> question.title
 'Perspective projection of a point'
 >>> key.solution.parts[0].answer

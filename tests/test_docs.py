@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import doctest
+import importlib
 import re
+import subprocess
 import tomllib
 from pathlib import Path
 
@@ -87,8 +89,6 @@ def test_every_word_has_the_same_blanks_in_every_language(file, lang):
 
 
 def test_nothing_in_the_repository_names_a_machine():
-    import subprocess
-
     files = subprocess.run(
         ["git", "ls-files"], capture_output=True, text=True, check=True, cwd=ROOT
     )
@@ -194,3 +194,116 @@ def test_commands_in_sentences_exist_with_their_options():
                 assert {w for w in words if w.startswith("--")} <= known, f"{page.name}: {text}"
                 count += 1
     assert count >= 15
+
+
+PAGES = [
+    *consoles.PAGES,
+    *(ROOT / name for name in ("ARCHITECTURE.md", "CHANGELOG.md", "benchmarks/README.md")),
+]
+PLACES = ("quizgen", "solvers", "templates", "tests", "tools", "benchmarks", "examples", "docs")
+CODE_SPAN = re.compile(r"`([^`\n]+)`")
+PYTHON_PATH = re.compile(r"[\w-]+(?:/[\w-]+)+\.py")
+DOTTED_NAME = re.compile(r"quizgen(?:\.\w+)+")
+INVENTED = {
+    "banks.md": (
+        "solvers/example/",
+        "templates/example/",
+        "templates/figures/block.py",
+        "templates/locale/",
+    ),
+    "commands.md": ("templates/locale/",),
+    "mistakes.md": (
+        "solvers/forces/",
+        "templates/forces/",
+        "templates/figures/",
+        "templates/cards/",
+    ),
+    "diagnostics.md": ("solvers/forces/", "templates/forces/", "templates/figures/"),
+    "extending.md": (
+        "quizgen/kinds/hex_colour.py",
+        "quizgen/camera/effects/veil.py",
+        "quizgen/render/plain.py",
+    ),
+}
+"""Files of the invented bank, kind, effect and output that a page builds."""
+FILES_NAMED_QUIZGEN = {"quizgen.tsv", "quizgen.csv", "quizgen.apkg"}
+
+
+def spans(page):
+    """Code spans of a page; those with a blank to fill in, such as ``NAME``, name no file."""
+    return [text for text in CODE_SPAN.findall(page.read_text("utf-8"))
+            if not re.search(r"[<>*]|\bTOPIC\b|\bNAME\b|\bSUBJECT\b", text)]  # fmt: skip
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_every_path_in_a_page_exists(page):
+    invented = INVENTED.get(page.name, ())
+    paths = [
+        text
+        for text in spans(page)
+        if PYTHON_PATH.fullmatch(text)
+        or (re.fullmatch(r"[\w./-]+", text) and text.startswith(tuple(f"{p}/" for p in PLACES)))
+    ]
+    missing = [path for path in paths if not (ROOT / path).exists()]
+    assert [path for path in missing if not path.startswith((*invented, "quizgen/en/"))] == []
+
+
+def is_importable(name):
+    module, _, attribute = name.rpartition(".")
+    try:
+        importlib.import_module(name)
+    except ModuleNotFoundError:
+        return hasattr(importlib.import_module(module), attribute)
+    return True
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_every_dotted_name_in_a_page_can_be_imported(page):
+    names = {match[0] for text in spans(page) if (match := DOTTED_NAME.match(text))}
+    assert [name for name in sorted(names - FILES_NAMED_QUIZGEN) if not is_importable(name)] == []
+
+
+ARCHAIC = re.compile(r"\bof which\b|\banew\b|\bwhoever\b|\bbesides\b", re.IGNORECASE)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_pages_are_in_plain_modern_english(page):
+    text = page.read_text("utf-8")
+    if page.name == "ARCHITECTURE.md":  # lists the words that are not used
+        text = text.partition("Words that name nothing here:")[0]
+    assert ARCHAIC.findall(text) == []
+
+
+def test_the_rooms_of_the_architecture_are_the_packages():
+    text = (ROOT / "ARCHITECTURE.md").read_text("utf-8")
+    rooms = set(re.findall(r"^\| \d+ \| `quizgen/(\w+)/`", text, re.MULTILINE))
+    assert rooms == {path.parent.name for path in (ROOT / "quizgen").glob("*/__init__.py")}
+
+
+def test_names_of_the_glossary_stand_in_the_code():
+    text = (ROOT / "ARCHITECTURE.md").read_text("utf-8")
+    glossary = text.partition("## Glossary")[2].partition("Verbs mean")[0]
+    names = set(re.findall(r"`([A-Z]\w+|\w+_\w+)`", glossary))
+    code = "\n".join(path.read_text("utf-8") for path in (ROOT / "quizgen").rglob("*.py"))
+    assert len(names) >= 35
+    missing = [
+        name
+        for name in sorted(names)
+        if not re.search(rf"^ *(?:class |def )?{name}\b", code, re.MULTILINE)
+    ]
+    assert missing == []
+
+
+IMPORT = re.compile(r"^(?:>>> )?from (quizgen[\w.]*) import (\w+(?:, \w+)*)$", re.MULTILINE)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_what_a_page_imports_exists(page):
+    invented = {"veil", "plain", "hex_colour"}
+    missing = [
+        f"{module}.{name}"
+        for module, names in IMPORT.findall(page.read_text("utf-8"))
+        for name in names.split(", ")
+        if name not in invented and not is_importable(f"{module}.{name}")
+    ]
+    assert missing == []

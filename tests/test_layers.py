@@ -23,20 +23,20 @@ LAYERS = {
     "camera": "core maths numerics",
     "grading": "core locale maths",
     "kinds": "core locale maths typeset grading",
-    "bank": "core locale maths kinds",
+    "bank": "core locale maths typeset kinds",
     "figures": "core locale maths camera kinds",
     "question": "core locale maths typeset grading kinds bank figures",
-    "paper": "columns core locale maths grading kinds bank question",
+    "paper": "columns core locale maths typeset grading kinds bank question",
     "practice": "core locale grading kinds bank question paper",
     "store": "core bank paper practice",
-    "render": "core locale typeset bank figures question paper",
+    "render": "core locale typeset figures question paper",
     "cards": "core executors locale typeset bank figures question paper render",
     "tradeoff": "core locale maths numerics bank figures render",
     "classes": "core executors locale maths grading kinds bank figures paper render",
     "lms": "columns core locale maths typeset grading kinds bank figures question paper practice render classes",
     "web": "core executors locale maths typeset camera grading kinds bank figures question paper "
     "practice store render cards tradeoff classes",
-    "lint": "core locale maths grading kinds bank figures question paper render",
+    "lint": "core locale maths typeset grading kinds bank figures question paper render",
     "cli": "columns core executors locale camera grading kinds bank figures question paper practice store "
     "render cards tradeoff classes lms web lint",
 }
@@ -181,8 +181,8 @@ def test_marking_a_class_loads_what_marking_one_loads():
 
 def test_a_server_is_ready_without_what_only_its_workers_need(tmp_path):
     code = (
-        "import quizgen.web.server\nfrom quizgen.web.app import application\n"
-        "from quizgen.web.settings import Settings\n"
-        f"application(Settings({f'sqlite:///{tmp_path}/x.sqlite3'!r}))"
+        "import quizgen.web.server\nfrom quizgen.web.app import create_app\n"
+        "from quizgen.web.settings import ServerSettings\n"
+        f"create_app(ServerSettings({f'sqlite:///{tmp_path}/x.sqlite3'!r}))"
     )
     assert not {"numpy", "sympy", "matplotlib", "alembic", "typst"} & loaded(code)

@@ -224,7 +224,7 @@ def test_a_folder_that_cannot_be_written_is_named_as_it_was_asked_for(tmp_path, 
     def refused(path, *_args, **_options):
         raise PermissionError(13, "Permission denied", f"{path}")
 
-    monkeypatch.setattr("quizgen.core.files._stage", refused)
+    monkeypatch.setattr("quizgen.core.files._write_staged_files", refused)
     for folder in (tmp_path / "paper", tmp_path):
         with pytest.raises(RenderError) as found:
             write_all(folder, {"exam.html": b"x"})

@@ -239,7 +239,7 @@ def sampler_for(template: Template) -> Sampler:
 
 
 @working_precision()
-def test_candidate(
+def solve_candidate(
     plan: Sampler, shown: Mapping[str, fmpq], *, lenient: bool = False
 ) -> tuple[dict[str, Value], tuple[tuple[str, ...], ...]] | str:
     """Solve a candidate; its values and traps per part, or the reason to reject it."""

@@ -17,7 +17,7 @@ from flint import fmpq
 
 from quizgen.bank.pools import build_identity
 from quizgen.bank.rules import Scalar
-from quizgen.bank.sampler import Sampler, sampler_for, test_candidate
+from quizgen.bank.sampler import Sampler, sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.core.errors import SamplingError
 from quizgen.core.positions import TEXT, Place
@@ -190,7 +190,7 @@ def _find_admissible_variant(plan: Sampler, seed: str, slot: str) -> Variant:
     for attempt in range(MAX_TRIES):
         with working_precision():
             shown, words = plan.propose(stem, attempt)
-            result = test_candidate(plan, shown)
+            result = solve_candidate(plan, shown)
         if not isinstance(result, str):
             values, traps = result
             return Variant(template, seed, slot, attempt + 1, shown, words, values, traps)
@@ -234,7 +234,7 @@ def _build_reference_variant(plan: Sampler, given: Mapping[str, Scalar]) -> Vari
             shown[variable.name] = to_rational(str(given[variable.name]))
         elif variable.formula is not None:
             variable.derive(shown, words)
-    result = test_candidate(plan, shown, lenient=True)
+    result = solve_candidate(plan, shown, lenient=True)
     if isinstance(result, str):
         what = f"reference instance: {result}"
         raise SamplingError(what, rule="QG140", place=("reference",))

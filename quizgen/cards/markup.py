@@ -292,7 +292,10 @@ def _(part: Details, lang: str, *, ask: bool | None = None) -> str:
 @to_card_html.register
 def _(part: InLanguage, lang: str, *, ask: bool | None = None) -> str:
     del lang
-    return f'<div lang="{escape(part.lang, quote=True)}">{to_card_html(part.body, part.lang, ask=ask)}</div>'
+    return (
+        f'<div lang="{escape(part.lang, quote=True)}'
+        f'">{to_card_html(part.body, part.lang, ask=ask)}</div>'
+    )
 
 
 @to_card_html.register

@@ -119,7 +119,10 @@ def _render_translated_term(lang: str) -> str:
 
 def _build_translation_template(lang: str, named: str, back: str) -> tuple[str, str, str]:
     """The card that asks for the English term; there is none if the field is empty."""
-    asked = f'<div class="qg-label"><span lang="{lang}">{load_card_words(lang)["in_english"]}</span></div>\n'
+    asked = (
+        f'<div class="qg-label"><span lang="{lang}'
+        f'">{load_card_words(lang)["in_english"]}</span></div>\n'
+    )
     front = _wrap_in_condition(field_name("Term", lang), _wrap_card(asked + named))
     return get_language(lang).english, front, _wrap_card(asked + named + _RULE + back + _FOOT)
 

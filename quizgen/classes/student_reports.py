@@ -293,9 +293,12 @@ def report_to_pdf(report: StudentReport) -> bytes:
     """
     words = report.words
     head = (
-        f"#show: report.with(title: {typst_literal(report.head)}, lang: {typst_literal(report.lang)}, "
-        f"who: {_typeset_text(report.who)}, code: {typst_literal(words['code'] + ': ' + report.code)}, "
-        f"grade: {typst_literal(words['grade'] + ': ' + report.grade)}, total: {typst_literal(report.total)}, "
+        f"#show: report.with(title: {typst_literal(report.head)}"
+        f", lang: {typst_literal(report.lang)}, "
+        f"who: {_typeset_text(report.who)}, code: "
+        f"{typst_literal(words['code'] + ': ' + report.code)}, "
+        f"grade: {typst_literal(words['grade'] + ': ' + report.grade)}"
+        f", total: {typst_literal(report.total)}, "
         f"provisional: {typst_literal(report.provisional)})"
     )
     heads = ", ".join(typst_literal(words[name]) for name in ("part", "yours", "right", "points"))
@@ -310,7 +313,8 @@ def _typeset_revision_list(report: StudentReport) -> str:
     if not report.revise:
         return f"#block({typst_literal(report.nothing)})" if report.nothing else ""
     rows = ", ".join(
-        f"({typst_literal(one.name)}, {typst_literal(one.told(words))}, {typst_literal(one.practise)})"
+        f"({typst_literal(one.name)}, {typst_literal(one.told(words))}"
+        f", {typst_literal(one.practise)})"
         for one in report.revise
     )
     sentences = (words["revise"], words["revise_about"], words["practise"])
@@ -319,7 +323,10 @@ def _typeset_revision_list(report: StudentReport) -> str:
 
 def _typeset_question(section: ReportQuestion, heads: str) -> str:
     rows = "".join(_typeset_row(row) for row in section.rows)
-    return f"#answered({typst_literal(section.name)}, {typst_literal(section.worth)}, ({heads}), ({rows}))"
+    return (
+        f"#answered({typst_literal(section.name)}, "
+        f"{typst_literal(section.worth)}, ({heads}), ({rows}))"
+    )
 
 
 def _typeset_row(row: ReportPart) -> str:

@@ -119,7 +119,8 @@ class Submissions:
             raise KeyFileError(f"code {safe_echo(code)} is of no paper of this class")
         if owner and student and _simplify_student_id(student) != _simplify_student_id(owner):
             raise KeyFileError(
-                f"has the code of {safe_echo(owner)}'s paper, but the number of {safe_echo(student)}"
+                f"has the code of {safe_echo(owner)}'s paper, "
+                f"but the number of {safe_echo(student)}"
             )
         return owner or self._resolve_student_id(student)
 

@@ -147,7 +147,8 @@ def _grade_form(key: AnswerKey, path: Path, lang: str | None, *, settle: bool) -
     form = read_filled_form(path)
     if form.code and key.code and form.code != key.code:
         raise KeyFileError(
-            f"{path}: code {safe_echo(form.code)} belongs to another paper; the key is for {key.code}"
+            f"{path}: code {safe_echo(form.code)} belongs "
+            f"to another paper; the key is for {key.code}"
         )
     if form.paper and key.paper and form.paper != key.paper:
         raise KeyFileError(

@@ -217,7 +217,8 @@ def _filled_in(form: Path, paper: str) -> bool:
     code = read_key_code(form.parent / KEY)
     if code not in {"", paper}:
         raise RenderError(
-            f"{form.parent / KEY} is the key of {escape_control_characters(code)}, whose answers may still come; "
+            f"{form.parent / KEY} is the key of "
+            f"{escape_control_characters(code)}, whose answers may still come; "
             "nothing was written. Name another folder with --out"
         )
     return has_answers(form)

@@ -5,11 +5,11 @@
     QuizgenError
     |-- BankError        a template, solver or bank folder is wrong (names file and place)
     |-- BlueprintError   a blueprint file is wrong (names file, key and what is allowed)
-    |-- DrawError        a template cannot produce an admissible draw
+    |-- SamplingError    a template cannot produce an admissible draw
     |-- MathError        a formula has no value for these numbers (pole, negative root, ...)
-    |   `-- Undecided    the value is too close to a branch point to certify
+    |   `-- UndecidedError  the value is too close to a branch point to certify
     |-- FormulaError     mathematics typed by an author or a student cannot be read
-    |-- CodeError        a paper's code cannot be rebuilt here
+    |-- PaperCodeError   a paper's code cannot be rebuilt here
     |-- RenderError      an output could not be made or written
     |-- StoreError       the database of the browser's server, or its port, cannot be opened
     |-- KeyFileError     a key or an answer file cannot be read
@@ -17,11 +17,12 @@
     |-- ClassError       a class's roster or folder is wrong, or would be spoiled
     |-- MissingExtraError  packages of an extra are not installed (says what to type)
     |-- AttemptFinishedError  a part in practice is answered again after it has ended
-    `-- ChoiceError      an argument is none of the values allowed (names them)
+    `-- InvalidChoiceError  an argument is none of the values allowed (names them)
 
-Two more stand beside their subject: ``SceneError`` in ``camera.scene``, and ``ReadError`` in
-``maths.notation.lexer``, the ``FormulaError`` that knows what was found and what was expected.
-``DomainError`` in ``arrays.domain`` is a plain ``ValueError``: array functions know nothing of
+Two more stand beside their subject: ``SceneError`` in ``camera.setup.scene``, and
+``FormulaReadError`` in ``maths.notation.lexer``, the ``FormulaError`` that knows what was found and
+what was expected.
+``DomainError`` in ``numerics.domain`` is a plain ``ValueError``: array functions know nothing of
 quizgen.
 
 What a student types never raises out of the checker: it becomes a verdict.
@@ -58,7 +59,7 @@ class QuizgenError(Exception):
     """Base of all errors that the command line shows as one line.
 
     Whoever raises one knows the place in the file's own terms, and a reader further out knows the
-    file: it adds it (``outside.located``). The line is looked up when the error is shown.
+    file: it adds it (``core.untrusted.error_context``). The line is looked up when the error is shown.
 
     Parameters
     ----------
@@ -126,7 +127,7 @@ class MathError(QuizgenError, ValueError):
     """A formula has no finite real value for these numbers."""
 
 
-class UndecidedError(MathError):  # noqa: N818 - a state of knowledge, not a failure
+class UndecidedError(MathError):
     """A comparison could not be certified at the working precision."""
 
 

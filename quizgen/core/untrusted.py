@@ -328,7 +328,10 @@ def parse_toml(
     _check_table_limits(table, where, error)
     for place, value, _ in _iter_table_values(table if "\\" in text else ()):
         if isinstance(value, str) and (odd := CONTROLS.search(value)):
-            what = f"{escape_control_characters(_dotted(place)) or 'a name'}: {_format_character_name(odd[0])} in a text"
+            what = (
+                f"{escape_control_characters(_dotted(place)) or 'a name'}"
+                f": {_format_character_name(odd[0])} in a text"
+            )
             raise _error_at(where, what, error, "QG102", place)
     return table
 

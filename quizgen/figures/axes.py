@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-import quizgen.figures.font_list
+import quizgen.figures.font_list  # noqa: F401 - before all that sets text
 
 # isort: split
 import matplotlib as mpl

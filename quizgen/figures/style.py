@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-import quizgen.figures.font_list
+import quizgen.figures.font_list  # noqa: F401 - before all that sets text
 
 # isort: split
 import matplotlib as mpl

@@ -82,7 +82,10 @@ def _check_step(
         return
     plain = not any(known[name] for name in names_in(step.expr))
     if found is not None and not plain and found != _parse_unit_dimension(units, step.unit):
-        yield f"{written} is in {_format_dimension(found)}, and the step says {step.unit or 'a plain number'!r}"
+        yield (
+            f"{written} is in {_format_dimension(found)}, and "
+            f"the step says {step.unit or 'a plain number'!r}"
+        )
 
 
 def _parse_unit_dimension(units: UnitRegistry, text: str) -> Dimension:

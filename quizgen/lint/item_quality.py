@@ -15,7 +15,7 @@ from itertools import product
 from typing import Any, Literal
 
 from quizgen.bank.pools import count_pool_variants
-from quizgen.bank.sampler import sampler_for, test_candidate
+from quizgen.bank.sampler import sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant
 from quizgen.lint.answer_entropy import CLOSED, AnswerTally
@@ -213,7 +213,7 @@ def count_pool(template: Template) -> int:
             for variable in plan.variables:
                 if variable.formula is not None:
                     variable.derive(shown, words)
-        kept = test_candidate(plan, shown)
+        kept = solve_candidate(plan, shown)
         if not isinstance(kept, str):
             total += count_pool_variants(Variant(template, "0", "0", 1, shown, words, *kept))
     return total

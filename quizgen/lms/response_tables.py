@@ -163,7 +163,8 @@ def _response_column(named: Sequence[tuple[str, str]], question: int) -> int:
     name, other = named[question + 1] if question + 1 < len(named) else ("", "")
     if other != number or _RIGHT_ANSWER.search(name):
         raise KeyFileError(
-            f"no responses behind the column '{safe_echo(title)} {safe_echo(number)}'; tick 'response' above "
+            f"no responses behind the column '{safe_echo(title)}"
+            f" {safe_echo(number)}'; tick 'response' above "
             "the report in Moodle"
         )
     return question + 1

@@ -368,4 +368,7 @@ def format_amount(value: Fraction | float, lang: str) -> str:
 
 def format_marks(points: Fraction, lang: str) -> str:
     """Marks with their word: ``1 point``, ``2.5 points``."""
-    return f"{format_amount(points, lang)} {translate(lang, 'paper.point' if points == 1 else 'paper.points')}"
+    return (
+        f"{format_amount(points, lang)} "
+        f"{translate(lang, 'paper.point' if points == 1 else 'paper.points')}"
+    )

@@ -158,7 +158,10 @@ def explain_infeasible(blueprint: Blueprint, places: Sequence[Sequence[Candidate
             wanted != none
             and not ConstraintSolver(alone, places, range(len(places))).is_reachable()
         ):
-            return f"{name} = {_format_toml_value(wanted)} cannot be met: {_describe_attainable_range(name, places)}"
+            return (
+                f"{name} = {_format_toml_value(wanted)} cannot be "
+                f"met: {_describe_attainable_range(name, places)}"
+            )
     kinds = {one.figure for place in places for one in place} - {""}
     if blueprint.figure_kinds > len(kinds):
         return f"figure_kinds = {blueprint.figure_kinds} cannot be met: there are {len(kinds)}"

@@ -1,4 +1,4 @@
-"""One part being asked: tries, hints in rungs, feedback, and how it went."""
+"""One part being asked: tries, hints one by one, feedback, and how it went."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class HintSource(Protocol):
 
     @property
     def lines(self) -> Sequence[Any]:
-        """Lines with ``rungs``, in order."""
+        """Lines with ``hints``, in order."""
 
 
 P = TypeVar("P")
@@ -127,7 +127,7 @@ class PartAttempt(Generic[P, S]):
 
     @property
     def _available_hints(self) -> list[Any]:
-        return [rung for line in self.solved.lines for rung in line.hints]
+        return [hint for line in self.solved.lines for hint in line.hints]
 
     def give_up(self) -> None:
         """End the task as not right."""

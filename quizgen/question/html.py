@@ -66,7 +66,10 @@ def _render_unbroken(group: tuple[markdown.Inline, ...], lang: str, way: HtmlDia
     if len(group) == 1:
         return _render_piece(group[0], lang, way)
     if way.ours:
-        return f'<span class="tied">{"".join([_render_piece(part, lang, way) for part in group])}</span>'
+        return (
+            f"<span "
+            f'class="tied">{"".join([_render_piece(part, lang, way) for part in group])}</span>'
+        )
     return "".join(
         [
             _render_piece(part, lang, way).replace(" ", NBSP)

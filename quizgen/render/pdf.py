@@ -65,7 +65,10 @@ class _Sheet:
 
     def _typeset_cover(self) -> str:
         main = self.main
-        head = f"#heading(level: 1)[{say_in_language(main, f'#{typst_literal(self._build_title(main))};')}]"
+        head = (
+            f"#heading(level: "
+            f"1)[{say_in_language(main, f'#{typst_literal(self._build_title(main))};')}]"
+        )
         others = [
             in_language(lang, f"#text(14pt, {typst_literal(self._build_title(lang))});")
             for lang in self.langs[1:]
@@ -156,7 +159,8 @@ class _Sheet:
     def _typeset_mark_table(self) -> str:
         """Table of questions and marks, with room for the marks given."""
         rows = [
-            f"([{item.number}], [{self._join_question_titles(item)}], [{format_amount(item.points, self.main)}])"
+            f"([{item.number}], [{self._join_question_titles(item)}"
+            f"], [{format_amount(item.points, self.main)}])"
             for item in self.paper.items
         ]
         main, many = self.langs[:1], self.langs
@@ -195,7 +199,10 @@ class _Sheet:
             body.append(self._typeset_remarks(item))
         text = "\n".join(body)
         worth = format_marks(item.points, self.main)
-        return f"#question({typst_literal(item.number)}, [{self._join_question_titles(item)}], {typst_literal(worth)})[{text}]"
+        return (
+            f"#question({typst_literal(item.number)}, "
+            f"[{self._join_question_titles(item)}], {typst_literal(worth)})[{text}]"
+        )
 
     def _typeset_drawing_field(
         self, name: str, drawn: list[AnswerField] | list[PartSolution]

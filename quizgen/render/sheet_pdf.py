@@ -50,7 +50,10 @@ def _build_typst_source(sheet: FormulaSheet) -> str:
     langs, main = sheet.langs, sheet.langs[0]
     titles = {lang: f"{sheet.titles[lang]} - {translate(lang, 'sheet.title')}" for lang in langs}
     head = join_languages(langs, [f"#{typst_literal(titles[lang])};" for lang in langs])
-    opening = f"#show: sheet.with(title: {typst_literal(titles[main])}, lang: {typst_literal(main)}, head: [{head}])"
+    opening = (
+        f"#show: sheet.with(title: {typst_literal(titles[main])}"
+        f", lang: {typst_literal(main)}, head: [{head}])"
+    )
     return "\n".join([opening, *(_typeset_group(group, langs) for group in sheet.groups)])
 
 
@@ -70,7 +73,8 @@ def _typeset_sheet_line(line: SheetFormula, langs: tuple[str, ...]) -> str:
     )
     notes = "\n".join(in_language(said.lang, _typeset_notes(said)) for said in line.said)
     return (
-        f"#formula({typst_literal(line.id)}, [{title}], {typst_literal(section)}, ({lines}), {_typeset_sketch(line)})"
+        f"#formula({typst_literal(line.id)}, [{title}], "
+        f"{typst_literal(section)}, ({lines}), {_typeset_sketch(line)})"
         f"[{notes}\n\n{units if line.units else ''}]"
     )
 
@@ -86,7 +90,8 @@ def _typeset_sketch(line: SheetFormula) -> str:
 def _typeset_notes(said: FormulaText) -> str:
     """What the letters mean, where the formula holds and where it ends, in one paragraph."""
     rest = [
-        f"#label({typst_literal(translate(said.lang, f'sheet.{name}') + ':')}); {_typeset_inline_passage(body, said.lang)}"
+        f"#label({typst_literal(translate(said.lang, f'sheet.{name}') + ':')}"
+        f"); {_typeset_inline_passage(body, said.lang)}"
         for name, body in said.notes.items()
         if name in PRINTED
     ]

@@ -232,7 +232,10 @@ def document_files(layout: str, body: str, package: str = "quizgen.render") -> d
 def _build_layout_source(name: str, package: str) -> bytes:
     before = '#import "common.typ": *'
     if name == "common.typ":
-        before = f"#let bangla = ({''.join(f'{typst_literal(lang)},' for lang in languages_in_script('Beng'))})"
+        before = (
+            f"#let bangla = "
+            f"({''.join(f'{typst_literal(lang)},' for lang in languages_in_script('Beng'))})"
+        )
     text = (fonts.package_folder(package) / "pages" / name).read_text(encoding="utf-8")
     return f"{before}\n{text}".encode()
 

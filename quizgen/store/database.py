@@ -168,7 +168,7 @@ class _Write(Future[Any]):
         try:
             with connection.begin_nested():
                 found = self.work(connection)
-        except Exception as error:
+        except Exception as error:  # noqa: BLE001 - raised again by who asked
             return partial(self.set_exception, error)
         return partial(self.set_result, found)
 

@@ -4,6 +4,8 @@ The distance to the difficulty is what a formula's subtraction leaves of 1: with
 sixteen digits are gone. Undistorting subtracts nothing that counts: there it is that to the fold.
 """
 
+# ruff: noqa: ARG005 - every column of a formula has its name
+
 from __future__ import annotations
 
 import math

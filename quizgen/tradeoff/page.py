@@ -197,7 +197,10 @@ def describe_questions(report: TradeoffReport, lang: str) -> dict[str, Any]:
 def _format_cost_ratio(cost: Cost) -> str:
     if cost.high == cost.low:
         return "1"
-    return f"{_format_two_figures(cost.times)} ({_format_two_figures(cost.low)} – {_format_two_figures(cost.high)})"
+    return (
+        f"{_format_two_figures(cost.times)} ({_format_two_figures(cost.low)}"
+        f" – {_format_two_figures(cost.high)})"
+    )
 
 
 def _format_wrong_keys(report: TradeoffReport, name: str) -> str:
@@ -241,7 +244,8 @@ def _build_rival_rows(match: Match, lang: str) -> list[tuple[str, ...]]:
             "",
             localise_numbers(
                 lang,
-                f"{_format_two_figures(1e9 * one.time.least)} ({_format_two_figures(1e9 * one.time.median)})",
+                f"{_format_two_figures(1e9 * one.time.least)} "
+                f"({_format_two_figures(1e9 * one.time.median)})",
             ),
             localise_numbers(lang, _format_two_figures(one.time.least / first)),
             _format_digit_count(one.exam),

@@ -3,20 +3,20 @@ r"""Printing formulas: one layout tree, four outputs (LaTeX, MathML, Typst, spok
 In: formula trees, numbers and units as text. Out: layout nodes and what they look like in a medium.
 Must never know: what a formula is worth, a template, a page.
 
-``layout(expr)`` turns a formula tree into layout nodes; ``leaves`` puts drawn numbers in the place
-of symbols; ``relation`` chains the sides of a worked line; ``latex``, ``mathml``, ``typst`` and
-``spoken`` write the nodes.
+``lay_out(expr)`` turns a formula tree into layout nodes; ``leaves`` puts drawn numbers in the place
+of symbols; ``relation_chain`` joins the sides of a worked line; ``to_latex``, ``to_mathml``,
+``to_typst`` and ``to_speech`` write the nodes.
 
 Examples
 --------
 >>> from quizgen.maths.tree import Call, Sym
->>> from quizgen.typeset import latex, layout, name, quantity, relation, spoken
+>>> from quizgen.typeset import lay_out, lay_out_name, quantity, relation_chain, to_latex
 >>> f, X, Z = Sym("f"), Sym("X"), Sym("Z")
 >>> expr = Call("div", (Call("mul", (f, X)), Z))
 >>> numbers = {"f": quantity("50", "mm"), "X": quantity("30", "m"), "Z": quantity("600", "m")}
->>> sides = [name("u"), layout(expr), layout(expr, leaves=numbers), quantity("2.5", "mm")]
->>> line = relation(["=", "=", "="], sides)
->>> print(latex(line))  # doctest: +NORMALIZE_WHITESPACE
+>>> sides = [lay_out_name("u"), lay_out(expr), lay_out(expr, leaves=numbers), quantity("2.5", "mm")]
+>>> line = relation_chain(["=", "=", "="], sides)
+>>> print(to_latex(line))  # doctest: +NORMALIZE_WHITESPACE
 u = \frac{f X}{Z} = \frac{50\,\mathrm{mm} \cdot 30\,\mathrm{m} }{600\,\mathrm{m} }
 = 2.5\,\mathrm{mm}
 """

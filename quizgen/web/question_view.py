@@ -82,7 +82,7 @@ class StepView(msgspec.Struct, frozen=True):
     maths: Html
     why: Html
     formula: str
-    rungs: list[HintView] = []
+    hints: list[HintView] = []
 
 
 class PartView(msgspec.Struct, frozen=True):

@@ -129,8 +129,8 @@ def test_temporaries_keep_their_memory():
     """Pages of 4 KiB taken from the system for 40 times four arrays of 512 KiB: up to 20480."""
     code = (
         "import resource, numpy as np\n"
-        "from quizgen.numerics.ufunc import settle_the_allocator\n"
-        "settle_the_allocator(30 << 20)\n"
+        "from quizgen.numerics.ufunc import warm_allocator\n"
+        "warm_allocator(30 << 20)\n"
         "def taken():\n"
         "    return resource.getrusage(resource.RUSAGE_SELF).ru_minflt\n"
         "before = taken()\n"

@@ -45,7 +45,7 @@ def note_of(collection, key):
 def test_every_note_and_card_arrives(deck, packed, collection, tmp_path):
     log = bring_in(collection, packed, tmp_path)
     assert log.found_notes == len(log.new) == len(deck.notes)
-    assert collection.card_count() == deck.cards
+    assert collection.card_count() == deck.card_count
     assert not [*log.updated, *log.duplicate, *log.conflicting, *log.missing_notetype]
 
 
@@ -85,7 +85,7 @@ def test_decks_and_tags(deck, packed, collection, tmp_path):
     names = {entry.name for entry in collection.decks.all_names_and_ids(skip_empty_default=True)}
     assert "Quizgen" in names
     assert "Quizgen::Colour" in names
-    assert len(collection.find_cards("deck:Quizgen::*")) == deck.cards
+    assert len(collection.find_cards("deck:Quizgen::*")) == deck.card_count
     assert len(collection.find_notes("tag:quizgen::kind::vocab")) == 41
     assert len(collection.find_notes("tag:quizgen::lang::bn")) == len(deck.notes)
     assert collection.find_notes("tag:quizgen::tier::A tag:quizgen::section::2.4")
@@ -97,7 +97,7 @@ def test_importing_again_adds_and_changes_nothing(deck, packed, collection, tmp_
     assert not log.new
     assert not log.updated
     assert len(log.duplicate) == len(deck.notes)
-    assert collection.card_count() == deck.cards
+    assert collection.card_count() == deck.card_count
 
 
 def studied(collection, key):
@@ -131,7 +131,7 @@ def test_a_corrected_text_updates_the_note_and_keeps_its_schedule(
     assert [entry.id.nid for entry in log.updated] == [note_of(collection, "vocab/pixel").id]
     assert "A corrected meaning." in note_of(collection, "vocab/pixel")["Meaning"]
     assert schedule(collection, number) == before
-    assert collection.card_count() == deck.cards
+    assert collection.card_count() == deck.card_count
 
 
 def test_a_changed_text_without_a_new_version_would_not_arrive(deck, packed, collection, tmp_path):
@@ -172,7 +172,7 @@ def test_a_second_language_joins_the_same_notes(lang, deck, packed, collection, 
     together = note_of(collection, "vocab/pixel")
     assert together["Meaning"]
     assert together["Meaning bn"]
-    assert collection.card_count() == deck.cards
+    assert collection.card_count() == deck.card_count
     report = collection.media.check()
     assert not report.missing
     # A picture with words in it is another file in each language: the first one's stays behind.
@@ -191,7 +191,7 @@ def test_a_new_look_arrives_with_a_re_import(deck, packed, collection, tmp_path,
     bring_in(collection, write_apkg(deck), tmp_path)
     assert collection.models.by_name("Quizgen term")["css"] == better["css"]
     assert "qg-term" in collection.models.by_name("Quizgen")["css"]
-    assert collection.card_count() == deck.cards
+    assert collection.card_count() == deck.card_count
 
 
 def test_a_learners_own_change_is_kept(packed, deck, collection, tmp_path):

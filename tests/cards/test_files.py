@@ -30,11 +30,11 @@ from quizgen.cli.main import root_group
 ROOT = Path(__file__).parent.parent.parent
 SCRIPT = """
 import hashlib
-from quizgen.cards import build
-from quizgen.cards.apkg import package
-from quizgen.cards.delimited import as_csv, tsv
-deck = build("both", seed=1, kinds=("vocab", "formula", "figure", "trap"))
-for data in (package(deck), tsv(deck), as_csv(deck)):
+from quizgen.cards import build_deck
+from quizgen.cards.apkg import write_apkg
+from quizgen.cards.delimited import write_csv, write_tsv
+deck = build_deck("both", seed=1, kinds=("vocab", "formula", "figure", "trap"))
+for data in (write_apkg(deck), write_tsv(deck), write_csv(deck)):
     print(hashlib.sha256(data).hexdigest())
 """
 VOID = {"img", "br", "hr"}

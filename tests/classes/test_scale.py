@@ -42,7 +42,7 @@ def test_a_lower_pass_mark_moves_all_steps(tmp_path):
 def test_points_are_rounded_before_they_are_graded(tmp_path, rounding, grade):
     scale = written(tmp_path, f'round_to = 1\nrounding = "{rounding}"\n')
     assert scale.grade(Fraction("49.25"), Fraction(100)) == grade
-    assert scale.rounded(Fraction("49.5")) == {"up": 50, "nearest": 50, "down": 49}[rounding]
+    assert scale.round_points(Fraction("49.5")) == {"up": 50, "nearest": 50, "down": 49}[rounding]
 
 
 def test_another_scale(tmp_path):

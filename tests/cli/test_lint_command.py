@@ -187,11 +187,11 @@ def test_any_number_of_processes_finds_the_same(tmp_path, what):
 @pytest.mark.parametrize(
     ("broken", "output"),
     [
-        ("quizgen.render.text.question_text", "preview --level exam"),
-        ("quizgen.render.html.render", "exam html"),
-        ("quizgen.render.pdf.render", "exam pdf"),
-        ("quizgen.cards.kinds.question.of_template", "cards"),
-        ("quizgen.web.question_view.make", "practice"),
+        ("quizgen.render.text.format_question", "preview --level exam"),
+        ("quizgen.render.html.render_paper_html", "exam html"),
+        ("quizgen.render.pdf.render_paper_pdf", "exam pdf"),
+        ("quizgen.cards.kinds.question.template_notes", "cards"),
+        ("quizgen.web.question_view.run_request", "practice"),
         ("quizgen.lms.moodle.write_moodle", "export moodle"),
         ("quizgen.lms.canvas.write_canvas", "export canvas"),
     ],
@@ -215,7 +215,7 @@ def test_a_sheet_that_fails_is_told_of_its_file(tmp_path, monkeypatch):
     entry = cards.read_text("utf-8").split("[[entry]]")[1]
     (tmp_path / "templates" / "cards" / "formulas.toml").write_text(f"[[entry]]{entry}", "utf-8")
     shutil.copy(builtin_bank().folder / "bank.toml", tmp_path / "templates")
-    monkeypatch.setattr("quizgen.render.sheet_pdf.render", fail)
+    monkeypatch.setattr("quizgen.render.sheet_pdf.render_sheet_pdf", fail)
     (said,) = check_sheet(Bank(tmp_path, trusted=True))
     assert (said.code, said.file.name) == ("QG601", "formulas.toml")
     assert said.message == "sheet pdf: the sheet has no end"

@@ -191,7 +191,7 @@ def test_what_is_practised_here_shows_in_the_browser(browser_side):
     assert run(lines, "--seed", "s", "--count", "1").exit_code == 0
     card = browser_side.agenda().card(key.template)
     assert card.stability == 2.3065, "FSRS: right at once"
-    assert browser_side.store.times(browser_side.learner.id) == {key.template: 1}
+    assert browser_side.store.count_asked(browser_side.learner.id) == {key.template: 1}
     (attempt,) = browser_side.store.latest(browser_side.learner.id)
     assert attempt.ended is not None
     question, _ = compose_question(
@@ -199,7 +199,7 @@ def test_what_is_practised_here_shows_in_the_browser(browser_side):
     )
     names = {part.field.id for part in question.parts}
     assert set(attempt.state["parts"]) == names, "as the pages of the browser call them"
-    seen = browser_side.store.seen(browser_side.learner.id)
+    seen = browser_side.store.list_outcomes(browser_side.learner.id)
     assert [(one.topic, one.right, one.first) for one in seen] == [
         ("projection", True, True)
     ] * len(names)
@@ -210,7 +210,7 @@ def test_what_is_practised_here_shows_in_the_browser(browser_side):
 def test_a_skipped_part_says_nothing(browser_side):
     done = run(["skip"] * 9, "--seed", several(), "--count", "1")
     assert "Practise next: Projection" in done.output
-    assert browser_side.store.seen(browser_side.learner.id) == []
+    assert browser_side.store.list_outcomes(browser_side.learner.id) == []
     assert browser_side.agenda().cards == {}
     browser_side.store.archives.import_archive(
         browser_side.learner.id,
@@ -226,8 +226,8 @@ def test_what_went_wrong_in_the_browser_is_asked_here_first(browser_side):
     title = compose_question(builtin_bank().template(POINT), figures=False)[0].title
     assert f"Question 1 of 1: {title}" in done.output
     seen = OutcomeRecord("rgb-to-hsv", "colour", "a", "", right=False, first=False, at=time.time())
-    attempt = browser_side.store.begin(browser_side.learner.id, QuestionRef("rgb-to-hsv", "1"), {})
-    browser_side.store.keep(attempt, (seen,))
+    attempt = browser_side.store.start_attempt(browser_side.learner.id, QuestionRef("rgb-to-hsv", "1"), {})
+    browser_side.store.save_attempt(attempt, (seen,))
     done = run(["!"] * 9, "--count", "1", "--seed", "s")
     assert "So far, here and in the browser" in done.output
     assert "Colour: 0 of 1 parts right at once" in done.output

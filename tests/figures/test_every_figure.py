@@ -21,6 +21,7 @@ from figure_cases import FIGURES, HIDDEN, REFERENCE, draw, draws, module
 from svg_reader import SVG, read_labels
 
 from quizgen import figures
+from quizgen.figures import engine
 from quizgen.bank.bank import builtin_bank
 from quizgen.core.errors import BankError
 from quizgen.figures import describe_figure
@@ -104,8 +105,8 @@ FEW = ("thin_lens", "gaussian", "hsv_edits", "luminosity")
 @pytest.fixture
 def nothing_kept(monkeypatch):
     """All is drawn: neither found in the cache, nor put there."""
-    monkeypatch.setattr(figures.engine.kept, "read_cached", lambda *_: None)
-    monkeypatch.setattr(figures.engine.kept, "write_cached", lambda *_: None)
+    monkeypatch.setattr(engine, "read_cached", lambda *_: None)
+    monkeypatch.setattr(engine, "write_cached", lambda *_: None)
 
 
 def test_sixteen_threads_draw_what_one_does(nothing_kept, monkeypatch):
@@ -405,23 +406,23 @@ def loaded(code):
 
 
 QUESTION = """
-from quizgen import builtin
-from quizgen.question.compose import instance
-from quizgen.question.figure import described, pictured
-bank = builtin()
-name = next(n for n in bank.paths if bank.rules(n).figure and bank.rules(n).figure.name == "noise")
-drawn = instance(bank.template(name), 1)
-described(drawn, "en", quiz=True)
+from quizgen import builtin_bank
+from quizgen.question.compose import draw_instance
+from quizgen.question.figure import describe_question_figure, draw_question_figure
+bank = builtin_bank()
+name = next(n for n in bank.template_paths if bank.rules(n).figure and bank.rules(n).figure.name == "noise")
+drawn = draw_instance(bank.template(name), 1)
+describe_question_figure(drawn, "en", quiz=True)
 """
 
 
 def test_the_first_figure_of_a_question_loads_matplotlib_and_its_words_do_not():
     assert not {"matplotlib", "PIL"} & loaded(QUESTION)
-    drawing = loaded(f'{QUESTION}\npictured(drawn, "en", quiz=True)')
+    drawing = loaded(f'{QUESTION}\ndraw_question_figure(drawn, "en", quiz=True)')
     assert {"matplotlib", "quizgen.figures.engine"} <= drawing
     assert not {"matplotlib.pyplot", "PIL.ImageShow", "tkinter"} & drawing
 
 
 def test_nothing_heavy_is_imported_before_the_first_figure():
-    code = "from quizgen import builtin\nlist(builtin())"
+    code = "from quizgen import builtin_bank\nlist(builtin_bank())"
     assert not {"matplotlib", "numpy", "PIL"} & loaded(code)

@@ -94,7 +94,7 @@ NOWHERE = {"kind": "expression", "value": "sqrt(-1-x)", "symbols": {"x": "positi
 def test_undecided_is_asked_back_unless_settling_is_allowed(monkeypatch):
     """A key without a value anywhere on its domain cannot be sampled."""
     patient = partial(decide_by_sympy, seconds=60)
-    monkeypatch.setattr("quizgen.kinds.expression.settle_equal", patient)
+    monkeypatch.setattr("quizgen.kinds.expression.decide_by_sympy", patient)
     assert grade_answer(NOWHERE, "sqrt(-x-1) + 0").note == "undecided"
     settled = grade_answer(NOWHERE, "sqrt(-x-1) + 0", settle=True)
     assert (settled.verdict, settled.fields["ground"]) == ("correct", "settled")

@@ -66,7 +66,7 @@ def test_no_known_mistake_is_marked_right(tmp_path, rounding):
         drawn = draw_variant(mine, seed)
         spec = ask_part(drawn, 0).spec
         for trap in mine.chain.traps:
-            wrong = to_float(mine.chain.trapped(trap, drawn.values)["p'_x"])
+            wrong = to_float(mine.chain.solve_with_misconception(trap, drawn.values)["p'_x"])
             assert grade_answer(spec, f"{wrong:.9f}").credit == 0, (seed, trap)
 
 
@@ -76,7 +76,7 @@ def test_no_known_mistake_lies_in_the_interval_accepted_besides(tmp_path):
     for seed in range(200):
         drawn = draw_variant(mine, seed)
         key = to_float(drawn.values["p'_x"])
-        swapped = to_float(mine.chain.trapped("swapped", drawn.values)["p'_x"])
+        swapped = to_float(mine.chain.solve_with_misconception("swapped", drawn.values)["p'_x"])
         assert not 1 <= swapped / key <= 2.5 or key < 0
 
 
@@ -86,7 +86,7 @@ def test_an_angle_without_rounding_keeps_half_a_degree_apart(tmp_path):
         drawn = draw_variant(mine, seed)
         spec = ask_part(drawn, 0).spec
         for trap in mine.chain.traps:
-            wrong = to_float(mine.chain.trapped(trap, drawn.values)["p'_x"])
+            wrong = to_float(mine.chain.solve_with_misconception(trap, drawn.values)["p'_x"])
             assert grade_answer(spec, f"{wrong:.9f}").credit == 0, (seed, trap)
 
 
@@ -99,7 +99,7 @@ def test_a_cell_with_a_tolerance_of_its_own_keeps_to_it(tmp_path):
         drawn = draw_variant(mine, seed)
         key = to_float(drawn.values["p'_x"])
         for trap in mine.chain.traps:
-            wrong = to_float(mine.chain.trapped(trap, drawn.values)["p'_x"])
+            wrong = to_float(mine.chain.solve_with_misconception(trap, drawn.values)["p'_x"])
             assert abs(wrong - key) > 0.05, (seed, trap)
 
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from random import Random
 
 import pytest
-from tests.marking.hands import along, drawings, moved, text, turned, waved
+from tests.grading.hands import along, drawings, moved, text, turned, waved
 
 from quizgen.core.errors import KeyFileError
 from quizgen.kinds.grade import grade_answer, load_spec, show_key

@@ -119,9 +119,9 @@ def test_a_learner_who_begins_thirty_exams_does_not_hold_up_the_next(monkeypatch
     async def story():
         monkeypatch.setattr(WorkerPool, "_submit", lambda _, wanted: threads.submit(make, wanted))
         found = WorkerPool(ServerSettings("sqlite://", host="0.0.0.0", workers=workers))
-        greedy = [asyncio.create_task(found.done(Number(n), "greedy")) for n in range(30)]
+        greedy = [asyncio.create_task(found.get_result(Number(n), "greedy")) for n in range(30)]
         await asyncio.sleep(0)
-        modest = asyncio.create_task(found.done(Number(99), "modest"))
+        modest = asyncio.create_task(found.get_result(Number(99), "modest"))
         await asyncio.sleep(0.05)
         may_end.set()
         await asyncio.gather(*greedy, modest)

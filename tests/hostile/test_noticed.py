@@ -81,11 +81,11 @@ def test_what_fails_is_found_in_the_log_by_the_id_on_the_page(
     def fail(*_: object) -> None:
         raise raised
 
-    monkeypatch.setattr(app.state.site.store, "begin", fail)
+    monkeypatch.setattr(app.state.site.store, "start_attempt", fail)
     sent = {"token": csrf_token(client.cookies[COOKIE]), "template": "point-to-image-plane"}
     answer = client.post("/practice", data=sent)
     found = read(log)
-    expected = {"level": "ERROR", "event": "failed", "page": "begin", **told}
+    expected = {"level": "ERROR", "event": "failed", "page": "start_question", **told}
     assert found.items() >= expected.items()
     assert answer.status_code == int(found["status"])
     assert f"number: {found['id']}" in answer.text

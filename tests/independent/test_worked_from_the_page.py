@@ -178,7 +178,7 @@ def _other(value: str) -> str:
 
 def test_every_template_is_worked_out_or_listed_with_its_reason(bank):
     """Add a function to ``hand_*.py``, or the name to ``not_computed.toml``."""
-    for name in bank.paths:
+    for name in bank.template_paths:
         assert (name in SOLVERS) + LISTED.count(name) == 1, name
         kinds = {part.answer["kind"] for part in bank.rules(name).part}
         assert name in SOLVERS or not kinds & OWED, name

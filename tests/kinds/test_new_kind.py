@@ -44,17 +44,17 @@ import json, sys
 from pathlib import Path
 from click.testing import CliRunner
 from quizgen.bank.bank import Bank
-from quizgen.cli.main import group
+from quizgen.cli.main import root_group
 from quizgen.kinds.grade import grade_answer
-from quizgen.locale import word
-from quizgen.practice.part_attempt import Task
-from quizgen.web.question_view import Wanted, make
+from quizgen.locale import translate
+from quizgen.practice.part_attempt import PartAttempt
+from quizgen.web.question_view import QuestionRequest, run_request
 
 bank, out = sys.argv[1:]
 said = {}
 
 def run(name, *arguments):
-    result = CliRunner().invoke(group, [*arguments, "--bank", bank], catch_exceptions=False)
+    result = CliRunner().invoke(root_group, [*arguments, "--bank", bank], catch_exceptions=False)
     assert result.exit_code == 0, result.output
     said[name] = result.output
 
@@ -64,16 +64,16 @@ run("exam", "exam", "--topic", "colour", "--seed", "1", "--out", f"{out}/exam")
 run("cards", "cards", "--out", f"{out}/cards", "--format", "tsv")
 for name in ("moodle", "qti3", "canvas"):
     run(name, "export", name, "--topic", "colour", "--variants", "1", "--out", f"{out}/{name}")
-made = json.loads(make(Bank(Path(bank)), Wanted("hex", "1", "en")))
+made = json.loads(run_request(Bank(Path(bank)), QuestionRequest("hex", "1", "en")))
 said["web"] = json.dumps(made["parts"][0])
 (form,) = Path(out, "exam").glob("answers*.toml")
 for typed in ("#FF8000", "ff8001", "orange"):
     filled = Path(out, f"{typed.strip('#')}.toml")
     filled.write_text(form.read_text("utf-8").replace('"1" = ""', f'"1" = "{typed}"'))
-    result = CliRunner().invoke(group, ["check", f"{out}/exam/key.json", str(filled), "--json"])
+    result = CliRunner().invoke(root_group, ["check", f"{out}/exam/key.json", str(filled), "--json"])
     said[typed] = result.stdout
-said["schema"] = CliRunner().invoke(group, ["schema", "template"]).output
-said["bangla"] = word("bn", "ask.hex_colour")
+said["schema"] = CliRunner().invoke(root_group, ["schema", "template"]).output
+said["bangla"] = translate("bn", "ask.hex_colour")
 print(json.dumps(said))
 """
 

@@ -16,7 +16,7 @@ from quizgen.question.compose import compose_question
 def some(bank, count: slice) -> list[str]:
     """A few templates of every kind."""
     by_kind = defaultdict(list)
-    for name in bank.paths:
+    for name in bank.template_paths:
         for part in bank.rules(name).part:
             by_kind[part.answer["kind"]].append(name)
     return list(dict.fromkeys(name for names in by_kind.values() for name in names[count]))
@@ -47,7 +47,7 @@ def awkward(bank, tmp_path_factory) -> list[ExportItem]:
     root, texts, words = tmp_path_factory.mktemp("awkward"), cycle(AWKWARD), cycle(WORDS)
     for name in ("rods-cones-and-peaks", "imread-missing-file", "mixing-kind-and-primaries"):
         folder = root / "templates" / bank.rules(name).topic / name
-        shutil.copytree(bank.paths[name], folder)
+        shutil.copytree(bank.template_paths[name], folder)
         for file in folder.glob("*.md"):
             section, lines = "", []
             for line in file.read_text("utf-8").splitlines():
@@ -66,7 +66,7 @@ def awkward(bank, tmp_path_factory) -> list[ExportItem]:
 @pytest.fixture(scope="session")
 def everything(bank) -> list[ExportItem]:
     """The whole bank, five times in two languages."""
-    return list(items_from_templates(bank, list(bank.paths), 0, 5, ["en", "bn"]))
+    return list(items_from_templates(bank, list(bank.template_paths), 0, 5, ["en", "bn"]))
 
 
 @pytest.fixture(scope="session")

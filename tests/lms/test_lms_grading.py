@@ -22,7 +22,7 @@ QUESTION = {"number": "1", "template": "t", "parts": [{"id": "1", "points": "2",
 
 @pytest.mark.parametrize(("settle", "marks", "note"), [(False, 0, "undecided"), (True, 2, "")])
 def test_an_undecided_formula_is_settled_if_that_is_allowed(monkeypatch, settle, marks, note):
-    monkeypatch.setattr("quizgen.kinds.expression.settle_equal", lambda *_: True)
+    monkeypatch.setattr("quizgen.kinds.expression.decide_by_sympy", lambda *_: True)
     question = msgspec.Raw(msgspec.json.encode(QUESTION))
     entries = [ManifestQuestion("abcd-2345", "q", [ResponseField("written", "1")])]
     keys = ExportManifest(

@@ -92,7 +92,7 @@ def test_right_responses_come_back_right(items):
 @pytest.mark.slow
 @pytest.mark.parametrize("lang", ["en", "bn"])
 def test_those_of_all_templates(bank, lang):
-    assert missed(list(items_from_templates(bank, list(bank.paths), 7, 1, [lang]))) == {}
+    assert missed(list(items_from_templates(bank, list(bank.template_paths), 7, 1, [lang]))) == {}
 
 
 RESULT = """<?xml version="1.0" encoding="UTF-8"?>

@@ -57,7 +57,7 @@ def responses(keys, path) -> list:
 
 
 def word(part) -> str:
-    return "blank" if part.blank else part.verdict.note or part.verdict.verdict
+    return "blank" if part.is_blank else part.verdict.note or part.verdict.verdict
 
 
 def test_who_it_was(found):

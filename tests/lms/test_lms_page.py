@@ -20,7 +20,7 @@ def plain(bank) -> list[ExportItem]:
         ExportItem(
             f"{name}.1.en", name, *compose_question(bank.template(name), 1, "en", figures=False)
         )
-        for name in bank.paths
+        for name in bank.template_paths
     ]
 
 

@@ -155,7 +155,7 @@ def test_the_tradeoff_page_has_the_language(known):
     from quizgen.tradeoff.page import whole_page
     from quizgen.tradeoff.report import measure_tradeoff
 
-    few = SimpleNamespace(paths=["photon-energy-and-band", "dynamic-range-of-sensor"],
+    few = SimpleNamespace(template_paths=["photon-energy-and-band", "dynamic-range-of-sensor"],
                           template=builtin_bank().template)  # fmt: skip
     page = whole_page(measure_tradeoff(few), "quizgen tradeoff")
     assert accented("What accuracy costs") in page

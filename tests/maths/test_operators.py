@@ -161,8 +161,8 @@ def test_conditions_give_true_or_false():
 
 @pytest.mark.parametrize(("use", "without"), [
     ("import quizgen.maths.operators", {"flint", "numpy", "sympy", "mpmath"}),
-    ("from quizgen.maths.number_systems import floats; floats()", {"numpy", "sympy", "mpmath"}),
-    ("from quizgen.maths.number_systems import exact; exact()", {"numpy", "sympy", "mpmath"}),
+    ("from quizgen.maths.number_systems import float64_system; float64_system()", {"numpy", "sympy", "mpmath"}),
+    ("from quizgen.maths.number_systems import exact_system; exact_system()", {"numpy", "sympy", "mpmath"}),
 ])  # fmt: skip
 def test_a_number_system_loads_only_its_own_library(use, without):
     run = subprocess.run(

@@ -202,7 +202,7 @@ def test_the_policy_is_what_happens(typed, said):
         evaluate(parse_formula(typed), {})
     if kind != "unreadable":
         assert str(caught.value) == reason
-        assert (type(caught.value).__name__ == "Undecided") == (kind == "undecided")
+        assert (type(caught.value).__name__ == "UndecidedError") == (kind == "undecided")
 
 
 def test_the_policy_names_every_reason():

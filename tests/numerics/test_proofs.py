@@ -135,9 +135,9 @@ def test_a_wrong_fraction_is_seen(monkeypatch):
 def test_no_root_takes_more_rounds_than_recorded(monkeypatch):
     most = prove.PIECES["inverse_radius, k2 (log2 of slope)"].rounds
     asked = []
-    plain = prove.quintic.Quintic.value_and_slope
+    plain = prove.quintic.QuinticSolver.value_and_slope
     monkeypatch.setattr(
-        prove.quintic.Quintic, "value_and_slope",
+        prove.quintic.QuinticSolver, "value_and_slope",
         lambda self, x: (asked.append(1), plain(self, x))[1],
     )  # fmt: skip
     source = random.Random(8)

@@ -30,14 +30,14 @@ from quizgen.render import KINDS, RENDERERS, render_paper
 ROOT = Path(__file__).parents[2]
 SMALL = """
 import hashlib
-from quizgen.bank.bank import builtin
+from quizgen.bank.bank import builtin_bank
 from quizgen.paper.blueprint import load_blueprint
-from quizgen.paper.answer_key import key_bytes
-from quizgen.paper.paper import build
+from quizgen.paper.answer_key import write_answer_key
+from quizgen.paper.paper import build_paper
 from quizgen.render import render_paper, KINDS, RENDERERS
-paper = build(builtin(), load_blueprint("trial"), 5, "both")
+paper = build_paper(builtin_bank(), load_blueprint("trial"), 5, "both")
 print(paper.code)
-print(hashlib.sha256(key_bytes(paper)).hexdigest())
+print(hashlib.sha256(write_answer_key(paper)).hexdigest())
 for output in RENDERERS:
     for kind in KINDS:
         print(output, kind, hashlib.sha256(render_paper(paper, kind, output)).hexdigest())
@@ -206,7 +206,7 @@ def test_shipped_blueprints_load(name):
     ("text", "message"),
     [
         ("title = {en = 'x'}\n[[slots]]\ncount = 1", "allowed: aids, colour, figure_kinds"),
-        ("topic = 'optics'\ntitle = {en = 'x'}\n[[slot]]\ntier = 'A'", "unknown field `topic`"),
+        ("topic = 'optics'\ntitle = {en = 'x'}\n[[slot]]\ntier = 'A'", "unknown key 'topic'"),
         (
             "title = {en = 'x'}\n[[slot]]\nkount = 1",
             "allowed: count, level, points, templates, tier, topic",

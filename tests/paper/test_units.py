@@ -151,7 +151,7 @@ NAMED_BN = {"B": "বাইট", "dB": "ডেসিবেল", "px": "পিক
 def _asks(question, label: str, lang: str) -> str:
     """The question's own sentence, without its numbers and their units."""
     (part,) = [p for p in question.parts if p.label == label]
-    text = str(part.html(lang)) if label else question._repr_html_()
+    text = str(part.to_html(lang)) if label else question._repr_html_()
     text = re.sub(r"<p><small>.*?</small></p>", "", text)
     bold = re.findall(r"<strong>(.*?)</strong>", text, re.DOTALL)
     return re.sub(r"<[^>]+>", " ", bold[-1] if bold else text)
@@ -201,6 +201,6 @@ def test_every_printed_number_with_its_unit_without_and_in_words(name, lang):
         *with_unit, bare = _answers(solved.answer)
         for typed in with_unit:
             assert marker.grade_part(part, typed).verdict.verdict == "correct", (part.id, typed)
-        lost = part.worth() - marker.grade_part(part, bare).marks
+        lost = part.points_exact() - marker.grade_part(part, bare).marks
         most = Fraction(1, 2) if isinstance(spec, quantity.QuantitySpec) and not spec.bare else 0
         assert lost <= most, (part.id, bare)

@@ -130,7 +130,7 @@ def test_every_mock_is_balanced(bank):
         assert max(Counter(one.topic for one in rules).values()) <= 3
         assert len(shown) >= 6
         assert len(set(shown)) >= 4
-        assert len([name for name in shown if name in bank.about.photographs]) >= 2
+        assert len([name for name in shown if name in bank.metadata.photographs]) >= 2
         assert not any(one.beyond for one in rules)
         assert len(set(names)) == len(names) == 20
         used.update(names)

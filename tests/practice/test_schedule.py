@@ -121,7 +121,7 @@ def test_a_mistake_has_a_card_of_its_own():
 
 @pytest.fixture
 def names(bank):
-    return [name for name in bank.paths if bank.rules(name).topic in {"projection", "noise"}]
+    return [name for name in bank.template_paths if bank.rules(name).topic in {"projection", "noise"}]
 
 
 def agenda(bank, cards, now=NOW, exam=None):
@@ -177,9 +177,9 @@ def test_how_far_a_topic_is_known(bank, names):
     cards = card(bank, names[0], ReviewRating.GOOD, NOW - 5) | card(
         bank, names[1], ReviewRating.AGAIN, NOW - 90
     )
-    standing = agenda(bank, cards).standing(names)
+    standing = agenda(bank, cards).mastery_of(names)
     assert (standing.count, standing.seen) == (len(names), 2)
     assert (standing.last, standing.stability) == (NOW - 5, 0.212)
     assert standing.due == NOW - 30
-    nothing = agenda(bank, {}).standing(names)
+    nothing = agenda(bank, {}).mastery_of(names)
     assert (nothing.seen, nothing.last, nothing.due) == (0, None, None)

@@ -48,7 +48,7 @@ def numeric_task():
     """The first task that a number or a point answers, and its spec."""
     held = session(PracticeRequest(count=50, topic="projection", tier="A"))
     while not held.finished:
-        turn = held.turn()
+        turn = held.current_question()
         for task, spec in zip(turn.tasks, key_of(turn, held.state).specs, strict=True):
             if kind_of(task) in {"point", "quantity"} and task.solved.lines:
                 return task, spec
@@ -83,7 +83,7 @@ def test_three_wrong_answers_end_the_task():
 def test_right_after_help_is_not_right_at_once(help_with):
     task, spec = numeric_task()
     if help_with == "a hint":
-        assert task.hint().why == task.solved.lines[0].why
+        assert task.next_hint().why == task.solved.lines[0].why
     else:
         task.answer(wrong(spec))
     task.answer(show_key(spec))
@@ -95,16 +95,16 @@ def test_hints_climb_each_step_of_the_solution_in_turn_and_then_there_are_none()
     steps = len(task.solved.lines)
     kinds = []
     while task.more_hints:
-        kinds.append(task.hint().kind)
+        kinds.append(task.next_hint().kind)
     assert kinds == ["quantity", "formula", "numbers", "result"] * steps
-    assert task.hint() is None
+    assert task.next_hint() is None
     assert [hint.why for hint in task.hints[::4]] == [line.why for line in task.solved.lines]
 
 
 def test_what_the_rungs_of_a_thin_lens_say():
     """By hand, for f = 60 mm and z = 150 mm: 1/60 - 1/150 = 0.01, of which the inverse is 100."""
-    task = lens(new_session(PracticeRequest(topic="optics", seed="h"))).turn().tasks[0]
-    hints = [task.hint() for _ in range(8)]
+    task = lens(new_session(PracticeRequest(topic="optics", seed="h"))).current_question().tasks[0]
+    hints = [task.next_hint() for _ in range(8)]
     assert [inlines_to_plain_text(hint.shown).replace("\u00a0", " ") for hint in hints] == [
         "the reciprocal of the image distance (q)",
         "q = 1/f − 1/z",
@@ -156,7 +156,7 @@ def test_the_learner_judges_a_free_text(right):
         if any(part.answer["kind"] == "text" for part in builtin_bank().rules(name).part)
     )  # fmt: skip
     held.templates = (next(texts),)
-    tasks = held.turn().tasks
+    tasks = held.current_question().tasks
     task = next(t for t in tasks if kind_of(t) == "text")
     assert task.answer("something written").then is NextStep.SELF_MARK
     assert task.outcome is None
@@ -166,10 +166,10 @@ def test_the_learner_judges_a_free_text(right):
 
 def test_a_question_goes_on_where_it_was_left():
     held = session()
-    turn = held.turn()
+    turn = held.current_question()
     assert len(turn.tasks) > 1
     turn.tasks[0].give_up()
-    turn.tasks[1].hint()
+    turn.tasks[1].next_hint()
     again = Session(
         builtin_bank(), msgspec.json.decode(msgspec.json.encode(held.state), type=SessionState)
     )
@@ -178,7 +178,7 @@ def test_a_question_goes_on_where_it_was_left():
     assert [task.outcome for task in later.tasks] == [turn.tasks[0].outcome] + [None] * (
         len(turn.tasks) - 1
     )
-    assert later.tasks[1].next_hint() == turn.tasks[1].hint()
+    assert later.tasks[1].next_hint() == turn.tasks[1].next_hint()
 
 
 def lens(state=None):
@@ -191,31 +191,31 @@ def lens(state=None):
 def test_tries_survive_a_break():
     held = lens()
     for _ in range(TRIES - 1):
-        assert held.turn().tasks[0].answer("987654 mm").then is NextStep.AGAIN
-    assert lens(held.state).turn().tasks[0].answer("987654 mm").then is NextStep.OUT_OF_TRIES
+        assert held.current_question().tasks[0].answer("987654 mm").then is NextStep.AGAIN
+    assert lens(held.state).current_question().tasks[0].answer("987654 mm").then is NextStep.OUT_OF_TRIES
 
 
 def test_a_wrong_value_is_carried_forward_over_a_break():
     held = lens()
-    turn = held.turn()
+    turn = held.current_question()
     distance, size = (Fraction(spec.value) for spec in key_of(turn, held.state).specs[:2])
     turn.tasks[0].answer(f"{float(distance * 3 / 2):.6f} mm")
     turn.tasks[0].give_up()
     follows = f"{float(size * 3 / 2):.6f}"
-    assert lens(held.state).turn().tasks[1].answer(follows).verdict.note == "carried-forward"
+    assert lens(held.state).current_question().tasks[1].answer(follows).verdict.note == "carried-forward"
 
 
 def test_how_far_another_question_got_says_nothing_about_this_one():
     held = session()
-    turn = held.turn()
+    turn = held.current_question()
     turn.tasks[0].give_up()
     held.state.question = "another(x=1)"
-    assert not held.turn().outcomes
+    assert not held.current_question().outcomes
 
 
 def test_a_skipped_part_is_neither_right_nor_wrong():
     held = session()
-    task = held.turn().tasks[0]
+    task = held.current_question().tasks[0]
     task.skip()
     assert task.outcome == PartOutcome("projection", right=False, first=False, skipped=True)
     assert summarise_by_topic([task.outcome]) == (TopicResult("projection", 0, 0, 0, 1),)
@@ -223,7 +223,7 @@ def test_a_skipped_part_is_neither_right_nor_wrong():
 
 def test_a_kept_session_goes_on_where_it_stopped(tmp_path):
     shelf, held = SessionStore(tmp_path / "deep"), session()
-    turn = held.turn()
+    turn = held.current_question()
     for task in turn.tasks:
         task.give_up()
     assert turn.finished
@@ -234,7 +234,7 @@ def test_a_kept_session_goes_on_where_it_stopped(tmp_path):
     assert [p.name for p in shelf.folder.iterdir()] == [shelf.path(state.wish).name]
     later = Session(builtin_bank(), state).current_question()
     assert later.number == 2
-    assert later.question == held.turn().question
+    assert later.question == held.current_question().question
 
 
 WISHES = [
@@ -300,7 +300,7 @@ def test_somebody_else_may_choose_and_what_is_due_stays_due(tmp_path):
 
     wish = PracticeRequest(topic="optics")
     held = Session(builtin_bank(), new_session(wish), choose)
-    turn = held.turn()
+    turn = held.current_question()
     assert (turn.question.template, turn.seed) == ("thin-lens-image-distance", "0a1b2c3d")
     SessionStore(tmp_path).save(held.state)
     again = Session(builtin_bank(), SessionStore(tmp_path).load(wish), choose)

@@ -68,8 +68,8 @@ def test_a_mistake_is_named_at_the_step_where_it_happens_and_only_there():
         builtin_bank().template("blur-disc-diameter"), 0
     )  # f = 50 mm, N_1 = 8, image at 50 mm
     marker, parts = marker_of(*guided(drawn))
-    assert marker.mark(parts["1a1"], "12.5 mm").verdict.verdict == "wrong"  # twice the diameter
-    carried = marker.mark(parts["1a3"], "500 um").verdict
+    assert marker.grade_part(parts["1a1"], "12.5 mm").verdict.verdict == "wrong"  # twice the diameter
+    carried = marker.grade_part(parts["1a3"], "500 um").verdict
     assert (carried.note, carried.credit) == ("carried-forward", 1)
 
 
@@ -80,7 +80,7 @@ def test_a_known_mistake_of_an_intermediate_step_is_told_with_its_sentence():
     red, green, blue = (Fraction(str(drawn.shown[name])) for name in "RGB")
     place = next(i for i, spec in enumerate(key.specs) if spec.of == ["V"])
     first = question.parts[place].field.id
-    verdict = marker.mark(parts[first], str((red + green + blue) / 3)).verdict
+    verdict = marker.grade_part(parts[first], str((red + green + blue) / 3)).verdict
     assert verdict.note == "trap:mean-as-value"
     assert "mean of the three channels" in verdict.message
     assert "mean-as-value" in [mistake.name for mistake in key.solution.parts[place].mistakes]
@@ -92,7 +92,7 @@ def test_a_wrong_formula_is_answered_with_the_sentence_of_its_mistake():
     place = next(i for i, part in enumerate(question.parts) if part.field.options)
     marker, parts = marker_of(*guided(drawn))
     for reason in key.solution.parts[place].reasons:
-        verdict = marker.mark(parts[question.parts[place].field.id], reason.value).verdict
+        verdict = marker.grade_part(parts[question.parts[place].field.id], reason.value).verdict
         told = (
             builtin_bank()
             .template("thin-lens-image-distance")
@@ -109,7 +109,7 @@ def test_what_the_solution_prints_gets_the_marks_of_the_exam(drawn, lang):
     marker, parts = marker_of(question, key)
     marks = Fraction(0)
     for part, solved in zip(question.parts, key.solution.parts, strict=True):
-        result = marker.mark(parts[part.field.id], solved.answer)
+        result = marker.grade_part(parts[part.field.id], solved.answer)
         # sentences have no answer to copy: a person marks them
         marks += (result.marks or 0) if solved.answer else part.points
     exam, _ = compose_variant(drawn, lang, figures=False)

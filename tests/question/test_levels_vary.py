@@ -39,7 +39,7 @@ def choices(name, seeds):
 
 def longest(ways):
     """Whether the right formula is longer than all others."""
-    lengths = [(way.right, len(inlines_to_text((way.shown,)))) for way in ways]
+    lengths = [(way.is_right, len(inlines_to_text((way.shown,)))) for way in ways]
     right = next(length for is_right, length in lengths if is_right)
     return all(right > length for is_right, length in lengths if not is_right)
 
@@ -65,11 +65,11 @@ def test_a_slip_is_a_formula_of_its_own_with_another_value(name, step):
     slips = set()
     for ways in choices(name, 12):
         assert len({way.shown.typed for way in ways}) == len(ways)
-        assert [way.right for way in ways].count(True) == 1
+        assert [way.is_right for way in ways].count(True) == 1
         for way in ways:
             if way.slip and way.shown.typed.startswith(f"{step} = "):
                 slips.add(way.slip)
-                right = next(other for other in ways if other.right)
+                right = next(other for other in ways if other.is_right)
                 assert abs(float(way.value) - float(right.value)) > 1e-6 * abs(float(right.value))
     assert slips
 

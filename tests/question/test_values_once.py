@@ -128,7 +128,7 @@ def digits(text, value):
 def test_a_shown_value_is_computed_once(monkeypatch):
     one = draw_variant(BANK.template("gaussian-peak-and-tail-shares"), 0)
     first = one.shown_values
-    monkeypatch.setattr(type(one.sampler), "shown_env", None)
+    monkeypatch.setattr(type(one.sampler), "in_shown_units", None)
     assert one.shown_values is first
     text = one.format_value("N")
     monkeypatch.setitem(first, "N", None)

@@ -66,7 +66,7 @@ GENERAL = {"constant", "electron", "interval", "inverse", "negative", "photon", 
 
 
 def test_the_engine_holds_no_term_of_the_bank(bank):
-    terms = {*bank.about.terms} - GENERAL
+    terms = {*bank.metadata.terms} - GENERAL
     assert len(terms) > 90
     for file in Path(quizgen.grading.__path__[0]).rglob("*.py"):
         nodes = ast.walk(ast.parse(file.read_text("utf-8")))

@@ -27,7 +27,7 @@ PRINTERS = [to_latex, to_mathml, to_typst, to_speech]
 
 def emitter(printer):
     module = printer.__globals__
-    return module.get("_emit", module.get("_say"))
+    return module.get("_format_node", module.get("_say_node"))
 
 
 @pytest.mark.parametrize("printer", PRINTERS, ids=lambda p: p.__name__)
@@ -37,7 +37,7 @@ def test_every_layout_node_has_a_rule_in_every_printer(printer):
 
 @pytest.mark.parametrize("printer", PRINTERS, ids=lambda p: p.__name__)
 def test_a_stranger_is_refused_by_name(printer):
-    with pytest.raises(RenderError, match=r"no .* for Words"):
+    with pytest.raises(RenderError, match=r"no .* for PlainText"):
         printer(PlainText("x"), "en")
 
 

@@ -12,7 +12,7 @@ from functools import cache
 from itertools import pairwise
 
 import pytest
-from marking.hands import Line, drawings, waved
+from grading.hands import Line, drawings, waved
 from sweep import draws
 
 from quizgen.bank.bank import builtin_bank

@@ -11,7 +11,7 @@ from sweep import draws, spread
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.pools import count_pool_variants
-from quizgen.bank.sampler import list_candidates, sampler_for, test_candidate
+from quizgen.bank.sampler import list_candidates, sampler_for, solve_candidate
 from quizgen.bank.variant import Variant, draw_variant
 from quizgen.lint.template_checks import lint_template
 from quizgen.maths.numbers import to_float
@@ -110,7 +110,7 @@ def test_the_pool_is_as_large_as_stated(bank, name):
         for variable in plan.variables:
             if variable.formula is not None:
                 variable.derive(shown, words)
-        kept = test_candidate(plan, shown)
+        kept = solve_candidate(plan, shown)
         if not isinstance(kept, str):
             count += count_pool_variants(Variant(template, "0", "0", 1, shown, words, *kept))
     assert count == template.rules.pool

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.sampler import sampler_for, test_candidate
+from quizgen.bank.sampler import sampler_for, solve_candidate
 from quizgen.bank.variant import draw_variant, reference_variant
 from quizgen.kinds.grade import grade_answer
 from quizgen.maths.numbers import to_rational
@@ -72,7 +72,7 @@ def test_named_objects_have_plausible_sizes(bank, template, low, high):
 
 def verdict_of(template, value):
     shown = {"I": value, "I_min": "0", "I_max": "255", "N_min": "-1", "N_max": "1"}
-    return test_candidate(
+    return solve_candidate(
         sampler_for(template), {name: to_rational(text) for name, text in shown.items()}
     )
 

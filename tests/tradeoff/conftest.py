@@ -15,4 +15,4 @@ FEW = ("compare-two-gaussian-noises", "dynamic-range-of-sensor", "photon-energy-
 @pytest.fixture(scope="session")
 def report():
     bank = builtin_bank()
-    return measure_tradeoff(SimpleNamespace(paths=FEW, template=bank.template))
+    return measure_tradeoff(SimpleNamespace(template_paths=FEW, template=bank.template))

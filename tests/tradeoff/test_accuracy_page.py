@@ -217,7 +217,7 @@ def test_page_plot_and_numbers_are_written(report, tmp_path):
 
 
 def test_the_command_says_where_the_page_is(report, tmp_path, monkeypatch):
-    monkeypatch.setattr("quizgen.tradeoff.report.measure", lambda _bank: report)
+    monkeypatch.setattr("quizgen.tradeoff.report.measure_tradeoff", lambda _bank: report)
     done = CliRunner().invoke(tradeoff, ["--out", str(tmp_path)])
     assert done.exit_code == 0, done.output
     assert done.output.startswith(f"{tmp_path / 'tradeoff.html'}: ")

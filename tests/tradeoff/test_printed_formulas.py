@@ -101,7 +101,7 @@ def test_an_exam_stays_four_powers_of_ten_from_every_difficulty(sweeps):
     assert 5e-5 < sweeps["blur-disc"].exam_left < 2e-4
 
 
-ROWS = Path(__file__).parents[1] / "arrays" / "rows"
+ROWS = Path(__file__).parents[1] / "numerics" / "rows"
 HARD = {
     "gaussian.two_sided_tail": (lines.two_sided_tail, 13),  # at 37 sigma k^2 / 2 is rounded
     "depth_of_field.far_limit": (lines.far_limit, 14),

@@ -79,7 +79,7 @@ def test_the_counts_are_those_of_today():
 
 def test_counts_are_kept_by_template():
     bank = builtin_bank()
-    few = SimpleNamespace(paths=[THIRDS, "thin-lens-image-distance"], template=bank.template)
+    few = SimpleNamespace(template_paths=[THIRDS, "thin-lens-image-distance"], template=bank.template)
     counted = count_wrong(few, 2)
     assert (counted.templates, counted.drawn) == (2, 2)
     assert counted.wrong["rounded"] == {THIRDS: 1}
@@ -99,7 +99,7 @@ def test_calls_are_timed_in_turns_after_a_round_that_warms_up():
 def test_every_arithmetic_is_timed_on_the_same_questions():
     bank = builtin_bank()
     few = SimpleNamespace(
-        paths=[THIRDS, "thin-lens-image-distance", "rgb-to-hsv"], template=bank.template
+        template_paths=[THIRDS, "thin-lens-image-distance", "rgb-to-hsv"], template=bank.template
     )
     found = measure_questions(few)
     assert found.count == 2  # balls do not solve the colours

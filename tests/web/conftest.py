@@ -103,7 +103,7 @@ def begin(app):
 
     def begun(template: str, seed: str = "3") -> str:
         store = app.state.site.store
-        return f"/q/{store.begin(store.learner().id, QuestionRef(template, seed), {}).id}"
+        return f"/q/{store.start_attempt(store.learner().id, QuestionRef(template, seed), {}).id}"
 
     return begun
 

@@ -34,20 +34,20 @@ def full(store):
     """A learner with a question, an exam, a card and a date."""
     mine = store()
     learner = mine.learner().id
-    attempt = mine.begin(learner, QuestionRef("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""})
+    attempt = mine.start_attempt(learner, QuestionRef("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""})
     done = {"typed": "1", "tries": 1, "hints": 0, "wrong": "2", "note": "sign",
             "outcome": {"topic": "colour", "right": True, "first": False, "skipped": False}}  # fmt: skip
     attempt.state = {"parts": {"1a": {"state": done, "values": ["1"], "asked_back": ""}},
                      "ended": ["1a"]}  # fmt: skip
     attempt.ended = NOW
-    mine.keep(
+    mine.save_attempt(
         attempt, (OutcomeRecord("rgb-to-hsv", "colour", "a", "", right=True, first=True, at=NOW),)
     )
     sitting = mine.sittings.begin(learner, "mock-1-en-0a1b2c", 60.0, pauses=True)
     mine.sittings.save(sitting.learner, sitting.id, {"2a": ["x", "৩"]})
     mine.sittings.flag(sitting, "2")
     mine.cards.review(learner, [ReviewEvent("A3", ReviewRating.AGAIN, ("trap:swapped",))], NOW)
-    mine.settle(learner, {"exam": "2027-02-12", "unknown": 1})
+    mine.update_settings(learner, {"exam": "2027-02-12", "unknown": 1})
     return mine
 
 

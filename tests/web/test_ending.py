@@ -30,11 +30,11 @@ def workers():
 
 def test_a_process_that_dies_is_followed_by_another(workers):
     async def run() -> list[str]:
-        first = await workers.question(QuestionRequest("point-to-image-plane", "1", "en"))
+        first = await workers.get_question(QuestionRequest("point-to-image-plane", "1", "en"))
         workers.pool.processes[0].kill()
-        second = await workers.question(QuestionRequest("point-to-image-plane", "2", "en"))
+        second = await workers.get_question(QuestionRequest("point-to-image-plane", "2", "en"))
         due = asyncio.ensure_future(
-            workers.question(QuestionRequest("point-to-image-plane", "3", "en"))
+            workers.get_question(QuestionRequest("point-to-image-plane", "3", "en"))
         )
         await asyncio.sleep(0)
         workers.pool.processes[0].kill()
@@ -46,22 +46,22 @@ def test_a_process_that_dies_is_followed_by_another(workers):
 def test_a_template_that_is_not_there_is_said_and_the_process_lives(workers):
     before = workers.pool.processes[0].pid
     with pytest.raises(BankError):
-        ran(workers.question(QuestionRequest("nothing", "1", "en")))
-    assert ran(workers.question(QuestionRequest("point-to-image-plane", "1", "en"))).stem
+        ran(workers.get_question(QuestionRequest("nothing", "1", "en")))
+    assert ran(workers.get_question(QuestionRequest("point-to-image-plane", "1", "en"))).stem
     assert workers.pool.processes[0].pid == before
 
 
 def test_ctrl_c_is_left_to_the_server(workers):
     before = workers.pool.processes[0]
     os.kill(before.pid, signal.SIGINT)
-    assert ran(workers.question(QuestionRequest("point-to-image-plane", "1", "en"))).stem
+    assert ran(workers.get_question(QuestionRequest("point-to-image-plane", "1", "en"))).stem
     assert workers.pool.processes[0] is before
 
 
 def test_a_server_that_ends_leaves_nobody_waiting(workers):
     async def run() -> None:
         due = asyncio.ensure_future(
-            workers.question(QuestionRequest("point-to-image-plane", "1", "en"))
+            workers.get_question(QuestionRequest("point-to-image-plane", "1", "en"))
         )
         await asyncio.sleep(0.05)
         workers.close()

@@ -41,9 +41,9 @@ def at_once(app):
             kept[wanted] = (*pair, question_view(wanted, *pair))
         return kept[wanted][2]
 
-    before, workers.question = workers.question, question
+    before, workers.get_question = workers.get_question, question
     yield kept
-    workers.question = before
+    workers.get_question = before
 
 
 def wrong_parts(page: str, answered: str, answers, sentences) -> list[str]:
@@ -68,8 +68,8 @@ def wrong(client, token, app, at_once):
     learner = store.learner().id
 
     def asked(template: str, seed: str, lang: str, level: str) -> list[str]:
-        store.settle(learner, {"lang": lang})
-        at = f"/q/{store.begin(learner, QuestionRef(template, seed, level), {}).id}"
+        store.update_settings(learner, {"lang": lang})
+        at = f"/q/{store.start_attempt(learner, QuestionRef(template, seed, level), {}).id}"
         page = client.get(at).text
         ((question, key, _),) = at_once.values()
         answers = typed(question, key)
@@ -79,7 +79,7 @@ def wrong(client, token, app, at_once):
         parts = zip(question.parts, key.specs, strict=True)
         sentences = {part.field.id for part, spec in parts if spec.kind == "text"}
         found = wrong_parts(page, client.get(at).text, answers, sentences)
-        store.settle(learner, {"lang": "en"})
+        store.update_settings(learner, {"lang": "en"})
         return [f"{template} {seed} {lang} {level} {one}" for one in found]
 
     return asked

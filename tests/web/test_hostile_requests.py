@@ -21,7 +21,7 @@ def theirs(app):
     """A question and an exam of somebody else, both begun."""
     store = app.state.site.store
     other = store.learner("other").id
-    attempt = store.begin(other, QuestionRef("point-to-image-plane", "3"), {})
+    attempt = store.start_attempt(other, QuestionRef("point-to-image-plane", "3"), {})
     sitting = store.sittings.begin(other, "trial-1-both-000000", None, pauses=False)
     return other, attempt, sitting
 

@@ -84,9 +84,9 @@ def test_nothing_is_made_ahead_where_that_would_take_the_last_process(
 
 def test_what_cannot_be_made_ahead_is_said_to_who_asks(client, site):
     nothing = QuestionRequest("nothing", "1", "en")
-    client.portal.call(site.workers.prepare, nothing)
+    client.portal.call(site.workers.prefetch, nothing)
     with pytest.raises(BankError):
-        client.portal.call(site.workers.question, nothing)
+        client.portal.call(site.workers.get_question, nothing)
 
 
 def keys(kept: ResultCache) -> list[str]:

@@ -88,9 +88,9 @@ def test_steps_are_cards_and_what_is_no_longer_in_the_bank_is_left_out(client, t
     store = app.state.site.store
     learner = store.learner().id
     for which in (QuestionRef("rgb-to-hsv", "3", GUIDED), QuestionRef("taken-out", "3")):
-        attempt = store.begin(learner, which, {})
+        attempt = store.start_attempt(learner, which, {})
         attempt.state = {"parts": {"1a1": {"state": {"outcome": GIVEN_UP}}}}
-        store.keep(attempt)
+        store.save_attempt(attempt)
     assert len(notes(client.get("/progress/mistakes.apkg").content)) == 1
 
 

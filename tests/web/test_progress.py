@@ -124,7 +124,7 @@ def test_the_same_numbers_again_and_steps_do_not_count_as_known(client, token, b
 def test_the_next_question_is_the_one_that_is_due(client, token, app):
     site = app.state.site
     learner = site.store.learner().id
-    site.store.begin(learner, QuestionRef("rgb-to-hsv", "1"), {})
+    site.store.start_attempt(learner, QuestionRef("rgb-to-hsv", "1"), {})
     from quizgen.practice.scheduler import ReviewEvent, ReviewRating
 
     long_ago = datetime.now(UTC) - timedelta(days=30)

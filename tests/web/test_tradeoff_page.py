@@ -21,7 +21,7 @@ FEW = ("compare-two-gaussian-noises", "dynamic-range-of-sensor", "photon-energy-
 @pytest.fixture(scope="module")
 def report():
     bank = builtin_bank()
-    return measure_tradeoff(SimpleNamespace(paths=FEW, template=bank.template))
+    return measure_tradeoff(SimpleNamespace(template_paths=FEW, template=bank.template))
 
 
 @pytest.fixture
@@ -35,7 +35,7 @@ def measured(app, monkeypatch, report):
             {one: render_tradeoff_fragment(report, COMMAND, one) for one in list_languages()}
         )
 
-    monkeypatch.setattr(app.state.site.workers, "done", done)
+    monkeypatch.setattr(app.state.site.workers, "get_result", done)
     return asked
 
 
@@ -62,7 +62,7 @@ def test_while_it_is_measured_the_page_says_so_and_looks_again(client, app, monk
         del job
         await asyncio.sleep(60)
 
-    monkeypatch.setattr(app.state.site.workers, "done", done)
+    monkeypatch.setattr(app.state.site.workers, "get_result", done)
     page = client.get("/tradeoff").text
     assert "That takes some seconds." in page
     assert 'hx-get="/tradeoff"' in page
@@ -76,7 +76,7 @@ def test_it_is_measured_once_for_all_languages(bank, monkeypatch, report):
         asked.append(of)
         return report
 
-    monkeypatch.setattr("quizgen.tradeoff.report.measure", once)
+    monkeypatch.setattr("quizgen.tradeoff.report.measure_tradeoff", once)
     said = msgspec.json.decode(TradeoffJob().run(bank))
     assert asked == [bank]
     assert set(said) >= {"en", "bn"}

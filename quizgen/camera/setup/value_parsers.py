@@ -1,5 +1,7 @@
 """Readers of a scene file's values: text with a unit, numbers, words, colours."""
 
+# ruff: noqa: TRY004 - a wrong value in a file is a ValueError, whatever its type
+
 from __future__ import annotations
 
 import math

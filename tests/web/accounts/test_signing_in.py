@@ -108,7 +108,7 @@ def test_signing_in_begins_a_session_of_its_own(app, site, manager):
     assert len(kept) == 2
     tokens = {one.value for one in victim.browser.cookies.jar} | {cookie(manager)}
     assert not tokens & kept, "only hashes are kept"
-    assert "$argon2id$" in site.store.accounts.known("Farida")[1]
+    assert "$argon2id$" in site.store.accounts.password_hash_of("Farida")[1]
 
 
 def test_a_cookie_is_for_this_server_alone(app, manager, site):
