@@ -6,14 +6,16 @@ import hashlib
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache, partial
 from itertools import chain, repeat
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.candidate import Candidate
+from quizgen.bank.template import Template
 from quizgen.bank.variant import draw_variant
-from quizgen.core.errors import BankError, BlueprintError
+from quizgen.core.errors import BankError, BlueprintError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
 from quizgen.paper.constraints import ConstraintSolver, explain_infeasible, paper_minutes
 from quizgen.question.figure import coloured
@@ -211,38 +213,41 @@ def count_papers(bank: Bank, blueprint: Blueprint) -> int:
 
 def _open_slots(bank: Bank, blueprint: Blueprint) -> list[list[Candidate]]:
     """The templates that may fill each slot of a blueprint."""
-    return [
-        _find_templates_for_slot(bank, blueprint, index)
-        for index in range(1, len(blueprint.slot) + 1)
-    ]
-
-
-def _find_templates_for_slot(bank: Bank, blueprint: Blueprint, index: int) -> list[Candidate]:
-    """Templates that may fill a slot, counted from 1."""
-    slot = blueprint.slot[index - 1]
-    for name in slot.templates:
-        try:
-            bank.folder_of(name)
-        except BankError as error:
-            raise BlueprintError(f"slot {index}: {error}", file=blueprint.file) from error
-    fitting = [
-        one
-        for one in bank.candidates(slot.templates)
-        if _is_fit_for_slot(one, slot) and (blueprint.colour or not may_need_colour(bank, one))
-    ]
-    if not fitting:
-        wish = f"tier {slot.tier or 'any'} and topic {slot.topic or 'any'}"
-        wish += "" if blueprint.colour else ", and is read without colour"
-        raise BlueprintError(f"slot {index}: no template has {wish}", file=blueprint.file)
-    return fitting
+    coloured = frozenset() if blueprint.colour else find_coloured_templates(bank)
+    slots = []
+    for index, slot in enumerate(blueprint.slot, 1):
+        for name in slot.templates:
+            try:
+                bank.folder_of(name)
+            except BankError as error:
+                raise BlueprintError(f"slot {index}: {error}", file=blueprint.file) from error
+        fitting = [
+            one
+            for one in bank.candidates(slot.templates)
+            if _is_fit_for_slot(one, slot) and one.name not in coloured
+        ]
+        if not fitting:
+            wish = f"tier {slot.tier or 'any'} and topic {slot.topic or 'any'}"
+            wish += "" if blueprint.colour else ", and is read without colour"
+            raise BlueprintError(f"slot {index}: no template has {wish}", file=blueprint.file)
+        slots.append(fitting)
+    return slots
 
 
 @cache
-def may_need_colour(bank: Bank, one: Candidate) -> bool:
-    """Whether a template asks, in some draws, with a figure that cannot be read on grey paper."""
-    if not one.figure:
-        return False
-    template = bank.template(one.name)
+def find_coloured_templates(bank: Bank) -> frozenset[str]:
+    """Templates that ask, in some draws, with a figure that cannot be read on grey paper."""
+    found = set()
+    for name in bank.template_paths:
+        # One that is wrong says so when a paper is to hold it.
+        with suppress(QuizgenError):
+            (one,) = bank.candidates((name,))
+            if one.figure and _may_need_colour(bank.template(name)):
+                found.add(name)
+    return frozenset(found)
+
+
+def _may_need_colour(template: Template) -> bool:
     says = getattr(template.figure, "COLOUR", False)
     return (
         any(coloured(draw_variant(template, n)) for n in range(DRAWN))
