@@ -67,7 +67,10 @@ def test_what_cannot_be_read_costs_no_try():
     task, _ = numeric_task()
     feedback = task.answer("???")
     assert (feedback.then, feedback.left, task.outcome) == (NextStep.ASK_BACK, TRIES, None)
-    assert feedback.verdict.message
+    assert feedback.verdict.message == "", (
+        "an answer is only judged; words are for whoever shows it"
+    )
+    assert task.explain_verdict(feedback.verdict).message
 
 
 def test_three_wrong_answers_end_the_task():
@@ -192,7 +195,10 @@ def test_tries_survive_a_break():
     held = lens()
     for _ in range(TRIES - 1):
         assert held.current_question().tasks[0].answer("987654 mm").then is NextStep.AGAIN
-    assert lens(held.state).current_question().tasks[0].answer("987654 mm").then is NextStep.OUT_OF_TRIES
+    assert (
+        lens(held.state).current_question().tasks[0].answer("987654 mm").then
+        is NextStep.OUT_OF_TRIES
+    )
 
 
 def test_a_wrong_value_is_carried_forward_over_a_break():
@@ -202,7 +208,10 @@ def test_a_wrong_value_is_carried_forward_over_a_break():
     turn.tasks[0].answer(f"{float(distance * 3 / 2):.6f} mm")
     turn.tasks[0].give_up()
     follows = f"{float(size * 3 / 2):.6f}"
-    assert lens(held.state).current_question().tasks[1].answer(follows).verdict.note == "carried-forward"
+    assert (
+        lens(held.state).current_question().tasks[1].answer(follows).verdict.note
+        == "carried-forward"
+    )
 
 
 def test_how_far_another_question_got_says_nothing_about_this_one():
