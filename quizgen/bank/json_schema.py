@@ -21,8 +21,8 @@ REF = "#/$defs/{name}"
 _TOLD = "told.toml"
 """What is said of each key whose field says nothing itself, beside this module."""
 # Editors show these names: they are the schema's own, whatever the classes are called.
-_NAMES = {"AuthoredTrueFalse": "Truth", "ParametricCurve": "Curve"}
-_CLASS = re.compile(r'(?<=["/])(?:Authored\w+|ParametricCurve)(?=")')
+_NAMES = {"AuthoredTrueFalse": "Truth", "ParametricCurve": "Curve", "BankMetadata": "About"}
+_CLASS = re.compile(r'(?<=["/])(?:Authored\w+|ParametricCurve|BankMetadata)(?=")')
 
 
 def build_json_schema(name: str) -> bytes:

@@ -74,7 +74,7 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     or whose row has changed.
     """
     from quizgen.classes.class_folder import ClassFolder
-    from quizgen.classes.generation import generate_papers as make_papers
+    from quizgen.classes.generation import generate_papers
     from quizgen.classes.print_file import write_print_file
     from quizgen.classes.roster import read_roster
     from quizgen.executors import workers
@@ -90,7 +90,7 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
         Progress("paper", len(students)) as progress,
         workers(count, options["scheduler"]) as (executor, ahead),
     ):
-        report = make_papers(folder, students, blueprint, executor, ahead, progress)
+        report = generate_papers(folder, students, blueprint, executor, ahead, progress)
     if options["one_file"]:
         write_print_file(folder, students)
     _report_papers(folder, report)

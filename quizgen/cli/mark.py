@@ -49,9 +49,9 @@ def mark(
         raise click.UsageError("give SPEC and TYPED, or --batch")
     import json
 
-    from quizgen.kinds.grade import grade_answer as mark_one
+    from quizgen.kinds.grade import grade_answer
 
-    verdict = mark_one(
+    verdict = grade_answer(
         _parse_inline_spec(spec), typed, lang=options["lang"] or FIRST, decimal=options["decimal"],
         settle=options["settle"],
     )  # fmt: skip

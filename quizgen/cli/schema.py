@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import click
 
-from quizgen.bank.json_schema import SCHEMAS
-from quizgen.bank.json_schema import build_json_schema as schema_of
+from quizgen.bank.json_schema import SCHEMAS, build_json_schema
 
 
 @click.command()
 @click.argument("name", type=click.Choice(list(SCHEMAS)))
 def schema(name: str) -> None:
     """Print the JSON Schema of template.toml or bank.toml, for editors."""
-    click.echo(schema_of(name), nl=False)
+    click.echo(build_json_schema(name), nl=False)

@@ -44,7 +44,7 @@ class SheetOptions(BankOptions):
 def sheet(**options: Unpack[SheetOptions]) -> None:
     """Write the formulas of the chapter, by topic, on a sheet to print and a page to read."""
     from quizgen.core.files import write_all
-    from quizgen.question.formula_sheet import compose_sheet as formula_sheet
+    from quizgen.question.formula_sheet import compose_sheet
     from quizgen.render import render_sheet
 
     formats = [
@@ -56,7 +56,7 @@ def sheet(**options: Unpack[SheetOptions]) -> None:
         )
     bank = open_bank(options)
     topics = [resolve_topic(bank, name) for name in split_names(options["topics"])]
-    made = formula_sheet(bank, options["lang"] or default_language(bank.languages), topics)
+    made = compose_sheet(bank, options["lang"] or default_language(bank.languages), topics)
     folder = options["out"]
     for path in write_all(folder, {f"{NAME}.{f}": render_sheet(made, f) for f in formats}):
         click.echo(f"  {path}")

@@ -58,8 +58,9 @@ EXTRA_MODULES = {
 class QuizgenError(Exception):
     """Base of all errors that the command line shows as one line.
 
-    Whoever raises one knows the place in the file's own terms, and a reader further out knows the
-    file: it adds it (``core.untrusted.error_context``). The line is looked up when the error is shown.
+    The code that raises one knows the place in the file's own terms, and a reader further out
+    knows the file and adds it (``core.untrusted.error_context``). The line is looked up when the
+    error is shown.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ from quizgen.locale import translate
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import pretty
 from quizgen.maths.tolerance import AngleTolerance
-from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
 
@@ -76,7 +76,7 @@ def _judge(
     factor = fmpq(1)
     if quantity.unit is not None:
         if quantity.unit.dimension != DEGREES:
-            return wrong(read_as, "unit-clash", given=shown_unit(quantity.unit.text), asked="°")
+            return wrong(read_as, "unit-clash", given=format_unit(quantity.unit.text), asked="°")
         factor = quantity.unit.factor
     value = number.value * factor
     verdict = _on_circle(spec, number, value, read_as, options)

@@ -44,8 +44,7 @@ from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartC
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
-from quizgen.maths.units import format_unit as shown_unit
-from quizgen.maths.units import get_unit
+from quizgen.maths.units import format_unit, get_unit
 from quizgen.maths.values import Value
 
 
@@ -99,7 +98,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         value = parse_exact(self.value) * (100 if self.percent else 1)
-        unit_text = "%" if self.percent else shown_unit(self.unit)
+        unit_text = "%" if self.percent else format_unit(self.unit)
         return f"{pretty.format_number(format_key(self, value, self.form))} {unit_text}".rstrip()
 
 
@@ -228,7 +227,7 @@ def _judged(
 
 
 def _converted(number: ReadNumber, typed: TypedUnit, factor: Value) -> ReadNumber:
-    read_as = f"{number.read_as} {shown_unit(typed.text)}"
+    read_as = f"{number.read_as} {format_unit(typed.text)}"
     return replace(scale_number(number, factor), read_as=read_as)
 
 
@@ -237,7 +236,7 @@ def _other_thing(
 ) -> Verdict:
     """Say that something else is counted than what was typed."""
     right = _resolved(spec, readings, options).credit
-    fields = {"given": shown_unit(typed.text), "asked": count_noun_name(spec.counts, options.lang)}
+    fields = {"given": format_unit(typed.text), "asked": count_noun_name(spec.counts, options.lang)}
     read_as = f"{readings.main.read_as} {fields['given']}"
     return wrong(read_as, "unit-wrong" if right else "unit-clash", **fields)
 

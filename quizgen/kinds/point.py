@@ -42,7 +42,7 @@ from quizgen.kinds.contract import (
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
-from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
 
@@ -96,7 +96,7 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         inside = "; ".join(pretty.format_number(format_key(self, key)) for key in self.keys())
-        return f"({inside}) {shown_unit(self.unit)}".rstrip()
+        return f"({inside}) {format_unit(self.unit)}".rstrip()
 
 
 def _right(verdict: Verdict, place: int) -> bool:
@@ -115,7 +115,7 @@ def _unit(tail: SourceText) -> TypedUnit | None:
 
 def _echo(spec: PointSpec, numbers: list[ReadNumber]) -> str:
     inside = "; ".join(number.read_as for number in numbers)
-    return f"({inside}) {shown_unit(spec.unit)}".rstrip()
+    return f"({inside}) {format_unit(spec.unit)}".rstrip()
 
 
 def _judge(spec: PointSpec, numbers: list[ReadNumber], options: GradingOptions) -> Verdict:

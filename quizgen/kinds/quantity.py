@@ -34,7 +34,7 @@ from quizgen.kinds.contract import (
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import pretty
-from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
 DEGREES = (("deg", 1),)
@@ -75,7 +75,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         number = pretty.format_number(format_key(self, parse_exact(self.value)))
-        return f"{number} {shown_unit(self.unit)}".strip()
+        return f"{number} {format_unit(self.unit)}".strip()
 
 
 def _resolved(spec: QuantitySpec, side: EqualitySide, options: GradingOptions) -> Verdict:
@@ -90,7 +90,7 @@ def _judge(
     wanted = listed_unit(spec.unit)
     if quantity.unit is None:
         return _without_unit(spec, number, wanted, options)
-    read_as = f"{number.read_as} {shown_unit(quantity.unit.text)}"
+    read_as = f"{number.read_as} {format_unit(quantity.unit.text)}"
     if quantity.unit.dimension != wanted.dimension:
         return _clash(spec, number, quantity.unit, read_as)
     value = number.value * quantity.unit.factor / wanted.factor
@@ -134,7 +134,7 @@ def _missing(spec: QuantitySpec, number: ReadNumber, verdict: Verdict, points: F
     credit = max(HALF, 1 - HALF / points)
     if verdict.credit < credit:
         return verdict
-    unit = shown_unit(spec.unit)
+    unit = format_unit(spec.unit)
     return attach_values(partial(credit, number.read_as, "unit-missing", unit=unit), number.value)
 
 
@@ -142,8 +142,8 @@ def _clash(spec: QuantitySpec, number: ReadNumber, typed: TypedUnit, read_as: st
     note = "unit-clash"
     if agrees_within_half_percent(number.value, parse_exact(spec.value)):
         note = "unit-wrong"
-    asked = shown_unit(spec.unit)
-    return attach_values(wrong(read_as, note, given=shown_unit(typed.text), asked=asked), None)
+    asked = format_unit(spec.unit)
+    return attach_values(wrong(read_as, note, given=format_unit(typed.text), asked=asked), None)
 
 
 def _prefix(
@@ -163,7 +163,7 @@ def _prefix(
         return verdict
     if abs(power) == 1 and not any(base == "m" for base, _ in typed.dimension):
         return verdict  # ten times is a prefix of lengths only: cm and mm
-    asked = shown_unit(spec.unit)
+    asked = format_unit(spec.unit)
     note = "unit-prefix" if same else "unit-prefix-power"
     fields = {"asked": asked, "power": power}
     return attach_values(wrong(verdict.read_as, note, **fields), *verdict.values)
@@ -197,7 +197,7 @@ def ask(part: PartContext) -> AskedPart[QuantitySpec]:
 
 def input_hints(spec: QuantitySpec, lang: str) -> tuple[str, ...]:
     """Unit and rounding."""
-    unit = translate(lang, "ask.unit" if spec.bare else "ask.quantity", unit=shown_unit(spec.unit))
+    unit = translate(lang, "ask.unit" if spec.bare else "ask.quantity", unit=format_unit(spec.unit))
     return numeric_hints(spec, lang, unit)
 
 

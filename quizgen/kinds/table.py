@@ -43,7 +43,7 @@ from quizgen.maths.constants import Scalar
 from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.numbers import format_for_key
 from quizgen.maths.tolerance import RULES
-from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
@@ -260,7 +260,7 @@ def _with_unit(name: str, unit: str) -> tuple[Inline, ...]:
     from quizgen.question.inlines import name_inline
 
     return (
-        (name_inline(name), PlainText(f" ({shown_unit(unit)})")) if unit else (name_inline(name),)
+        (name_inline(name), PlainText(f" ({format_unit(unit)})")) if unit else (name_inline(name),)
     )
 
 

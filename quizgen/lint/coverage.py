@@ -12,9 +12,6 @@ from dataclasses import dataclass
 
 from quizgen.bank.bank import Bank
 
-_NUMBER = re.compile(r"\d+$")
-_SUB_PART = re.compile(r"(?<=\d)[a-z]$|-.*$")
-
 
 @dataclass(frozen=True)
 class CoverageGroup:
@@ -48,27 +45,6 @@ def templates_covering(bank: Bank, item: str) -> list[str]:
         for name in bank.template_paths
         if any(map(wanted.fullmatch, _list_covered_items(bank, name)))
     ]
-
-
-def unknown_claims(bank: Bank) -> list[tuple[str, str]]:
-    """Template and item wherever a template claims something the curriculum does not have.
-
-    A whole question (``C12``, ``Q1c``) is known by its sub-parts (``C12a``, ``Q1c-i``). A bank
-    without a curriculum claims nothing wrongly.
-    """
-    groups, beyond = bank.curriculum.inventory, bank.curriculum.beyond
-    items = [item for group in groups.values() for item in group]
-    known = {*items, *(_SUB_PART.sub("", item) for item in items)}
-    return [
-        (name, item)
-        for name in (bank.template_paths if groups else ())
-        for item in bank.rules(name).covers
-        if item not in known and not _is_beyond(item, beyond)
-    ]
-
-
-def _is_beyond(item: str, beyond: tuple[str, ...]) -> bool:
-    return bool(_NUMBER.search(item)) and _NUMBER.sub("", item) in beyond
 
 
 def _list_covered_items(bank: Bank, name: str) -> Iterable[str]:

@@ -21,7 +21,7 @@ from quizgen.lms.items import CourseQuestion, ExportItem
 from quizgen.lms.manifest import ManifestItem, ManifestQuestion, ResponseField, ResponseShape
 from quizgen.lms.markup import target_texts, to_course_html
 from quizgen.question.compose import QuestionPart
-from quizgen.render.text import inlines_to_plain_text as in_text
+from quizgen.render.text import inlines_to_plain_text
 
 _HTML_TAG = re.compile(r"<[^>]*>")
 
@@ -73,4 +73,4 @@ def response_field(
 def _option_texts(words: FeedbackText, lang: str) -> list[str]:
     """What an option says once a system has made text of it, and in our own plain text."""
     page = html.unescape(_HTML_TAG.sub("", str(to_course_html(words, lang))))
-    return list(dict.fromkeys((page, in_text(words))))
+    return list(dict.fromkeys((page, inlines_to_plain_text(words))))

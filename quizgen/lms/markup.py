@@ -20,8 +20,7 @@ from quizgen import typeset
 from quizgen.bank.markdown import Block, Inline, PlainText
 from quizgen.bank.pictures import PictureFile
 from quizgen.core.errors import require_one_of
-from quizgen.kinds.asking import nonempty
-from quizgen.kinds.asking import unit_hint as in_unit
+from quizgen.kinds.asking import nonempty, unit_hint
 from quizgen.lms.images import FigureAddress, image_tag
 from quizgen.lms.interactions import (
     ChoiceInteraction,
@@ -35,7 +34,7 @@ from quizgen.lms.interactions import (
 )
 from quizgen.lms.items import ExportItem
 from quizgen.locale import translate
-from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.units import format_unit
 from quizgen.paper.paper import PaperItem
 from quizgen.question import html
 from quizgen.question.compose import QuestionPart
@@ -43,7 +42,7 @@ from quizgen.question.html import HtmlDialect, display_mathml
 from quizgen.question.inlines import name_inline
 from quizgen.question.solution import PartSolution
 from quizgen.render.html import render_html_fragment
-from quizgen.render.text import inlines_to_plain_text as in_text
+from quizgen.render.text import inlines_to_plain_text
 
 # Tries after which Moodle shows a hint.
 HINT_COUNT = 3
@@ -145,14 +144,16 @@ def field_html(
         if interaction.name
         else number
     )
-    unit = "" if interaction.unit in {"", "1"} else f" {shown_unit(interaction.unit)}"
+    unit = "" if interaction.unit in {"", "1"} else f" {format_unit(interaction.unit)}"
     return Markup("<p>{}{}{}</p>").format(name, field, unit)
 
 
 def target_texts(pairs: MatchInteraction) -> dict[str, str]:
     """Return the targets of a match as plain text, which is all that a drop-down can show."""
     return {
-        letter: letter if words == (PlainText(letter),) else f"{letter}. {in_text(words)}"
+        letter: letter
+        if words == (PlainText(letter),)
+        else f"{letter}. {inlines_to_plain_text(words)}"
         for letter, words in pairs.targets
     }
 
@@ -178,7 +179,7 @@ def _unit_text(unit: str, lang: str) -> str:
     names = {"%": "ask.percent", "°": "ask.degrees"}
     if unit in names:
         return translate(lang, names[unit])
-    return in_unit(unit, lang) if unit != "1" else ""
+    return unit_hint(unit, lang) if unit != "1" else ""
 
 
 def _interaction_advice(interaction: Interaction, lang: str) -> Iterator[str]:

@@ -28,8 +28,7 @@ from quizgen.question.figure import draw_question_figure
 from quizgen.question.html import blocks_to_html, inlines_to_html
 from quizgen.question.inlines import join_inlines, to_inlines
 from quizgen.question.interpolation import inlines_to_text
-from quizgen.question.levels import effective_level
-from quizgen.question.levels import load_level as at_level
+from quizgen.question.levels import effective_level, load_level
 from quizgen.question.levels.contract import Choice, LevelPart
 from quizgen.question.localise import localise
 from quizgen.question.solution import Solution
@@ -217,7 +216,7 @@ def _build_question_and_key(
     drawn: Variant, lang: str, number: str, level: str, *, figures: bool
 ) -> tuple[Question, QuestionKey]:
     template = drawn.template
-    asking = at_level(level).ask(drawn, lang)
+    asking = load_level(level).ask(drawn, lang)
     question = Question(
         template=template.id,
         number=number,

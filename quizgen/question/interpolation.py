@@ -30,7 +30,7 @@ from quizgen.kinds.contract import LabelledName
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.numbers import format_exact, format_rounded
 from quizgen.maths.tree import Expr
-from quizgen.maths.units import format_unit as unit_shown
+from quizgen.maths.units import format_unit
 from quizgen.maths.values import Values
 from quizgen.question.inlines import PlacedPicture, TypesetMaths, to_inlines
 
@@ -228,7 +228,7 @@ def format_quantity(drawn: Variant, name: str) -> str:
 
 def join_unit(text: str, unit: str) -> str:
     """A number and its unit; only the degree sign stands close."""
-    shown = unit_shown(unit)
+    shown = format_unit(unit)
     return f"{pretty.format_number(text)}{'' if shown in {'', '°'} else NBSP}{shown}"
 
 

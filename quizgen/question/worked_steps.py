@@ -20,7 +20,7 @@ from quizgen.maths.number_systems import exact_system, select_branch
 from quizgen.maths.numbers import format_exact, format_rounded, is_short_decimal
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Expr, Sym, names_in
-from quizgen.maths.units import format_unit as unit_shown
+from quizgen.maths.units import format_unit
 from quizgen.question.entry_prose import typeset_slot
 from quizgen.question.inlines import TypesetMaths, name_inline
 from quizgen.question.interpolation import format_quantity, join_unit
@@ -100,7 +100,7 @@ def _with_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
 
 def value_node(drawn: Variant, name: str) -> typeset.Node:
     """The number of a quantity with its unit, to stand in a formula."""
-    return typeset.quantity(drawn.format_value(name), unit_shown(drawn.template.units[name]))
+    return typeset.quantity(drawn.format_value(name), format_unit(drawn.template.units[name]))
 
 
 def value_typed(drawn: Variant, name: str) -> str:
@@ -114,7 +114,7 @@ def _build_value_sides(drawn: Variant, step: ChainStep, *, about: bool) -> list[
 
     Behind rounded numbers (``about``) nothing is equal, and only a short exact value says more.
     """
-    value, unit = drawn.shown_values[step.name], unit_shown(step.unit)
+    value, unit = drawn.shown_values[step.name], format_unit(step.unit)
     exactly = None if about and not is_short_decimal(value) else format_exact(value)
     texts = [] if exactly is None else [("≈" if about else "=", exactly)]
     if not is_short_decimal(value):

@@ -267,27 +267,6 @@ def compile_pdf(sources: Mapping[str, bytes]) -> bytes:
     return bytes(data)
 
 
-def svg_to_png(svg: bytes, width: int) -> bytes:
-    """Draw an SVG on white, at 144 pixels to an inch.
-
-    Parameters
-    ----------
-    svg : bytes
-    width : int
-        Width of the picture in points.
-    """
-    import typst
-
-    _check_not_forked()
-    page = (
-        f"#set page(width: {width}pt, height: auto, margin: 4pt, fill: white)\n"
-        '#image("plot.svg", width: 100%)'
-    )
-    world: Any = {MAIN: page.encode(), "plot.svg": svg}  # the stub knows one file only
-    made: Any = typst.compile(world, format="png", ppi=144.0, font_paths=_load_font_collection())
-    return bytes(made)
-
-
 def _check_not_forked() -> None:
     """Refuse what would wait for ever: the threads of Typst do not come along in a fork."""
     if _get_first_process_id() != os.getpid():

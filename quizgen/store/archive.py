@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal, TypeAlias
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
+from typing import Annotated, Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 from sqlalchemy import Connection, Table, insert, select, update
@@ -14,11 +16,16 @@ from quizgen.core.errors import StoreError
 from quizgen.practice.scheduler import Moment, ReviewCard
 from quizgen.practice.session_state import PartState
 from quizgen.store.database import Database
-from quizgen.store.exam_attempts import numbers_of
+from quizgen.store.exam_attempts import MOST_PARTS, numbers_of
 from quizgen.store.review_cards import read_cards, write_card
 from quizgen.store.schema import ANSWER, ATTEMPT, CARD, FLAG, LEARNER, PAPER, SEEN, SITTING
 
 FORMAT = "quizgen learning"
+CHUNK = 50
+"""Rows of a file that are written together: some milliseconds."""
+_PAUSE = 0.005
+"""Seconds between them: whoever waits for SQLite outside of a group only looks now and then."""
+T = TypeVar("T")
 TEXT = "^[^\0]*$"
 """What a database takes as text."""
 Short: TypeAlias = Annotated[str, msgspec.Meta(max_length=200, pattern=TEXT)]
@@ -97,8 +104,8 @@ class ArchivedExam(StrictStruct, frozen=True):
     resting: Moment | None
     handed: Moment | None
     marks: dict[Part, Annotated[float, msgspec.Meta(ge=0, le=1)]]
-    answers: list[ArchivedAnswer]
-    flags: list[Part]
+    answers: Annotated[list[ArchivedAnswer], msgspec.Meta(max_length=MOST_PARTS)]
+    flags: Annotated[list[Part], msgspec.Meta(max_length=MOST_PARTS)]
     practice: bool = False
     paper: Annotated[str, msgspec.Meta(pattern="^[0-9a-f]{64}$")] | None = None
     """Its id, once it was handed in. The paper itself is HTML: nobody's file is believed that."""
@@ -173,27 +180,34 @@ class ArchiveStore:
         return msgspec.json.encode(whole)
 
     def import_archive(self, learner: int, archive: LearnerArchive) -> int:
-        """Add what a learner does not have yet, all of it or nothing; how many questions came."""
-        with self.database.writing(learner) as connection:
-            _merge_settings(connection, learner, archive.settings)
-            count = sum(_insert_attempt(connection, learner, one) for one in archive.attempts)
-            known = {
-                _encode_row(row) for row in _iter_learner_rows(connection, SEEN, learner, "id")
-            }
-            for seen in archive.seen:
-                row = msgspec.to_builtins(seen)
-                if _encode_row(row) not in known:
-                    known.add(_encode_row(row))
-                    connection.execute(insert(SEEN).values(learner=learner, **row))
-            cards = read_cards(connection, learner)
-            for card in archive.cards:
-                mine = cards.get((card.kind, card.name))
-                if mine is None or mine.last < card.last:
-                    write_card(connection, learner, card)
-            # As handed in by a file, a paper would show the key of the same that is open here.
-            sat = _open_papers(connection, learner)
-            coming = [one for one in archive.sittings if numbers_of(one.code) not in sat]
-            return count + sum(_insert_sitting(connection, learner, one) for one in coming)
+        """Add what a learner does not have yet; how many questions and exams came.
+
+        SQLite has one writer at a time, and a long file takes many seconds: it is written in
+        slices, between which answers of others are saved. What a file that was interrupted has
+        brought stays; taken in again it brings the rest, and nothing twice.
+        """
+        count = 0
+        for step in _steps(learner, archive):
+            count += self.database.write(learner, step)
+            time.sleep(_PAUSE)
+        return count
+
+
+def _steps(learner: int, archive: LearnerArchive) -> Iterator[Callable[[Connection], int]]:
+    """The slices of a file, each of which says how many questions and exams came."""
+    yield partial(_merge_settings, learner=learner, settings=archive.settings)
+    for attempts in _chunks(archive.attempts):
+        yield partial(_add_attempts, learner=learner, attempts=attempts)
+    for seen in _chunks(archive.seen):
+        yield partial(_add_seen, learner=learner, coming=seen)
+    for cards in _chunks(archive.cards):
+        yield partial(_add_cards, learner=learner, coming=cards)
+    for sitting in archive.sittings:
+        yield partial(_add_sitting, learner=learner, sitting=sitting)
+
+
+def _chunks(rows: Sequence[T]) -> Iterator[Sequence[T]]:
+    return (rows[first : first + CHUNK] for first in range(0, len(rows), CHUNK))
 
 
 def _select_columns(names: tuple[str, ...], table: Mapping[str, Any]) -> dict[str, Any]:
@@ -218,39 +232,68 @@ def _read_sitting_contents(connection: Connection, sitting: str) -> dict[str, An
     }
 
 
-def _encode_row(row: object) -> bytes:
-    return msgspec.json.encode(row, order="sorted")
-
-
-def _merge_settings(connection: Connection, learner: int, settings: Settings) -> None:
+def _merge_settings(connection: Connection, learner: int, settings: Settings) -> int:
     """Take over what was chosen where nothing is chosen yet."""
     place = LEARNER.c.id == learner
     mine = connection.execute(select(LEARNER.c.settings).where(place)).scalar_one()
     whole = {**settings, **mine}
     connection.execute(update(LEARNER).where(place).values(settings=whole))
+    return 0
 
 
-def _find_free_name(connection: Connection, table: Table, learner: int, name: str) -> str | None:
-    """The name under which something comes in: another one if somebody else has it; None if known.
+def _free_names(
+    connection: Connection, table: Table, learner: int, names: Iterable[str]
+) -> dict[str, str]:
+    """The names under which something comes in: others if somebody else has them, none if known.
 
-    The same file always gives the same one, so that it does not come in twice.
+    The same file always gives the same ones, so that it does not come in twice.
     """
-    other = hashlib.sha256(f"{learner}/{name}".encode()).hexdigest()[:24]
-    for one in (name, other):
-        owner = connection.execute(select(table.c.learner).where(table.c.id == one)).scalar()
-        if owner is None:
-            return one
-        if owner == learner:
-            return None
-    return None
+    others = {name: hashlib.sha256(f"{learner}/{name}".encode()).hexdigest()[:24] for name in names}
+    query = select(table.c.id, table.c.learner)
+    query = query.where(table.c.id.in_([*others, *others.values()]))
+    owners = {str(name): owner for name, owner in connection.execute(query)}
+    free = {
+        name: next((one for one in (name, other) if owners.get(one, learner) == learner), name)
+        for name, other in others.items()
+    }
+    return {name: one for name, one in free.items() if one not in owners}
 
 
-def _insert_attempt(connection: Connection, learner: int, attempt: ArchivedAttempt) -> bool:
-    name = _find_free_name(connection, ATTEMPT, learner, attempt.id)
-    if name is not None:
-        row = {**msgspec.to_builtins(attempt), "id": name, "learner": learner}
-        connection.execute(insert(ATTEMPT).values(row))
-    return name is not None
+def _add_attempts(connection: Connection, learner: int, attempts: Sequence[ArchivedAttempt]) -> int:
+    named = {one.id: one for one in reversed(attempts)}
+    free = _free_names(connection, ATTEMPT, learner, named)
+    rows = [
+        {**msgspec.to_builtins(named[name]), "id": one, "learner": learner}
+        for name, one in free.items()
+    ]
+    if rows:
+        connection.execute(insert(ATTEMPT), rows)
+    return len(rows)
+
+
+def _add_seen(connection: Connection, learner: int, coming: Sequence[ArchivedOutcome]) -> int:
+    times = {one.at for one in coming}
+    place = (SEEN.c.learner == learner, SEEN.c.at >= min(times), SEEN.c.at <= max(times))
+    columns = [SEEN.c[name] for name in ArchivedOutcome.__struct_fields__]
+    known = {tuple(row) for row in connection.execute(select(*columns).where(*place))}
+    new = {msgspec.structs.astuple(one): one for one in coming}
+    rows = [
+        {"learner": learner, **msgspec.structs.asdict(one)}
+        for key, one in new.items()
+        if key not in known
+    ]
+    if rows:
+        connection.execute(insert(SEEN), rows)
+    return 0
+
+
+def _add_cards(connection: Connection, learner: int, coming: Sequence[ReviewCard]) -> int:
+    cards = read_cards(connection, learner)
+    for card in coming:
+        mine = cards.get((card.kind, card.name))
+        if mine is None or mine.last < card.last:
+            write_card(connection, learner, card)
+    return 0
 
 
 def _open_papers(connection: Connection, learner: int) -> set[str]:
@@ -259,18 +302,23 @@ def _open_papers(connection: Connection, learner: int) -> set[str]:
     return set(map(numbers_of, connection.execute(select(SITTING.c.code).where(*mine)).scalars()))
 
 
-def _insert_sitting(connection: Connection, learner: int, sitting: ArchivedExam) -> bool:
-    name = _find_free_name(connection, SITTING, learner, sitting.id)
+def _add_sitting(connection: Connection, learner: int, sitting: ArchivedExam) -> int:
+    # As handed in by a file, a paper would show the key of the same that is open here.
+    if numbers_of(sitting.code) in _open_papers(connection, learner):
+        return 0
+    name = _free_names(connection, SITTING, learner, [sitting.id]).get(sitting.id)
     if name is None:
-        return False
+        return 0
     row = {**msgspec.to_builtins(sitting), "id": name, "learner": learner}
     answers, flags = row.pop("answers"), row.pop("flags")
     known = select(PAPER.c.id).where(PAPER.c.id == sitting.paper)
     row["paper"] = connection.execute(known).scalar()
     row["counted"] = sitting.handed is not None  # how its parts went is in the file, too
     connection.execute(insert(SITTING).values(row))
-    for answer in {one["part"]: one for one in answers}.values():
-        connection.execute(insert(ANSWER).values(sitting=name, **answer))
-    for number in dict.fromkeys(flags):
-        connection.execute(insert(FLAG).values(sitting=name, number=number))
-    return True
+    last = {one["part"]: {"sitting": name, **one} for one in answers}
+    if last:
+        connection.execute(insert(ANSWER), list(last.values()))
+    if flags:
+        rows = [{"sitting": name, "number": number} for number in dict.fromkeys(flags)]
+        connection.execute(insert(FLAG), rows)
+    return 1

@@ -101,8 +101,11 @@ class Database:
         learner : int, optional
             Whose data is written.
         """
-        with self._writer.begin() as connection:
-            if learner is not None and connection.dialect.name != "sqlite":
+        # Who waits for SQLite itself only looks now and then, and comes too late in a crowd.
+        is_alone = self._reader.dialect.name == "sqlite"
+        turn = self._turn if is_alone else contextlib.nullcontext()
+        with turn, self._writer.begin() as connection:
+            if learner is not None and not is_alone:
                 mine = select(LEARNER.c.id).where(LEARNER.c.id == learner)
                 connection.execute(mine.with_for_update(key_share=True))
             yield connection

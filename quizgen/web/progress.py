@@ -171,7 +171,7 @@ async def download_archive(request: Request) -> Response:
 
 
 async def upload_archive(request: Request) -> Response:
-    """Add what a file holds to what is there, all of it or nothing."""
+    """Add what a file holds to what is there."""
     site: ServerState = request.app.state.site
     data = await read_upload(request, "file")
     site.spend_quota("import", request.state.learner.id)

@@ -11,7 +11,7 @@ from mechanics import write
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.combined import CombinedBank, bank_sources, open_banks
 from quizgen.bank.variant import draw_variant
-from quizgen.cards import build_deck as deck
+from quizgen.cards import build_deck
 from quizgen.core.errors import BankError, FormulaError
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.paper import build_paper
@@ -126,15 +126,15 @@ def test_a_topic_of_two_banks_is_one(twins):
 
 def test_cards_of_both_keep_their_notes(both):
     kinds = ("truth", "vocab")
-    mixed = deck(kinds=kinds, bank=both)
-    alone = [deck(kinds=kinds, bank=part) for part in both.members]
+    mixed = build_deck(kinds=kinds, bank=both)
+    alone = [build_deck(kinds=kinds, bank=part) for part in both.members]
     assert {note.guid for note in mixed.notes} == {n.guid for one in alone for n in one.notes}
     assert {note.columns for note in mixed.notes} == {("en", "bn"), ("en", "de")}
 
 
 def test_cards_of_the_same_template_are_two(twins):
-    keys = {note.key for note in deck(kinds=("question",), bank=twins).notes}
-    assert len(keys) == 2 * len(deck(kinds=("question",), bank=twins.members[0]).notes)
+    keys = {note.key for note in build_deck(kinds=("question",), bank=twins).notes}
+    assert len(keys) == 2 * len(build_deck(kinds=("question",), bank=twins.members[0]).notes)
     assert all(key.partition(":")[0] in {"mechanics", "statics"} for key in keys)
 
 

@@ -278,7 +278,11 @@ main(["exam", "--seed", "1", "--blueprint", "trial", "--format", "html", "--out"
 
 @pytest.mark.parametrize(
     ("module", "function"),
-    [("paper.paper", "compose_variant"), ("render", "render_paper"), ("core.files", "_write_synced")],
+    [
+        ("paper.paper", "compose_variant"),
+        ("render", "render_paper"),
+        ("core.files", "_write_synced"),
+    ],
     ids=["composing", "rendering", "writing"],
 )
 def test_an_interrupted_run_leaves_nothing(tmp_path, module, function):

@@ -226,7 +226,9 @@ def test_what_went_wrong_in_the_browser_is_asked_here_first(browser_side):
     title = compose_question(builtin_bank().template(POINT), figures=False)[0].title
     assert f"Question 1 of 1: {title}" in done.output
     seen = OutcomeRecord("rgb-to-hsv", "colour", "a", "", right=False, first=False, at=time.time())
-    attempt = browser_side.store.start_attempt(browser_side.learner.id, QuestionRef("rgb-to-hsv", "1"), {})
+    attempt = browser_side.store.start_attempt(
+        browser_side.learner.id, QuestionRef("rgb-to-hsv", "1"), {}
+    )
     browser_side.store.save_attempt(attempt, (seen,))
     done = run(["!"] * 9, "--count", "1", "--seed", "s")
     assert "So far, here and in the browser" in done.output

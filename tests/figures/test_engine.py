@@ -96,7 +96,9 @@ def test_a_figure_is_parameters_a_drawing_and_words(module):
 @pytest.mark.parametrize("name", ["PARAMETERS", "draw", "alt"])
 def test_what_a_module_lacks_is_told(module, name):
     source = re.sub(rf"\b{name}\b", f"{name}_", LINE)
-    with pytest.raises(BankError, match=rf"line.py: figure 'line': the module has no {name} \(see docs/"):
+    with pytest.raises(
+        BankError, match=rf"line.py: figure 'line': the module has no {name} \(see docs/"
+    ):
         draw(module(source))
 
 

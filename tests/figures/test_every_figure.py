@@ -21,10 +21,9 @@ from figure_cases import FIGURES, HIDDEN, REFERENCE, draw, draws, module
 from svg_reader import SVG, read_labels
 
 from quizgen import figures
-from quizgen.figures import engine
 from quizgen.bank.bank import builtin_bank
 from quizgen.core.errors import BankError
-from quizgen.figures import describe_figure
+from quizgen.figures import describe_figure, engine
 from quizgen.figures.alt_text import strip_mathtext
 from quizgen.locale import list_languages
 

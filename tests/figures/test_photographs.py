@@ -17,7 +17,7 @@ from skimage.color import hsv2rgb, rgb2hsv, rgb2lab
 from svg_reader import read_labels, read_parts, read_pictures
 from sweep import spread
 
-from quizgen.bank.variant import draw_variant as draw_question
+from quizgen.bank.variant import draw_variant
 from quizgen.camera import picture_sets
 from quizgen.core.errors import BankError, QuizgenError
 from quizgen.figures import complete_parameters, svg
@@ -452,7 +452,7 @@ NAMES = {
 
 def draw_key(bank, name, seed, part=0):
     """Drawn numbers and the name of the right option of a part."""
-    drawn = draw_question(bank.template(name), seed)
+    drawn = draw_variant(bank.template(name), seed)
     ((_, right),) = ask_part(drawn, part).right
     return {key: float(value) for key, value in drawn.shown.items()}, right
 
@@ -489,7 +489,7 @@ def test_the_object_in_focus_is_the_one_of_the_key(bank, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_edits_stand_where_the_key_says(bank, seed):
-    drawn = draw_question(bank.template("edit-from-photo-and-histogram"), seed)
+    drawn = draw_variant(bank.template("edit-from-photo-and-histogram"), seed)
     given = {key: float(value) for key, value in drawn.shown.items()}
     order = grey_edits.order_edits(given["order"])
     places = [order.index(edit) for edit in ("coarse", "squeezed", "brightened")]
@@ -501,7 +501,7 @@ def test_the_edits_stand_where_the_key_says(bank, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_each_photo_was_taken_with_the_setting_of_the_key(bank, seed):
-    drawn = draw_question(bank.template("which-photo-which-focus"), seed)
+    drawn = draw_variant(bank.template("which-photo-which-focus"), seed)
     given = {key: float(value) for key, value in drawn.shown.items()}
     built = ask_part(drawn, 0)
     settings = {

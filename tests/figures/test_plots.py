@@ -10,7 +10,7 @@ from scipy.stats import norm
 from svg_reader import read_labels, read_parts, read_pictures
 from sweep import spread
 
-from quizgen.bank.variant import draw_variant as draw_numbers
+from quizgen.bank.variant import draw_variant
 from quizgen.camera import picture_sets
 from quizgen.core.errors import BankError
 from quizgen.numerics import luminosity
@@ -398,7 +398,7 @@ def test_a_learners_staircase_has_treads_of_its_own_length(marks):
 
 def _draw_question(bank, name, seed, part=0):
     """Drawn numbers and the name of the right option of a part."""
-    drawn = draw_numbers(bank.template(name), seed)
+    drawn = draw_variant(bank.template(name), seed)
     ((_, right),) = ask_part(drawn, part).right
     return {key: float(value) for key, value in drawn.shown.items()}, right
 
@@ -437,7 +437,7 @@ def test_the_order_of_five_lights_is_that_of_the_curves(bank, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_lamps_have_the_heights_of_both_curves(bank, seed):
-    drawn = draw_numbers(bank.template("two-lamps-by-day-and-by-night"), seed)
+    drawn = draw_variant(bank.template("two-lamps-by-day-and-by-night"), seed)
     given = {k: float(v) for k, v in drawn.shown.items()}
     for k in "12":
         assert given[f"V_{k}"] == pytest.approx(
@@ -449,7 +449,7 @@ def test_the_lamps_have_the_heights_of_both_curves(bank, seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_curve_is_as_high_at_the_wavelength_beyond_the_peak(bank, seed):
-    drawn = draw_numbers(bank.template("power-for-equal-brightness"), seed)
+    drawn = draw_variant(bank.template("power-for-equal-brightness"), seed)
     given = {k: float(v) for k, v in drawn.shown.items()}
     curve = luminosity.NIGHT if given["dark"] else luminosity.DAY
     beyond = given["lambda_3"]
@@ -465,7 +465,7 @@ def test_the_curve_is_as_high_at_the_wavelength_beyond_the_peak(bank, seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_staircase_rises_where_the_key_says(bank, seed):
     given, key = _draw_question(bank, "quantiser-from-staircase", seed, part=1)
-    drawn = draw_numbers(bank.template("quantiser-from-staircase"), seed)
+    drawn = draw_variant(bank.template("quantiser-from-staircase"), seed)
     rises = staircase.list_jumps(given)
     ends = {
         "nearest": (0.5, 0.5), "down": (1, 0), "parts": (1, 1), "up": (0, 1)

@@ -7,10 +7,10 @@ from fractions import Fraction
 from random import Random
 
 import pytest
-from tests.grading.hands import along, drawings, moved, text, turned, waved
 
 from quizgen.core.errors import KeyFileError
 from quizgen.kinds.grade import grade_answer, load_spec, show_key
+from tests.grading.hands import along, drawings, moved, text, turned, waved
 
 WIDE = 2.8
 EDGES = ("top", "bottom", "left", "right")

@@ -15,12 +15,11 @@ from values import as_json, bent, damaged, huge, mutated, toml
 
 from quizgen.bank import sampler as planning
 from quizgen.bank.bank import Bank, builtin_bank
-from quizgen.bank.entries import load_entries as load_cards
-from quizgen.bank.entries import localised_fields
+from quizgen.bank.entries import load_entries, localised_fields
 from quizgen.camera import PreparedScene, plan_budget
 from quizgen.camera.question_photo import take_question_photo
 from quizgen.camera.scene_file import load_scene
-from quizgen.camera.simulation import run_plan as photograph
+from quizgen.camera.simulation import run_plan
 from quizgen.cards.content import KINDS as CARDS
 from quizgen.cards.error_deck import deck_from_grades
 from quizgen.figures.png import encode_png
@@ -102,7 +101,7 @@ def cards(folder: Path, chance: Chance) -> None:
     table = tomllib.loads(builtin_bank().cards[name].read_text("utf-8"))
     few = {"entry": chance.sample(table["entry"], 3)}
     file = folder / f"{name}.toml"
-    entries = load_cards(toml(mutated(few, chance)), CARDS[name], str(file))
+    entries = load_entries(toml(mutated(few, chance)), CARDS[name], str(file))
     for entry in entries:
         for field in localised_fields(type(entry)):
             entry_blocks(entry, field, "en")
@@ -128,7 +127,7 @@ def scene(folder: Path, chance: Chance) -> None:
     given, camera = load_scene(file)
     if given.width * given.height <= SMALL:
         prepared = PreparedScene(given, camera)
-        photograph(prepared, plan_budget(prepared).names)
+        run_plan(prepared, plan_budget(prepared).names)
         if given.question:
             take_question_photo(given, camera)
 

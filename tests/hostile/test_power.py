@@ -122,3 +122,19 @@ def test_what_fails_in_a_group_takes_nothing_else_with_it(tmp_path):
         store.database.write(me, lambda _: 1 / 0)
     assert store.sittings.save(me, sitting.id, {"1": ["x"]})[1]
     store.close()
+
+
+def test_who_writes_alone_waits_for_its_turn_and_not_for_sqlite(tmp_path):
+    store = Store(f"sqlite:///{tmp_path / FILE}")
+    me = store.learner().id
+    begun = []
+    event.listen(store.database._reader, "begin", begun.append)
+    with ThreadPoolExecutor(1) as threads:
+        with store.database._turn:  # as while a commit is under way
+            changed = threads.submit(store.update_settings, me, {"lang": "bn"})
+            time.sleep(0.1)
+            assert begun == []
+        changed.result()
+    assert len(begun) == 1
+    assert store.learner().settings == {"lang": "bn"}
+    store.close()

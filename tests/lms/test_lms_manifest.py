@@ -20,8 +20,7 @@ from quizgen.lms.grading import grade_attempts
 from quizgen.lms.items import items_from_templates
 from quizgen.lms.manifest import ExportManifest
 from quizgen.lms.manifest_writer import manifest_entry
-from quizgen.lms.moodle import moodle_manifest as entries
-from quizgen.lms.moodle import write_moodle
+from quizgen.lms.moodle import moodle_manifest, write_moodle
 from quizgen.lms.qti.item import qti_manifest as variables
 from quizgen.lms.qti.package import write_qti3, write_qti21
 from quizgen.lms.response_files import read_attempts
@@ -69,7 +68,7 @@ def embedded(field) -> str:
 def missed(items) -> dict[str, list[str]]:
     """Parts of which the right response does not have all the marks."""
     found = {}
-    keys = ExportManifest(manifest_entry(item, entries(item)) for item in items)
+    keys = ExportManifest(manifest_entry(item, moodle_manifest(item)) for item in items)
     for question in ET.fromstring(write_moodle(items)).iter("question"):
         if question.get("type") in {"category", "essay"}:
             continue
@@ -152,5 +151,5 @@ def test_keys_of_a_package_come_back_right(items, write_package, version, tmp_pa
 
 
 def test_marks_are_apart(items):
-    marks = [entry.mark for item in items for entry in entries(item)]
+    marks = [entry.mark for item in items for entry in moodle_manifest(item)]
     assert len(marks) == len({*marks})

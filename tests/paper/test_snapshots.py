@@ -94,7 +94,10 @@ def test_the_page_of_a_paper(bank, snapshots, kind):
 def test_every_topic_and_kind_of_answer_is_among_them(bank, snapshots):
     assert set(ASKED) == {bank.rules(name).topic for name in bank.template_paths}
     asked = {name for names in ASKED.values() for name in names}
-    kinds = {name: {part.answer["kind"] for part in bank.rules(name).part} for name in bank.template_paths}
+    kinds = {
+        name: {part.answer["kind"] for part in bank.rules(name).part}
+        for name in bank.template_paths
+    }
     assert set().union(*(kinds[name] for name in asked)) == set().union(*kinds.values())
     ends = [*(f"{lang}.txt" for lang in LANGS), "key.json"]
     names = [f"{topic}{LEVELS[level]}.{end}" for topic, level in PAGES for end in ends]

@@ -121,7 +121,9 @@ def test_a_mistake_has_a_card_of_its_own():
 
 @pytest.fixture
 def names(bank):
-    return [name for name in bank.template_paths if bank.rules(name).topic in {"projection", "noise"}]
+    return [
+        name for name in bank.template_paths if bank.rules(name).topic in {"projection", "noise"}
+    ]
 
 
 def agenda(bank, cards, now=NOW, exam=None):

@@ -68,7 +68,9 @@ def test_a_mistake_is_named_at_the_step_where_it_happens_and_only_there():
         builtin_bank().template("blur-disc-diameter"), 0
     )  # f = 50 mm, N_1 = 8, image at 50 mm
     marker, parts = marker_of(*guided(drawn))
-    assert marker.grade_part(parts["1a1"], "12.5 mm").verdict.verdict == "wrong"  # twice the diameter
+    assert (
+        marker.grade_part(parts["1a1"], "12.5 mm").verdict.verdict == "wrong"
+    )  # twice the diameter
     carried = marker.grade_part(parts["1a3"], "500 um").verdict
     assert (carried.note, carried.credit) == ("carried-forward", 1)
 

@@ -79,7 +79,9 @@ def test_the_counts_are_those_of_today():
 
 def test_counts_are_kept_by_template():
     bank = builtin_bank()
-    few = SimpleNamespace(template_paths=[THIRDS, "thin-lens-image-distance"], template=bank.template)
+    few = SimpleNamespace(
+        template_paths=[THIRDS, "thin-lens-image-distance"], template=bank.template
+    )
     counted = count_wrong(few, 2)
     assert (counted.templates, counted.drawn) == (2, 2)
     assert counted.wrong["rounded"] == {THIRDS: 1}

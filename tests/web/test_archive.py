@@ -1,4 +1,4 @@
-"""Everything of a learner as a file, taken in by another server: added, never doubled, whole or not."""
+"""Everything of a learner as a file, taken in by another server: added, never doubled."""
 
 from __future__ import annotations
 
@@ -34,7 +34,9 @@ def full(store):
     """A learner with a question, an exam, a card and a date."""
     mine = store()
     learner = mine.learner().id
-    attempt = mine.start_attempt(learner, QuestionRef("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""})
+    attempt = mine.start_attempt(
+        learner, QuestionRef("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""}
+    )
     done = {"typed": "1", "tries": 1, "hints": 0, "wrong": "2", "note": "sign",
             "outcome": {"topic": "colour", "right": True, "first": False, "skipped": False}}  # fmt: skip
     attempt.state = {"parts": {"1a": {"state": done, "values": ["1"], "asked_back": ""}},

@@ -33,7 +33,7 @@ def at_once(app):
     """Questions made here, without pictures; what was made, by what was wanted."""
     kept, workers = {}, app.state.site.workers
 
-    async def question(wanted):
+    async def question(wanted, _asker=None):
         if wanted not in kept:
             drawn = numbers(wanted.template, wanted.seed)
             pair = compose_variant(drawn, wanted.lang, level=wanted.level, figures=False)

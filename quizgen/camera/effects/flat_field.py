@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from quizgen.camera.effect import Effect, EffectSize, PointByPoint
-from quizgen.camera.effects.vignetting import corner_falloff, falloff_map
-from quizgen.camera.effects.vignetting import is_present as vignettes
+from quizgen.camera.effects.vignetting import corner_falloff, falloff_map, is_present
 from quizgen.camera.pixels.tiles import TileOperation, multiply_by_map
 from quizgen.camera.setup.scene import Image
 from quizgen.camera.setup.settings import Setting
@@ -35,7 +34,7 @@ EFFECT = Effect(
     name="flat field",
     answers=("flat field",),
     settings=(FLAT_FIELD,),
-    is_present=lambda view: view.camera[FLAT_FIELD] and vignettes(view),
+    is_present=lambda view: view.camera[FLAT_FIELD] and is_present(view),
     run=PointByPoint(operation),
     omission_bound=lambda signal, view: (_most(view) - 1.0) * signal.size,
     carry_error=lambda error, _, view: error * _most(view),

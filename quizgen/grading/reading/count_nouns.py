@@ -9,8 +9,7 @@ from functools import lru_cache
 
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.locale import fallback_language, is_written_in
-from quizgen.maths.units import active_units
-from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.units import active_units, format_unit
 
 MOST_WORDS, LONGEST_WORD = 60, 60
 
@@ -48,7 +47,7 @@ def count_noun_unit(words: Iterable[str]) -> str:
 def count_noun_name(words: list[str], lang: str) -> str:
     """What is counted, as it is called in a language."""
     if words[0] in active_units().simple:
-        return shown_unit(words[0])
+        return format_unit(words[0])
     return next((word for word in words if is_written_in(fallback_language(lang), word)), words[0])
 
 

@@ -28,7 +28,7 @@ from quizgen.grading.reading.quantities import TypedQuantity, split_quantity
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import TypedUnit, listed_unit, read_unit
 from quizgen.maths.notation import FormulaReadError
-from quizgen.maths.units import format_unit as shown_unit
+from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
 _EQUAL = re.compile(r" ?(?:=>|⇒|->|→|:=|==?|[≈≃≅≐∼~]) ?")
@@ -209,5 +209,5 @@ def _compute_unit_factor(unit: TypedUnit | None, asked: str, item: SourceText) -
     wanted = listed_unit(asked)
     if unit.dimension != wanted.dimension:
         code = "unit-not-asked" if not wanted.dimension else "unit-other"
-        raise FormulaReadError(code, item.column(0), shown_unit(unit.text), [shown_unit(asked)])
+        raise FormulaReadError(code, item.column(0), format_unit(unit.text), [format_unit(asked)])
     return unit.factor / wanted.factor
