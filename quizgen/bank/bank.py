@@ -11,11 +11,13 @@ trusted.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from functools import cache, cached_property
 from pathlib import Path
 from types import ModuleType
 
+from quizgen.bank.candidate import Candidate
 from quizgen.bank.language_file import read_language_file
 from quizgen.bank.markdown import LanguageFile
 from quizgen.bank.metadata import (
@@ -28,7 +30,7 @@ from quizgen.bank.metadata import (
 )
 from quizgen.bank.pictures import pictures_beside, read_pictures
 from quizgen.bank.quantities import QuantityNames, read_quantities
-from quizgen.bank.rules import Rules
+from quizgen.bank.rules import Rules, suggested_minutes, total_points
 from quizgen.bank.solvers import import_module_file, load_chain, unload_modules
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.core.cache import compute_digest
@@ -83,6 +85,7 @@ class Bank:
         self.trusted = trusted
         self._templates: dict[str, Template] = {}
         self._rules: dict[str, Rules] = {}
+        self._candidates: dict[str, Candidate] = {}
         self._pages: dict[str, list[Path]] = {}
         self._chains: dict[str, tuple[Chain, bytes]] = {}
         if not self.folder.is_dir():
@@ -338,6 +341,40 @@ class Bank:
     def origin(self, name: str) -> str:
         """The name that a template's numbers are drawn under: its first one."""
         return self.rules(name).formerly or name
+
+    def candidates(self, names: Iterable[str] = ()) -> list[Candidate]:
+        """What a paper may choose from: the templates named, or all of them.
+
+        Only the rules of those are read, so that one that is wrong stops no paper that lists
+        others.
+
+        Raises
+        ------
+        BankError
+            If one of them is unknown or wrong.
+        """
+        return [self._candidate(name) for name in tuple(names) or self.template_paths]
+
+    def _candidate(self, name: str) -> Candidate:
+        if name not in self._candidates:
+            rules, (owner, _) = self.rules(name), self.owner_of(name)
+            # A figure of the template's own has no name: it is a kind by itself.
+            figure = (rules.figure.name or name) if rules.figure and rules.figure.quiz else ""
+            self._candidates[name] = Candidate(
+                name,
+                self.origin(name),
+                self.members.index(owner),
+                rules.tier,
+                rules.topic,
+                rules.beyond,
+                total_points(rules),
+                Fraction(suggested_minutes(rules)),
+                figure,
+                figure in owner.metadata.photographs,
+                frozenset(rules.apart),
+                rules.pool,
+            )
+        return self._candidates[name]
 
     def template(self, name: str) -> Template:
         """Load a template, once.

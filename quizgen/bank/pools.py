@@ -8,22 +8,55 @@ order of all others as it was.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import lru_cache
 from itertools import combinations
 from math import comb, prod
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Protocol
 
 import msgspec
+from flint import fmpq
 
 from quizgen.bank.rules import get_claim
 from quizgen.bank.sampler import pick_index
-from quizgen.bank.variant import Variant
+from quizgen.bank.template import Template
 from quizgen.core.errors import BankError
+from quizgen.maths.numbers import format_for_key
+from quizgen.maths.values import Value
 
 MIXED = 3
 """Claims of one draw from which on they are neither all true nor all false."""
+
+
+class PoolVariant(Protocol):
+    """What a selection depends on: a variant, which this module is too low to know."""
+
+    @property
+    def template(self) -> Template:
+        """What it was drawn of."""
+
+    @property
+    def seed(self) -> str:
+        """The paper's seed."""
+
+    @property
+    def slot(self) -> str:
+        """Its place in the paper."""
+
+    @property
+    def shown(self) -> Mapping[str, fmpq]:
+        """Drawn quantities in the units they are shown in."""
+
+    @property
+    def words(self) -> Mapping[str, str]:
+        """Drawn phrases, by their name in the language files."""
+
+    def evaluate(self, formula: str) -> Value:
+        """Value of a formula over the quantities in shown units."""
+
+    def __hash__(self) -> int:
+        """By itself: a selection is kept for each variant."""
 
 
 class PoolSelection(msgspec.Struct, frozen=True):
@@ -41,13 +74,13 @@ class PoolSelection(msgspec.Struct, frozen=True):
     extra: tuple[str, ...] = ()
 
 
-def condition_holds(drawn: Variant, condition: object) -> bool:
+def condition_holds(drawn: PoolVariant, condition: object) -> bool:
     """Whether an authored condition, a truth or a formula, holds in this draw."""
     return condition if isinstance(condition, bool) else bool(drawn.evaluate(str(condition)))
 
 
 @lru_cache(maxsize=128)
-def select_from_pool(drawn: Variant, index: int) -> PoolSelection:
+def select_from_pool(drawn: PoolVariant, index: int) -> PoolSelection:
     """What a part shows in this draw; all that is listed where it has no pool.
 
     Raises
@@ -69,7 +102,7 @@ def select_from_pool(drawn: Variant, index: int) -> PoolSelection:
 
 
 @lru_cache(maxsize=128)
-def selected_claims(drawn: Variant) -> Mapping[int, str]:
+def selected_claims(drawn: PoolVariant) -> Mapping[int, str]:
     """Each part that asks a claim of the pool, and the claim; no claim comes twice.
 
     Whether a claim is true is drawn first, as a fair coin, then which one it is.
@@ -92,25 +125,32 @@ def selected_claims(drawn: Variant) -> Mapping[int, str]:
     return MappingProxyType(asked)
 
 
-def count_pool_variants(drawn: Variant) -> int:
+def count_pool_variants(drawn: PoolVariant) -> int:
     """How many different questions its pools can make of the numbers of a draw."""
     parts = range(len(drawn.template.rules.part))
     return _claim_sets(drawn) * prod(_count_selections(drawn, index) for index in parts)
 
 
-def pool_identity(drawn: Variant) -> list[str]:
-    """What its pools gave, as part of the name of the variant."""
+def build_identity(drawn: PoolVariant) -> str:
+    """Name of a variant: two ask the same if and only if this is the same."""
+    numbers = [f"{name}={format_for_key(value)}" for name, value in sorted(drawn.shown.items())]
+    words = [f"{name}={value}" for name, value in sorted(drawn.words.items())]
+    return f"{drawn.template.id}({', '.join([*numbers, *words, *_selected_names(drawn)])})"
+
+
+def _selected_names(drawn: PoolVariant) -> Iterator[str]:
+    """What its pools gave."""
     asked = sorted(selected_claims(drawn).values())
-    found = [f"claims={'+'.join(asked)}"] if asked else []
+    if asked:
+        yield f"claims={'+'.join(asked)}"
     for index, part in enumerate(drawn.template.rules.part):
         if "take" in part.answer or "extra" in part.answer:
             shown = select_from_pool(drawn, index)
             label = drawn.template.labels[index] or "part"
-            found.append(f"{label}={'+'.join(sorted((*shown.names, *shown.extra)))}")
-    return found
+            yield f"{label}={'+'.join(sorted((*shown.names, *shown.extra)))}"
 
 
-def _build_selection_key(drawn: Variant, place: object) -> str:
+def _build_selection_key(drawn: PoolVariant, place: object) -> str:
     template = drawn.template
     return f"{template.origin}/{template.rules.version}/{drawn.seed}/{drawn.slot}/take/{place}"
 
@@ -120,7 +160,7 @@ def _rank_by_hash(key: str, names: Iterable[str]) -> list[str]:
 
 
 def _select_names(
-    drawn: Variant, index: int, names: Collection[str], count: int | None
+    drawn: PoolVariant, index: int, names: Collection[str], count: int | None
 ) -> tuple[str, ...]:
     """So many of the names, or all of them in their order."""
     if count is None:
@@ -128,7 +168,9 @@ def _select_names(
     return tuple(_rank_by_hash(_build_selection_key(drawn, index), names)[:count])
 
 
-def _select_options(drawn: Variant, index: int, options: Mapping[str, object]) -> tuple[str, ...]:
+def _select_options(
+    drawn: PoolVariant, index: int, options: Mapping[str, object]
+) -> tuple[str, ...]:
     take = drawn.template.rules.part[index].answer.get("take")
     if take is None:
         return tuple(options)
@@ -141,13 +183,13 @@ def _select_options(drawn: Variant, index: int, options: Mapping[str, object]) -
 
 
 def _split_right_and_wrong(
-    drawn: Variant, options: Mapping[str, object]
+    drawn: PoolVariant, options: Mapping[str, object]
 ) -> tuple[list[str], list[str]]:
     right = [name for name, condition in options.items() if condition_holds(drawn, condition)]
     return right, [name for name in options if name not in right]
 
 
-def _right_counts(drawn: Variant, index: int, right: int, wrong: int) -> list[int]:
+def _right_counts(drawn: PoolVariant, index: int, right: int, wrong: int) -> list[int]:
     """The numbers of right options that a draw can have."""
     answer = drawn.template.rules.part[index].answer
     take = answer["take"]
@@ -160,13 +202,13 @@ def _right_counts(drawn: Variant, index: int, right: int, wrong: int) -> list[in
     return found
 
 
-def matching_pairs(drawn: Variant, index: int) -> dict[str, str]:
+def matching_pairs(drawn: PoolVariant, index: int) -> dict[str, str]:
     """Left side to right side of a matching, whatever is taken; a drawn phrase names what it is."""
     pairs = drawn.template.rules.part[index].answer["pairs"]
     return {name: drawn.words.get(target, target) for name, target in pairs.items()}
 
 
-def _select_pairs(drawn: Variant, index: int) -> PoolSelection:
+def _select_pairs(drawn: PoolVariant, index: int) -> PoolSelection:
     answer, pairs = drawn.template.rules.part[index].answer, matching_pairs(drawn, index)
     ranked = _rank_by_hash(_build_selection_key(drawn, index), pairs)
     take = answer.get("take", len(pairs))
@@ -184,7 +226,7 @@ def _select_pairs(drawn: Variant, index: int) -> PoolSelection:
     return PoolSelection(tuple(name for name in pairs if name in names), spare)
 
 
-def _claim_sets(drawn: Variant) -> int:
+def _claim_sets(drawn: PoolVariant) -> int:
     rules = drawn.template.rules
     count = sum("from" in part.answer for part in rules.part)
     true = sum(condition_holds(drawn, get_claim(rules, name).true) for name in rules.claims)
@@ -193,7 +235,7 @@ def _claim_sets(drawn: Variant) -> int:
     return comb(true + false, count) - alike
 
 
-def _count_selections(drawn: Variant, index: int) -> int:
+def _count_selections(drawn: PoolVariant, index: int) -> int:
     answer: Mapping[str, Any] = drawn.template.rules.part[index].answer
     if "options" in answer and "take" in answer:
         right, wrong = map(len, _split_right_and_wrong(drawn, answer["options"]))

@@ -77,12 +77,11 @@ def read_quantities(paths: Iterable[Path]) -> dict[str, QuantityNames]:
 
 def _read_quantities(path: Path, source: str) -> dict[str, QuantityNames]:
     table = parse_toml(source, path, BankError)
-    try:
-        read = convert(table, dict[str, _Written])
-    except msgspec.ValidationError as error:
-        with error_context(path, BankError):
-            raise complaint_of(error, dict[str, _Written], table) from error
     with error_context(path, BankError):
+        try:
+            read = convert(table, dict[str, _Written])
+        except msgspec.ValidationError as error:
+            raise complaint_of(error, dict[str, _Written], table) from error
         return {solver: _parse_quantity_names(written) for solver, written in read.items()}
 
 

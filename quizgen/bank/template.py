@@ -183,23 +183,22 @@ def read_rules(path: Path) -> Rules:
     """
     source = read_text(path, BankError)
     found = _RULES.get(source.encode())
-    return found or _RULES.put(_read_rules(path, source), source.encode())
+    if found:
+        return found
+    with error_context(path, BankError):
+        return _RULES.put(_read_rules(path, source), source.encode())
 
 
 def _read_rules(path: Path, source: str) -> Rules:
     try:
         table = parse_toml(source, path, BankError, _whole_or(float))
-        shape = convert(table, Rules)
-        with error_context(path, BankError):
-            for fault in find_malformed_answers(shape):
-                raise fault
+        for fault in find_malformed_answers(convert(table, Rules)):
+            raise fault
         table = parse_toml(source, path, BankError, _whole_or(str))
         rules = convert(table, Rules)
     except msgspec.ValidationError as error:
-        with error_context(path, BankError):
-            raise complaint_of(error, Rules, table) from error
-    with error_context(path, BankError):
-        _check_draws(rules)
+        raise complaint_of(error, Rules, table) from error
+    _check_draws(rules)
     return rules
 
 

@@ -15,12 +15,12 @@ from dataclasses import dataclass, field
 import msgspec
 from flint import fmpq
 
+from quizgen.bank.pools import build_identity
 from quizgen.bank.rules import Scalar
 from quizgen.bank.sampler import Sampler, sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.core.errors import SamplingError
 from quizgen.core.positions import TEXT, Place
-from quizgen.core.untrusted import error_context
 from quizgen.maths.canonical import CanonicalForm
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.numbers import (
@@ -88,6 +88,7 @@ class Variant:
     elsewhere: SiblingContent = field(default_factory=SiblingContent)
     shown_values: Values = field(init=False, repr=False, compare=False)
     _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
+    _identity: list[str] = field(init=False, repr=False, compare=False, default_factory=list)
     _computed: dict[str, Value] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __repr__(self) -> str:
@@ -98,6 +99,17 @@ class Variant:
             object.__setattr__(
                 self, "shown_values", self.sampler.in_shown_units(self.shown, self.values)
             )
+
+    @property
+    def identity(self) -> str:
+        """Name of the question: two variants ask the same if and only if this is the same.
+
+        Worked out once, when it is first asked for: it makes the selections of the pools, whose
+        faults are those of a question and not of its numbers.
+        """
+        if not self._identity:
+            self._identity.append(build_identity(self))
+        return self._identity[0]
 
     @property
     def sampler(self) -> Sampler:
@@ -165,17 +177,11 @@ def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> 
     DrawError
         If no try within ``MAX_TRIES`` is admissible; names the condition met most often.
     """
-    with error_context(template.file):
-        return _find_admissible_variant(sampler_for(template), str(seed), str(slot))
-
-
-def _find_admissible_variant(plan: Sampler, seed: str, slot: str) -> Variant:
-    """The first admissible try; the lock of the precision is held for one try at a time."""
-    template = plan.template
+    plan, seed, slot = sampler_for(template), str(seed), str(slot)
     stem = f"{template.origin}/{template.rules.version}/{seed}/{slot}"
     reasons: Counter[str] = Counter()
     for attempt in range(MAX_TRIES):
-        with working_precision():
+        with working_precision():  # its lock is held for one try at a time
             shown, words = plan.propose(stem, attempt)
             result = solve_candidate(plan, shown)
         if not isinstance(result, str):
@@ -184,7 +190,7 @@ def _find_admissible_variant(plan: Sampler, seed: str, slot: str) -> Variant:
         reasons[result] += 1
     worst, count = reasons.most_common(1)[0]
     what = f"no admissible draw in {MAX_TRIES} tries; {worst!r} rejected {count} of them"
-    raise SamplingError(what, rule="QG140", place=_culprit(worst, template))
+    raise SamplingError(what, rule="QG140", file=template.file, place=_culprit(worst, template))
 
 
 def _culprit(condition: str, template: Template) -> Place:
@@ -206,8 +212,7 @@ def reference_variant(template: Template) -> Variant:
     given = template.rules.reference
     if given is None:
         raise SamplingError(f"template {template.id!r} has no reference instance")
-    with error_context(template.file):
-        return _build_reference_variant(sampler_for(template), given)
+    return _build_reference_variant(sampler_for(template), given)
 
 
 @working_precision()
@@ -224,6 +229,7 @@ def _build_reference_variant(plan: Sampler, given: Mapping[str, Scalar]) -> Vari
     result = solve_candidate(plan, shown, lenient=True)
     if isinstance(result, str):
         what = f"reference instance: {result}"
-        raise SamplingError(what, rule="QG140", place=("reference",))
+        file, place = template.file, ("reference",)
+        raise SamplingError(what, rule="QG140", file=file, place=place)
     values, traps = result
     return Variant(template, "reference", "0", 1, shown, words, values, traps)

@@ -22,7 +22,6 @@ from quizgen.classes.rulings import (
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.grading.options import GradingOptions
 from quizgen.kinds.asking import LETTERS
-from quizgen.kinds.grade import load_spec
 from quizgen.locale import fallback_language
 from quizgen.maths.tolerance import RULES
 from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
@@ -184,7 +183,7 @@ def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyP
     kept = {name: value for name, value in part.spec.items() if name not in {*RULES, "within"}}
     ruled = msgspec.structs.replace(part, spec={**kept, **stated[-1]})
     try:
-        load_spec(ruled.ordered_spec())
+        ruled.parse_spec()
     except KeyFileError as error:
         raise ClassError(f"rulings: {item}: no tolerance holds there: {error}") from None
     return ruled
@@ -198,9 +197,7 @@ def _apply_decisions(
     words = part.spec["kind"] == "text"
     group = ""
     if asked or rulings:
-        group = answer_group(
-            item, load_spec(part.ordered_spec(), proven=True).show(), found.typed, words=words
-        )
+        group = answer_group(item, part.parse_spec(proven=True).show(), found.typed, words=words)
     plain = GradedClassPart(
         found.id,
         item,

@@ -36,7 +36,6 @@ from quizgen.grading.judging.spelling import (
     typo_distance,
 )
 from quizgen.grading.options import GradingOptions
-from quizgen.kinds.grade import load_spec
 from quizgen.kinds.text import TextSpec as Text
 from quizgen.maths.numbers import parse_written_number
 from quizgen.paper.answer_key import AnswerKey, KeyPart
@@ -171,7 +170,7 @@ def decision_cases(
 
 
 def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> DecisionCase:
-    spec = load_spec(part.ordered_spec(), proven=True)
+    spec = part.parse_spec(proven=True)
     verdict = explain_verdict(spec, judge_answer(spec, answer.typed, GradingOptions(lang)), lang)
     if not isinstance(spec, Text):
         return DecisionCase(answer, spec.show_in(lang), verdict.message)

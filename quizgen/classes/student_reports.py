@@ -235,7 +235,7 @@ def _format_right_answer(part: KeyPart, lang: str) -> str:
     kind = part.spec["kind"]
     if kind in NOT_TYPED:
         return str(load_words(lang, "classes")["report"]["solution"])
-    right = show_key(part.ordered_spec(), lang)
+    right = show_key(part.parse_spec(), lang)
     return right if kind == "code" else localise_numbers(lang, right)
 
 

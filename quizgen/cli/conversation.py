@@ -197,7 +197,7 @@ class Conversation:
 
     def _answer(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
         feedback = task.answer(typed)
-        verdict = feedback.verdict
+        verdict = task.explain_verdict(feedback.verdict)
         match feedback.then:
             case NextStep.ASK_BACK:
                 say(verdict.message, fg="magenta")

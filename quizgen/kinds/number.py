@@ -89,8 +89,8 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
             return _with_unit(self, typed, options)
         plain = read_plain_number(typed, options.decimal)
         if plain is not None:
-            return _resolved(self, plain, options)
-        source = _without_lens(self, drop_name(normalise_typed(typed)))
+            return judge_readings(plain, lambda n: _judge(self, n, options), self.decimals)
+        source = _read_source(self, typed)
         return best_verdict(
             _judged(self, side, source, options) for side in _read(self, source, options)
         )
@@ -241,11 +241,13 @@ def _other_thing(
     return wrong(read_as, "unit-wrong" if right else "unit-clash", **fields)
 
 
-def _without_lens(spec: NumberSpec, source: SourceText) -> SourceText:
-    """Read ``f/2.8`` and, where it cannot be a ratio, ``1:2.8`` as the f-number 2.8.
+def _read_source(spec: NumberSpec, typed: str) -> SourceText:
+    """What was typed without the name before it, with its colons as they are meant.
 
-    Any other colon between numbers is a division.
+    ``f/2.8`` and, where it cannot be a ratio, ``1:2.8`` are the f-number 2.8; any other colon
+    between numbers is a division.
     """
+    source = drop_name(normalise_typed(typed))
     match = _LENS.match(source.text)
     ratio = match is not None and match[0].startswith("1") and spec.notation != "f-number"
     if match is None or (ratio and not re.search(r"[.,]\d", source.text)):

@@ -24,7 +24,6 @@ from quizgen.kinds import choice, true_false
 from quizgen.lint.figures import figure_text
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr
-from quizgen.question.compose import variant_identity
 from quizgen.question.interpolation import Interpolator, inlines_to_text
 from quizgen.question.part_context import VariantPart, ask_part
 
@@ -102,7 +101,7 @@ def review_template(template: Template, seeds: int = 200) -> list[QualityFinding
     lessons, different = QualityReview(template), set[str]()
     for seed in range(seeds):
         one = draw_variant(template, seed)
-        different.add(variant_identity(one))
+        different.add(one.identity)
         lessons.add(one)
     said = [*_pool_findings(template, len(different), seeds)]
     said += [("note", "QG315", what) for what in check_workload(template)]

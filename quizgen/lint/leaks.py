@@ -34,7 +34,6 @@ from quizgen.maths.canonical import CanonicalForm, canonical_forms, formulas_in_
 from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula
 from quizgen.maths.tree import Expr
 from quizgen.paper.paper import Paper
-from quizgen.paper.selection import are_exclusive
 from quizgen.paper.variants import asked_formulas
 from quizgen.question.compose import Question, QuestionKey
 from quizgen.question.figure import describe_question_figure
@@ -168,6 +167,7 @@ def find_bank_leaks(bank: Bank, questions: Sequence[QuestionContent]) -> dict[Le
     Those of which one names the other in ``apart`` never stand in one paper.
     """
     found: dict[Leak, str] = {}
+    known = {one.name: one for one in bank.candidates({one.template: None for one in questions})}
     for asker in questions:
         asked = [one for one in asker.secrets if one.is_checkable]
         for teller in questions if asked else ():
@@ -175,7 +175,7 @@ def find_bank_leaks(bank: Bank, questions: Sequence[QuestionContent]) -> dict[Le
                 continue
             what = [(one, *said) for one in asked for said in _iter_leaks(one, teller.said)]
             names = teller.template, asker.template
-            if what and not are_exclusive(bank, *names):
+            if what and not known[teller.template].excludes(known[asker.template]):
                 for secret, said, text in what:
                     found.setdefault(Leak(*names, secret.label, said, text), teller.lang)
     return found

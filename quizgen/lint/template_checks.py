@@ -35,7 +35,7 @@ from quizgen.lint.item_quality import QualityReview
 from quizgen.lint.leaks import QuestionContent, question_content
 from quizgen.locale import FIRST, get_language, localise_numbers
 from quizgen.maths.numbers import to_float
-from quizgen.question.compose import Question, QuestionKey, compose_variant, variant_identity
+from quizgen.question.compose import Question, QuestionKey, compose_variant
 from quizgen.question.levels import LEVELS, load_level
 from quizgen.question.localise import localise
 from quizgen.question.part_context import ask_part
@@ -178,7 +178,7 @@ def _examine_draws(
     for one in _draw_within_limit(template, seeds, report):
         report.seeds += 1
         report.tries += one.tries
-        seen.add(variant_identity(one))
+        seen.add(one.identity)
         met[one.traps] += 1
         _widen_ranges(report, one)
         lessons.add(one)

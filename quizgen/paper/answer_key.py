@@ -16,6 +16,7 @@ from quizgen.core.decoding import convert
 from quizgen.core.errors import FormulaError, KeyFileError
 from quizgen.core.files import read_table
 from quizgen.grading.options import QuestionContext
+from quizgen.grading.spec import AnySpec
 from quizgen.kinds.contract import MOST_POINTS
 from quizgen.kinds.grade import load_spec
 from quizgen.locale import register_languages
@@ -83,8 +84,8 @@ def _parse_points(text: str) -> Fraction:
     return parse_written_number(text)
 
 
-class KeyPart(msgspec.Struct):
-    """One answer field.
+class KeyPart(msgspec.Struct, dict=True):
+    """One answer field; not to be changed once its specification has been parsed.
 
     Objects of JSON have no order, but cells of a table are asked and typed in one: ``order`` holds
     the names of every mapping of ``spec`` as a list.
@@ -99,7 +100,26 @@ class KeyPart(msgspec.Struct):
         """Points as an exact number."""
         return _parse_points(self.points)
 
-    def ordered_spec(self) -> dict[str, Any]:
+    def parse_spec(self, *, proven: bool = False) -> AnySpec:
+        """The specification that answers are judged by, parsed once for all who answer.
+
+        Parameters
+        ----------
+        proven : bool
+            Whether the key is known to be as it was written.
+
+        Raises
+        ------
+        KeyFileError
+            Naming the field that is wrong.
+        """
+        # Not a cached property: its lock would be held while the precision is waited for.
+        spec: AnySpec | None = self.__dict__.get("_parsed")
+        if spec is None:
+            spec = self.__dict__["_parsed"] = load_spec(self._ordered_spec(), proven=proven)
+        return spec
+
+    def _ordered_spec(self) -> dict[str, Any]:
         """The specification with its mappings in their order.
 
         Raises
@@ -257,7 +277,7 @@ def _check_points(part: KeyPart, place: str) -> None:
 
 def _check_spec(part: KeyPart, place: str) -> None:
     try:
-        spec = load_spec(part.ordered_spec())
+        spec = part.parse_spec()
         for unit in spec.value_units():
             spec.known_units().factor(unit)
     except (KeyFileError, FormulaError) as error:

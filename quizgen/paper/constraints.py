@@ -14,11 +14,9 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-import msgspec
 from msgspec import structs
 
-from quizgen.bank.bank import Bank
-from quizgen.bank.rules import suggested_minutes, total_points
+from quizgen.bank.candidate import Candidate
 from quizgen.core.errors import BlueprintError
 from quizgen.paper.blueprint import Blueprint
 
@@ -31,37 +29,6 @@ READING = Fraction(11, 10)
 def paper_minutes(minutes: Fraction | int) -> int:
     """Minutes for a paper whose questions take so many."""
     return math.ceil(minutes * READING)
-
-
-class Candidate(msgspec.Struct, frozen=True):
-    """A template that may fill a place, and what it adds to the paper."""
-
-    name: str
-    points: Fraction
-    minutes: Fraction
-    figure: str
-    photograph: bool
-    apart: frozenset[str]
-    pool: int | None
-
-
-def make_candidate(bank: Bank, name: str, worth: float | None) -> Candidate:
-    """What a template adds if it is worth so many points; its time goes with its points."""
-    rules = bank.rules(name)
-    own = total_points(rules)
-    points = own if worth is None else Fraction(str(worth))
-    # A figure of the template's own has no name: it is a kind by itself.
-    shown = (rules.figure.name or name) if rules.figure and rules.figure.quiz else ""
-    photograph = shown in bank.owner_of(name)[0].metadata.photographs
-    return Candidate(
-        name,
-        points,
-        suggested_minutes(rules) * points / own,
-        shown,
-        photograph,
-        frozenset(rules.apart),
-        rules.pool,
-    )
 
 
 MOST_SUMS = 4_000_000
@@ -177,7 +144,7 @@ class ConstraintSolver:
         return [
             one for one in left
             if uses[one.name] == least
-            and not any(one.name in other.apart or other.name in one.apart for other in chosen)
+            and not any(map(one.excludes, chosen))
         ]  # fmt: skip
 
 

@@ -7,13 +7,13 @@ from fractions import Fraction
 from typing import Any
 
 import msgspec
+from msgspec import structs
 
 from quizgen.core.errors import require_one_of
 from quizgen.grading.judge import explain_verdict, judge_answer, read_error_verdict
 from quizgen.grading.options import DECIMALS, GradingOptions
 from quizgen.grading.spec import AnySpec
 from quizgen.grading.verdict import Verdict
-from quizgen.kinds.grade import load_spec
 from quizgen.locale import list_languages
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.precision import working_precision
@@ -176,33 +176,32 @@ class QuestionGrader:
         self.options = options
         self.earlier: dict[str, Any] = {}
 
-    def grade_part(self, part: KeyPart, typed: str) -> PartResult:
-        """Mark one part; a part marked again replaces its earlier values."""
-        spec, verdict = self._judge_typed_answer(part, typed)
-        return _build_part_result(
-            self.question, part, typed, explain_verdict(spec, verdict, self.options.lang)
-        )
-
     def judge_part(self, part: KeyPart, typed: str) -> PartResult:
-        """Mark one part without a word about it."""
-        return _build_part_result(
-            self.question, part, typed, self._judge_typed_answer(part, typed)[1]
-        )
+        """Mark one part without a word about it; marked again, it replaces its earlier values."""
+        spec = part.parse_spec(proven=self.proven)
+        verdict = self._judge_in_question(part, spec, typed)
+        return _build_part_result(self.question, part, typed, verdict)
+
+    def explain_part(self, part: KeyPart, verdict: Verdict) -> Verdict:
+        """The verdict on a part with its sentences, for whoever is shown it."""
+        return explain_verdict(part.parse_spec(proven=self.proven), verdict, self.options.lang)
+
+    def grade_part(self, part: KeyPart, typed: str) -> PartResult:
+        """Mark one part and explain the verdict."""
+        found = self.judge_part(part, typed)
+        return structs.replace(found, verdict=self.explain_part(part, found.verdict))
 
     @working_precision()
-    def _judge_typed_answer(self, part: KeyPart, typed: str) -> tuple[AnySpec, Verdict]:
-        spec = load_spec(part.ordered_spec(), proven=self.proven)
-        options = msgspec.structs.replace(self.options, points=part.points_exact())
+    def _judge_in_question(self, part: KeyPart, spec: AnySpec, typed: str) -> Verdict:
+        options = structs.replace(self.options, points=part.points_exact())
         verdict = _judge_with_context(self.question, spec, typed, options, self.earlier)
         if self.question.chain is not None:
             _remember_own_values(self.question, spec, verdict, self.earlier)
-        return spec, verdict
+        return verdict
 
     def ask_back(self, part: KeyPart, typed: str, why: FormulaReadError) -> PartResult:
         """A part whose answer did not arrive as it was given; it counts as one not read."""
-        verdict = explain_verdict(
-            load_spec(part.ordered_spec()), read_error_verdict(why), self.options.lang
-        )
+        verdict = self.explain_part(part, read_error_verdict(why))
         return _build_part_result(self.question, part, typed, verdict)
 
 
@@ -219,7 +218,7 @@ def _judge_with_context(
     if not around or not verdict.is_graded or verdict.verdict == "correct":
         return verdict
     context = question.chain.context(earlier) if question.chain else None
-    return judge_answer(spec, typed, msgspec.structs.replace(options, context=context))
+    return judge_answer(spec, typed, structs.replace(options, context=context))
 
 
 def _remember_own_values(

@@ -21,7 +21,6 @@ from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Expr, substitute
 from quizgen.maths.values import Value
-from quizgen.question.compose import variant_identity
 from quizgen.question.figure import coloured
 from quizgen.question.part_context import ask_part, authored_answer
 
@@ -43,7 +42,7 @@ class _Seen(msgspec.Struct):
     given: set[str] = msgspec.field(default_factory=set)
 
     def add(self, one: Variant) -> None:
-        self.questions.add(variant_identity(one))
+        self.questions.add(one.identity)
         self.asked |= _collect_notable_answers(one)
         self.given |= _collect_stated_numbers(one)
 
@@ -92,7 +91,7 @@ def _draw_least_revealing(
     new: list[Variant] = []
     for again in range(REDRAWS):
         one = draw_variant(template, seed, f"{place}.{again}" if again else place)
-        if variant_identity(one) not in seen.questions and (colour or not coloured(one)):
+        if one.identity not in seen.questions and (colour or not coloured(one)):
             new.append(one)
             if not seen.tells(one) and not any(shared_content(one, other) for other in near):
                 return one
@@ -106,13 +105,13 @@ def _draw_least_revealing(
 
 def _find_overlap(one: Variant, seen: _Seen, near: Sequence[Variant]) -> tuple[bool, bool, bool]:
     """What of a draw tells something: its own paper, the same question beside it, its answer."""
-    again = any(variant_identity(one) == variant_identity(other) for other in near)
+    again = any(one.identity == other.identity for other in near)
     return seen.tells(one), again, any(shared_content(one, other) for other in near)
 
 
 def shared_content(one: Variant, other: Variant) -> set[str]:
     """What two questions have in common: numbers that both ask, or that they are the same."""
-    same = {variant_identity(one)} & {variant_identity(other)}
+    same = {one.identity} & {other.identity}
     return (_collect_answer_numbers(one) & _collect_answer_numbers(other)) | same
 
 

@@ -37,7 +37,7 @@ class AnswerFeedback(msgspec.Struct, frozen=True):
     Parameters
     ----------
     verdict : Verdict
-        With its message in the session's language.
+        Without words: ``PartAttempt.explain_verdict`` finds them for whoever shows it.
     then : Next
         What is to happen now.
     left : int
@@ -100,8 +100,8 @@ class PartAttempt(Generic[P, S]):
     ) -> None:
         self.topic, self.part, self.solved, self.state = topic, part, solved, state
         self._keyed, self._marker = keyed, marker
-        self.verdict = marker.grade_part(keyed, state.typed).verdict if state.typed else None
-        """What is said of the last answer that could be read."""
+        self.verdict = marker.judge_part(keyed, state.typed).verdict if state.typed else None
+        """On the last answer that could be read, without words."""
 
     @property
     def outcome(self) -> PartOutcome | None:
@@ -147,7 +147,7 @@ class PartAttempt(Generic[P, S]):
             The part has ended: its solution may have been shown.
         """
         self._require_unfinished()
-        verdict = self._marker.grade_part(self._keyed, typed).verdict
+        verdict = self._marker.judge_part(self._keyed, typed).verdict
         then = self._decide_next_step(verdict)
         if then is not NextStep.ASK_BACK:
             self.state.typed, self.verdict = typed, verdict
@@ -156,6 +156,10 @@ class PartAttempt(Generic[P, S]):
         if then in {NextStep.RIGHT, NextStep.OUT_OF_TRIES}:
             self._finish_part(right=then is NextStep.RIGHT)
         return AnswerFeedback(verdict, then, TRIES - self.state.tries)
+
+    def explain_verdict(self, verdict: Verdict) -> Verdict:
+        """A verdict on this part with its message, in the language of whoever answers."""
+        return self._marker.explain_part(self._keyed, verdict)
 
     def _decide_next_step(self, verdict: Verdict) -> NextStep:
         self_marked = verdict.needs_self_marking

@@ -7,7 +7,6 @@ only a ``Question`` cannot leak an answer.
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import lru_cache
 from typing import Any
 
 import msgspec
@@ -15,7 +14,6 @@ from markupsafe import Markup
 
 from quizgen.bank.levels import EXAM
 from quizgen.bank.markdown import Block, Inline
-from quizgen.bank.pools import pool_identity
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant, reference_variant
 from quizgen.core.errors import BankError
@@ -234,7 +232,7 @@ def _build_question_and_key(
     key = QuestionKey(
         template=template.id,
         number=number,
-        identity=variant_identity(drawn, level),
+        identity=drawn.identity if level == EXAM else f"{drawn.identity}/{level}",
         specs=tuple(part.spec for part in asking.parts),
         solution=localise(lang, asking.solution),
         chain=chain_as_json(drawn),
@@ -243,15 +241,6 @@ def _build_question_and_key(
         level=level,
     )
     return question, key
-
-
-@lru_cache(maxsize=512)
-def variant_identity(drawn: Variant, level: str = EXAM) -> str:
-    """Name of the variant: two questions are the same if and only if this is the same."""
-    numbers = [f"{name}={format_for_key(value)}" for name, value in sorted(drawn.shown.items())]
-    words = [f"{name}={value}" for name, value in sorted(drawn.words.items())]
-    whole = f"{drawn.template.id}({', '.join(numbers + words + pool_identity(drawn))})"
-    return whole if level == EXAM else f"{whole}/{level}"
 
 
 def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:

@@ -37,7 +37,7 @@ def preview_reading(field: FieldView, key: KeyQuestion, values: Sequence[str], l
     typed = join_fields(field.control, values, field.marks)
     if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
         return Markup()
-    verdict = grade_answer(part.ordered_spec(), typed)
+    verdict = grade_answer(part.parse_spec(), typed)
     boxes = bool(field.control.boxes)
     return _typeset_values(verdict.read_as, lang, boxes=boxes) if verdict.is_graded else Markup()
 

@@ -56,11 +56,16 @@ class AttemptPart:
         return self.task.outcome is not None
 
     @property
+    def explained(self) -> Verdict | None:
+        """The verdict with its message: for pages, since an answer sent is only stored."""
+        return self.task.explain_verdict(self.verdict) if self.verdict else None
+
+    @property
     def unread(self) -> ReadErrorView | None:
         """Why it could not be read, if it could not."""
-        if self.verdict is None or not self.progress.asked_back:
+        if self.explained is None or not self.progress.asked_back:
             return None
-        return explain_read_error(self.part.field, self.progress.values, self.verdict, self._lang)
+        return explain_read_error(self.part.field, self.progress.values, self.explained, self._lang)
 
     @property
     def left(self) -> int:
@@ -99,7 +104,7 @@ class AttemptInBrowser:
         verdict = task.verdict
         if progress.asked_back:
             whole = _is_fully_filled(part, progress.values)
-            verdict = self._marker.grade_part(keyed, progress.asked_back).verdict if whole else HALF
+            verdict = self._marker.judge_part(keyed, progress.asked_back).verdict if whole else HALF
         return AttemptPart(task, progress, verdict, self.made.wanted.lang)
 
     def find_part(self, name: str) -> AttemptPart | None:

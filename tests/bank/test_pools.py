@@ -11,7 +11,6 @@ from quizgen.bank.bank import Bank
 from quizgen.bank.pools import count_pool_variants, select_from_pool, selected_claims
 from quizgen.bank.variant import draw_variant
 from quizgen.core.errors import BankError
-from quizgen.question.compose import variant_identity
 
 SEEDS = 400
 HEAD = 'topic = "light"\ntier = "A"\n'
@@ -124,9 +123,7 @@ def test_every_set_that_may_come_comes_and_no_other(tmp_path, answer, expected):
     template = made(tmp_path, part(answer))
     assert sets_of(template) == expected
     assert count_pool_variants(draw_variant(template, 0)) == len(expected)
-    assert len({variant_identity(draw_variant(template, seed)) for seed in range(SEEDS)}) == len(
-        expected
-    )
+    assert len({draw_variant(template, seed).identity for seed in range(SEEDS)}) == len(expected)
 
 
 def test_how_many_may_be_right_is_no_count_of_steps(tmp_path):
@@ -148,10 +145,7 @@ def test_sets_of_claims_are_counted(tmp_path, count, expected):
     template = made(tmp_path, claimed(count))
     assert count_pool_variants(draw_variant(template, 0)) == expected
     if count <= 3:
-        assert (
-            len({variant_identity(draw_variant(template, seed)) for seed in range(SEEDS)})
-            == expected
-        )
+        assert len({draw_variant(template, seed).identity for seed in range(SEEDS)}) == expected
 
 
 @pytest.mark.parametrize(

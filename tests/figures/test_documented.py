@@ -16,7 +16,6 @@ from figure_cases import FIGURES, module
 from quizgen.bank.bank import Bank
 from quizgen.cli.main import root_group
 from quizgen.core.errors import BankError
-from quizgen.paper.constraints import make_candidate
 from quizgen.question.compose import draw_instance
 from quizgen.question.figure import describe_question_figure, draw_question_figure
 
@@ -173,7 +172,7 @@ def test_another_process_finds_it(root):
 
 def test_it_is_a_kind_of_figure_by_itself_in_a_paper(root):
     bank = Bank(root, trusted=True)
-    kinds = [make_candidate(bank, name, None).figure for name in ("two-samples", "bode")]
+    kinds = [one.figure for one in bank.candidates(("two-samples", "bode"))]
     assert kinds == ["two-samples", "bode"]
 
 

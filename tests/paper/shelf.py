@@ -2,34 +2,31 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
+from fractions import Fraction
 
 from quizgen.bank.bank import builtin_bank
+from quizgen.bank.candidate import Candidate
 
 DEFAULT = {"tier": "A", "topic": "optics", "pool": None, "minutes": 5, "apart": (), "beyond": False,
            "points": 5, "figure": ""}  # fmt: skip
+PHOTOGRAPHS = builtin_bank().metadata.photographs
 
 
 class Shelf:
-    """Rules alone: name to tier, topic, pool, minutes, points, figure, what must stand apart."""
+    """Candidates alone: name to tier, topic, pool, minutes, points, figure, what is apart."""
 
     def __init__(self, table=(), **named):
         self.table = dict(table, **named)
-        self.template_paths = dict.fromkeys(self.table)
-        self.members = (self,)
-        self.metadata = builtin_bank().metadata
 
-    def rules(self, name):
+    def candidates(self, names=()):
+        return [self._candidate(name) for name in names or self.table]
+
+    def _candidate(self, name):
         given = {**DEFAULT, **self.table[name]}
-        figure = given["figure"] and SimpleNamespace(name=given["figure"], quiz=True)
-        part = (SimpleNamespace(points=given["points"]),)
-        return SimpleNamespace(**{**given, "figure": figure, "part": part})
+        given |= {key: Fraction(str(given[key])) for key in ("points", "minutes")}
+        given["apart"] = frozenset(given["apart"])
+        photograph = given["figure"] in PHOTOGRAPHS
+        return Candidate(name=name, origin=name, member=0, photograph=photograph, **given)
 
     def folder_of(self, name):
-        return self.template_paths[name]
-
-    def origin(self, name):
-        return name
-
-    def owner_of(self, name):
-        return self, name
+        return self.table[name]

@@ -32,7 +32,7 @@ def test_the_total_is_met_by_every_seed_and_every_way_comes_up():
     """Of the 27 ways through three places of 1, 2 or 3.5 points, 6 make 6.5: 1, 2, 3.5 in turn."""
     shelf = Shelf(**{f"{s}{n}": {"points": p} for s in "abc" for n, p in enumerate((1, 2, 3.5))})
     slots = [[f"{s}{n}" for n in range(3)] for s in "abc"]
-    worth = {name: shelf.rules(name).part[0].points for slot in slots for name in slot}
+    worth = {one.name: one.points for one in shelf.candidates()}
     fitting = {way for way in product(*slots) if sum(worth[name] for name in way) == 6.5}
     assert len(fitting) == 6
     found = {tuple(select_templates(shelf, plan(*slots, total=6.5), seed)) for seed in range(80)}

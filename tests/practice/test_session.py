@@ -67,7 +67,10 @@ def test_what_cannot_be_read_costs_no_try():
     task, _ = numeric_task()
     feedback = task.answer("???")
     assert (feedback.then, feedback.left, task.outcome) == (NextStep.ASK_BACK, TRIES, None)
-    assert feedback.verdict.message
+    assert feedback.verdict.message == "", (
+        "an answer is only judged; words are for whoever shows it"
+    )
+    assert task.explain_verdict(feedback.verdict).message
 
 
 def test_three_wrong_answers_end_the_task():

@@ -1,0 +1,58 @@
+"""What choosing the questions of a paper needs to know of a template, as one plain value."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import msgspec
+from msgspec.structs import replace
+
+
+class Candidate(msgspec.Struct, frozen=True):
+    """A template that may fill a place of a paper, and what it adds to the paper.
+
+    Parameters
+    ----------
+    name, origin : str
+        What it is called in the bank, and the name that its numbers are drawn under.
+    member : int
+        Place of its bank among those that are mixed, from 0.
+    tier, topic : str
+    beyond : bool
+        Whether it lies past the syllabus.
+    points : Fraction
+    minutes : Fraction
+        Working time, which goes with the points.
+    figure : str
+        Kind of figure that the question shows; empty for none.
+    photograph : bool
+        Whether that figure holds a photograph.
+    apart : frozenset of str
+        Templates that may not stand in the same paper.
+    pool : int or None
+        How many different questions it has, where they are counted.
+    """
+
+    name: str
+    origin: str
+    member: int
+    tier: str
+    topic: str
+    beyond: bool
+    points: Fraction
+    minutes: Fraction
+    figure: str
+    photograph: bool
+    apart: frozenset[str]
+    pool: int | None
+
+    def scale_to(self, points: float | None) -> Candidate:
+        """The same worth so many points; None leaves it its own."""
+        if points is None:
+            return self
+        worth = Fraction(str(points))
+        return replace(self, points=worth, minutes=self.minutes * worth / self.points)
+
+    def excludes(self, other: Candidate) -> bool:
+        """Whether one of the two says that they may not stand in one paper."""
+        return self.name in other.apart or other.name in self.apart
