@@ -92,7 +92,7 @@ def _within(table: object, step: str | int) -> object:
     return dict(_items(table)).get(step)
 
 
-def _fits(value: object, kind: type[object]) -> bool:
+def _fits(value: object, kind: Any) -> bool:
     try:
         convert(value, kind)
     except msgspec.ValidationError:
