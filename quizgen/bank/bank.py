@@ -342,7 +342,7 @@ class Bank:
         """The name that a template's numbers are drawn under: its first one."""
         return self.rules(name).formerly or name
 
-    def candidates(self, names: Iterable[str] = ()) -> list[Candidate]:
+    def candidates(self, names: Iterable[str] | None = None) -> list[Candidate]:
         """What a paper may choose from: the templates named, or all of them.
 
         Only the rules of those are read, so that one that is wrong stops no paper that lists
@@ -353,7 +353,7 @@ class Bank:
         BankError
             If one of them is unknown or wrong.
         """
-        return [self._candidate(name) for name in tuple(names) or self.template_paths]
+        return [self._candidate(name) for name in (self.template_paths if names is None else names)]
 
     def _candidate(self, name: str) -> Candidate:
         if name not in self._candidates:

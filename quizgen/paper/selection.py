@@ -167,7 +167,7 @@ def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> lis
     slots = _open_slots(bank, blueprint)
     places = [fitting for slot, fitting in zip(blueprint.slot, slots, strict=True)
               for _ in range(slot.count)]  # fmt: skip
-    taken = bank.candidates(chosen) if chosen else []
+    taken = bank.candidates(chosen)
     found = []
     for place, (one, worth) in enumerate(zip([*taken], slot_points(blueprint), strict=False)):
         like = _comparable_features(one.scale_to(worth))
@@ -223,7 +223,7 @@ def _open_slots(bank: Bank, blueprint: Blueprint) -> list[list[Candidate]]:
                 raise BlueprintError(f"slot {index}: {error}", file=blueprint.file) from error
         fitting = [
             one
-            for one in bank.candidates(slot.templates)
+            for one in bank.candidates(slot.templates or None)
             if _is_fit_for_slot(one, slot) and one.name not in coloured
         ]
         if not fitting:

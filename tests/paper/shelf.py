@@ -18,8 +18,8 @@ class Shelf:
     def __init__(self, table=(), **named):
         self.table = dict(table, **named)
 
-    def candidates(self, names=()):
-        return [self._candidate(name) for name in names or self.table]
+    def candidates(self, names=None):
+        return [self._candidate(name) for name in (self.table if names is None else names)]
 
     def _candidate(self, name):
         given = {**DEFAULT, **self.table[name]}
