@@ -258,7 +258,7 @@ def _pack_svg(data: bytes) -> PictureFile:
     return msgspec.structs.replace(packed, data=ET.tostring(drawing))
 
 
-def _check_cost(root: Any) -> None:
+def _check_cost(root: ET.Element) -> None:
     """Refuse what is small to read and endless to draw."""
     if sum(1 for _ in root.iter()) > MOST_ELEMENTS:
         raise BankError(f"has more than {MOST_ELEMENTS} elements")
@@ -297,7 +297,7 @@ def _stays_inside(style: str) -> bool:
     return not _REACHES_OUT.search(_OWN_PLACE.sub("", style))
 
 
-def _read_svg_size(root: Any) -> tuple[float, float]:
+def _read_svg_size(root: ET.Element) -> tuple[float, float]:
     """Natural size in points: what the file says, else its view box in CSS pixels."""
     found = [_LENGTH.fullmatch(root.get(name, "")) for name in ("width", "height")]
     if all(found):

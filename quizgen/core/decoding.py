@@ -18,14 +18,9 @@ T = TypeVar("T")
 _LOCK = Lock()
 
 
-@cache
 def prepare_type(shape: Any) -> None:
-    """Have a type described before anything else is done with it.
-
-    msgspec crashes where two threads describe types at the same time, so one lock stands here.
-    """
-    with _LOCK:
-        msgspec.msgpack.Decoder(shape)
+    """Have a type described before anything else is done with it."""
+    _prepare_decoder_type(shape)
 
 
 def convert(table: object, shape: type[T]) -> T:
@@ -56,6 +51,12 @@ def decode_json(data: bytes | str, shape: type[T]) -> T:
         If it is none.
     """
     return json_decoder(shape).decode(data)
+
+
+@cache
+def _prepare_decoder_type(shape: Any) -> None:
+    with _LOCK:
+        msgspec.msgpack.Decoder(shape)
 
 
 @cache

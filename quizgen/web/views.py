@@ -74,7 +74,7 @@ def _build_menu(site: ServerState, learner: Learner) -> list[tuple[str, str]]:
     return shown + ([("/account", "account")] if here.accounts else [])
 
 
-def page_response(request: Request, layout: str, status: int = 200, **content: Any) -> Response:
+def page_response(request: Request, layout: str, status: int = 200, **content: object) -> Response:
     """A page.
 
     Parameters
