@@ -37,7 +37,7 @@ from quizgen.classes.generation import CHUNK, create_settings, generate_papers
 from quizgen.classes.grading_run import grade_class
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.roster import RosterStudent
-from quizgen.core.executor import Here, workers
+from quizgen.core.executor import InlineExecutor, open_executor
 from quizgen.kinds.grade import show_key
 from quizgen.paper.answer_key import AnswerKey
 from quizgen.paper.blueprint import load_blueprint
@@ -102,7 +102,9 @@ def made(
 def here(home: Path, settings: ClassSettings, students: list[RosterStudent]) -> str:
     """In this process: the digest."""
     marks: list[tuple[float, float]] = []
-    name = made(home, settings, students, Here(), 1, lambda _: marks.append((cpu(), memory())))
+    name = made(
+        home, settings, students, InlineExecutor(), 1, lambda _: marks.append((cpu(), memory()))
+    )
     spent = (marks[-1][0] - marks[FIRST - 1][0]) / (len(marks) - FIRST)
     middle = marks[len(marks) // 2][1]
     print(f"1 process: {spent:.3f} CPU s a student after the first {FIRST} (<= {MOST_CPU}), "
@@ -115,7 +117,7 @@ def processes(
 ) -> str:
     """In processes: the digest."""
     started, before = time.monotonic(), cpu()
-    with workers(count) as (executor, ahead):
+    with open_executor(count) as (executor, ahead):
         name = made(home, settings, students, executor, ahead)
     clock = time.monotonic() - started
     print(f"{count} processes: {clock:.1f} s by the clock, {cpu() - before:.1f} CPU s, "
@@ -145,7 +147,7 @@ def on_a_cluster(home: Path, settings: ClassSettings, students: list[RosterStude
             os.kill(numbers[0], signal.SIGKILL)
 
     started = time.monotonic()
-    with cluster() as (address, numbers), workers(1, address) as (executor, ahead):
+    with cluster() as (address, numbers), open_executor(1, address) as (executor, ahead):
         name = made(home, settings, students, executor, ahead, tell)
     print(f"Dask, 2 workers, one killed half way: {time.monotonic() - started:.1f} s by the clock")
     return name
@@ -186,7 +188,7 @@ def marks(home: Path, settings: ClassSettings, students: list[RosterStudent]) ->
     folder, plan = ClassFolder(home / "class"), load_blueprint(settings.blueprint, builtin_bank())
     folder.create(settings, students)
     with patch.object(made_by, "render_paper", lambda *_: b""):
-        generate_papers(folder, students[:DRAWN], plan, Here(), 1, silent)
+        generate_papers(folder, students[:DRAWN], plan, InlineExecutor(), 1, silent)
     keys, heads = KeyIndex(folder), folder.heads()
     for place in range(DRAWN, len(students)):
         own, other = students[place].id, students[place % DRAWN].id
@@ -195,7 +197,7 @@ def marks(home: Path, settings: ClassSettings, students: list[RosterStudent]) ->
     folder.write_roster(students)
     number = answered(folder, len(students))
     before = cpu()
-    run = grade_class(folder, Here(), 1)
+    run = grade_class(folder, InlineExecutor(), 1)
     between = cpu()
     write_analysis_page(folder)
     print(f"{number} answers marked in {between - before:.1f} CPU s ({run.groups} groups to "

@@ -50,8 +50,8 @@ def test_wheel_and_sdist_hold_the_bank(built):
 
 ALL = """
 import sys
-from quizgen.bank import folder
-print(len(list(folder.builtin())), folder.__file__, *sys.modules)
+from quizgen.bank import bank
+print(len(list(bank.builtin_bank())), bank.__file__, *sys.modules)
 """
 
 

@@ -1,4 +1,7 @@
-"""Print the figures that the house is held to: lengths of functions, parameters typed Any.
+"""Print the figures that the house is held to: names, lengths of functions, parameters typed Any.
+
+A function's name is a verb and a noun: at most 45 % are one word, at most 3 % a single past
+participle (``told``), and no public function or class of the package stands twice.
 
 Run: ``uv run python tools/measure.py [folder ...]`` (default: quizgen solvers templates).
 """
@@ -6,6 +9,7 @@ Run: ``uv run python tools/measure.py [folder ...]`` (default: quizgen solvers t
 from __future__ import annotations
 
 import ast
+import re
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -38,8 +42,49 @@ def is_any(parameter: ast.arg) -> bool:
     return isinstance(note, ast.Name) and note.id == "Any"
 
 
-def main(folders: list[str]) -> None:
-    """Print the figures of all modules below the folders."""
+# Past participles that do not end in -ed, as far as functions have been named by them.
+IRREGULAR = set(
+    re.findall(
+        r"\w+",
+        "told kept made found known said shown drawn written seen taken given held built sent left "
+        "meant spoken chosen broken grown thrown bound paid lost met brought split spent "
+        "understood hidden begun done gone",
+    )
+)
+ONE_WORD, PARTICIPLES = 0.45, 0.03
+CONTRACTS = "effects", "kinds", "levels", "cli"
+"""Folders whose modules keep one contract: its members, and commands, share their names."""
+
+
+def is_participle(word: str) -> bool:
+    """Whether a word is a past participle, by its form."""
+    return word in IRREGULAR or (word.endswith("ed") and len(word) > 4)
+
+
+def find_faults_of_names(trees: dict[Path, ast.Module]) -> list[str]:
+    """Print the shares of names, and give what is beyond the limits."""
+    names = [f.name.strip("_") for tree in trees.values() for f in functions(tree)
+             if not f.name.startswith("__")]  # fmt: skip
+    single = [name for name in names if "_" not in name]
+    one, past = len(single) / len(names), sum(map(is_participle, single)) / len(names)
+    print(f"names of functions: {one:.1%} one word, {past:.1%} a past participle")
+    public = Counter(
+        node.name
+        for path, tree in trees.items()
+        if path.parent.name not in CONTRACTS and "migrations" not in path.parts
+        for node in tree.body
+        if isinstance(node, Function | ast.ClassDef) and not node.name.startswith("_")
+    )
+    twice = [name for name, count in public.items() if count > 1 and name != "main"]
+    return [
+        *([f"{one:.1%} of names are one word"] if one > ONE_WORD else []),
+        *([f"{past:.1%} of names are participles"] if past > PARTICIPLES else []),
+        *(f"{name} is defined twice" for name in twice),
+    ]
+
+
+def main(folders: list[str]) -> int:
+    """Print the figures of all modules below the folders; 1 if names are beyond the limits."""
     paths = sorted(p for folder in folders for p in Path(folder).rglob("*.py"))
     trees = {p: ast.parse(p.read_text(encoding="utf-8")) for p in paths}
     lengths = [length(f) for tree in trees.values() for f in functions(tree)]
@@ -53,7 +98,10 @@ def main(folders: list[str]) -> None:
     print(f"{len(paths)} files, {len(lengths)} functions, median {middle:g} lines")
     print(f"parameters typed Any: {sum(anys.values())} of {total} ({share:.1%})")
     print("  " + ", ".join(f"{name} {count}" for name, count in anys.most_common() if count))
+    faults = find_faults_of_names({p: t for p, t in trees.items() if p.parts[0] == "quizgen"})
+    print(*faults, sep="\n")
+    return 1 if faults else 0
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:] or ["quizgen", "solvers", "templates"])
+    sys.exit(main(sys.argv[1:] or ["quizgen", "solvers", "templates"]))

@@ -27,7 +27,7 @@ _ANYWHERE = frozenset({"add", "sub", "neg", "div"})
 """Operators of means and shares, which many a step is without being a formula of the sheet."""
 
 
-class Sketch(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+class FormulaSketch(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """A figure of the bank that shows what a formula is about."""
 
     name: str
@@ -43,7 +43,7 @@ class FormulaEntry(Entry, frozen=True, kw_only=True):
     """
 
     title: Passage
-    figure: Sketch | None = None
+    figure: FormulaSketch | None = None
     lines: tuple[str, ...]
     inside: dict[str, Piece] = msgspec.field(name="with", default={})
     separate: bool = False

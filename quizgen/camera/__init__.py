@@ -11,7 +11,7 @@ precision, linear until ``gamma``; importing needs NumPy only.
 
 from quizgen.camera.camera import Camera
 from quizgen.camera.planner import Plan, PreparedScene, plan_budget, plan_question
-from quizgen.camera.question_photo import simulate
+from quizgen.camera.question_photo import simulate_question
 from quizgen.camera.setup.scene import Length, Scene, SceneError, SceneObject
 from quizgen.camera.setup.view import View
 from quizgen.camera.simulation import Photo, run_plan
@@ -29,5 +29,5 @@ __all__ = [
     "plan_budget",
     "plan_question",
     "run_plan",
-    "simulate",
+    "simulate_question",
 ]

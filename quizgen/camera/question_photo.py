@@ -443,7 +443,7 @@ def _check_reading(
 # Without a question
 
 
-def simulate(scene: Scene, camera: Camera, budget: str | float = 0.5) -> Photo:
+def simulate_question(scene: Scene, camera: Camera, budget: str | float = 0.5) -> Photo:
     """Photograph a scene without what no value shows by more than a budget.
 
     Parameters

@@ -13,7 +13,7 @@ from quizgen.cards.note import Note
 from quizgen.cards.request import SEED, DeckRequest
 from quizgen.cards.versions import note_version
 from quizgen.core.errors import BankError
-from quizgen.core.executor import in_order, workers
+from quizgen.core.executor import map_ordered, open_executor
 
 
 @dataclass(frozen=True)
@@ -93,8 +93,8 @@ def _make_all_notes(wish: DeckRequest, kinds: tuple[str, ...], jobs: int) -> Ite
         for piece in _split_request(kind, own)
     ]
     made: dict[str, dict[Bank, list[Note]]] = {kind: {part: [] for part in banks} for kind in KINDS}
-    with workers(jobs) as (executor, ahead):
-        results = in_order(executor, _make_notes, pieces, ahead)
+    with open_executor(jobs) as (executor, ahead):
+        results = map_ordered(executor, _make_notes, pieces, ahead)
         for (kind, piece), notes in zip(pieces, results, strict=True):
             made[kind][piece.bank] += notes
     for found in made.values():

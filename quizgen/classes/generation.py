@@ -34,7 +34,7 @@ from quizgen.classes.lock import locked
 from quizgen.classes.pseudonyms import form_seal, new_secret, student_code, student_seed
 from quizgen.classes.roster import RosterStudent, seat_neighbours
 from quizgen.core.errors import ClassError
-from quizgen.core.executor import run
+from quizgen.core.executor import map_unordered
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.paper.answer_form import has_answers, write_blank_form
 from quizgen.paper.answer_key import make_answer_key
@@ -185,7 +185,7 @@ def _make(
     done: list[GeneratedPaper] = []
     former = {one: head.codes for one, head in heads.items()}
     jobs = _iter_jobs(folder.settings, blueprint, todo, _assign_neighbours(students, heads), former)
-    for results in run(executor, run_generation_job, jobs, ahead):
+    for results in map_unordered(executor, run_generation_job, jobs, ahead):
         _write_papers_and_keys(folder, results)
         for one in results:
             done.append(one._replace(files={}, line=b""))

@@ -23,7 +23,7 @@ from quizgen.classes.manual_grading import (
 from quizgen.classes.rulings import FILE, Ruling, RulingBook, note_rulings, read_rulings
 from quizgen.classes.submissions import Submissions
 from quizgen.core.errors import ClassError, KeyFileError
-from quizgen.core.executor import in_order
+from quizgen.core.executor import map_ordered
 from quizgen.core.untrusted import error_context
 from quizgen.locale import FIRST
 
@@ -91,7 +91,7 @@ def _mark(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
     _check_items(rulings, keys)
     collected = Submissions(folder.path, keys)
     jobs = _iter_jobs(collected, keys, rulings)
-    chunks = in_order(executor, run_grading_job, jobs, ahead)
+    chunks = map_ordered(executor, run_grading_job, jobs, ahead)
     outcome = history.write(one for chunk in chunks for one in chunk)
     if filled:  # now: a run that ends before this one does reads the same queue again
         note_rulings(folder.path, filled)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from quizgen.cli.options import MOST_JOBS, IntRangeParam, LanguageParam, match_choice, split_names
-from quizgen.cli.terminal import many, one_line, tell
+from quizgen.cli.terminal import format_count, print_sentence, to_one_line
 from quizgen.locale import FIRST
 
 if TYPE_CHECKING:
@@ -38,12 +38,12 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
     from quizgen.classes.class_folder import ClassFolder
     from quizgen.classes.grading_run import grade_class
     from quizgen.classes.submissions import store_submissions
-    from quizgen.core.executor import workers
+    from quizgen.core.executor import open_executor
 
     found = ClassFolder(folder)
     found.settings  # noqa: B018 - no answers are copied into a folder that is none of a class
     lost = store_submissions(folder, files)
-    with workers(jobs, scheduler) as (executor, ahead):
+    with open_executor(jobs, scheduler) as (executor, ahead):
         run = grade_class(found, executor, ahead)
     _report_run(folder, run, lost)
 
@@ -51,29 +51,35 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
 def _report_run(folder: Path, run: GradingRun, lost: list[str]) -> None:
     """What was marked, what was not, whose marks changed, what is to be decided."""
     outcome = run.outcome
-    tell(f"{folder}: {many(outcome.students, 'student')} marked, {outcome.new} for the first time")
+    print_sentence(
+        f"{folder}: {format_count(outcome.students, 'student')}"
+        f" marked, {outcome.new} for the first time"
+    )
     problems = [*lost, *run.problems]
     _print_list(f"{len(problems)} not marked", problems)
     if run.decided:
-        tell(f"{many(run.decided, 'decision')} taken from decisions.csv")
+        print_sentence(f"{format_count(run.decided, 'decision')} taken from decisions.csv")
     changes = [_format_change(one) for one in outcome.changes]
-    _print_list(f"{many(len(changes), 'mark')} changed", changes)
+    _print_list(f"{format_count(len(changes), 'mark')} changed", changes)
     if run.groups:
-        tell(f"To be decided: {many(outcome.undecided, 'answer')} in {many(run.groups, 'group')}. "
-             f"Fill in points in {folder}/decisions.csv and mark again, "
-             f"or: quizgen serve --class {folder}")  # fmt: skip
+        print_sentence(
+            f"To be decided: {format_count(outcome.undecided, 'answer')}"
+            f" in {format_count(run.groups, 'group')}. "
+            f"Fill in points in {folder}/decisions.csv and mark again, "
+            f"or: quizgen serve --class {folder}"
+        )
     else:
-        tell(f"Nothing is to be decided. Next: quizgen class grade {folder}")
+        print_sentence(f"Nothing is to be decided. Next: quizgen class grade {folder}")
 
 
 def _print_list(head: str, lines: list[str]) -> None:
     if not lines:
         return
-    tell(f"{head}:")
+    print_sentence(f"{head}:")
     for line in lines[:SHOWN]:
-        tell(one_line(line))
+        print_sentence(to_one_line(line))
     if len(lines) > SHOWN:
-        tell(f"... and {len(lines) - SHOWN} more")
+        print_sentence(f"... and {len(lines) - SHOWN} more")
 
 
 def _format_change(change: MarkChange) -> str:
@@ -105,7 +111,7 @@ def rule(folder: Path, what: str, item: str, **said: str) -> None:
         raise click.UsageError(f"no part {item!r} (there are {', '.join(sorted(known))})")
     said["who"] = said["who"] or getpass.getuser()
     append_rulings(folder, [Ruling(what, item, **said)])
-    tell(f"{folder}/rulings.csv: {what} {item}. Next: quizgen class mark {folder}")
+    print_sentence(f"{folder}/rulings.csv: {what} {item}. Next: quizgen class mark {folder}")
 
 
 @click.command()
@@ -117,13 +123,15 @@ def history(folder: Path, student: str) -> None:
 
     before: dict[str, GradedClassPart] = {}
     for run, marks in GradingHistory(folder).marks_of(student):
-        tell(f"Run {run}: {marks.marks:g} of {marks.points:g} points, from {one_line(marks.file)}")
+        print_sentence(
+            f"Run {run}: {marks.marks:g} of {marks.points:g} points, from {to_one_line(marks.file)}"
+        )
         for part in marks.parts:
             if part.id not in before or before[part.id] != part:
-                tell(f"{part.id} ({part.item}): {_format_part_mark(part)}")
+                print_sentence(f"{part.id} ({part.item}): {_format_part_mark(part)}")
             before[part.id] = part
     if not before:
-        tell(f"{one_line(student)}: nothing has been marked")
+        print_sentence(f"{to_one_line(student)}: nothing has been marked")
 
 
 def _format_part_mark(part: GradedClassPart) -> str:
@@ -134,7 +142,7 @@ def _format_part_mark(part: GradedClassPart) -> str:
         part.status,
         part.note,
         part.by,
-        one_line(part.typed)[:60],
+        to_one_line(part.typed)[:60],
     ]
     return ", ".join(filter(None, told))
 
@@ -158,14 +166,16 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
     lines, left, files = write_grades_and_reports(ClassFolder(folder), wished, anonymous=anonymous)
     there = [one for one in lines if one.marks]
     passed = sum(one.passed for one in there)
-    tell(f"{len(there)} of {many(len(lines), 'student')} handed in, {passed} passed")
+    print_sentence(
+        f"{len(there)} of {format_count(len(lines), 'student')} handed in, {passed} passed"
+    )
     for student in left:
-        tell(f"{one_line(student)} handed in, but is not on the roster: no grade")
+        print_sentence(f"{to_one_line(student)} handed in, but is not on the roster: no grade")
     open_still = sum(one.marks.undecided for one in there if one.marks)
     if open_still:
-        tell(f"Provisional: {many(open_still, 'answer')} still to be decided")
+        print_sentence(f"Provisional: {format_count(open_still, 'answer')} still to be decided")
     for path in files:
-        tell(str(path))
+        print_sentence(str(path))
 
 
 @click.command()
@@ -177,11 +187,13 @@ def analyse(folder: Path, lang: str) -> None:
     from quizgen.classes.class_folder import ClassFolder
 
     found, path = write_analysis_page(ClassFolder(folder), lang)
-    tell(f"{many(found.students, 'student')}, {many(len(found.items), 'item')}")
+    print_sentence(
+        f"{format_count(found.students, 'student')}, {format_count(len(found.items), 'item')}"
+    )
     if found.alpha is not None and found.interval is not None:
         low, high = found.interval
-        tell(f"Cronbach's alpha {found.alpha:.2f} (95 % {low:.2f} to {high:.2f})")
-    tell(str(path))
+        print_sentence(f"Cronbach's alpha {found.alpha:.2f} (95 % {low:.2f} to {high:.2f})")
+    print_sentence(str(path))
 
 
 COMMANDS = (mark, rule, history, grade, analyse)

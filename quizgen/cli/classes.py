@@ -18,7 +18,7 @@ from quizgen.cli.options import (
     split_names,
     worthwhile_processes,
 )
-from quizgen.cli.terminal import Progress, many, one_line, tell
+from quizgen.cli.terminal import ProgressLine, format_count, print_sentence, to_one_line
 from quizgen.core.errors import ClassError, require_extra
 from quizgen.locale import default_language
 
@@ -77,7 +77,7 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     from quizgen.classes.generation import generate_papers
     from quizgen.classes.print_file import write_print_file
     from quizgen.classes.roster import read_roster
-    from quizgen.core.executor import workers
+    from quizgen.core.executor import open_executor
 
     if options["one_file"]:
         require_extra("print", "quizgen class make --one-file")
@@ -87,8 +87,8 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     blueprint = _open_class_blueprint(folder, students, options)
     count = worthwhile_processes(options["jobs"], len(students) * A_PAPER)
     with (
-        Progress("paper", len(students)) as progress,
-        workers(count, options["scheduler"]) as (executor, ahead),
+        ProgressLine("paper", len(students)) as progress,
+        open_executor(count, options["scheduler"]) as (executor, ahead),
     ):
         report = generate_papers(folder, students, blueprint, executor, ahead, progress)
     if options["one_file"]:
@@ -96,7 +96,9 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     _report_papers(folder, report)
     _say_of_names(students)
     if unread:
-        tell(f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)")
+        print_sentence(
+            f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)"
+        )
 
 
 @class_.command()
@@ -107,7 +109,7 @@ def code(folder: Path, printed: str) -> None:
     from quizgen.classes.class_folder import ClassFolder
 
     found = ClassFolder(folder).find_by_code(printed)
-    click.echo(f"{found.head.code}: {one_line(found.head.id)}")
+    click.echo(f"{found.head.code}: {to_one_line(found.head.id)}")
 
 
 @class_.command()
@@ -126,8 +128,8 @@ def take(keys: Path, reports: tuple[Path, ...], out: Path) -> None:
     lost: list[str] = []
     found = import_quiz(ClassFolder(out), keys, reports, lost.append)
     for line in lost:
-        tell(one_line(line))
-    tell(f"{out}: {found.people} on the roster, answers of {found.new} new. "
+        print_sentence(to_one_line(line))
+    print_sentence(f"{out}: {found.people} on the roster, answers of {found.new} new. "
          f"Next: quizgen class mark {out}")  # fmt: skip
 
 
@@ -186,15 +188,20 @@ def _check_same_options(folder: ClassFolder, options: ClassMakeOptions) -> None:
 
 def _report_papers(folder: ClassFolder, report: GenerationReport) -> None:
     """What was made, and how alike the papers are."""
-    tell(f"{folder.path}: {many(len(report.made), 'paper')} made, {report.kept} kept as they were")
+    print_sentence(
+        f"{folder.path}: {format_count(len(report.made), 'paper')}"
+        f" made, {report.kept} kept as they were"
+    )
     if report.made:
-        tell(f"Each of them: {_describe_papers(report)}")
+        print_sentence(f"Each of them: {_describe_papers(report)}")
         few = sorted({number for one in report.made for number in one.alike})
         if few:
-            tell(f"Neighbours share a number in question {', '.join(map(str, few))}")
+            print_sentence(f"Neighbours share a number in question {', '.join(map(str, few))}")
     for student in report.left:
-        tell(f"{student} is no longer on the roster; the paper and its key stay")
-    tell("Nobody but you should read the folder: class.toml and keys.jsonl lead to every answer")
+        print_sentence(f"{student} is no longer on the roster; the paper and its key stay")
+    print_sentence(
+        "Nobody but you should read the folder: class.toml and keys.jsonl lead to every answer"
+    )
 
 
 def _say_of_names(students: list[RosterStudent]) -> None:
@@ -202,7 +209,9 @@ def _say_of_names(students: list[RosterStudent]) -> None:
 
     for one in students:
         if replace_unprintable(one.name + one.id) != one.name + one.id:
-            tell(f"{one.id}: no font here has all of {one.name}; the rest is printed as ?")
+            print_sentence(
+                f"{one.id}: no font here has all of {one.name}; the rest is printed as ?"
+            )
 
 
 def _describe_papers(report: GenerationReport) -> str:

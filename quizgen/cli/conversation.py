@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
 
-from quizgen.cli.terminal import columns
+from quizgen.cli.terminal import terminal_width
 from quizgen.core.files import write_all
 from quizgen.core.text_width import wrap_lines
 from quizgen.core.untrusted import escape_control_characters
@@ -33,7 +33,7 @@ _CODE = "    "
 _BULLET = re.compile(r" *(?:- )*")
 
 
-class Style(TypedDict, total=False):
+class TextStyle(TypedDict, total=False):
     """How a text stands out; nothing where colours are not wished."""
 
     fg: str
@@ -41,23 +41,23 @@ class Style(TypedDict, total=False):
     dim: bool
 
 
-class Quit(Exception):  # noqa: N818 - a wish, not a failure
+class QuitSession(Exception):  # noqa: N818 - a wish, not a failure
     """The learner wants to stop for now."""
 
 
-def say(text: str, first: str = "", rest: str = "", **style: Unpack[Style]) -> None:
+def print_wrapped(text: str, first: str = "", rest: str = "", **style: Unpack[TextStyle]) -> None:
     """Print a text, broken between words at the width of the terminal."""
-    for line in wrap_lines(escape_control_characters(text), columns(), first, rest):
+    for line in wrap_lines(escape_control_characters(text), terminal_width(), first, rest):
         click.secho(line, **style)
 
 
-def head(text: str) -> None:
+def print_heading(text: str) -> None:
     """Print a heading, with a blank line above."""
     click.echo()
-    say(text, bold=True)
+    print_wrapped(text, bold=True)
 
 
-def prose(lines: Iterable[str], first: str = "", rest: str = "") -> None:
+def print_prose(lines: Iterable[str], first: str = "", rest: str = "") -> None:
     """Print lines of prose; program text keeps its lines, list items their indent."""
     for line in lines:
         if line.startswith(_CODE):
@@ -65,7 +65,7 @@ def prose(lines: Iterable[str], first: str = "", rest: str = "") -> None:
         else:
             bullet = _BULLET.match(line)
             indent = bullet[0] if bullet else ""
-            say(line[len(indent) :], first + indent, rest + " " * len(indent))
+            print_wrapped(line[len(indent) :], first + indent, rest + " " * len(indent))
         first = rest
 
 
@@ -113,12 +113,12 @@ class Conversation:
         self.shelf.save(self.session.state)
 
     def _say(self, name: str, **blanks: object) -> None:
-        say(self.words[name].format(**blanks))
+        print_wrapped(self.words[name].format(**blanks))
 
     def _show_question(self, turn: QuestionAttempt) -> None:
         count, title = self.session.state.wish.count, turn.question.title
-        head(self.words["question"].format(number=turn.number, count=count, title=title))
-        prose(blocks_to_plain_text(turn.question.stem))
+        print_heading(self.words["question"].format(number=turn.number, count=count, title=title))
+        print_prose(blocks_to_plain_text(turn.question.stem))
         self._show_figure(turn.question.figure)
         done = [f"({task.part.label})" for task in turn.tasks if task.outcome is not None]
         if done:
@@ -172,9 +172,9 @@ class Conversation:
             typed = input(f"{prompt}: ").strip()
         except EOFError:
             click.echo()
-            raise Quit from None
+            raise QuitSession from None
         if self._means("quit-words", typed):
-            raise Quit
+            raise QuitSession
         return typed
 
     def _means(self, name: str, typed: str) -> bool:
@@ -186,31 +186,31 @@ class Conversation:
         part = task.part
         label = f"({part.label}) " if part.label else ""
         click.echo()
-        prose(blocks_to_plain_text(part.body), label, " " * len(label))
+        print_prose(blocks_to_plain_text(part.body), label, " " * len(label))
         if part.field.drawing:
-            say(part.field.drawing.alt, "   ", "   ")
+            print_wrapped(part.field.drawing.alt, "   ", "   ")
         for mark, text in (*part.field.options, *part.field.targets):
-            say(inlines_to_plain_text(text), f"   {mark}  ", " " * (len(mark) + 5))
+            print_wrapped(inlines_to_plain_text(text), f"   {mark}  ", " " * (len(mark) + 5))
         for hint in part.field.hints:
-            say(f"[{hint}]", "   ", "    ")
-        say(self.words["help"], "   ", "   ", dim=True)
+            print_wrapped(f"[{hint}]", "   ", "    ")
+        print_wrapped(self.words["help"], "   ", "   ", dim=True)
 
     def _answer(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
         feedback = task.answer(typed)
         verdict = task.explain_verdict(feedback.verdict)
         match feedback.then:
             case NextStep.ASK_BACK:
-                say(verdict.message, fg="magenta")
+                print_wrapped(verdict.message, fg="magenta")
                 return
             case NextStep.SELF_MARK:
-                say(verdict.message)
+                print_wrapped(verdict.message)
                 self._solution(task)
                 task.self_mark(right=self._judged(task))
                 return
         lang = self.session.state.wish.lang
         self._say("read", read_as=format_read_back(task.kind, verdict.read_as, lang))
         said = f"{self.words[verdict.verdict]} {verdict.message}".strip()
-        say(said, fg=COLOURS[verdict.verdict])
+        print_wrapped(said, fg=COLOURS[verdict.verdict])
         if feedback.then is NextStep.AGAIN:
             self._say("again", left=feedback.left)
         elif feedback.then is NextStep.OUT_OF_TRIES:
@@ -239,9 +239,9 @@ class Conversation:
 
     def _solution(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
         for line in task.solved.lines:
-            say(inlines_to_plain_text(line.maths), "   ", "      ")
-            say(inlines_to_plain_text(line.why), "      ", "      ")
-        say(self.words["answer"].format(answer=task.solved.answer), bold=True)
+            print_wrapped(inlines_to_plain_text(line.maths), "   ", "      ")
+            print_wrapped(inlines_to_plain_text(line.why), "      ", "      ")
+        print_wrapped(self.words["answer"].format(answer=task.solved.answer), bold=True)
         solved = task.solved
         for sentence in (*solved.options, *filter(None, [solved.why])):
-            say(inlines_to_plain_text(sentence), "   ", "   ")
+            print_wrapped(inlines_to_plain_text(sentence), "   ", "   ")

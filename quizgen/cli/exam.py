@@ -27,7 +27,7 @@ from quizgen.cli.options import (
     split_names,
     worthwhile_processes,
 )
-from quizgen.cli.terminal import Progress, build_command_line, many
+from quizgen.cli.terminal import ProgressLine, build_command_line, format_count
 from quizgen.core.errors import InvalidChoiceError, PaperCodeError, RenderError
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.locale import default_language
@@ -111,7 +111,7 @@ def exam(**options: Unpack[ExamOptions]) -> None:
     if options["count"] > 1:
         _make_many_papers(options, formats)
         return
-    with Progress("exam") as tell:
+    with ProgressLine("exam") as tell:
         paper = _build_requested_paper(options, tell)
         form = (options["out"] or _get_paper_folder(paper.code)) / f"answers.{options['form']}"
         kept = _filled_in(form, paper.code)
@@ -122,7 +122,7 @@ def exam(**options: Unpack[ExamOptions]) -> None:
 
 def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
     """Make papers of consecutive seeds; each is written whole as soon as it is made."""
-    from quizgen.core.executor import in_order, workers
+    from quizgen.core.executor import map_ordered, open_executor
 
     if options["code"] or options["reference"]:
         raise InvalidChoiceError(
@@ -141,13 +141,15 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
         )
     processes = worthwhile_processes(options["jobs"], count * A_PAPER)
     codes: list[str] = []
-    with Progress("exam", count) as tell, workers(processes) as (executor, ahead):
-        for code, contents in in_order(executor, make, range(first, first + count), ahead):
+    with ProgressLine("exam", count) as tell, open_executor(processes) as (executor, ahead):
+        for code, contents in map_ordered(executor, make, range(first, first + count), ahead):
             form = (options["out"] or HOME) / _get_paper_folder(code).name / name
             _write_paper_files(form, contents, kept=_filled_in(form, code))
             codes.append(code)
             tell(code)
-    click.echo(f"{many(count, 'paper')} in {options['out'] or HOME}: {codes[0]} to {codes[-1]}")
+    click.echo(
+        f"{format_count(count, 'paper')} in {options['out'] or HOME}: {codes[0]} to {codes[-1]}"
+    )
     check = build_command_line("check", form.parent / KEY, form)
     click.echo(f"Next: fill in {form}, then: {check}")
 
@@ -223,7 +225,7 @@ def _filled_in(form: Path, paper: str) -> bool:
     return has_answers(form)
 
 
-def _build_requested_paper(options: ExamOptions, tell: Progress) -> Paper:
+def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
     from quizgen.paper.paper import build_paper, build_reference_paper, rebuild_paper
     from quizgen.paper.provenance import bank_difference_context
 
@@ -314,7 +316,8 @@ def _report_paper(
     if kept:
         click.echo(f"  {form} has been written in and was left as it is")
     click.echo(
-        f"{many(len(paper.items), 'question')}, {float(paper.points):g} points, {paper.minutes} min"
+        f"{format_count(len(paper.items), 'question')}, "
+        f"{float(paper.points):g} points, {paper.minutes} min"
     )
     _report_variety(paper, options["minutes"])
     again = build_command_line("exam", "--code", paper.code, *_list_rebuild_options(options))

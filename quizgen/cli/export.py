@@ -21,7 +21,7 @@ from quizgen.cli.options import (
     resolve_topic,
     split_names,
 )
-from quizgen.cli.terminal import Progress
+from quizgen.cli.terminal import ProgressLine
 from quizgen.core.errors import InvalidChoiceError
 from quizgen.lms import FORMATS, MANIFEST_SUFFIX, TEX_FORMATS, get_exporter
 from quizgen.locale import default_language
@@ -86,7 +86,7 @@ def export(**options: Unpack[ExportOptions]) -> None:
         )
     path = options["out"] or Path("export") / FORMATS[target]
     exporter = get_exporter(target)
-    with Progress("export") as tell, formula_dialect(options["maths"]):
+    with ProgressLine("export") as tell, formula_dialect(options["maths"]):
         bank = open_bank(options)
         items = list(_iter_requested_items(bank, options, tell))
         data = exporter.write(items)
@@ -111,7 +111,7 @@ def _encode_lines(lines: list[str]) -> bytes:
 
 
 def _iter_requested_items(
-    bank: Bank, options: ExportOptions, tell: Progress
+    bank: Bank, options: ExportOptions, tell: ProgressLine
 ) -> Iterator[ExportItem]:
     """The questions that are asked for.
 

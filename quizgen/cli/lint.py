@@ -20,9 +20,9 @@ from quizgen.cli.options import (
     open_bank,
     worthwhile_processes,
 )
-from quizgen.cli.terminal import Progress, interrupted, print_table
+from quizgen.cli.terminal import ProgressLine, print_table, was_interrupted
 from quizgen.core.errors import QuizgenError
-from quizgen.core.executor import in_order, workers
+from quizgen.core.executor import map_ordered, open_executor
 from quizgen.core.untrusted import escape_control_characters
 
 if TYPE_CHECKING:
@@ -158,10 +158,10 @@ def _examine_templates(
     broken = _of_bank(bank, limit, whole=len(names) == len(bank.template_paths))
     examine = partial(_examine_template, bank, seeds=seeds, limit=limit, debug=debug)
     with (
-        Progress("lint", len(names)) as progress,
-        workers(_count_processes(options, names)) as (executor, ahead),
+        ProgressLine("lint", len(names)) as progress,
+        open_executor(_count_processes(options, names)) as (executor, ahead),
     ):
-        results = in_order(executor, examine, progress.over(names), ahead)
+        results = map_ordered(executor, examine, progress.over(names), ahead)
         for name, (row, problems, said) in zip(names, results, strict=True):
             rows.append((name, *row))
             broken += problems
@@ -197,13 +197,13 @@ def _print_teaching_findings(bank: Bank, names: tuple[str, ...], options: LintOp
     """Print what stands between questions and teaching; 1 if there are errors."""
     rows: list[tuple[str, ...]] = []
     with (
-        Progress("lint", len(names)) as progress,
-        workers(_count_processes(options, names)) as (executor, ahead),
+        ProgressLine("lint", len(names)) as progress,
+        open_executor(_count_processes(options, names)) as (executor, ahead),
     ):
         findings = partial(
             _build_teaching_rows, bank, options["seeds"], _compute_time_limit(options)
         )
-        for found in in_order(executor, findings, progress.over(names), ahead):
+        for found in map_ordered(executor, findings, progress.over(names), ahead):
             rows += found
     if rows:
         print_table(TEACH_HEAD, rows)
@@ -232,12 +232,12 @@ def _print_leaks(bank: Bank, count: int, jobs: int | None) -> int:
 
     found: dict[str, list[int]] = {}
     processes = worthwhile_processes(jobs, count * len(bank.blueprints) * A_PAPER)
-    with workers(processes) as (executor, ahead):
+    with open_executor(processes) as (executor, ahead):
         for name in bank.blueprints:
             tells = partial(_describe_leaks, bank, load_blueprint(name, bank))
-            with Progress(f"lint {name}", count) as progress:
+            with ProgressLine(f"lint {name}", count) as progress:
                 asked = map(int, progress.over(map(str, range(count))))
-                for seed, saying in enumerate(in_order(executor, tells, asked, ahead)):
+                for seed, saying in enumerate(map_ordered(executor, tells, asked, ahead)):
                     for said in saying:
                         found.setdefault(said, []).append(seed)
     for said, seeds in found.items():
@@ -283,7 +283,7 @@ def _examine_template(
         with cpu_limit(limit), redirect_stdout(sys.stderr):
             report = _build_template_report(bank, name, seeds)
     except (Exception, CpuLimitExceeded) as error:
-        if interrupted():
+        if was_interrupted():
             raise KeyboardInterrupt from error
         if debug:
             traceback.print_exception(error)

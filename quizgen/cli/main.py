@@ -13,7 +13,7 @@ from typing import NoReturn
 
 import click
 
-from quizgen.cli.terminal import Interrupt, colour_choice, interrupted
+from quizgen.cli.terminal import InterruptHandler, colour_choice, was_interrupted
 from quizgen.core.errors import QuizgenError
 from quizgen.core.untrusted import escape_control_characters
 
@@ -96,13 +96,13 @@ def main(arguments: list[str] | None = None) -> None:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, Interrupt())
+        signal.signal(signal.SIGINT, InterruptHandler())
     try:
         status = _run_command(arguments)
     except (click.exceptions.Abort, KeyboardInterrupt):
         _stop_at_once()
     except Exception:
-        if not interrupted():
+        if not was_interrupted():
             raise
         _stop_at_once()
     if status:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
 import click
 
 from quizgen.bank.levels import CHOICES, EXAM
-from quizgen.cli.terminal import many
+from quizgen.cli.terminal import format_count
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.locale import FIRST, list_language_choices, list_languages
 from quizgen.locale.custom import is_language_tag, normalise_language_tag
@@ -155,7 +155,7 @@ def is_trusted(root: Path, allowed: Collection[Path]) -> bool:
     files = python_files(root)
     if not files or is_trust_remembered(root):
         return bool(files)
-    what = f"{root} brings {many(len(files), 'file')} of Python, such as {files[0].name}"
+    what = f"{root} brings {format_count(len(files), 'file')} of Python, such as {files[0].name}"
     if not (sys.stdin.isatty() and sys.stderr.isatty()):
         click.echo(
             f"quizgen: {escape_control_characters(what)}; it does not run without --trust", err=True

@@ -67,7 +67,7 @@ def practice(**options: Unpack[PracticeOptions]) -> None:
     session is kept part by part, and the same command goes on with it; sessions with other options
     are kept beside it. Without --seed it asks what is due, here or in the browser.
     """
-    from quizgen.cli.conversation import Conversation, Quit, say
+    from quizgen.cli.conversation import Conversation, QuitSession, print_wrapped
     from quizgen.practice.session_store import SessionStore
 
     shelf = SessionStore(state_folder())
@@ -78,11 +78,11 @@ def practice(**options: Unpack[PracticeOptions]) -> None:
     conversation = Conversation(session, shelf, learning)
     try:
         conversation.hold()
-    except (Quit, KeyboardInterrupt) as stop:
+    except (QuitSession, KeyboardInterrupt) as stop:
         shelf.save(session.state)
         click.echo()
-        say(conversation.words["saved"])
-        raise click.exceptions.Exit(0 if isinstance(stop, Quit) else INTERRUPTED) from None
+        print_wrapped(conversation.words["saved"])
+        raise click.exceptions.Exit(0 if isinstance(stop, QuitSession) else INTERRUPTED) from None
     shelf.delete(wish)
     _print_summary(session, learning, conversation.words)
 
@@ -176,10 +176,10 @@ def _print_summary(
     session: Session, learning: LearnerProgress | None, words: dict[str, str]
 ) -> None:
     """Say how the session went, how the last ones did, and what to practise."""
-    from quizgen.cli.conversation import head, say
+    from quizgen.cli.conversation import print_heading, print_wrapped
     from quizgen.practice.topic_results import RECENT, summarise_by_topic, weak_topics
 
-    head(words["summary"])
+    print_heading(words["summary"])
     _print_topic_results(session, session.summary(), words)
     there = session.bank.topics
     done = session.state.outcomes
@@ -188,26 +188,26 @@ def _print_summary(
     past = [outcome for outcome in kept if outcome.topic in there]
     results = summarise_by_topic([*past, *skipped], RECENT)
     if len(past) > len(session.state.outcomes):
-        head(words["so-far"])
+        print_heading(words["so-far"])
         _print_topic_results(session, results, words)
     weak = weak_topics(results)
     named = ", ".join(f"{_get_topic_title(session, topic)} (--topic {topic})" for topic in weak)
     click.echo()
-    say(words["next"].format(topics=named) if weak else words["all-right"])
+    print_wrapped(words["next"].format(topics=named) if weak else words["all-right"])
 
 
 def _print_topic_results(
     session: Session, results: Iterable[TopicResult], words: dict[str, str]
 ) -> None:
-    from quizgen.cli.conversation import say
+    from quizgen.cli.conversation import print_wrapped
 
     for row in results:
         title = _get_topic_title(session, row.topic)
         if row.count:
             counts = {"right": row.right, "count": row.count, "later": row.later}
-            say(words["topic"].format(topic=title, **counts), "", "  ")
+            print_wrapped(words["topic"].format(topic=title, **counts), "", "  ")
         if row.skipped:
-            say(words["topic-skipped"].format(topic=title, skipped=row.skipped), "", "  ")
+            print_wrapped(words["topic-skipped"].format(topic=title, skipped=row.skipped), "", "  ")
 
 
 def _get_topic_title(session: Session, topic: str) -> str:

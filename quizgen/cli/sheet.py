@@ -17,7 +17,7 @@ from quizgen.cli.options import (
     resolve_topic,
     split_names,
 )
-from quizgen.cli.terminal import many
+from quizgen.cli.terminal import format_count
 from quizgen.locale import default_language
 from quizgen.render import RENDERERS
 
@@ -61,4 +61,4 @@ def sheet(**options: Unpack[SheetOptions]) -> None:
     for path in write_all(folder, {f"{NAME}.{f}": render_sheet(made, f) for f in formats}):
         click.echo(f"  {path}")
     count, topics_there = sum(len(group.lines) for group in made.groups), len(made.groups)
-    click.echo(f"{many(count, 'formula')} in {many(topics_there, 'topic')}")
+    click.echo(f"{format_count(count, 'formula')} in {format_count(topics_there, 'topic')}")

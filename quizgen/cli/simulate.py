@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 import click
 
-from quizgen.cli.terminal import Progress, print_table, tell
+from quizgen.cli.terminal import ProgressLine, print_sentence, print_table
 from quizgen.core.errors import InvalidChoiceError
 from quizgen.core.files import write_all
 
@@ -136,7 +136,7 @@ def simulate(scene: str | None, **options: Unpack[SimulateOptions]) -> None:
         return
     check_target(options["compare"])
     encode = _find_writer(options["out"])
-    with Progress("simulate:") as told:
+    with ProgressLine("simulate:") as told:
         shot = _simulate_scene(scene, options, told)
         _write_pictures(shot, options, encode)
     report = summarise(shot)
@@ -153,7 +153,7 @@ def simulate(scene: str | None, **options: Unpack[SimulateOptions]) -> None:
         sys.exit(1)
 
 
-def _simulate_scene(scene: str, options: SimulateOptions, told: Progress) -> SimulatedShot:
+def _simulate_scene(scene: str, options: SimulateOptions, told: ProgressLine) -> SimulatedShot:
     from quizgen.camera.comparison import measure_effects, time_in_turns
     from quizgen.camera.planner import PreparedScene
     from quizgen.camera.scene_file import load_scene
@@ -181,7 +181,7 @@ def _simulate_scene(scene: str, options: SimulateOptions, told: Progress) -> Sim
 
 
 def _take_photo(
-    scene: str, prepared: PreparedScene, options: SimulateOptions, told: Progress
+    scene: str, prepared: PreparedScene, options: SimulateOptions, told: ProgressLine
 ) -> SimulatedShot:
     """Photograph for a question, or within a budget where nothing is asked."""
     from quizgen.camera.planner import plan_budget
@@ -345,7 +345,7 @@ def _print_report(shot: SimulatedShot, report: dict[str, Any]) -> None:
     if rows := list(_iter_table_rows(shot)):
         print_table(REALLY if shot.really else HEAD, rows)
     for line in (*_iter_plan_sentences(shot), *_iter_total_lines(shot, report)):
-        tell(line)
+        print_sentence(line)
 
 
 def _iter_table_rows(shot: SimulatedShot) -> Iterator[tuple[str, ...]]:

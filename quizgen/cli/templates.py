@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 import click
 
 from quizgen.cli.options import BankOptions, bank_options, match_choice, open_bank, resolve_topic
-from quizgen.cli.terminal import on_terminal, one_line, print_table
+from quizgen.cli.terminal import is_interactive, print_table, to_one_line
 
 if TYPE_CHECKING:
     from quizgen.bank.bank import Bank
@@ -51,7 +51,7 @@ def templates(**options: Unpack[TemplatesOptions]) -> None:
     _print_templates(HEAD, [_build_template_row(bank, name) for name in names])
     if not names and options["covers"] is not None:
         click.echo(f"no template covers {options['covers']!r}", err=True)
-    elif on_terminal() or not names:
+    elif is_interactive() or not names:
         click.echo(f"{len(names)} templates", err=True)
 
 
@@ -123,8 +123,8 @@ def _print_coverage(bank: Bank) -> None:
 
 def _print_templates(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
     """Print a table where people read it, else a line of cells and tabs for each row."""
-    if on_terminal():
+    if is_interactive():
         print_table(head, rows)
         return
     for row in rows:
-        click.echo("\t".join(map(one_line, row)))
+        click.echo("\t".join(map(to_one_line, row)))

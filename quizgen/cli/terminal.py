@@ -27,17 +27,17 @@ PATIENCE = 1.0
 """Seconds before progress is shown."""
 
 
-def columns() -> int:
+def terminal_width() -> int:
     """Width of the terminal; 80 where there is none."""
     return max(shutil.get_terminal_size((80, 24)).columns, NARROWEST)
 
 
-def on_terminal() -> bool:
+def is_interactive() -> bool:
     """Whether people read along; otherwise what is printed goes to a file or a program."""
     return sys.stdout.isatty()
 
 
-class Interrupt:
+class InterruptHandler:
     """Handles Ctrl-C and remembers it, for it may come out of an extension as any other error."""
 
     came = False
@@ -50,10 +50,10 @@ class Interrupt:
             raise KeyboardInterrupt
 
 
-def interrupted() -> bool:
+def was_interrupted() -> bool:
     """Whether Ctrl-C has come."""
     handler = signal.getsignal(signal.SIGINT)
-    return isinstance(handler, Interrupt) and handler.came
+    return isinstance(handler, InterruptHandler) and handler.came
 
 
 def colour_choice() -> bool | None:
@@ -65,35 +65,35 @@ def colour_choice() -> bool | None:
     return False if plain else None
 
 
-def one_line(text: str) -> str:
+def to_one_line(text: str) -> str:
     """A text without line breaks and other control characters, as a cell of a table."""
     return escape_control_characters(" ".join(text.split()))
 
 
 def print_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     """Print aligned columns; on a terminal the last one is wrapped, or stands below the others."""
-    table = [head, *([one_line(cell) for cell in row] for row in rows)]
+    table = [head, *([to_one_line(cell) for cell in row] for row in rows)]
     for number, lines in enumerate(lay_out_table(table, _room())):
         for line in lines:
             click.echo(line if number else click.style(line, bold=True))
 
 
 def _room() -> int:
-    return columns() if on_terminal() else sys.maxsize
+    return terminal_width() if is_interactive() else sys.maxsize
 
 
-def many(count: int, word: str) -> str:
+def format_count(count: int, word: str) -> str:
     """How many of something there are: ``1 question``, ``2 questions``."""
     return f"{count} {word}" + ("s" if count != 1 else "")
 
 
-def tell(text: str) -> None:
+def print_sentence(text: str) -> None:
     """Print a sentence; on a terminal it is broken between words."""
     for line in wrap_lines(escape_control_characters(text), _room()):
         click.echo(line)
 
 
-class Progress:
+class ProgressLine:
     """One line on the error stream, if that is a terminal and it takes longer than a second.
 
     Parameters

@@ -43,7 +43,7 @@ AHEAD = 2
 _SPAWN = multiprocessing.get_context("spawn")
 
 
-class Here(Executor):
+class InlineExecutor(Executor):
     """Does each job at once, in this process."""
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
@@ -53,7 +53,7 @@ class Here(Executor):
         return done
 
 
-class Processes(ThreadPoolExecutor):
+class ProcessExecutor(ThreadPoolExecutor):
     """Processes, each with a thread here, so that one that dies takes no other with it.
 
     Parameters
@@ -157,7 +157,7 @@ class _Worker:
         self.process = _SPAWN.Process(
             target=_work, args=(there, gc.get_threshold(), initializer, initargs), daemon=True
         )  # fmt: skip
-        with uninterrupted():
+        with shield_from_interrupt():
             self.process.start()
         there.close()
 
@@ -176,7 +176,7 @@ class _Worker:
 
 
 @contextmanager
-def uninterrupted() -> Iterator[None]:
+def shield_from_interrupt() -> Iterator[None]:
     """Leave Ctrl-C to this process, which ends those it begins: they never see it."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
@@ -252,7 +252,7 @@ def _value(answer: bytes) -> Any:
 
 
 @contextmanager
-def workers(count: int, scheduler: str = "") -> Iterator[tuple[Executor, int]]:
+def open_executor(count: int, scheduler: str = "") -> Iterator[tuple[Executor, int]]:
     """An executor, and how many jobs it should be given at a time.
 
     Parameters
@@ -271,9 +271,9 @@ def workers(count: int, scheduler: str = "") -> Iterator[tuple[Executor, int]]:
         with _cluster(scheduler) as found:
             yield found
     elif count == 1:
-        yield Here(), 1
+        yield InlineExecutor(), 1
     else:
-        executor = Processes(count)
+        executor = ProcessExecutor(count)
         try:
             yield executor, count * AHEAD
         except BaseException:
@@ -296,7 +296,9 @@ def _cluster(scheduler: str) -> Iterator[tuple[Executor, int]]:
         yield client.get_executor(pure=False), max(1, threads) * AHEAD
 
 
-def run(executor: Executor, work: Callable[[J], T], jobs: Iterable[J], ahead: int) -> Iterator[T]:
+def map_unordered(
+    executor: Executor, work: Callable[[J], T], jobs: Iterable[J], ahead: int
+) -> Iterator[T]:
     """Do jobs, and give each result as it is there."""
     waiting: set[Future[T]] = set()
     for job in jobs:
@@ -309,7 +311,7 @@ def run(executor: Executor, work: Callable[[J], T], jobs: Iterable[J], ahead: in
         yield from (one.result() for one in done)
 
 
-def in_order(
+def map_ordered(
     executor: Executor, work: Callable[[J], T], jobs: Iterable[J], ahead: int
 ) -> Iterator[T]:
     """Do jobs, and give the results in the order of the jobs."""

@@ -25,7 +25,7 @@ from quizgen.tradeoff.report import TradeoffReport
 from quizgen.tradeoff.rivals import Match
 from quizgen.tradeoff.solving import ARITHMETICS
 from quizgen.tradeoff.sweeps import EXAMS, PLACES, FormulaSweep
-from quizgen.tradeoff.texts import script, style_sheet, words
+from quizgen.tradeoff.texts import script, tradeoff_css, words
 from quizgen.tradeoff.truth import ALL_DIGITS, MOST_DIGITS
 
 START = 2 * PLACES // 3
@@ -51,7 +51,7 @@ def whole_page(report: TradeoffReport, command: str) -> str:
     """The page on its own, with all languages in it, of which one is seen."""
     known = {lang: get_language(lang) for lang in list_languages()}
     return _build_environment().get_template("page.html.j2").render(
-        languages=known, title=words("en")["page"]["title"], style=style_sheet(), script=script(),
+        languages=known, title=words("en")["page"]["title"], style=tradeoff_css(), script=script(),
         bodies={lang: render_tradeoff_fragment(report, command, lang) for lang in known},
         bangla=[lang for lang, one in known.items() if one.script == "Beng"],
         faces={400: bangla_uri(), 700: bangla_uri("Bold")}, theme=write_theme_css(),

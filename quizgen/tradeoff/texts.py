@@ -13,7 +13,7 @@ def words(lang: str) -> dict[str, Any]:
     return load_words(lang, "tradeoff")
 
 
-def style_sheet() -> str:
+def tradeoff_css() -> str:
     """The style of what is measured."""
     return _read_page_file("tradeoff.css")
 

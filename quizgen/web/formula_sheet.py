@@ -138,7 +138,7 @@ async def download_sheet(request: Request) -> Response:
     return Response(data, media_type="application/pdf")
 
 
-async def style_sheet(_request: Request) -> Response:
+async def show_formula_css(_request: Request) -> Response:
     """The style that the page shares with the sheet as a file."""
     return Response(sheet_css(), media_type="text/css")
 
@@ -150,5 +150,5 @@ def _render_not_found(request: Request) -> Response:
 ROUTES = [
     Route("/formulas", show_formulas),
     Route("/formulas.pdf", download_sheet),
-    Route("/static/sheet.css", style_sheet),
+    Route("/static/sheet.css", show_formula_css),
 ]

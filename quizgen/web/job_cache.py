@@ -11,7 +11,7 @@ from typing import Generic, TypeVar
 
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import QuizgenError
-from quizgen.core.executor import Processes
+from quizgen.core.executor import ProcessExecutor
 from quizgen.web.fairness import FairQueue
 from quizgen.web.question_view import (
     QuestionRequest,
@@ -68,7 +68,9 @@ class WorkerPool:
 
     def __init__(self, settings: ServerSettings) -> None:
         self.settings = settings
-        self.pool = Processes(settings.workers, prepare_process, (settings.bank,), longest=LONGEST)
+        self.pool = ProcessExecutor(
+            settings.workers, prepare_process, (settings.bank,), longest=LONGEST
+        )
         self._kept: ResultCache[PoolRequest, PoolResult] = ResultCache(ROOM)
         self._due: dict[PoolRequest, asyncio.Future[PoolResult]] = {}
         # Where others ask too, one who asks for hours of work leaves them a process.

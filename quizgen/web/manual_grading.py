@@ -35,7 +35,7 @@ from quizgen.classes.rulings import (
     read_rulings,
 )
 from quizgen.core.errors import ClassError, FormulaError
-from quizgen.core.executor import Here
+from quizgen.core.executor import InlineExecutor
 from quizgen.web.forms import field_text, field_texts, read_form
 from quizgen.web.state import ServerState
 from quizgen.web.views import page_response, redirect, request_language, translate_page
@@ -151,7 +151,7 @@ async def regrade(request: Request) -> Response:
     form = await read_form(request)
     folder = ClassFolder(_get_class_folder(request))
     try:
-        run = await run_in_threadpool(grade_class, folder, Here(), 1)
+        run = await run_in_threadpool(grade_class, folder, InlineExecutor(), 1)
     except ClassError as error:
         return redirect(_build_page_url(field_text(form, "who"), second=False, wrong=str(error)))
     changed = str(len(run.outcome.changes))

@@ -13,7 +13,7 @@ from starlette.routing import Route
 from quizgen.bank.bank import Bank
 from quizgen.core.decoding import decode_json
 from quizgen.locale import list_languages
-from quizgen.tradeoff.texts import script, style_sheet, words
+from quizgen.tradeoff.texts import script, tradeoff_css, words
 from quizgen.web.question_view import Html
 from quizgen.web.state import ServerState
 from quizgen.web.views import page_response, request_language
@@ -55,7 +55,7 @@ async def show_tradeoff(request: Request) -> Response:
 
 async def style(_request: Request) -> Response:
     """The style of what was measured."""
-    return Response(style_sheet(), media_type="text/css")
+    return Response(tradeoff_css(), media_type="text/css")
 
 
 async def serve_tradeoff_js(_request: Request) -> Response:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import cache
-from typing import Any
 
 import jinja2
 from markupsafe import Markup
@@ -124,7 +123,7 @@ def relative_time(now: float, lang: str) -> Callable[..., str]:
         if near:
             return translate_page(lang, f"progress.{near}")
         return translate_page(
-            lang, "progress.in_days" if days > 0 else "progress.days_ago", count=abs(days)
+            lang, "progress.in_days" if days > 0 else "progress.days_ago", count=abs(days),
         )
 
     return told

@@ -50,7 +50,7 @@ def edit_levels(edit: str, before: NDArray[np.float64], values: Values) -> NDArr
 @cache
 def take_photo() -> NDArray[np.uint8]:
     """Soft shades from black to white: a sky, a field, a ball and a wall, shape (104, 192)."""
-    from quizgen.camera import Camera, Length, Scene, SceneObject, picture_sets, simulate
+    from quizgen.camera import Camera, Length, Scene, SceneObject, picture_sets, simulate_question
     from quizgen.camera.pixels.filters import numpy_only
 
     size = _PIXELS[0] / 144
@@ -68,7 +68,7 @@ def take_photo() -> NDArray[np.uint8]:
         shade("box", (38, 8), (44, 32), 0.65, 0.1),
     )
     with numpy_only():
-        photo = simulate(Scene(*_PIXELS, things), Camera())
+        photo = simulate_question(Scene(*_PIXELS, things), Camera())
     return picture_sets.to_codes(photo.values)[..., 0]
 
 

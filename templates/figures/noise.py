@@ -46,7 +46,7 @@ def order_noises(order: float) -> tuple[str, ...]:
 @cache
 def take_photo() -> Image:
     """Four flat greys, shape (72, 96, 3): noise shows in the histogram as what it does to each."""
-    from quizgen.camera import Camera, Length, Scene, SceneObject, simulate
+    from quizgen.camera import Camera, Length, Scene, SceneObject, simulate_question
     from quizgen.camera.pixels.filters import numpy_only
 
     def grey(level: float) -> tuple[float, float, float]:
@@ -59,7 +59,7 @@ def take_photo() -> Image:
               colour=grey(0.8)),
     )  # fmt: skip
     with numpy_only():
-        return simulate(Scene(*_PIXELS, things, background=grey(0.6)), Camera()).values
+        return simulate_question(Scene(*_PIXELS, things, background=grey(0.6)), Camera()).values
 
 
 @lru_cache(maxsize=32)

@@ -17,7 +17,7 @@ from quizgen.camera import (
     SceneError,
     SceneObject,
     View,
-    simulate,
+    simulate_question,
 )
 from quizgen.camera.effects import defocus, distortion, lateral_colour, rolling_shutter, vignetting
 from quizgen.camera.pixels.filters import convolve, sample_nearest
@@ -258,7 +258,7 @@ def test_projection_of_metres():
     """x = f X/Z: 50 mm, 30 m wide at 600 m, 5 um pixels: 500 px (notes, C14)."""
     thing = SceneObject("box", width=Length(30.0, metric=True), height=Length(20.0), depth=600.0)
     scene = Scene(640, 20, (thing,))
-    picture = simulate(scene, Camera(0.05, 5e-6)).values[10, :, 0]
+    picture = simulate_question(scene, Camera(0.05, 5e-6)).values[10, :, 0]
     assert picture.sum() == pytest.approx(500.0, abs=1e-3)
     with pytest.raises(SceneError, match="focal_length"):
-        simulate(scene, Camera())
+        simulate_question(scene, Camera())

@@ -20,7 +20,7 @@ from quizgen.camera.pixels import codecs
 from quizgen.camera.question_photo import InvisibleEffectError
 from quizgen.camera.scene_file import load_scene
 from quizgen.cli.simulate import SCENES, simulate
-from quizgen.cli.terminal import Progress
+from quizgen.cli.terminal import ProgressLine
 from quizgen.figures.svg import encode_png
 
 NAMES = sorted(path.stem for path in SCENES.glob("*.toml"))
@@ -409,7 +409,7 @@ def test_another_ending_of_a_comparison_is_refused(tmp_path):
 def test_what_takes_long_says_what_it_does(monkeypatch):
     """Steps are told as they begin, those of one pass at once; the terminal decides when."""
     told = []
-    monkeypatch.setattr(Progress, "__call__", lambda _, name: told.append(name))
+    monkeypatch.setattr(ProgressLine, "__call__", lambda _, name: told.append(name))
     ran = json.loads(invoke("landscape", "--json"))["ran"]
     assert told[0] == "reading"
     assert ", ".join(told[1:]) == ", ".join(ran)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from quizgen.camera import Camera, PreparedScene, Scene, View, picture_sets, simulate
+from quizgen.camera import Camera, PreparedScene, Scene, View, picture_sets, simulate_question
 from quizgen.camera.effects import (
     blooming,
     dark_current,
@@ -137,7 +137,9 @@ def test_the_same_seed_gives_the_same_noise_everywhere():
     assert zlib.crc32(noise.tobytes()) == PINNED_NOISE
     scene = Scene(64, 48, background=(0.2, 0.3, 0.4), seed=11)
     noisy = Camera(full_well=5000.0, read_noise=5.0, bit_depth=12, gamma="srgb", exposure=0.5)
-    assert zlib.crc32(simulate(scene, noisy, budget=0.0).pixels().tobytes()) == PINNED_PHOTO
+    assert (
+        zlib.crc32(simulate_question(scene, noisy, budget=0.0).pixels().tobytes()) == PINNED_PHOTO
+    )
 
 
 PINNED_NOISE = 1250975989
@@ -262,7 +264,9 @@ def test_flat_field_of_the_notes():
 
 def test_flat_field_undoes_vignetting():
     camera = Camera(0.02, 5e-5, natural_vignetting=True, mechanical_vignetting=0.5, flat_field=True)
-    picture = simulate(Scene(64, 48, background=(0.3, 0.6, 0.9)), camera, budget=0.0).values
+    picture = simulate_question(
+        Scene(64, 48, background=(0.3, 0.6, 0.9)), camera, budget=0.0
+    ).values
     kept = vignetting.falloff_map(View(Scene(64, 48), camera))
     assert picture == pytest.approx(
         np.float32([0.3, 0.6, 0.9]) * kept.mean() * np.ones_like(picture), rel=1e-5

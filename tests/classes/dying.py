@@ -8,7 +8,7 @@ import threading
 from functools import partial
 from pathlib import Path
 
-from quizgen.core.executor import Processes
+from quizgen.core.executor import ProcessExecutor
 
 
 def once_dead(mark: Path, work, *arguments):
@@ -38,7 +38,7 @@ def always_dead(*_arguments):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-class Mortal(Processes):
+class Mortal(ProcessExecutor):
     """Processes of which the first one dies of its first job."""
 
     def __init__(self, count: int, mark: Path) -> None:

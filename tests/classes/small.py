@@ -8,7 +8,7 @@ from quizgen.bank.bank import builtin_bank
 from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.generation import create_settings, generate_papers
 from quizgen.classes.roster import RosterStudent
-from quizgen.core.executor import Here
+from quizgen.core.executor import InlineExecutor
 from quizgen.paper.blueprint import Blueprint, load_blueprint
 from quizgen.paper.paper import silent
 
@@ -39,7 +39,7 @@ def begun(folder: Path, students: list[RosterStudent]) -> tuple[ClassFolder, Blu
 
 def with_papers(folder: ClassFolder, plan: Blueprint, students: list[RosterStudent], executor=None):
     """What ``make`` reports."""
-    return generate_papers(folder, students, plan, executor or Here(), 2, silent)
+    return generate_papers(folder, students, plan, executor or InlineExecutor(), 2, silent)
 
 
 def bytes_of(folder: Path) -> dict[str, bytes]:

@@ -14,7 +14,7 @@ from quizgen.classes import generation
 from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.roster import RosterStudent
 from quizgen.core.errors import InvalidChoiceError, WorkerError
-from quizgen.core.executor import Here, Processes, run, workers
+from quizgen.core.executor import InlineExecutor, ProcessExecutor, map_unordered, open_executor
 
 STUDENTS = [RosterStudent(f"{n}") for n in range(4)]
 
@@ -31,16 +31,16 @@ def test_a_worker_looks_for_garbage_as_seldom_as_its_parent():
     before = gc.get_threshold()
     gc.set_threshold(12_345, 6, 7)
     try:
-        with workers(2) as (executor, ahead):
-            found = list(run(executor, threshold_of, range(2), ahead))
+        with open_executor(2) as (executor, ahead):
+            found = list(map_unordered(executor, threshold_of, range(2), ahead))
     finally:
         gc.set_threshold(*before)
     assert found == [(12_345, 6, 7)] * 2
 
 
 def test_few_jobs_are_done_in_this_process():
-    with workers(1) as (executor, ahead):
-        assert list(run(executor, pid_of, range(3), ahead)) == [os.getpid()] * 3
+    with open_executor(1) as (executor, ahead):
+        assert list(map_unordered(executor, pid_of, range(3), ahead)) == [os.getpid()] * 3
 
 
 def test_no_more_jobs_wait_than_keep_the_workers_busy():
@@ -51,7 +51,7 @@ def test_no_more_jobs_wait_than_keep_the_workers_busy():
             begun_jobs.append(job)
             yield job
 
-    results = run(Here(), str, jobs(), 2)
+    results = map_unordered(InlineExecutor(), str, jobs(), 2)
     next(results)
     assert begun_jobs == [0, 1]
 
@@ -59,7 +59,7 @@ def test_no_more_jobs_wait_than_keep_the_workers_busy():
 def test_the_jobs_of_a_process_that_is_killed_are_done_by_another(tmp_path):
     executor = Mortal(2, tmp_path / "dead")
     try:
-        found = list(run(executor, pid_of, range(6), 4))
+        found = list(map_unordered(executor, pid_of, range(6), 4))
     finally:
         executor.shutdown()
     assert (tmp_path / "dead").exists()
@@ -69,7 +69,7 @@ def test_the_jobs_of_a_process_that_is_killed_are_done_by_another(tmp_path):
 
 @pytest.mark.slow
 def test_a_process_that_dies_amid_its_answer_is_not_waited_for(tmp_path):
-    executor = Processes(1)
+    executor = ProcessExecutor(1)
     try:
         told = executor.submit(Long, tmp_path / "dead").result(60)
     finally:
@@ -88,7 +88,7 @@ def fails(number):
 
 
 def test_an_error_of_a_job_comes_back_with_its_place():
-    with workers(2) as (executor, _):
+    with open_executor(2) as (executor, _):
         plain, other = (executor.submit(fails, number) for number in (1, 0))
         with pytest.raises(ValueError, match="a plain one") as caught:
             plain.result()
@@ -105,7 +105,7 @@ def test_work_that_is_given_up_ends_its_processes():
     waiting = []
 
     def given_up():
-        with workers(2) as (executor, _):
+        with open_executor(2) as (executor, _):
             waiting.extend(executor.submit(sleeps, job) for job in range(6))
             raise KeyboardInterrupt
 
@@ -132,7 +132,7 @@ def test_a_worker_that_is_killed_changes_no_byte(tmp_path, monkeypatch):
 
 @pytest.mark.slow
 def test_papers_that_kill_every_worker_are_given_up_with_a_sentence():
-    executor = Processes(1)
+    executor = ProcessExecutor(1)
     try:
         with pytest.raises(WorkerError, match="3 processes died"):
             executor.submit(always_dead).result()
@@ -144,6 +144,6 @@ def test_papers_that_kill_every_worker_are_given_up_with_a_sentence():
 def test_a_scheduler_that_is_not_there_is_named():
     with (
         pytest.raises(InvalidChoiceError, match=r"scheduler tcp://127\.0\.0\.1:1"),
-        workers(1, "tcp://127.0.0.1:1"),
+        open_executor(1, "tcp://127.0.0.1:1"),
     ):
         pass

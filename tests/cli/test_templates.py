@@ -98,7 +98,7 @@ def test_titles_are_shown_as_they_are(odd_bank, monkeypatch, title, columns):
     (odd_bank / "templates" / "x" / "odd" / "en.md").write_text(f"# {title}\nIs it so?\n")
     assert rows("--bank", str(odd_bank))[0][5] == title
     for module in ("templates", "terminal"):
-        monkeypatch.setattr(f"quizgen.cli.{module}.on_terminal", lambda: True)
+        monkeypatch.setattr(f"quizgen.cli.{module}.is_interactive", lambda: True)
     monkeypatch.setenv("COLUMNS", str(columns))
     done = CliRunner().invoke(templates, ["--bank", str(odd_bank)])
     assert title in done.stdout

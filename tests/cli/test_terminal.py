@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from quizgen.cli import terminal
-from quizgen.cli.terminal import Progress, many
+from quizgen.cli.terminal import ProgressLine, format_count
 from quizgen.core.text_width import lay_out_table, text_width, wrap_lines
 from quizgen.core.untrusted import escape_control_characters
 
@@ -49,7 +49,7 @@ def test_no_line_is_wider_than_there_is_room(text, room):
 
 
 def test_one_thing_is_no_plural():
-    assert [many(count, "mark") for count in (0, 1, 2)] == ["0 marks", "1 mark", "2 marks"]
+    assert [format_count(count, "mark") for count in (0, 1, 2)] == ["0 marks", "1 mark", "2 marks"]
 
 
 def test_words_stay_whole():
@@ -74,7 +74,7 @@ def progress(monkeypatch, times, *, terminal_there):
     monkeypatch.setenv("NO_COLOR", "1")
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal_there, raising=False)
-    with Progress("lint", 3, clock=lambda: next(ticks)) as tell:
+    with ProgressLine("lint", 3, clock=lambda: next(ticks)) as tell:
         for name in ("a", "b", "c"):
             tell(name)
 
@@ -117,8 +117,8 @@ EFFECTS = [
 
 @pytest.mark.parametrize("room", [30, 40, 60, 80, 120])
 def test_a_table_is_no_wider_than_the_terminal(monkeypatch, capsys, room):
-    monkeypatch.setattr(terminal, "on_terminal", lambda: True)
-    monkeypatch.setattr(terminal, "columns", lambda: room)
+    monkeypatch.setattr(terminal, "is_interactive", lambda: True)
+    monkeypatch.setattr(terminal, "terminal_width", lambda: room)
     terminal.print_table(("effect", "", "DN", "ms", "took", "why"), EFFECTS)
     lines = capsys.readouterr().out.splitlines()
     assert max(map(width_by_libc, lines)) <= room
