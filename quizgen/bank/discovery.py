@@ -2,7 +2,7 @@
 
 A package brings a bank by an entry point of the group ``quizgen.banks``: a name, and the package
 that holds ``templates/``. Nothing of it is imported to find it. Whose Python a person has allowed
-to run is remembered by what it says, so that a bank that changes is asked for anew.
+to run is remembered by what it says, so that a bank that changes is asked for again.
 """
 
 from __future__ import annotations

@@ -112,7 +112,7 @@ def _by_label(content: str) -> tuple[str, str]:
 def _index_conditional_sentences(
     listed: Mapping[str, list[tuple[str, ConditionalSentence]]],
 ) -> dict[tuple[str, str], tuple[ConditionalSentence, ...]]:
-    """Section and name of the sentences of which some are told by a condition."""
+    """Section and name of the sentences that a condition chooses from."""
     found: dict[tuple[str, str], list[ConditionalSentence]] = {}
     for section, entries in listed.items():
         for name, case in entries:

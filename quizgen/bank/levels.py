@@ -7,7 +7,7 @@ from typing import Literal, get_args
 DerivedLevel = Literal["guided", "transfer"]
 """Levels that are made from the chain."""
 EXAM = "exam"
-"""As its author wrote it: the level of whoever asks for none."""
+"""As its author wrote it: the level where none is asked for."""
 GUIDED = "guided"
 """Its steps, one after another."""
 MIXED = "mixed"

@@ -128,7 +128,7 @@ class PartChecker:
     def _is_accepted_anyway(
         self, values: tuple[float, ...], env: Mapping[str, float], shown: Mapping[str, fmpq]
     ) -> bool:
-        """Whether values lie in the interval accepted besides, seen from outside."""
+        """Whether values lie in the interval that is accepted as well, seen from outside."""
         if not self.accept:
             return False
         low, high = (bound.at(env, shown) for bound in self.accept)

@@ -1,7 +1,8 @@
 """Solvers: an author's Python, run once to be compiled to a chain, which is kept.
 
-A chain follows from the solver's file and from how quizgen and SymPy make it one. So whoever asks
-questions runs no solver and loads no SymPy, unless a solver is new, or imports more than others do.
+A chain follows from the solver's file and from how quizgen and SymPy make it one. So a caller that
+asks questions runs no solver and loads no SymPy, unless a solver is new, or imports more than
+others do.
 """
 
 from __future__ import annotations

@@ -201,7 +201,7 @@ class EffectSelection:
     only : tuple of str
         As if a question asked about them and nothing else.
     plus, minus : tuple of str
-        What runs besides, and what does not run whatever is asked.
+        What runs as well, and what does not run whatever is asked.
     """
 
     only: tuple[str, ...] = ()

@@ -274,7 +274,7 @@ def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some
     InvisibleEffectError
         If what is asked cannot be seen.
     MovedReadingError
-        If an effect besides moves what is read by more than its tolerance, or it is not the value
+        If another effect moves what is read by more than its tolerance, or it is not the value
         that it should have.
     """
     with error_context(scene.file):
@@ -422,7 +422,7 @@ def _is_right(photo: Photo, reading: Reading) -> bool:
 def _check_reading(
     prepared: PreparedScene, plan: Plan, photo: Photo, name: str, reading: Reading
 ) -> float:
-    """What is read off, if that is right and nothing besides moves it."""
+    """What is read off, if that is right and nothing else moves it."""
     value = read_value(photo.values, reading)
     if not _is_right(photo, reading):
         raise MovedReadingError(

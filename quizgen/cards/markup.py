@@ -41,7 +41,7 @@ class DisplayMaths:
 
 @dataclass(frozen=True, slots=True)
 class ClozeHole:
-    """A formula of which one side is asked: what is shown, and the hidden rest with its number."""
+    """A formula with one side asked: what is shown, and the hidden rest with its number."""
 
     shown: TypesetMaths
     hidden: TypesetMaths

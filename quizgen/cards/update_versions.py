@@ -1,4 +1,4 @@
-"""Write the lists of versions anew: ``python -m quizgen.cards.update_versions [BANK]``.
+"""Write the lists of versions again: ``python -m quizgen.cards.update_versions [BANK]``.
 
 Without a bank, the built-in one and the note types are renewed.
 """

@@ -60,7 +60,7 @@ class ClassSettings(msgspec.Struct, frozen=True):
 
 
 class PrintedHead(msgspec.Struct, frozen=True):
-    """What the line of a student's paper says besides its key.
+    """What the line of a student's paper says, apart from its key.
 
     Parameters
     ----------
@@ -284,7 +284,7 @@ def _compute_key_digest(written: bytes | msgspec.Raw) -> str:
 
 
 def _decode_head(line: bytes) -> PrintedHead | None:
-    """What a line says besides the key; None for one that a killed run left."""
+    """What a line says, apart from the key; None for one that a killed run left."""
     if not line.endswith(b"\n"):
         return None
     try:

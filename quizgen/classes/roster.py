@@ -86,7 +86,7 @@ class RosterStudent(msgspec.Struct, frozen=True):
         return len(self.id) <= LONGEST_FILE and not _DEVICES.fullmatch(self.id)
 
     def extra_minutes(self, minutes: int) -> int:
-        """Minutes besides the working time of the paper."""
+        """Minutes added to the working time of the paper."""
         found = _EXTRA.fullmatch(self.extra)
         if found is None:
             return 0

@@ -77,7 +77,7 @@ def check(**options: Unpack[CheckOptions]) -> None:
     notes per part, one line per student. A form that cannot be read is named and the others are
     marked. Exit codes: 0 every form was marked, 1 some were, 2 none.
 
-    A key holds all that marking needs. With --bank it is said besides whether the bank is still
+    A key holds all that marking needs. With --bank it is also said whether the bank is still
     the one that the paper or the export was made from.
     """
     from quizgen.paper.answer_key import read_answer_key

@@ -136,7 +136,7 @@ def _tell_all(roots: Sequence[Path]) -> None:
 
 
 def is_trusted(root: Path, allowed: Collection[Path]) -> bool:
-    """Whether a bank's Python may run: as typed, as remembered, or by asking whoever types.
+    """Whether a bank's Python may run: as typed, as remembered, or by asking the person who types.
 
     Where nobody can be asked it is said at once that it does not run.
 

@@ -59,7 +59,7 @@ class PracticeOptions(BankOptions):
 @click.option("--seed", help="Any text: the same text gives the same questions.")
 @database_option
 @bank_options
-@click.option("--fresh", is_flag=True, help="Begin anew, not where these options were left.")
+@click.option("--fresh", is_flag=True, help="Start over, not where these options were left.")
 def practice(**options: Unpack[PracticeOptions]) -> None:
     """Practise in the terminal: instant feedback, hints, retries, worked solutions.
 

@@ -95,7 +95,7 @@ def _make_effect_option(*flags: str, name: str, text: str) -> Callable[[Any], An
 @_make_effect_option(
     "--only", name="only", text="Run this effect, what it needs, and nothing else."
 )
-@_make_effect_option("--with", name="plus", text="Run this effect besides.")
+@_make_effect_option("--with", name="plus", text="Run this effect, too.")
 @_make_effect_option("--without", name="minus", text="Leave this effect out.")
 @click.option(
     "--budget",

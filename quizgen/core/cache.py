@@ -1,7 +1,7 @@
 """What was worked out once and is kept: in a wheel from when it was built, else in a cache.
 
 A thing is kept under the digest of all that it follows from, so it never goes stale and needs no
-date. What is damaged is worked out anew without a word, as if it had never been kept; so is
+date. What is damaged is worked out again without a word, as if it had never been kept; so is
 everything where the cache may have been written by somebody else, or cannot be written.
 """
 
@@ -26,7 +26,7 @@ _SUM = 64
 
 
 def compute_digest(*parts: bytes) -> str:
-    """Digest of parts, of which none can be taken for two or for part of another."""
+    """Digest of parts; none can be taken for two or for part of another."""
     total = hashlib.sha256()
     for part in parts:
         total.update(len(part).to_bytes(8, "big"))

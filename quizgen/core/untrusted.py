@@ -2,7 +2,7 @@
 
 A file is read only if it is a regular one (a pipe or a device would hang or never end) and not
 larger than expected; a table only if it is not too deep, too long, or made of numbers that nobody
-means. Whoever reads says which error is raised, so that it names the file in the reader's own kind.
+means. The caller says which error is raised, so that it names the file by its kind.
 """
 
 from __future__ import annotations

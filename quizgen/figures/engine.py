@@ -200,7 +200,7 @@ class HouseStyle(HouseColours):
     """The house's settings inside, those of before afterwards.
 
     ``matplotlib.rc_context`` does the same in 0.44 ms, as it validates each value; these were
-    validated once. Whoever enters holds the lock of the engine: settings belong to the process.
+    validated once. The caller holds the lock of the engine: settings belong to the process.
     """
 
     def __enter__(self) -> None:

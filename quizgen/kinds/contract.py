@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 # Sizes beyond which nobody means what a template, a blueprint or a key says.
 MOST_CHOICES = 10_000  # values of a range, entries of a list
 MOST_POINTS, MOST_MINUTES, MOST_PARTS, MOST_OPTIONS = 1000, 9999, 10, 12
-MOST_IN_POOL = 60  # options, pairs, steps or gaps, of which every variant takes some
+MOST_IN_POOL = 60  # options, pairs, steps or gaps; every variant takes some of them
 MOST_FORMULAS = 500
 
 Condition: TypeAlias = bool | str
@@ -67,7 +67,7 @@ class AuthoredAnswer(msgspec.Struct, kw_only=True, frozen=True, forbid_unknown_f
     of: str | tuple[str, ...] | dict[str, str] = ()
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """What is wrong besides types; each kind that can tell says so."""
+        """What is wrong apart from types; each kind that can tell says so."""
         return iter(())
 
 
@@ -78,7 +78,7 @@ class AuthoredMeasured(Tolerance, kw_only=True, frozen=True, tag_field="kind"):
     accept: tuple[Scalar, Scalar] | None = None  # type: ignore[assignment]
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """What is wrong besides types."""
+        """What is wrong apart from types."""
         return iter(())
 
 
@@ -102,7 +102,7 @@ class AuthoredPooled(AuthoredAnswer, frozen=True):
 
     take: int = 0
     listed: ClassVar[str]
-    """Key that holds the names of which ``take`` are shown."""
+    """Key that holds the names; ``take`` of them are shown."""
 
     def listed_names(self) -> Sequence[str]:
         """All names that must differ."""
@@ -120,7 +120,7 @@ class AuthoredPooled(AuthoredAnswer, frozen=True):
 def find_name_problems(
     field: str, names: Sequence[str], take: int, least: int = 1
 ) -> Iterator[FieldProblem]:
-    """What is wrong with a list of names, of which a variant takes some if ``take`` is not 0."""
+    """What is wrong with a list of names; a variant takes some of them if ``take`` is not 0."""
     most = MOST_IN_POOL if take else MOST_OPTIONS
     if not least <= len(names) <= most:
         yield (field,), "QG110", f"1 to {most} are needed"

@@ -130,7 +130,7 @@ def _without_unit(
 
 
 def _missing(spec: QuantitySpec, number: ReadNumber, verdict: Verdict, points: Fraction) -> Verdict:
-    """Take off for the unit: half, but never more than half a point, and nothing besides."""
+    """Take off for the unit: half, but never more than half a point, and nothing else."""
     credit = max(HALF, 1 - HALF / points)
     if verdict.credit < credit:
         return verdict

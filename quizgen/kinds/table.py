@@ -214,7 +214,7 @@ def _gives(
     typed: Mapping[str, str],
     options: GradingOptions,
 ) -> bool:
-    """Whether a mistake explains all cells: whoever made it typed its values throughout."""
+    """Whether a mistake explains all cells: its values stand in every one of them."""
     return all(
         _gives_cell(replace(one, traps={trap: values.get(name, one.value)}), typed[name], options)
         for name, one in asked.items()

@@ -402,7 +402,7 @@ def _describe_answer(kind: str, drawn: Variant, index: int) -> str:
 
 
 def entropy_bits(counts: Iterable[int]) -> float:
-    """Bits that one answer is worth to whoever has seen all others."""
+    """Bits that one answer is worth to a learner who has seen all others."""
     found = [count for count in counts if count]
     total = sum(found)
     return math.log2(total) - sum(n * math.log2(n) for n in found) / total if found else 0.0

@@ -58,7 +58,7 @@ COMPOSED = SampleShare(3, 33)
 MARKED = SampleShare(5, 20)
 """Instances whose answers and mistakes are typed back in every language."""
 AT_MOST = SampleShare(25, 4)
-"""Instances among which those with a rare mistake are typed back besides."""
+"""Instances; those among them with a rare mistake are typed back as well."""
 RARE = 3
 """Times that every mistake is typed back, as far as it is met."""
 VARIED = 4

@@ -17,7 +17,7 @@ tradeoff       the page of what accuracy costs
 web            the pages of ``quizgen serve``
 ============== ==================================================================
 
-A template has one ``<lang>.md`` besides.
+A template has one ``<lang>.md``, too.
 
 A bank may be written in any other language: ``brought`` reads what it says of it, and English
 stands for the rest.
@@ -302,7 +302,7 @@ def untranslated_languages(langs: Iterable[str]) -> list[str]:
 
 
 def translatable_files() -> list[Path]:
-    """The files that a language may have besides ``language.toml``, in English."""
+    """The files that a language may have, apart from ``language.toml``, in English."""
     return sorted(path for path in (SHIPPED / FIRST).glob("*.toml") if path.stem != "language")
 
 

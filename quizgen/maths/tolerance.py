@@ -18,7 +18,7 @@ MOST_DIGITS = 40
 """Most decimals or significant figures that can be asked."""
 
 RULES = ("decimals", "sigfigs", "rel", "abs", "exact")
-"""The ways to state a tolerance, of which a part gives at most one."""
+"""The ways to state a tolerance; a part gives at most one of them."""
 
 MARGIN = 1 + 1e-9
 """Factor by which a width computed from a float is widened, so that it is never too small."""
@@ -32,8 +32,8 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
     """How near an answer must be: at most one rule, else half a percent of the key.
 
     ``decimals`` and ``sigfigs`` accept ``within`` units (default one) in the last place asked;
-    all bounds are closed. ``accept`` is an interval accepted besides. ``strict`` asks for exactly
-    the precision stated.
+    all bounds are closed. ``accept`` is an interval that is accepted as well. ``strict`` asks for
+    exactly the precision stated.
     """
 
     decimals: int | None = None
@@ -125,7 +125,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
         return not distance > width
 
     def accepts(self, value: Value, key: Value) -> bool:
-        """Whether a value is near the key, or in the interval accepted besides."""
+        """Whether a value is near the key, or in the interval that is accepted as well."""
         if self.accept is None or self.is_within(value, key):
             return self.is_within(value, key)
         low, high = map(parse_exact, self.accept)

@@ -190,7 +190,7 @@ def _describe_attainable_range(name: str, places: Sequence[Sequence[Candidate]])
 
 
 def _to_units(value: Fraction, unit: int) -> int:
-    """A value in units, of which its denominator is a divisor."""
+    """A value in units; its denominator divides them."""
     return value.numerator * (unit // value.denominator)
 
 

@@ -183,7 +183,7 @@ class QuestionGrader:
         return _build_part_result(self.question, part, typed, verdict)
 
     def explain_part(self, part: KeyPart, verdict: Verdict) -> Verdict:
-        """The verdict on a part with its sentences, for whoever is shown it."""
+        """The verdict on a part with its sentences, for the person who is shown it."""
         return explain_verdict(part.parse_spec(proven=self.proven), verdict, self.options.lang)
 
     def grade_part(self, part: KeyPart, typed: str) -> PartResult:

@@ -66,7 +66,7 @@ class PaperHolder(msgspec.Struct, frozen=True):
     ----------
     id, name : str
     extra : int
-        Minutes besides the working time.
+        Minutes added to the working time.
     """
 
     id: str

@@ -37,7 +37,7 @@ class AnswerFeedback(msgspec.Struct, frozen=True):
     Parameters
     ----------
     verdict : Verdict
-        Without words: ``PartAttempt.explain_verdict`` finds them for whoever shows it.
+        Without words: ``PartAttempt.explain_verdict`` finds them where it is shown.
     then : Next
         What is to happen now.
     left : int
@@ -158,7 +158,7 @@ class PartAttempt(Generic[P, S]):
         return AnswerFeedback(verdict, then, TRIES - self.state.tries)
 
     def explain_verdict(self, verdict: Verdict) -> Verdict:
-        """A verdict on this part with its message, in the language of whoever answers."""
+        """A verdict on this part with its message, in the language of the learner."""
         return self._marker.explain_part(self._keyed, verdict)
 
     def _decide_next_step(self, verdict: Verdict) -> NextStep:

@@ -56,7 +56,7 @@ def summarise_by_topic(
 
 
 def weak_topics(results: Iterable[TopicResult]) -> tuple[str, ...]:
-    """Topics of which not everything was right at once, the weakest first."""
+    """Topics where not everything was right at once, the weakest first."""
     weak = [row for row in results if row.right < row.count or row.skipped]
     weak.sort(key=lambda row: row.right / (row.count + row.skipped))
     return tuple(row.topic for row in weak[:MOST])

@@ -143,7 +143,7 @@ def _require_symbol(table: Piece, name: str) -> str:
 
 
 def _require_texts(table: Piece, name: str) -> Sequence[str]:
-    """Texts of a description, of which there may be one."""
+    """Texts of a description; there may be one."""
     if name not in table:
         raise RenderError(f"{name!r} is missing in {dict(table)!r}")
     given = table[name]

@@ -11,7 +11,7 @@ from quizgen.render.html import render_html_page
 
 @cache
 def sheet_css() -> str:
-    """How formulas look, besides what all pages have; the pages of the browser show them alike."""
+    """How formulas look, added to what all pages have; the pages of the browser show them alike."""
     return (files("quizgen.render") / "pages" / "sheet.css").read_text(encoding="utf-8")
 
 

@@ -24,7 +24,7 @@ FORMAT = "quizgen learning"
 CHUNK = 50
 """Rows of a file that are written together: some milliseconds."""
 _PAUSE = 0.005
-"""Seconds between them: whoever waits for SQLite outside of a group only looks now and then."""
+"""Seconds between them: a writer outside of a group only looks now and then."""
 T = TypeVar("T")
 TEXT = "^[^\0]*$"
 """What a database takes as text."""
@@ -194,7 +194,7 @@ class ArchiveStore:
 
 
 def _steps(learner: int, archive: LearnerArchive) -> Iterator[Callable[[Connection], int]]:
-    """The slices of a file, each of which says how many questions and exams came."""
+    """The slices of a file; each says how many questions and exams came."""
     yield partial(_merge_settings, learner=learner, settings=archive.settings)
     for attempts in _chunks(archive.attempts):
         yield partial(_add_attempts, learner=learner, attempts=attempts)

@@ -20,7 +20,7 @@ def steady() -> float:
 
 
 def since_boot() -> str:
-    """What is the same until the machine is started anew; empty where it does not say."""
+    """What is the same until the machine is restarted; empty where it does not say."""
     try:
         return f"clock-{_BOOT.read_text().strip()[:23]}"
     except OSError:

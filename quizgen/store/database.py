@@ -114,7 +114,7 @@ class Database:
         """What some writing of a learner gives, once it is on the disk.
 
         A disk takes some milliseconds for each commit, however little it holds. So all that waits
-        while one is under way is committed together: whoever comes first writes for those behind.
+        while one is under way is committed together: the first writes for those who wait.
         What fails takes nothing else with it. PostgreSQL groups commits by itself.
 
         Parameters
@@ -284,7 +284,7 @@ def _create_engine_for(url: URL) -> Engine:
 def _keep_private(url: URL) -> None:
     """Let nobody but its owner read the file; SQLite makes the log beside it alike.
 
-    It holds answers and names, and whoever serves it chooses where: the umask is not asked.
+    It holds answers and names, and the person who serves it chooses where: the umask is not asked.
     """
     if url.get_backend_name() != "sqlite" or url.database in {None, "", ":memory:"}:
         return
@@ -297,7 +297,7 @@ def _keep_private(url: URL) -> None:
 
 
 def _to_wal(connection: sqlite3.Connection) -> None:
-    """Keep a log beside the file: whoever reads waits for nobody who writes.
+    """Keep a write-ahead log: readers wait for no writer.
 
     Of several that ask a new file for it at once SQLite refuses all but one, without waiting.
     """

@@ -48,7 +48,7 @@ def write_page(report: TradeoffReport, folder: Path, command: str) -> list[Path]
 
 
 def whole_page(report: TradeoffReport, command: str) -> str:
-    """The page on its own, with all languages in it, of which one is seen."""
+    """The page on its own, with all languages in it; one is seen."""
     known = {lang: get_language(lang) for lang in list_languages()}
     return _build_environment().get_template("page.html.j2").render(
         languages=known, title=words("en")["page"]["title"], style=tradeoff_css(), script=script(),

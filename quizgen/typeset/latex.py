@@ -1,7 +1,7 @@
 """LaTeX for LaTeX with amsmath, MathJax (Anki, Moodle) and KaTeX.
 
 Two closing braces never touch, because Anki would read them as the end of a cloze. ``<`` and ``&``
-are left as they are: whoever puts the result into HTML escapes it.
+are left as they are: the caller that puts the result into HTML escapes it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Who asks: whoever has the address that was printed, or who has signed in."""
+"""Who asks: somebody with the address that was printed, or who has signed in."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ COOKIE = "quizgen"
 ENTRANCE = "/enter"
 """Where the address that is opened first leads: ``/enter?key=KEY``."""
 HEALTH = "/health"
-"""Where whoever watches over the server asks how it is; it lets nobody in and tells of nobody."""
+"""Where a monitor asks how the server is; it lets nobody in and tells of nobody."""
 LONGEST_CHECK = 5.0
 """Seconds in which the database is to answer."""
 SIGN_IN, INVITED = "/sign-in", "/invited"

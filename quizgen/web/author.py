@@ -76,7 +76,7 @@ def bank_stamp(bank: Bank) -> str:
     seen = [
         (str(path), path.stat().st_mtime_ns)
         for path in files
-        if path.is_file() and path.suffix != ".pyc"  # written by whoever reads a solver
+        if path.is_file() and path.suffix != ".pyc"  # written when a solver is read
     ]
     return hashlib.sha256(repr(seen).encode()).hexdigest()[:16]
 

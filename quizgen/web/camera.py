@@ -126,7 +126,7 @@ STOPS: dict[str, tuple[float, ...]] = {
     "gaussian_noise": (0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2),
     "bit_depth": (OFF, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14),
 }
-"""Where each slider can stand, in base units; besides, wherever the scene itself has it."""
+"""Where each slider can stand, in base units, and wherever the scene itself has it."""
 
 
 class CameraSlider(msgspec.Struct, frozen=True):
@@ -217,7 +217,7 @@ class CameraJob:
     def _take_photo(
         self, scene: Scene, camera: Camera, found: list[str], chosen: str
     ) -> QuestionPhoto:
-        """What was set runs besides what is asked; without a question the first effect is."""
+        """What was set runs as well as what is asked; without a question the first effect is."""
         from quizgen.camera.planner import EffectSelection
         from quizgen.camera.question_photo import take_question_photo
 

@@ -1,4 +1,4 @@
-"""What whoever asks has done, and what today asks for."""
+"""What a learner has done, and what is due today."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class DueToday:
 
 
 def progress_of(request: Request) -> LearnerProgress:
-    """What whoever asks has done and is to do."""
+    """What the learner has done and is to do."""
     site: ServerState = request.app.state.site
     return LearnerProgress(site.store, site.bank, request.state.learner)
 

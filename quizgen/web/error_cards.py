@@ -89,7 +89,7 @@ def _read_sitting(site: ServerState, sitting: ExamRecord) -> FinishedExam:
 
 
 def _iter_wrong_attempts(attempts: Iterable[AttemptRecord]) -> Iterator[PracticedQuestion]:
-    """Questions of which something was not right, each mistake once."""
+    """Questions where something was not right, each mistake once."""
     known: set[tuple[str, str, str]] = set()
     for attempt in attempts:
         kept = convert(attempt.state.get("parts", {}), dict[str, PartProgress])

@@ -51,7 +51,7 @@ LONGEST_MINUTES = 300
 
 
 class GoneError(HTTPException):
-    """An exam of before papers were kept, of which nobody can make the paper any more."""
+    """An exam from before papers were kept; its paper cannot be made any more."""
 
 
 @dataclass(frozen=True)

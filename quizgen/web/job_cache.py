@@ -114,7 +114,7 @@ class WorkerPool:
         Raises
         ------
         QuizgenError
-            If it cannot be done; tried anew by whoever asks next.
+            If it cannot be done; tried again at the next request.
         """
         found = await self._get_or_make(job, asker)
         assert isinstance(found, bytes)  # noqa: S101 - what was asked for
@@ -133,7 +133,7 @@ class WorkerPool:
     async def prefetch(self, wanted: QuestionRequest) -> None:
         """Make a question that is likely asked soon, where a process has nothing else to do."""
         if self.has_spare:
-            with contextlib.suppress(QuizgenError):  # told to whoever asks
+            with contextlib.suppress(QuizgenError):  # said to the next who asks
                 await self._get_or_make(wanted, self)
 
     async def _get_or_make(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
@@ -161,6 +161,6 @@ class WorkerPool:
 
 
 def _forget_error(due: asyncio.Future[PoolResult]) -> None:
-    """Whoever asked may have gone: then nobody is left to be told what went wrong."""
+    """The request may be gone: then nobody is left to be told what went wrong."""
     if not due.cancelled():
         due.exception()

@@ -147,7 +147,7 @@ def _build_page_url(who: str, *, second: bool, **more: str) -> str:
 
 
 async def regrade(request: Request) -> Response:
-    """Mark the class anew, with what was decided."""
+    """Mark the class again, with what was decided."""
     form = await read_form(request)
     folder = ClassFolder(_get_class_folder(request))
     try:

@@ -20,7 +20,7 @@ from quizgen.web.question_view import PartView, QuestionView
 from quizgen.web.read_errors import ReadErrorView, explain_read_error
 
 HALF = unreadable("values-missing")
-"""Said of fields of which some are empty."""
+"""Said where some fields are empty."""
 
 
 class PartProgress(msgspec.Struct):

@@ -141,7 +141,7 @@ class PaperView(msgspec.Struct, frozen=True):
     points: float
     minutes: int
     pauses: bool | None
-    """Whether its blueprint allows pauses; None where whoever sits it chooses."""
+    """Whether its blueprint allows pauses; None where the student chooses."""
     banks: list[str]
     """The banks that its questions stand in, with version and digest."""
     items: list[QuestionView]

@@ -113,7 +113,7 @@ class SecurityMiddleware:
 
 
 def plain_error(name: str, status: int, request_id: str = "") -> Response:
-    """Say something to whoever it is, in every language; by which id it is found in the log."""
+    """Say something in every language, with the id by which it is found in the log."""
     errors = [load_words(lang, "web")["error"] for lang in list_languages()]
     said = [error[name] for error in errors]
     said += [error["number"].format(number=request_id) for error in errors if request_id]

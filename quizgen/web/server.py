@@ -188,7 +188,7 @@ def _build_start_url(site: ServerState, port: int, *, invite: bool) -> str:
 
 def _build_browser_url(site: ServerState, address: str) -> str:
     """What the browser is started with: anybody on the machine may read that."""
-    if site.settings.accounts:  # an invitation is for whoever reads the terminal
+    if site.settings.accounts:  # an invitation is for the person at the terminal
         return address.partition("?")[0].removesuffix(INVITED)
     from platformdirs import user_data_path
 

@@ -53,7 +53,7 @@ def translate_page(lang: str, key: str, **values: object) -> str:
 
 
 def request_language(request: Request) -> str:
-    """The language that whoever asks has chosen."""
+    """The language that the visitor has chosen."""
     site: ServerState = request.app.state.site
     chosen = str(request.state.learner.settings.get("lang"))
     return chosen if chosen in site.languages else site.languages[0]
@@ -123,7 +123,9 @@ def relative_time(now: float, lang: str) -> Callable[..., str]:
         if near:
             return translate_page(lang, f"progress.{near}")
         return translate_page(
-            lang, "progress.in_days" if days > 0 else "progress.days_ago", count=abs(days),
+            lang,
+            "progress.in_days" if days > 0 else "progress.days_ago",
+            count=abs(days),
         )
 
     return told

@@ -25,7 +25,7 @@ _RAREST = 49.0 * math.log(2.0)
 
 
 class EffectRandom:
-    """Random numbers of one effect: every tile of a picture has its own, whoever works on it.
+    """Random numbers of one effect: every tile of a picture has its own, in whichever process.
 
     Philox counts: the seed is the key, the number of the tile the upper part of the counter. One
     thread at a time may draw from it; each run of an effect has its own.

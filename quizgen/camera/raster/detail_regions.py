@@ -31,7 +31,7 @@ _CALL = 4096
 
 
 class Regions(NamedTuple):
-    """Boxes outside of which an effect changes nothing; they may overlap.
+    """Boxes; outside of them an effect changes nothing; they may overlap.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ Field = NDArray[np.float64]
 
 
 RegionMaker = Callable[[list[Image], PixelBox], list[Image]]
-"""Makes colour and, but for an opaque layer, cover of a box anew."""
+"""Makes colour and, but for an opaque layer, cover of a box again."""
 
 _ROWS, _COLUMNS = 256, 1024
 """Made at once, so that what lies in between stays small; more where a kernel is wide."""
@@ -49,7 +49,7 @@ _ROWS, _COLUMNS = 256, 1024
 def replace_regions(
     layer: Layer, where: Regions, make: RegionMaker, most: tuple[int, int] = (_ROWS, sys.maxsize)
 ) -> Layer:
-    """A layer in which some places are made anew.
+    """A layer in which some places are made again.
 
     Parameters
     ----------

@@ -138,7 +138,7 @@ def _extent(thing: SceneObject) -> tuple[float, float]:
     """Across and down from a thing's centre, where it covers nothing, soft edge included, px."""
     if thing.shape == "box" and not thing.angle:
         return thing.width.value / 2 + 1.0, thing.height.value / 2 + 1.0
-    if thing.shape == "disc":  # which may have been given the sides of a box besides
+    if thing.shape == "disc":  # which may have been given the sides of a box, too
         return thing.radius.value + 1.0, thing.radius.value + 1.0
     if thing.shape in ("grid", "full") or (thing.shape == "blades" and thing.count == 1):
         return math.inf, math.inf

@@ -34,7 +34,7 @@ class SettingError(SceneError):
     Parameters
     ----------
     setting : str
-        Its key, so that whoever reads a file can name the line.
+        Its key, so that the reader of a file can name the line.
     message : str
     """
 

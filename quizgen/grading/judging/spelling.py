@@ -146,6 +146,6 @@ def confusable_terms(terms: Iterable[str], words: Iterable[str]) -> list[str]:
 
 @lru_cache(maxsize=256)
 def _find_similar_terms(terms: tuple[str, ...], word: str) -> frozenset[str]:
-    """Those of some terms that may be slips in spelling a word: asked for each paper anew."""
+    """Those of some terms that may be slips in spelling a word: asked again for each paper."""
     few = allowed_typos(word)
     return frozenset(term for term in terms if typo_distance(fold_word(term), word, few) <= few)

@@ -35,7 +35,7 @@ def make_choice_part(
     drawn: Variant, lang: str, body: tuple[Block, ...], options: Sequence[LevelOption],
     lines: tuple[SolutionStep, ...] = (),
 ) -> LevelPart:  # fmt: skip
-    """One part with lettered options, exactly one of which is right.
+    """One part with lettered options; exactly one is right.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ ANSWERS = ("first", "second", "equal")
 
 @dataclass(frozen=True)
 class PerturbationPair:
-    """Two changes of which one result depends, and the answer."""
+    """Two changes that one result depends on, and the answer."""
 
     first: Perturbation
     second: Perturbation
