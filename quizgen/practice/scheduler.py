@@ -1,8 +1,8 @@
 """When to ask again: a card for each template and each mistake, scheduled by FSRS.
 
 A card is never fixed numbers: a learner who knows a template knows it with any. Source of the
-model: Ye, Su, Cao, "A Stochastic Shortest Path Algorithm for Optimizing Spaced Repetition Scheduling",
-KDD 2022, as the package ``fsrs`` has it.
+model: Ye, Su, Cao, "A Stochastic Shortest Path Algorithm for Optimizing Spaced Repetition
+Scheduling", KDD 2022, as the package ``fsrs`` has it.
 """
 
 from __future__ import annotations
