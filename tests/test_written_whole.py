@@ -213,7 +213,7 @@ def written_by(words, folder, monkeypatch) -> dict[str, bytes]:
 
     sets = []
     for module in (files, page):
-        monkeypatch.setattr(module, "write_all", lambda _, made: sets.append(made) or [])
+        monkeypatch.setattr(module, "write_all", lambda _, made, **_how: sets.append(made) or [])
     done = CliRunner().invoke(root_group, [*words, "--out", str(folder / "none")])
     assert done.exit_code == 0, done.output
     (only,) = sets

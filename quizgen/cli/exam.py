@@ -190,7 +190,9 @@ def _write_paper_files(form: Path, contents: dict[str, bytes], *, kept: bool) ->
 
     if kept:
         del contents[form.name]
-    write_all(form.parent, contents)
+    # Neighbours on a machine of several people read the paper at most.
+    private = {name for name in contents if name == KEY or name.startswith("solutions.")}
+    write_all(form.parent, contents, private=private)
 
 
 def _filled_in(form: Path, paper: str) -> bool:

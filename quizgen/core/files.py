@@ -10,7 +10,7 @@ import shutil
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -73,7 +73,12 @@ def build_zip(contents: Mapping[str, bytes], *, packed: bool = True) -> bytes:
     return out.getvalue()
 
 
-def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) -> list[Path]:
+def write_all(
+    folder: Path,
+    contents: Mapping[str, bytes],
+    mode: int = USUAL,
+    private: Collection[str] = (),
+) -> list[Path]:
     """Write several files so that either all of them appear or none changes.
 
     A folder that is new appears with everything in it. In one that exists, the last file seals the
@@ -88,6 +93,8 @@ def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) ->
         File name, or path below the folder, to content; what needs the others comes last.
     mode : int
         Who may read the files; with ``PRIVATE`` none but their owner looks into new folders.
+    private : collection of str
+        Names of files that only their owner reads, whatever the others are: keys and solutions.
 
     Raises
     ------
@@ -101,7 +108,8 @@ def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) ->
     try:
         around.mkdir(parents=True, exist_ok=True)
         _remove_stale_stages(around)
-        _write_staged_files(stage, folder, contents, mode)
+        modes = {name: PRIVATE if name in private else mode for name in contents}
+        _write_staged_files(stage, folder, contents, modes, mode)
         with _delay_interrupts():
             _move_staged_files(stage, folder, list(contents), mode, new=new)
     except OSError as error:
@@ -113,7 +121,11 @@ def write_all(folder: Path, contents: Mapping[str, bytes], mode: int = USUAL) ->
 
 
 def _write_staged_files(
-    stage: Path, folder: Path, contents: Mapping[str, bytes], mode: int
+    stage: Path,
+    folder: Path,
+    contents: Mapping[str, bytes],
+    modes: Mapping[str, int],
+    mode: int,
 ) -> None:
     """Write everything where nobody looks."""
     _make_folder(stage, mode)
@@ -121,7 +133,7 @@ def _write_staged_files(
         if (folder / name).is_dir():
             raise RenderError(f"{folder / name}: is a folder")
         _make_folder((stage / name).parent, mode)
-        (stage / name).touch(mode)
+        (stage / name).touch(modes[name])
         _write_synced(stage / name, data)
 
 
