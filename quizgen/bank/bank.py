@@ -152,7 +152,7 @@ class Bank:
         ------
         BankError
             If nothing here is written in it.
-        ChoiceError
+        InvalidChoiceError
             If there is no such language.
         """
         langs = resolve_language_choice(choice, self.languages)

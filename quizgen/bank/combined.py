@@ -141,7 +141,7 @@ class CombinedBank(Bank):
         ------
         BankError
             If one of the banks is not written in it.
-        ChoiceError
+        InvalidChoiceError
             If there is no such language.
         """
         langs = resolve_language_choice(choice, self.languages)

@@ -40,11 +40,12 @@ def build_json_schema(name: str) -> bytes:
         **whole,
         "$defs": parts,
     }
-    text = _CLASS.sub(_named, msgspec.json.encode(table).decode())
+    text = _CLASS.sub(_to_schema_name, msgspec.json.encode(table).decode())
     return msgspec.json.format(text, indent=1).encode() + b"\n"
 
 
-def _named(found: re.Match[str]) -> str:
+def _to_schema_name(found: re.Match[str]) -> str:
+    """The name under which the schema shows a class, for ``re.sub``."""
     return _NAMES.get(found[0], found[0].removeprefix("Authored"))
 
 

@@ -59,7 +59,7 @@ class Template:
     path : pathlib.Path
     about : About
         What its bank says about itself.
-    quantities : Quantities
+    quantities : QuantityNames
         What the letters of its solver mean; only forms made from the chain say so, which is why
         ``digest`` leaves it out.
     figure_file, solver_file : pathlib.Path, optional

@@ -70,7 +70,7 @@ class Variant:
         Every quantity of the chain in base units.
     traps : tuple of tuple of str
         Per part, the mistakes that give a wrong and recognisable answer here.
-    elsewhere : Elsewhere
+    elsewhere : SiblingContent
         What this question must not tell, because others of its paper ask it.
     shown_values : mapping of str to flint.fmpq or flint.arb
         Every quantity, drawn or solved, in the unit it is shown in. Computed when the draw is made:
@@ -174,7 +174,7 @@ def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> 
 
     Raises
     ------
-    DrawError
+    SamplingError
         If no try within ``MAX_TRIES`` is admissible; names the condition met most often.
     """
     plan, seed, slot = sampler_for(template), str(seed), str(slot)
@@ -206,7 +206,7 @@ def reference_variant(template: Template) -> Variant:
 
     Raises
     ------
-    DrawError
+    SamplingError
         If the template names no reference, or it has no solution.
     """
     given = template.rules.reference

@@ -110,7 +110,7 @@ class Visibility:
         return self.is_visible and self.grey is not None and not self.grey.is_visible
 
     def explain(self) -> str:
-        """One sentence: what it does, and what of that is seen."""
+        """One sentence: what the effects do, then how far the picture differs from one without."""
         does = " and ".join(says.replace(" ", "s ", 1) for says in self.says)  # blur: it blurs
         does += "; " if does else ""
         if self.too_small:

@@ -88,7 +88,7 @@ class MissedPart:
 
     Parameters
     ----------
-    part : MarkedPart
+    part : GradedPart
     draw : Draw
     level : str
         At which the question was asked.
@@ -117,7 +117,7 @@ def deck_from_grades(path: Path, lang: str, *, bank: Bank, blueprint: str | None
     ------
     KeyFileError
         If the file cannot be read or does not fit the paper.
-    CodeError
+    PaperCodeError
         If the paper cannot be made again with this installation.
     """
     own = load_blueprint(blueprint, bank) if blueprint else None
@@ -159,7 +159,7 @@ def deck_from_missed(missed: Iterable[MissedPart], lang: str, *, bank: Bank, see
 
     Parameters
     ----------
-    missed : iterable of Missed
+    missed : iterable of MissedPart
     lang : str
         A language, or ``both`` for all of them.
     bank : Bank

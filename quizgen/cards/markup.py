@@ -118,19 +118,23 @@ def to_mathjax(node: Node) -> str:
     str
         HTML, between ``\(`` and ``\)``.
     """
-    if _is_wrappable_relation(node) and len(node.items) > len(("left", "=", "right")):
+    if _is_relation_row(node) and len(node.items) > len(("left", "=", "right")):
         return " ".join(_iter_mathjax_pieces(node, ""))
     return rf"\({escape(typeset.to_latex(node, LATEX), quote=False)}\)"
 
 
-def _is_wrappable_relation(node: Node) -> TypeGuard[MathRow]:
-    return isinstance(node, MathRow) and node.level == RELATION and len(node.items) > 1
+def _is_relation_row(node: Node) -> TypeGuard[MathRow]:
+    """Whether a formula is a row of sides with a relation sign between any two of them."""
+    if not isinstance(node, MathRow) or node.level != RELATION:
+        return False
+    # "not (...)" is on the level of relations, too, and has no sign to wrap at.
+    return len(node.items) > 1 and len(node.items) % 2 == 1
 
 
 def equations_to_mathjax(node: Node) -> str:
     """A chain of equations as one formula per side, so that a narrow screen can wrap it."""
     style = r"\displaystyle "
-    if not _is_wrappable_relation(node):
+    if not _is_relation_row(node):
         return _format_mathjax(style, typeset.to_latex(node, LATEX))
     return " ".join(_iter_mathjax_pieces(node, style))
 

@@ -29,7 +29,7 @@ class GradedStudent:
     student : Student
     code : str
         That of the paper, which only this student and the examiner know.
-    marks : Marks or None
+    marks : StudentMarks or None
         None if nothing came back.
     grade : str
         Empty if nothing came back.
@@ -77,7 +77,7 @@ def write_grades(folder: Path, lines: Sequence[GradedStudent], scale: GradeScale
     ----------
     folder : pathlib.Path
         That of the class.
-    lines : sequence of Graded
+    lines : sequence of GradedStudent
     scale : Scale
     """
     items = _list_items(lines)

@@ -136,7 +136,7 @@ def grade_submission(key: AnswerKey, sheet: Submission, book: RulingBook) -> Stu
     key : Key
         Of the student's own paper.
     sheet : Sheet
-    book : Book
+    book : RulingBook
         What was decided.
 
     Raises

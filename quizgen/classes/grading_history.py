@@ -102,7 +102,7 @@ class GradingHistory:
 
         Parameters
         ----------
-        marked : iterable of Marks
+        marked : iterable of StudentMarks
             At most one for each student.
 
         Raises

@@ -96,7 +96,7 @@ class ClassAnalysis:
         Cronbach's, over whole questions: parts of one lean on each other.
     interval : tuple of float or None
         Feldt's, 95 %.
-    items : tuple of ItemFigures
+    items : tuple of ItemStatistics
     effects : tuple of Effect
     """
 

@@ -123,7 +123,7 @@ def undecided_answers(
 
     Parameters
     ----------
-    marked : iterable of Marks
+    marked : iterable of StudentMarks
     decided : bool
         Those that somebody has decided on instead, for a second marker.
     """

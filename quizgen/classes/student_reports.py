@@ -174,7 +174,7 @@ def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False)
 
     Parameters
     ----------
-    line : Graded
+    line : GradedStudent
         Somebody whose answers came back.
     key : Key
         Of the student's paper.

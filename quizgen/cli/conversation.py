@@ -75,9 +75,9 @@ class Conversation:
     Parameters
     ----------
     session : Session
-    shelf : Shelf
+    shelf : SessionStore
         Where it is kept after every answer.
-    learning : Learning, optional
+    learning : LearnerProgress, optional
         Where finished questions are kept; without it the session alone is.
     """
 
@@ -92,7 +92,7 @@ class Conversation:
 
         Raises
         ------
-        Quit
+        QuitSession
             If the learner stops before.
         """
         while not self.session.finished:
@@ -165,7 +165,7 @@ class Conversation:
 
         Raises
         ------
-        Quit
+        QuitSession
             If that was the word for it, or the end of the input.
         """
         try:

@@ -117,7 +117,7 @@ def _iter_requested_items(
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If they are named in two ways.
     """
     from quizgen.lms.items import items_from_blueprint, items_from_templates
@@ -142,7 +142,7 @@ def _list_requested_templates(options: ExportOptions, bank: Bank) -> list[str]:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If none is.
     """
     if options["topic"] is None:

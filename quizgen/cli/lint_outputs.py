@@ -30,12 +30,12 @@ def check_outputs(bank: Bank, template: Template) -> Iterator[Diagnostic]:
 
     drawn = draw_instance(template, SEED)
     paper: list[Paper] = []
-    made = _failure(template.file, "question", lambda: paper.append(_paper_of(drawn)))
+    made = _diagnose_failure(template.file, "question", lambda: paper.append(_paper_of(drawn)))
     if made or not paper:
         yield from filter(None, (made,))
         return
-    for output, make in _outputs(bank, drawn, paper[0]):
-        failure = _failure(template.file, output, make)
+    for output, make in _iter_outputs(bank, drawn, paper[0]):
+        failure = _diagnose_failure(template.file, output, make)
         if failure:
             yield failure
 
@@ -52,12 +52,14 @@ def check_sheet(bank: Bank) -> Iterator[Diagnostic]:
     made = compose_sheet(bank, "both" if len(bank.languages) > 1 else bank.languages[0])
     for output in RENDERERS:
         make = partial(render_sheet, made, output)
-        failure = _failure(bank.folder / "cards" / "formulas.toml", f"sheet {output}", make)
+        failure = _diagnose_failure(
+            bank.folder / "cards" / "formulas.toml", f"sheet {output}", make
+        )
         if failure:
             yield failure
 
 
-def _failure(file: Path, output: str, make: Callable[[], object]) -> Diagnostic | None:
+def _diagnose_failure(file: Path, output: str, make: Callable[[], object]) -> Diagnostic | None:
     """The diagnostic of what an output fails with, if it fails."""
     from quizgen.core.diagnostics import diagnose
 
@@ -91,7 +93,7 @@ def _paper_of(drawn: Variant) -> Paper:
     return Paper(f"{template.id}-{SEED}", blueprint, template.languages, (item,))
 
 
-def _outputs(
+def _iter_outputs(
     bank: Bank, drawn: Variant, paper: Paper
 ) -> Iterator[tuple[str, Callable[[], object]]]:
     """Name of each output, and what makes it."""
@@ -106,7 +108,7 @@ def _outputs(
     for name in LEVELS:
         if load_level(name).is_applicable(drawn):
             for lang in langs:
-                yield f"preview --level {name}", partial(_text, drawn, lang, name)
+                yield f"preview --level {name}", partial(_format_preview, drawn, lang, name)
     for output in RENDERERS:
         for kind in KINDS:
             yield f"{kind} {output}", partial(render_paper, paper, kind, output)
@@ -114,10 +116,10 @@ def _outputs(
     for lang in langs:
         yield "practice", partial(run_request, bank, QuestionRequest(template.id, str(SEED), lang))
     for name in FORMATS:
-        yield f"export {name}", partial(_export, name, paper)
+        yield f"export {name}", partial(_export_question, name, paper)
 
 
-def _text(drawn: Variant, lang: str, name: str) -> str:
+def _format_preview(drawn: Variant, lang: str, name: str) -> str:
     from quizgen.paper.paper import PaperItem
     from quizgen.question.compose import compose_variant
     from quizgen.render.text import format_question
@@ -126,7 +128,7 @@ def _text(drawn: Variant, lang: str, name: str) -> str:
     return format_question(PaperItem("1", (question,), (key,)))
 
 
-def _export(name: str, paper: Paper) -> Iterable[object]:
+def _export_question(name: str, paper: Paper) -> Iterable[object]:
     from quizgen.lms import get_exporter
     from quizgen.lms.items import ExportItem, manual_parts
 

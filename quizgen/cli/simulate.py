@@ -433,7 +433,7 @@ def check_target(target: Path | None) -> None:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If the file is neither a picture nor a page.
     """
     from quizgen.camera.pixels.codecs import WRITERS

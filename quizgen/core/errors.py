@@ -200,7 +200,7 @@ def require_one_of(what: str, value: object, allowed: Collection[str]) -> str:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         Naming the argument, its value and what is allowed.
     """
     if isinstance(value, str) and value in allowed:

@@ -96,16 +96,16 @@ class ProcessExecutor(ThreadPoolExecutor):
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         """Do it in a process that is free."""
-        return super().submit(self._elsewhere, fn, *args, **kwargs)
+        return super().submit(self._run_in_worker, fn, *args, **kwargs)
 
-    def _elsewhere(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> T:
+    def _run_in_worker(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> T:
         job = bytes(ForkingPickler.dumps((fn, args, kwargs)))
         for _ in range(TRIES):
             worker = self._take_worker()
             answer = worker.answer(job, self._longest)
             if answer is not None:
                 self._idle.append(worker)
-                return cast("T", _value(answer))
+                return cast("T", _unpickle_answer(answer))
             self._discard(worker)
         raise WorkerError(f"{TRIES} processes died of the same work (is there memory enough?)")
 
@@ -116,6 +116,7 @@ class ProcessExecutor(ThreadPoolExecutor):
             return self._idle.pop() if self._idle else self._begin_worker()
 
     def _begin_worker(self) -> _Worker:
+        """Start a process and register it; the caller holds ``_changing``."""
         worker = _Worker(*self._initial)
         self._workers.append(worker)
         return worker
@@ -155,7 +156,7 @@ class _Worker:
     ) -> None:
         self._line, there = _SPAWN.Pipe()
         self.process = _SPAWN.Process(
-            target=_work, args=(there, gc.get_threshold(), initializer, initargs), daemon=True
+            target=_serve_jobs, args=(there, gc.get_threshold(), initializer, initargs), daemon=True
         )  # fmt: skip
         with shield_from_interrupt():
             self.process.start()
@@ -191,22 +192,22 @@ def shield_from_interrupt() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _work(
+def _serve_jobs(
     line: Connection,
     threshold: tuple[int, int, int],
     initializer: Callable[..., object] | None,
     initargs: tuple[Any, ...],
 ) -> None:
     """Do jobs until there are none."""
-    _begin(*threshold)
+    _set_up_worker(*threshold)
     if initializer:
         initializer(*initargs)
     with contextlib.suppress(EOFError, OSError):
         while True:
-            line.send_bytes(_answer(line.recv_bytes()))
+            line.send_bytes(_run_job(line.recv_bytes()))
 
 
-def _begin(*threshold: int) -> None:
+def _set_up_worker(*threshold: int) -> None:
     """A worker ends with its parent, and typesets in one thread: it has company.
 
     It looks for garbage as seldom as its parent, which took a twentieth of each of many papers.
@@ -224,17 +225,17 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _answer(job: bytes) -> bytes:
+def _run_job(job: bytes) -> bytes:
     """What a job gives, or the error that it ends in, as it goes over the line."""
     try:
         work, args, kwargs = pickle.loads(job)  # noqa: S301 - from the parent
         return bytes(ForkingPickler.dumps((True, work(*args, **kwargs))))
     except Exception as error:  # noqa: BLE001 - raised again by who asked
         error.add_note(traceback.format_exc())
-        return _error(error)
+        return _pickle_error(error)
 
 
-def _error(error: Exception) -> bytes:
+def _pickle_error(error: Exception) -> bytes:
     """An error as it goes over the line: in words if it cannot be taken apart and put together."""
     try:
         told = bytes(ForkingPickler.dumps((False, error)))
@@ -244,7 +245,7 @@ def _error(error: Exception) -> bytes:
     return told
 
 
-def _value(answer: bytes) -> Any:
+def _unpickle_answer(answer: bytes) -> Any:
     good, value = pickle.loads(answer)  # noqa: S301 - from our own process
     if not good:
         raise value
@@ -264,11 +265,11 @@ def open_executor(count: int, scheduler: str = "") -> Iterator[tuple[Executor, i
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If there is no such scheduler, or Dask is not installed.
     """
     if scheduler:
-        with _cluster(scheduler) as found:
+        with _open_cluster_executor(scheduler) as found:
             yield found
     elif count == 1:
         yield InlineExecutor(), 1
@@ -283,7 +284,8 @@ def open_executor(count: int, scheduler: str = "") -> Iterator[tuple[Executor, i
 
 
 @contextmanager
-def _cluster(scheduler: str) -> Iterator[tuple[Executor, int]]:
+def _open_cluster_executor(scheduler: str) -> Iterator[tuple[Executor, int]]:
+    """As ``open_executor``, on the workers of a Dask scheduler."""
     require_extra("cluster", "--scheduler")
     from distributed import Client
 

@@ -101,11 +101,11 @@ class TomlPositions:
         table: Place = ()
         while self._skip_blank() < len(self.text):
             if self._is_next("[["):
-                table = self._header("]]")
+                table = self._read_table_header("]]")
             elif self._is_next("["):
-                table = self._header("]")
+                table = self._read_table_header("]")
             else:
-                self._pair(table)
+                self._read_pair(table)
 
     def _skip_blank(self) -> int:
         found = _BLANK.match(self.text, self._at)
@@ -123,10 +123,10 @@ class TomlPositions:
         if not self._is_next(mark):
             raise _ScanError
 
-    def _header(self, closing: str) -> Place:
+    def _read_table_header(self, closing: str) -> Place:
         begin = self._at - len(closing)
         path: Place = ()
-        names = self._dotted()
+        names = self._read_dotted_key()
         for depth, name in enumerate(names):
             path = (*path, name)
             last = depth == len(names) - 1
@@ -139,44 +139,44 @@ class TomlPositions:
         self._expect(closing)
         return path
 
-    def _dotted(self) -> list[str]:
-        names = [self._name()]
+    def _read_dotted_key(self) -> list[str]:
+        names = [self._read_key_name()]
         while self._skip_blank() < len(self.text) and self._is_next("."):
-            names.append(self._name())
+            names.append(self._read_key_name())
         return names
 
-    def _name(self) -> str:
+    def _read_key_name(self) -> str:
         self._skip_blank()
         found = _STRING.match(self.text, self._at) or _BARE.match(self.text, self._at)
         if found is None:
             raise _ScanError
         self._at = found.end()
-        return _content(found) if found.re is _STRING else found[0]
+        return _decode_string(found) if found.re is _STRING else found[0]
 
-    def _pair(self, table: Place) -> None:
+    def _read_pair(self, table: Place) -> None:
         begin, path = self._at, table
-        for name in self._dotted():
+        for name in self._read_dotted_key():
             path = (*path, name)
             self.keys.setdefault(path, begin)
         self._expect("=")
-        self._value(path)
+        self._read_value(path)
 
-    def _value(self, path: Place) -> None:
+    def _read_value(self, path: Place) -> None:
         begin = self._skip_blank()
         self.keys.setdefault(path, begin)
         if self._is_next("["):
-            for count in self._entries("]"):
-                self._value((*path, count))
+            for count in self._iter_entry_indices("]"):
+                self._read_value((*path, count))
         elif self._is_next("{"):
-            for _ in self._entries("}"):
-                self._pair(path)
+            for _ in self._iter_entry_indices("}"):
+                self._read_pair(path)
         elif found := _STRING.match(self.text, begin):
             self._at = found.end()
-            self.texts.setdefault(_content(found), begin)
+            self.texts.setdefault(_decode_string(found), begin)
         elif found := _ATOM.match(self.text, begin):
             self._at = found.end()
 
-    def _entries(self, closing: str) -> Iterator[int]:
+    def _iter_entry_indices(self, closing: str) -> Iterator[int]:
         """Count what stands between brackets; who asks reads each."""
         count = 0
         while self._skip_blank() < len(self.text) and not self._is_next(closing):
@@ -191,7 +191,7 @@ class _ScanError(Exception):
     """Something that TOML does not have."""
 
 
-def _content(found: re.Match[str]) -> str:
+def _decode_string(found: re.Match[str]) -> str:
     """What a string says. Of escapes only those that formulas have are undone."""
     kind = str(found.lastgroup)
     text = found[kind]
@@ -205,12 +205,12 @@ def _span_at(text: str, offset: int) -> Span:
 
 
 @lru_cache(maxsize=64)
-def _positions(text: str) -> TomlPositions:
+def _scan_toml(text: str) -> TomlPositions:
     return TomlPositions(text)
 
 
 def _in_toml(text: str, place: Place) -> Span | None:
-    return _positions(text).find(place)
+    return _scan_toml(text).find(place)
 
 
 # Markdown -----------------------------------------------------------------------------------------
@@ -221,7 +221,7 @@ _ITEM = re.compile(r"^- ([^:\[]*?)\s*(?:\[[^\]]*\])?\s*:")
 
 def _in_markdown(text: str, place: Place) -> Span | None:
     if place[0] == TEXT:
-        return _quoted(text, str(place[1]))
+        return _find_quoted_text(text, str(place[1]))
     heading, found = "", None
     for number, line in enumerate(text.split("\n"), 1):
         if head := _HEADING.match(line):
@@ -232,7 +232,7 @@ def _in_markdown(text: str, place: Place) -> Span | None:
     return found
 
 
-def _quoted(text: str, quoted: str) -> Span | None:
+def _find_quoted_text(text: str, quoted: str) -> Span | None:
     """Where a sentence begins; it may be broken into lines there otherwise."""
     words = [re.escape(part) for part in re.findall(r"\w+|[^\w\s]", quoted)]
     found = re.search(r"\s*".join(words), text) if words else None
@@ -247,24 +247,27 @@ def _in_python(text: str, place: Place) -> Span | None:
 
     tree = ast.parse(text)
     inside, name = str(place[0]), str(place[-1])
-    variables = {name, *_variables(tree, name)}
+    variables = {name, *_iter_symbol_variables(tree, name)}
     keywords = [node for node in ast.walk(tree) if isinstance(node, ast.keyword)]
     # A mistake replaces a step by another one of the same name.
     replaced = {id(n) for word in keywords if word.arg == "traps" for n in ast.walk(word)}
     calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and id(n) not in replaced]
     found: list[ast.AST] = [
-        call for call in calls if _called(call) == inside
+        call for call in calls if _get_callee_name(call) == inside
         and call.args and isinstance(call.args[0], ast.Name) and call.args[0].id in variables
     ]  # fmt: skip
-    found += [n for word in keywords if word.arg == inside for n in _texts(word, name)]
+    found += [
+        n for word in keywords if word.arg == inside for n in _iter_matching_constants(word, name)
+    ]
     return next((Span(n.lineno, n.col_offset + 1) for n in found), None)  # type: ignore[attr-defined]
 
 
-def _called(call: ast.Call) -> str:
+def _get_callee_name(call: ast.Call) -> str:
     return str(getattr(call.func, "id", "") or getattr(call.func, "attr", ""))
 
 
-def _texts(node: ast.AST, text: str) -> Iterator[ast.AST]:
+def _iter_matching_constants(node: ast.AST, text: str) -> Iterator[ast.AST]:
+    """Constants inside a node that equal a text."""
     import ast
 
     for inner in ast.walk(node):
@@ -272,7 +275,7 @@ def _texts(node: ast.AST, text: str) -> Iterator[ast.AST]:
             yield inner
 
 
-def _variables(tree: ast.AST, symbol: str) -> Iterator[str]:
+def _iter_symbol_variables(tree: ast.AST, symbol: str) -> Iterator[str]:
     """What Python calls a symbol: ``f, image = symbols("f z'")``."""
     import ast
 

@@ -61,7 +61,7 @@ class SpecBase:
 
         Raises
         ------
-        ReadError
+        FormulaReadError
             If it cannot be read: it is asked back.
         """
 

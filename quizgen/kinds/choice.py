@@ -70,7 +70,7 @@ class AuthoredChoice(AuthoredPooled, kw_only=True, tag="choice", frozen=True):
     in_order: bool = False
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """The number of right options can only be asked of what is taken."""
+        """``right`` needs ``take``, and is [least, most] with 1 <= least <= most."""
         yield from super().find_problems()
         if self.right and not (self.take and 1 <= self.right[0] <= self.right[1]):
             yield ("right",), "QG115", "is [least, most] right options among those that take names"
@@ -153,7 +153,7 @@ def _labelled(spec: ChoiceSpec, typed: str) -> list[int]:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If the words are those of another option than the letter.
     """
     pieces = _PIECES.split(typed.strip()) if spec.kind == "multi" else [typed]
@@ -260,7 +260,7 @@ def _echo(spec: ChoiceSpec, chosen: list[int]) -> str:
 
 
 def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
-    """The options in a drawn order; exactly one is right."""
+    """The options in a drawn order; the part's error unless exactly one is right."""
     asked = ask_options(part, InputControl("one", lines=0))
     if len(asked.right) != 1:
         raise part.error(f"{len(asked.right)} options are right")

@@ -60,7 +60,7 @@ def grade_answer(
         Language of the message.
     decimal : str
         The student's decimal sign: ``auto``, ``point`` or ``comma``.
-    context : Context, optional
+    context : QuestionContext, optional
         The question around, for diagnosis and errors carried forward.
     settle : bool
         Allow a few seconds of SymPy, in its own process, for a formula that stays undecided.
@@ -69,7 +69,7 @@ def grade_answer(
     ------
     KeyFileError
         If the spec is wrong (never because of what was typed).
-    ChoiceError
+    InvalidChoiceError
         If there is no such language or decimal sign.
     TypeError
         If what was typed is no text.

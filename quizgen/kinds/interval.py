@@ -85,7 +85,7 @@ def read_interval(typed: str, decimal: str) -> tuple[IntervalValue, str]:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If it is none.
     """
     source = normalise_typed(typed)
@@ -147,7 +147,7 @@ def _bound(source: SourceText, decimal: str, side: str) -> Value | None:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If it is the infinity of the other side, or no number.
     """
     source = source.strip()

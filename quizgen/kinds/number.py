@@ -207,7 +207,7 @@ def _judged(
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If it has a unit, and nobody said of what.
     """
     typed = side.quantity.unit

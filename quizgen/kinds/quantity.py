@@ -68,9 +68,9 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         """Judge a typed quantity."""
         plain = read_plain_side(typed, options.decimal)
         if plain is not None:
-            return _resolved(self, plain, options)
+            return _judge_side(self, plain, options)
         sides = read_sides(drop_name(normalise_typed(typed)), options.decimal)
-        return best_verdict(_resolved(self, side, options) for side in sides)
+        return best_verdict(_judge_side(self, side, options) for side in sides)
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
@@ -78,24 +78,24 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         return f"{number} {format_unit(self.unit)}".strip()
 
 
-def _resolved(spec: QuantitySpec, side: EqualitySide, options: GradingOptions) -> Verdict:
+def _judge_side(spec: QuantitySpec, side: EqualitySide, options: GradingOptions) -> Verdict:
     return judge_readings(
-        side.readings, lambda n: _judge(spec, n, side.quantity, options), spec.decimals
+        side.readings, lambda n: _judge_reading(spec, n, side.quantity, options), spec.decimals
     )
 
 
-def _judge(
+def _judge_reading(
     spec: QuantitySpec, number: ReadNumber, quantity: TypedQuantity, options: GradingOptions
 ) -> Verdict:
     wanted = listed_unit(spec.unit)
     if quantity.unit is None:
-        return _without_unit(spec, number, wanted, options)
+        return _judge_without_unit(spec, number, wanted, options)
     read_as = f"{number.read_as} {format_unit(quantity.unit.text)}"
     if quantity.unit.dimension != wanted.dimension:
-        return _clash(spec, number, quantity.unit, read_as)
+        return _reject_unit_clash(spec, number, quantity.unit, read_as)
     value = number.value * quantity.unit.factor / wanted.factor
     verdict = judge_in_unit(spec, number, value, options, read_as)
-    return _prefix(spec, number, value, quantity.unit, verdict)
+    return _diagnose_unit_slip(spec, number, value, quantity.unit, verdict)
 
 
 def judge_in_unit(
@@ -112,9 +112,13 @@ def judge_in_unit(
     return attach_values(verdict, value)
 
 
-def _without_unit(
+def _judge_without_unit(
     spec: QuantitySpec, number: ReadNumber, wanted: TypedUnit, options: GradingOptions
 ) -> Verdict:
+    """Judge a number that was typed without a unit.
+
+    Nothing is taken off where no unit is needed or it stands printed; a fraction may mean %.
+    """
     verdict = judge_in_unit(spec, number, number.value, options, number.read_as)
     if spec.unit == "%" and not verdict.credit:
         fraction = judge_in_unit(spec, number, number.value * 100, options, number.read_as)
@@ -122,14 +126,16 @@ def _without_unit(
     if not wanted.dimension and wanted.factor == 1:
         return verdict
     if spec.bare:
-        return _prefix(spec, number, number.value, wanted, verdict)
+        return _diagnose_unit_slip(spec, number, number.value, wanted, verdict)
     if verdict.credit:
-        return _missing(spec, number, verdict, options.points)
-    ratio = _logarithm(spec, number.value, number.read_as)
-    return ratio or _prefix(spec, number, number.value, wanted, verdict)
+        return _deduct_missing_unit(spec, number, verdict, options.points)
+    ratio = _diagnose_ratio_for_decibel(spec, number.value, number.read_as)
+    return ratio or _diagnose_unit_slip(spec, number, number.value, wanted, verdict)
 
 
-def _missing(spec: QuantitySpec, number: ReadNumber, verdict: Verdict, points: Fraction) -> Verdict:
+def _deduct_missing_unit(
+    spec: QuantitySpec, number: ReadNumber, verdict: Verdict, points: Fraction
+) -> Verdict:
     """Take off for the unit: half, but never more than half a point, and nothing else."""
     credit = max(HALF, 1 - HALF / points)
     if verdict.credit < credit:
@@ -138,7 +144,9 @@ def _missing(spec: QuantitySpec, number: ReadNumber, verdict: Verdict, points: F
     return attach_values(partial(credit, number.read_as, "unit-missing", unit=unit), number.value)
 
 
-def _clash(spec: QuantitySpec, number: ReadNumber, typed: TypedUnit, read_as: str) -> Verdict:
+def _reject_unit_clash(
+    spec: QuantitySpec, number: ReadNumber, typed: TypedUnit, read_as: str
+) -> Verdict:
     note = "unit-clash"
     if agrees_within_half_percent(number.value, parse_exact(spec.value)):
         note = "unit-wrong"
@@ -146,13 +154,13 @@ def _clash(spec: QuantitySpec, number: ReadNumber, typed: TypedUnit, read_as: st
     return attach_values(wrong(read_as, note, given=format_unit(typed.text), asked=asked), None)
 
 
-def _prefix(
+def _diagnose_unit_slip(
     spec: QuantitySpec, number: ReadNumber, value: Value, typed: TypedUnit, verdict: Verdict
 ) -> Verdict:
-    """Name a wrong power of ten as a slip of the prefix."""
+    """Name a slip of the unit: of its prefix, of radians for degrees, or of decibels."""
     key = parse_exact(spec.value)
     if verdict.note == "factor" and spec.unit == "dB":
-        return _decibel(value, key, verdict)
+        return _diagnose_decibel_factor(value, key, verdict)
     if verdict.credit or verdict.note.startswith("trap:"):
         return verdict
     if typed.dimension == DEGREES and typed.factor == 1 and is_in_radians(number.value, key):
@@ -169,7 +177,7 @@ def _prefix(
     return attach_values(wrong(verdict.read_as, note, **fields), *verdict.values)
 
 
-def _decibel(value: Value, key: Value, verdict: Verdict) -> Verdict:
+def _diagnose_decibel_factor(value: Value, key: Value, verdict: Verdict) -> Verdict:
     if agrees_within_half_percent(value * 2, key):
         return attach_values(wrong(verdict.read_as, "decibel-ten"), *verdict.values)
     if agrees_within_half_percent(value, key * 2):
@@ -177,7 +185,7 @@ def _decibel(value: Value, key: Value, verdict: Verdict) -> Verdict:
     return verdict
 
 
-def _logarithm(spec: QuantitySpec, value: Value, read_as: str) -> Verdict | None:
+def _diagnose_ratio_for_decibel(spec: QuantitySpec, value: Value, read_as: str) -> Verdict | None:
     """Report a ratio given where decibels were asked."""
     if spec.unit != "dB" or not value > 0:
         return None

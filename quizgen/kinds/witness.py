@@ -104,13 +104,13 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Test a typed example."""
-        numbers = _numbers(self, typed, options.decimal)
+        numbers = _read_example(self, typed, options.decimal)
         env = {name: number.value for name, number in numbers.items()}
         read_as = "; ".join(
             f"{pretty.format_name(n)} = {number.read_as}" for n, number in numbers.items()
         )
         with working_precision(BITS):
-            verdict = _tested(self, _extended(self, env), read_as)
+            verdict = _judge_conditions(self, _add_let_values(self, env), read_as)
         return attach_values(verdict, *env.values())
 
     def show(self) -> str:
@@ -122,42 +122,42 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
 
 
 @lru_cache(maxsize=1024)
-def _compiled(text: str, symbols: tuple[str, ...]) -> Any:
+def _compile_formula(text: str, symbols: tuple[str, ...]) -> Any:
     return compile_exact(parse_authored(text, symbols))
 
 
-def _extended(spec: WitnessSpec, env: dict[str, Any]) -> dict[str, Any]:
+def _add_let_values(spec: WitnessSpec, env: dict[str, Any]) -> dict[str, Any]:
     """Add the quantities that ``let`` derives, in order."""
     full = dict(env)
     for name, text in spec.let.items():
-        full[name] = _compiled(text, spec.known())(full)
+        full[name] = _compile_formula(text, spec.known())(full)
     return full
 
 
-def _tested(spec: WitnessSpec, env: dict[str, Any], read_as: str) -> Verdict:
-    for text, shown in _domains(spec):
+def _judge_conditions(spec: WitnessSpec, env: dict[str, Any], read_as: str) -> Verdict:
+    for text, shown in _iter_domain_constraints(spec):
         if _holds(spec, text, env) is not True:
             return wrong(read_as, "constraint", constraint=shown)
     for text in spec.where:
         if _holds(spec, text, env) is not True:
-            return wrong(read_as, "constraint", claim=_filled(spec, text, env))
+            return wrong(read_as, "constraint", claim=_format_failed_relation(spec, text, env))
     held = _holds(spec, spec.predicate, env)
     if held is True:
         return correct(read_as)
     if held is None:
         return ambiguous("undecided", read_as)
-    return wrong(read_as, "predicate", claim=_filled(spec, spec.predicate, env))
+    return wrong(read_as, "predicate", claim=_format_failed_relation(spec, spec.predicate, env))
 
 
 def _holds(spec: WitnessSpec, text: str, env: dict[str, Any]) -> bool | None:
     """Whether a relation holds; False where it has no value, None if it cannot be told."""
-    result = _compiled(text, spec.known())(env)
+    result = _compile_formula(text, spec.known())(env)
     if isinstance(result, type):
         return None
     return bool(result)
 
 
-def _domains(spec: WitnessSpec) -> Iterator[tuple[str, str]]:
+def _iter_domain_constraints(spec: WitnessSpec) -> Iterator[tuple[str, str]]:
     """Constraints that the symbols' domains state, and how they are shown."""
     if not isinstance(spec.symbols, dict):
         return
@@ -166,31 +166,31 @@ def _domains(spec: WitnessSpec) -> Iterator[tuple[str, str]]:
             yield f"{name} > 0", pretty.format_formula(f"{name} > 0")
         elif isinstance(domain, list):
             low, high = (format_exact_or_figures(parse_exact(bound), 12) for bound in domain)
-            relation = f"{_signed(low)} <= {name} <= {_signed(high)}"
+            relation = f"{_parenthesise_negative(low)} <= {name} <= {_parenthesise_negative(high)}"
             yield relation, pretty.format_formula(f"{low} ≤ {name} ≤ {high}")
 
 
-def _signed(text: str) -> str:
+def _parenthesise_negative(text: str) -> str:
     return f"({text})" if text.startswith("-") else text
 
 
 _SIGNS = {"lt": "<", "le": "≤", "gt": ">", "ge": "≥", "eq": "=", "ne": "≠"}
 
 
-def _filled(spec: WitnessSpec, text: str, env: dict[str, Any]) -> str:
+def _format_failed_relation(spec: WitnessSpec, text: str, env: dict[str, Any]) -> str:
     """Return a failing relation with both sides' values, ``4 < 2``; empty if they say nothing.
 
     The relation itself is program text and may hold names that no question mentions.
     """
     tree = parse_authored(text, spec.known())
     sides = tree.args if isinstance(tree, Call) and tree.op in _SIGNS else ()
-    values = [_side(side, env) for side in sides]
+    values = [_format_side_value(side, env) for side in sides]
     if len(values) != 2 or None in values:
         return ""
     return f"{values[0]} {_SIGNS[tree.op]} {values[1]}"  # type: ignore[union-attr]
 
 
-def _side(side: Expr, env: dict[str, Any]) -> str | None:
+def _format_side_value(side: Expr, env: dict[str, Any]) -> str | None:
     value = compile_exact(side)(env)
     if value is None or isinstance(value, (type, bool)):
         return None
@@ -201,34 +201,34 @@ _FRONT = re.compile(rf"({NAME}) ?(?=[(\[])")
 _SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
 
 
-def _numbers(spec: WitnessSpec, typed: str, decimal: str) -> dict[str, ReadNumber]:
+def _read_example(spec: WitnessSpec, typed: str, decimal: str) -> dict[str, ReadNumber]:
     """Read the example: by name, in groups, or all in order."""
     lines = filter(None, map(str.strip, typed.split("\n")))
     source = normalise_separators(normalise_typed("; ".join(lines), longest=400))
     names, placed = list(spec.names()), dict[str, ReadNumber]()
-    items = list(_items(source, names, decimal))
+    items = list(_iter_labelled_items(source, names, decimal))
     if len(items) == 1 and not items[0][0]:
-        items = [("", piece) for piece in _alone(items[0][1], len(names))]
+        items = [("", piece) for piece in _split_unlabelled_row(items[0][1], len(names))]
     for label, item in items:
-        targets = _targets(label, item, [n for n in names if n not in placed], names)
+        targets = _assign_names(label, item, [n for n in names if n not in placed], names)
         for name, piece in targets:
-            placed[name] = _number(piece, decimal)
+            placed[name] = _read_piece(piece, decimal)
     if len(placed) < len(names):
         missing = [name for name in names if name not in placed]
         raise FormulaReadError("values-missing", 1, "", missing)
     return {name: placed[name] for name in names}
 
 
-def _alone(item: SourceText, count: int) -> list[SourceText]:
+def _split_unlabelled_row(item: SourceText, count: int) -> list[SourceText]:
     """Cut values that stand in a row without separators of their own: ``0.2 0.3``."""
     for separator in (re.compile(r" +"), re.compile(r",")):
-        parts = _cut(item, separator)
+        parts = _split_outside_brackets(item, separator)
         if len(parts) == count and bracket_depth(item.text, len(item.text)) == 0:
             return parts
     return [item]
 
 
-def _number(piece: SourceText, decimal: str) -> ReadNumber:
+def _read_piece(piece: SourceText, decimal: str) -> ReadNumber:
     side = most_precise_side(read_sides(piece, decimal))
     readings, unit = side.readings, side.quantity.unit
     if readings.other is not None and readings.doubt is not None and not readings.doubt.native:
@@ -237,7 +237,9 @@ def _number(piece: SourceText, decimal: str) -> ReadNumber:
     return percent_to_fraction(as_percent(readings.main)) if percent else readings.main
 
 
-def _items(source: SourceText, names: list[str], decimal: str) -> Iterator[tuple[str, SourceText]]:
+def _iter_labelled_items(
+    source: SourceText, names: list[str], decimal: str
+) -> Iterator[tuple[str, SourceText]]:
     fronts, rest = split_prefix(source)
     if fronts:
         items, _ = read_list(rest.text, len(fronts), decimal)
@@ -245,14 +247,14 @@ def _items(source: SourceText, names: list[str], decimal: str) -> Iterator[tuple
         return
     inner, _ = strip_brackets(source)
     source = inner if inner.text[:1] == "(" else source
-    for piece in _cut(source, _SEPARATOR):
+    for piece in _split_outside_brackets(source, _SEPARATOR):
         label, rest = split_name(piece)
-        label, rest = (label, rest) if label else _named_point(piece, names)
+        label, rest = (label, rest) if label else _split_point_label(piece, names)
         if label or rest.text:
             yield label, rest
 
 
-def _named_point(piece: SourceText, names: list[str]) -> tuple[str, SourceText]:
+def _split_point_label(piece: SourceText, names: list[str]) -> tuple[str, SourceText]:
     """``A(0.5|0)``: the name before a bracket; a word that names nothing is passed over."""
     match = _FRONT.match(piece.text)
     if match is None or match[1] in FUNCTIONS:
@@ -263,7 +265,7 @@ def _named_point(piece: SourceText, names: list[str]) -> tuple[str, SourceText]:
     return label, piece.slice(match.end())
 
 
-def _cut(source: SourceText, separator: re.Pattern[str]) -> list[SourceText]:
+def _split_outside_brackets(source: SourceText, separator: re.Pattern[str]) -> list[SourceText]:
     start, pieces = 0, []
     for match in separator.finditer(source.text):
         if bracket_depth(source.text, match.start()) == 0:
@@ -273,15 +275,15 @@ def _cut(source: SourceText, separator: re.Pattern[str]) -> list[SourceText]:
     return [piece for piece in pieces if piece.text]
 
 
-def _targets(
+def _assign_names(
     label: str, item: SourceText, free: list[str], names: list[str]
 ) -> list[tuple[str, SourceText]]:
     """Which names an item gives: its own, those of a group, or the next free ones."""
     inner, _ = strip_brackets(item)
-    parts = _parts(inner) if inner.text != item.text else [item]
+    parts = _split_components(inner) if inner.text != item.text else [item]
     own = find_name(label, names) if label else ""
     if label and not own:
-        return _group(label, item, parts, free)
+        return _assign_group(label, item, parts, free)
     if own:
         free = [own]
     if len(parts) > len(free):
@@ -289,7 +291,7 @@ def _targets(
     return list(zip(free, parts, strict=False))
 
 
-def _group(
+def _assign_group(
     label: str, item: SourceText, parts: list[SourceText], free: list[str]
 ) -> list[tuple[str, SourceText]]:
     members = [name for name in free if name_key(name).startswith(name_key(label))]
@@ -298,10 +300,10 @@ def _group(
     return list(zip(members, parts, strict=True))
 
 
-def _parts(inner: SourceText) -> list[SourceText]:
+def _split_components(inner: SourceText) -> list[SourceText]:
     for separator in (re.compile(r"[;|]"), re.compile(r","), re.compile(r" +")):
         if separator.search(inner.text):
-            return _cut(inner, separator)
+            return _split_outside_brackets(inner, separator)
     return [inner]
 
 

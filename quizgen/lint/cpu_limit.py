@@ -25,7 +25,7 @@ def cpu_limit(seconds: float) -> Iterator[None]:
 
     Raises
     ------
-    TooLong
+    CpuLimitExceeded
         Where it was at that time.
     """
     if (

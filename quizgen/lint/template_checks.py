@@ -126,7 +126,7 @@ def lint_template(
             _compose_in_all_languages(one) for one in (*first[: COMPOSED.count(seeds)], *known)
         ]
         for worded in composed:
-            report.problems += check_composition(worded)
+            report.problems += find_unfilled_placeholders(worded)
         typed = (*_select_telling_variants(first, MARKED.count(seeds)), *known)
         report.problems += _once_a_part(answer for one in typed for answer in _typed_back(one))
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
@@ -314,8 +314,8 @@ def _compose_in_all_languages(one: Variant) -> ComposedLanguages:
     return {lang: compose_variant(one, lang, figures=False) for lang in one.template.languages}
 
 
-def check_composition(worded: ComposedLanguages) -> list[Diagnostic]:
-    """Problems of one instance in all languages."""
+def find_unfilled_placeholders(worded: ComposedLanguages) -> list[Diagnostic]:
+    """Placeholders, nan or inf left in a composed question, for each language."""
     problems: list[Diagnostic] = []
     for lang, (question, key) in worded.items():
         file = _prose_file(key.draw.template, lang)

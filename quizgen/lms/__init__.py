@@ -47,7 +47,7 @@ def get_exporter(name: str) -> Exporter:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         Naming the formats there are.
     """
     match require_one_of("format", name, FORMATS):

@@ -80,7 +80,7 @@ def formula_dialect(name: str) -> Iterator[None]:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         Naming the dialects there are.
     """
     before = _manner.set(

@@ -81,7 +81,7 @@ def check_letter(letter: str, known: Collection[str]) -> str:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If it has not.
     """
     if letter not in known:
@@ -94,7 +94,7 @@ def _split_cloze(text: str, count: int) -> list[str]:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If they are not as many as the fields, or what was typed reads like the next part.
     """
     first = _FIRST.match(text)
@@ -171,7 +171,7 @@ def _find_option(options: Mapping[str, Iterable[str]], text: str) -> str:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If none has it, or several have.
     """
     bare = _bare_text(text)
@@ -235,7 +235,7 @@ def steps_by_place(places: Sequence[str], field: ResponseField) -> FieldValues:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If two have the same place.
     """
     given = {place for place in places if place not in {"", NO_RESPONSE}}

@@ -122,7 +122,7 @@ def resolve_language_choice(choice: str, held: tuple[str, ...]) -> tuple[str, ..
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If there is no such language; names those of the bank.
     """
     if choice not in list_language_choices():

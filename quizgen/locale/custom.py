@@ -60,7 +60,8 @@ def normalise_language_tag(text: str) -> str:
 
     Examples
     --------
-    >>> as_tag("PT-br"), as_tag("sr-latn"), as_tag("French")
+    >>> tags = "PT-br", "sr-latn", "French"
+    >>> tuple(map(normalise_language_tag, tags))
     ('pt-BR', 'sr-Latn', 'french')
     """
     first, *rest = text.lower().split("-")
@@ -68,7 +69,7 @@ def normalise_language_tag(text: str) -> str:
 
 
 def read_translation(file: Path) -> Translation:
-    """A file of words that somebody brings.
+    """A TOML file of words that a bank brings.
 
     Raises
     ------

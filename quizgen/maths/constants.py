@@ -65,7 +65,7 @@ def evaluate_constant(tree: Expr) -> Value:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If it has no finite real value or is too large.
     """
     try:

@@ -124,7 +124,7 @@ def unequal(a: Value, b: Value) -> bool:
 
 
 def floor(a: Value) -> fmpq:
-    """Largest integer not above."""
+    """Largest integer not above; UndecidedError where a ball does not settle it."""
     if isinstance(a, fmpq):
         return fmpq(a.floor())
     integer = a.floor().unique_fmpz()
@@ -134,7 +134,7 @@ def floor(a: Value) -> fmpq:
 
 
 def ceil(a: Value) -> fmpq:
-    """Smallest integer not below."""
+    """Smallest integer not below; UndecidedError where a ball does not settle it."""
     return -floor(-a)
 
 

@@ -89,7 +89,7 @@ def round_to(value: Value, decimals: int) -> fmpq:
 
     Raises
     ------
-    Undecided
+    UndecidedError
         If a ball is too wide to tell the last digit.
     """
     scale = fmpq(10) ** decimals

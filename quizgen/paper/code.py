@@ -84,7 +84,7 @@ def parse_code(text: str) -> PaperCode:
 
     Raises
     ------
-    CodeError
+    PaperCodeError
         If it is not a code, or that of a graded paper.
     """
     if is_class_code(text):
@@ -104,7 +104,7 @@ def check_seed(seed: int) -> int:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If it is no whole number, or too small or too large.
     """
     if isinstance(seed, int) and not isinstance(seed, bool) and 0 <= seed <= LARGEST_SEED:

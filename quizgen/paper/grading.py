@@ -130,7 +130,7 @@ def grade_paper(
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If there is no such language or decimal sign.
     KeyFileError
         If the key is wrong (never because of what was typed).

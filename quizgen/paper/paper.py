@@ -190,7 +190,7 @@ def build_paper(
     ------
     BlueprintError
         If no template fits a slot.
-    ChoiceError
+    InvalidChoiceError
         If there is no such language, or the seed is out of range.
     """
     names = select_templates(bank, blueprint, seed)
@@ -258,7 +258,7 @@ def rebuild_paper(
 
     Raises
     ------
-    CodeError
+    PaperCodeError
         If it is not a code, or the templates behind it have changed since.
     """
     wanted = parse_code(code)
@@ -304,7 +304,7 @@ def build_reference_paper(
     ------
     BlueprintError
         If the blueprint lists no such questions.
-    ChoiceError
+    InvalidChoiceError
         If there is no such language.
     """
     if not blueprint.reference:

@@ -38,7 +38,7 @@ def select_templates(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[
     """
     if blueprint.topic:
         return _fill_minutes(bank.candidates(), blueprint, seed)
-    slots = _open_slots(bank, blueprint)
+    slots = _candidates_per_slot(bank, blueprint)
     if blueprint.has_constraints:
         return _as_a_whole(slots, blueprint, seed)
     tries = (_fill_slots(slots, blueprint, f"{seed}/{n}" if n else str(seed)) for n in range(TRIES))
@@ -164,7 +164,7 @@ def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> lis
     They have its tier, topic, points and minutes, and a figure if it has one; none may stand in two
     places, and none tells what another one asks. So papers that take any one of each are alike.
     """
-    slots = _open_slots(bank, blueprint)
+    slots = _candidates_per_slot(bank, blueprint)
     places = [fitting for slot, fitting in zip(blueprint.slot, slots, strict=True)
               for _ in range(slot.count)]  # fmt: skip
     taken = bank.candidates(chosen)
@@ -200,7 +200,7 @@ def count_papers(bank: Bank, blueprint: Blueprint) -> int:
     Questions count as a set; a template without numbers counts as one question.
     """
     total = 1 if blueprint.slot else 0
-    for slot, fitting in zip(blueprint.slot, _open_slots(bank, blueprint), strict=True):
+    for slot, fitting in zip(blueprint.slot, _candidates_per_slot(bank, blueprint), strict=True):
         pools = [one.pool or 1 for one in fitting]
         rounds, rest = divmod(slot.count, len(pools))
         ways = [1] + [0] * rest
@@ -211,8 +211,14 @@ def count_papers(bank: Bank, blueprint: Blueprint) -> int:
     return total
 
 
-def _open_slots(bank: Bank, blueprint: Blueprint) -> list[list[Candidate]]:
-    """The templates that may fill each slot of a blueprint."""
+def _candidates_per_slot(bank: Bank, blueprint: Blueprint) -> list[list[Candidate]]:
+    """The templates that may fill each slot of a blueprint.
+
+    Raises
+    ------
+    BlueprintError
+        If a slot names a template that there is not, or nothing fits it.
+    """
     coloured = frozenset() if blueprint.colour else find_coloured_templates(bank)
     slots = []
     for index, slot in enumerate(blueprint.slot, 1):

@@ -73,7 +73,7 @@ def draw_variants(
 
     Raises
     ------
-    DrawError
+    SamplingError
         If a question would stand in the paper again and has no other numbers.
     """
     seen = _Seen()

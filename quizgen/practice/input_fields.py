@@ -14,7 +14,7 @@ def join_fields(control: InputControl, values: Sequence[str], marks: Sequence[st
 
     Parameters
     ----------
-    control : Control
+    control : InputControl
         How the part is answered.
     values : sequence of str
         What stands in its fields in their order: the ticked marks, for pairs the mark of a target
@@ -46,7 +46,7 @@ def locate_in_fields(control: InputControl, values: Sequence[str], column: int) 
 
     Parameters
     ----------
-    control : Control
+    control : InputControl
         Of a part with several boxes.
     values : sequence of str
         What stands in them; not all of it blank.
@@ -70,7 +70,7 @@ def is_complete(control: InputControl, values: Sequence[str], marks: Sequence[st
 
     Parameters
     ----------
-    control : Control
+    control : InputControl
     values : sequence of str
         What stands in its fields.
     marks : sequence of str

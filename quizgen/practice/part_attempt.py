@@ -38,7 +38,7 @@ class AnswerFeedback(msgspec.Struct, frozen=True):
     ----------
     verdict : Verdict
         Without words: ``PartAttempt.explain_verdict`` finds them where it is shown.
-    then : Next
+    then : NextStep
         What is to happen now.
     left : int
         Tries that are left.
@@ -75,10 +75,10 @@ class PartAttempt(Generic[P, S]):
         What it is marked by.
     state : PartState
         How far it has got; changed as it goes on.
-    marker : Marker
+    marker : QuestionGrader
         Of the whole question: it carries errors forward to the parts that follow.
 
-    Notes
+    MisconceptionNotes
     -----
     Once a task has an outcome, whatever would change it raises ``AttemptFinishedError``.
     """

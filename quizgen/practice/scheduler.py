@@ -111,10 +111,10 @@ def review_card(
 
     Parameters
     ----------
-    card : Card, optional
+    card : ReviewCard, optional
     name : (str, str)
         Kind and name of the card.
-    grade : Grade
+    grade : ReviewRating
     now : float
     left : int, optional
         Days until the exam: no interval is longer.
@@ -179,10 +179,10 @@ def make_review_event(origin: str, parts: Sequence[PartState], level: str) -> Re
     return ReviewEvent(origin, helped, tuple(part.note for part in parts))
 
 
-def apply_review(
+def iter_reviewed_cards(
     cards: Mapping[Name, ReviewCard], asked: ReviewEvent, now: float, left: int | None = None
 ) -> Iterator[ReviewCard]:
-    """The cards that a question changes.
+    """Yield the cards that a question changes, as they are after it; nothing is stored.
 
     Its template's; those of the mistakes that were made; and, if it went right, those of mistakes
     that were made before and not now.

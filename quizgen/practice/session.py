@@ -61,14 +61,14 @@ class Session:
     Parameters
     ----------
     bank : Bank
-    state : State
+    state : SessionState
         A new one, or one that was kept.
     choose : callable, optional
         Gives template and seed of the question to be asked next, from the templates that fit.
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If there is no such language.
     """
 

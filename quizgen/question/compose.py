@@ -41,7 +41,7 @@ class AnswerField(msgspec.Struct, frozen=True):
     ----------
     id : str
         Name in the answer form, for example ``3b``.
-    control : Control
+    control : InputControl
         How it is answered.
     asks : tuple of inlines
         Sentences that say what to type, in the question's language.
@@ -183,7 +183,7 @@ def compose_question(
     ------
     BankError
         If the template is not written in this language or a sentence is missing.
-    DrawError
+    SamplingError
         If no admissible numbers exist.
     """
     drawn = draw_instance(template, seed, slot)
@@ -199,7 +199,7 @@ def compose_variant(
     ------
     BankError
         If the template is not written in this language or a sentence is missing.
-    ChoiceError
+    InvalidChoiceError
         If there is no such level.
     """
     template = drawn.template

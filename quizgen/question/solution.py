@@ -150,9 +150,9 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
 
     Parameters
     ----------
-    filler : Filler
+    filler : Interpolator
     index : int
-    built : Built
+    built : AskedPart
         The part as its kind makes it.
     """
     drawn, spec, board = filler.drawn, built.spec, built.control.board

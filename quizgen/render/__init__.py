@@ -36,7 +36,7 @@ def load_renderer(output: str) -> Renderer:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         Naming the formats there are.
     """
     match require_one_of("format", output, RENDERERS):
@@ -63,7 +63,7 @@ def render_paper(paper: Paper, kind: str, output: str) -> bytes:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If there is no such kind or format.
     RenderError
         If the output cannot be made.
@@ -76,7 +76,7 @@ def render_sheet(sheet: FormulaSheet, output: str) -> bytes:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If there is no such format.
     RenderError
         If the output cannot be made.

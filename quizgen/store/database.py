@@ -86,7 +86,10 @@ class Database:
         self._reader.dispose()
 
     def reading(self) -> Connection:
-        """A connection to read with; what it reads is of one moment."""
+        """Open a connection to read with, to be closed by ``with``.
+
+        On SQLite everything that it reads is of one moment; on PostgreSQL each statement is.
+        """
         return self._reader.connect()
 
     @contextlib.contextmanager
@@ -134,11 +137,11 @@ class Database:
             if not mine.done():
                 with self._joining:
                     together, self._waiting = self._waiting, []
-                self._commit(together)
+                self._commit_batch(together)
         found: T = mine.result()
         return found
 
-    def _commit(self, together: Sequence[_Write]) -> None:
+    def _commit_batch(self, together: Sequence[_Write]) -> None:
         """Do all that waits; nobody is told before it is on the disk."""
         try:
             with self._writer.begin() as connection:

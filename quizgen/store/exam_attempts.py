@@ -138,7 +138,7 @@ class ExamStore:
 
         Returns
         -------
-        sitting : Sitting or None
+        sitting : ExamRecord or None
             The learner's exam; None if there is none of this name, or it is another's.
         kept : bool
             False if the exam is over, or its paper has no such part.

@@ -65,7 +65,7 @@ class LearnerProgress(msgspec.Struct, frozen=True):
 
         Parameters
         ----------
-        which : Which
+        which : QuestionRef
         topic : str
         parts : mapping
             Label of each part and how it went; one that was skipped went neither well nor badly.

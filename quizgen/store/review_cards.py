@@ -8,7 +8,7 @@ import msgspec
 from sqlalchemy import Connection, select
 
 from quizgen.core.decoding import convert
-from quizgen.practice.scheduler import Name, ReviewCard, ReviewEvent, apply_review
+from quizgen.practice.scheduler import Name, ReviewCard, ReviewEvent, iter_reviewed_cards
 from quizgen.store.database import Database, upsert
 from quizgen.store.schema import CARD
 
@@ -45,7 +45,7 @@ class ReviewCardStore:
         with self.database.writing(learner) as connection:
             cards = read_cards(connection, learner)
             for one in asked:
-                for card in list(apply_review(cards, one, now, left)):
+                for card in list(iter_reviewed_cards(cards, one, now, left)):
                     cards[card.kind, card.name] = card
                     write_card(connection, learner, card)
 

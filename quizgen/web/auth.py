@@ -43,7 +43,7 @@ class AuthMiddleware:
     Parameters
     ----------
     app : ASGI application
-    site : Site
+    site : ServerState
     """
 
     def __init__(self, app: ASGIApp, site: ServerState) -> None:

@@ -157,9 +157,9 @@ def pack_error_cards(
     ----------
     bank : Bank
     lang : str
-    sat : tuple of Sat
+    sat : tuple of FinishedExam
         The latest first: of a mistake that was made twice, the first one counts.
-    practised : tuple of Practised
+    practised : tuple of PracticedQuestion
         Likewise.
     """
     from quizgen.cards.apkg import write_apkg  # here, because the server itself makes no cards

@@ -163,8 +163,8 @@ async def grade_exam(
 
     Parameters
     ----------
-    workers : Workers
-    paper : MadePaper
+    workers : WorkerPool
+    paper : PaperView
     answers : mapping
         Part to what stands in its fields.
     own : mapping

@@ -89,7 +89,7 @@ class WorkerPool:
 
         Parameters
         ----------
-        wanted : Wanted
+        wanted : QuestionRequest
         asker : hashable, optional
             Who waits for it: all who ask have their turns.
 

@@ -108,7 +108,7 @@ class Papers:
     Parameters
     ----------
     store : Store
-    workers : Workers
+    workers : WorkerPool
     """
 
     def __init__(self, store: Store, workers: WorkerPool) -> None:

@@ -42,7 +42,7 @@ def explain_read_error(
 
     Parameters
     ----------
-    field : MadeField
+    field : FieldView
     values : sequence of str
         What stands in its fields.
     verdict : Verdict

@@ -10,7 +10,7 @@ from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject
 from quizgen.camera.effects import get_effect
 from quizgen.camera.pixels.kernels import disc_kernel, motion_kernel
 from quizgen.camera.raster import detail_regions, layers
-from quizgen.camera.raster.detail_regions import blurred_regions, sampled_regions
+from quizgen.camera.raster.detail_regions import regions_changed_by_blur, sampled_regions
 from quizgen.camera.raster.rasterizer import Layer, composite_layers
 from quizgen.camera.simulation import run_plan
 
@@ -59,7 +59,7 @@ def test_elsewhere_a_layer_is_even_as_far_as_an_effect_looks(seed, covered):
     layer = patches(source, covered=covered)
     rows, columns = source.integers(0, 9, 2) * source.choice([1, 5])
     if seed % 2:
-        where = blurred_regions(layer, np.ones((2 * rows + 1, 2 * columns + 1)))
+        where = regions_changed_by_blur(layer, np.ones((2 * rows + 1, 2 * columns + 1)))
     else:
         where = sampled_regions(layer, (float(columns), float(rows)))
     assert where.reach >= min(rows, len(layer.colour))
@@ -77,7 +77,7 @@ def test_a_thing_in_a_wide_picture_is_found_where_it_is():
     far = np.hypot(y - 750, x - 1000)
     colour = np.repeat((far < 600)[..., None], 3, axis=2).astype(np.float32)
     near = np.zeros(far.shape, bool)
-    for box in blurred_regions(Layer(colour), disc_kernel(9.0)).boxes:
+    for box in regions_changed_by_blur(Layer(colour), disc_kernel(9.0)).boxes:
         near[box] = True
     assert near[abs(far - 600) < 5].all()
     assert near.sum() < 3770 * 6 * 32
@@ -156,10 +156,10 @@ def test_a_sky_of_stars_is_looked_at_as_a_whole():
     """Where boxes are so many that handing them over takes longer than the rest, there is one."""
     colour = np.zeros((640, 960, 3), np.float32)
     colour[16::64, 16::64] = 1.0
-    assert len(blurred_regions(Layer(colour), disc_kernel(9.0)).boxes) == 1
+    assert len(regions_changed_by_blur(Layer(colour), disc_kernel(9.0)).boxes) == 1
     colour[:] = 0.0
     colour[16::320, 16::320] = 1.0
-    assert len(blurred_regions(Layer(colour), disc_kernel(9.0)).boxes) == 6
+    assert len(regions_changed_by_blur(Layer(colour), disc_kernel(9.0)).boxes) == 6
 
 
 def test_a_run_leaves_the_drawn_layers_alone():

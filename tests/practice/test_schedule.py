@@ -12,9 +12,9 @@ from quizgen.practice.scheduler import (
     DAY,
     ReviewEvent,
     ReviewRating,
-    apply_review,
     days_left,
     due_time,
+    iter_reviewed_cards,
     rate_outcomes,
     review_card,
 )
@@ -98,7 +98,7 @@ def test_the_grade_of_a_question(outcomes, grade):
 
 
 def told(cards, asked, now):
-    for card in list(apply_review(cards, asked, now)):
+    for card in list(iter_reviewed_cards(cards, asked, now)):
         cards[card.kind, card.name] = card
 
 

@@ -13,7 +13,7 @@ from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import guided
 from quizgen.question.levels.comparison import choose_comparison
 from quizgen.question.levels.consequence import DIRECTIONS, choose_consequence
-from quizgen.question.levels.distractors import offer_formulas
+from quizgen.question.levels.distractors import draw_formula_options
 from quizgen.question.levels.error_spotting import choose_faulty_solution
 from quizgen.question.levels.perturbations import Perturbations
 
@@ -34,7 +34,7 @@ def choices(name, seeds):
         if guided.is_applicable(drawn):
             for stage in guided.guided_stages(drawn):
                 if stage.formula is not None:
-                    yield offer_formulas(drawn, stage.formula, stage.known)
+                    yield draw_formula_options(drawn, stage.formula, stage.known)
 
 
 def longest(ways):

@@ -104,7 +104,7 @@ def disc_kernel(diameter: float) -> BlurKernel:
     if radius == 0.0:
         return np.ones((1, 1))
     count = max(SAMPLES, min(32 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
-    return _splatted(_disc_quarter(count), radius * _centres(count))
+    return _splatted(_disc_cell_areas(count), radius * _centres(count))
 
 
 @lru_cache(maxsize=16)
@@ -114,10 +114,11 @@ def _centres(count: int) -> BlurKernel:
 
 
 @lru_cache(maxsize=8)
-def _disc_quarter(count: int) -> BlurKernel:
+def _disc_cell_areas(count: int) -> BlurKernel:
     """Exact area of a unit disc inside each cell of a count x count grid on [-1, 1]^2.
 
-    One quarter: the cells of [0, 1]^2.
+    One quarter: the cells of [0, 1]^2, shape (count / 2, count / 2), not normalised; ``count`` is
+    even.
     """
     half = count // 2
     edges = np.linspace(-1.0, 1.0, count + 1)[half:]

@@ -58,8 +58,11 @@ def sampled_regions(layer: Layer, reach: tuple[float, float]) -> Regions:
     return Regions(_boxes(layer, (down, across), (0, 0)), down)
 
 
-def blurred_regions(layer: Layer, kernel: NDArray[np.float64]) -> Regions:
-    """Where a layer is convolved: around a box so much is read that small ones are dear."""
+def regions_changed_by_blur(layer: Layer, kernel: NDArray[np.float64]) -> Regions:
+    """Boxes; outside of them convolving a layer with a kernel changes nothing.
+
+    Near boxes are merged: each reads a margin of the kernel's reach, so many small ones are dear.
+    """
     reach = kernel.shape[0] // 2, kernel.shape[1] // 2
     return Regions(_boxes(layer, reach, reach), reach[0])
 

@@ -16,10 +16,10 @@ from quizgen.camera.pixels.kernels import BlurKernel
 from quizgen.camera.pixels.tiles import split_range
 from quizgen.camera.raster.detail_regions import (
     Regions,
-    blurred_regions,
     content_box,
     full_box,
     grow_box,
+    regions_changed_by_blur,
     sampled_regions,
 )
 from quizgen.camera.raster.rasterizer import (
@@ -125,7 +125,7 @@ def blur_layer(layer: Layer, kernel: BlurKernel) -> Layer:
         return [found[..., :channels], found[..., channels:]][: len(images)]
 
     most = max(_ROWS, 16 * down), max(_COLUMNS, 32 * across)
-    return replace_regions(layer, blurred_regions(layer, kernel), blur, most)
+    return replace_regions(layer, regions_changed_by_blur(layer, kernel), blur, most)
 
 
 def bound_layers(signal: Signal, view: View, share: Callable[[LayerSpec], float]) -> float:

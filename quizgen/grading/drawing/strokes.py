@@ -29,7 +29,7 @@ def read_strokes(typed: str, view: FieldBounds) -> list[list[FieldPoint]]:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If there is something else, a point far outside of the field, or no line at all.
     """
     source = normalise_typed(re.sub(r"[\r\n]+", ";", typed), keep_x=True, longest=LONGEST_PROSE)
@@ -49,7 +49,7 @@ def parse_key_line(written: str) -> list[FieldPoint]:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If there is something else.
     """
     return [point for point, _ in _iter_points(SourceText.of(written))]

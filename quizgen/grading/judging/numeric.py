@@ -71,7 +71,7 @@ class NumberTarget(msgspec.Struct, frozen=True):
         Known mistakes and what they give.
     form : str
         ``fraction``, ``lowest``, ``decimal`` or empty.
-    hints : Hints, optional
+    hints : NumberDiagnosis, optional
         The question around: errors carried forward, slips in its chain.
     ratio : bool
         Whether it is a plain ratio, which can be upside down.

@@ -79,7 +79,7 @@ def read_sides(source: SourceText, decimal: str) -> list[EqualitySide]:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If it cannot be read, or the sides contradict each other.
     """
     plain = read_plain_side(source.text, decimal)

@@ -120,7 +120,7 @@ def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> T
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         With the column and what was expected.
     """
     declared = frozenset(symbols)
@@ -247,7 +247,7 @@ def add_call_brackets(source: SourceText, declared: frozenset[str]) -> SourceTex
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If there are two.
     """
     start = 0

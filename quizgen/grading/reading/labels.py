@@ -52,7 +52,7 @@ def reorder_by_name(
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If a name is unknown, or used twice.
     """
     pairs = [split_name(item) for item in items]

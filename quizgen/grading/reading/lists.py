@@ -44,7 +44,7 @@ def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[SourceT
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If commas separate and mark decimals at once, or the number of items is wrong.
     """
     plain = _plain_items(typed, count)
@@ -118,7 +118,7 @@ def attach_names(names: list[str], items: list[SourceText]) -> list[SourceText]:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If there are not as many.
     """
     if len(names) != len(items):

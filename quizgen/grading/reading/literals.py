@@ -50,7 +50,7 @@ def read_literal(typed: str, decimal: str = "auto", column: int = 1) -> NumberLi
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If the marks fit no way of writing numbers.
     """
     compact = typed.replace(" ", "").replace("'", "")
@@ -94,7 +94,7 @@ def join_digit_groups(source: SourceText) -> SourceText:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If a point can be a sign of multiplication (``3.10^5``) or mark a period (``6.(6)``).
     """
     odd = _ODD.search(source.text)

@@ -152,7 +152,7 @@ def normalise_typed(typed: str, *, keep_x: bool = False, longest: int = LONGEST)
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If the text is empty, too long, or has an invisible or control character inside.
     """
     if len(typed) > longest:
@@ -217,7 +217,7 @@ def refuse_invisible(source: SourceText, allowed: str = "") -> None:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         With the character's name and column.
     """
     if source.text.isprintable():

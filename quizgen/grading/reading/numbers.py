@@ -167,7 +167,7 @@ def read_number(source: SourceText, decimal: str) -> Readings:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         With the column, if it cannot be read.
     """
     found = read_plain_number(source.text, decimal)
@@ -300,7 +300,7 @@ def number_from_tree(tree: Expr) -> ReadNumber:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If it has no finite real value or is too large.
     """
     value = evaluate_constant(tree)

@@ -28,7 +28,7 @@ def split_quantity(source: SourceText) -> TypedQuantity:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If what follows the number is not a listed unit.
     """
     match = _NUMBER_PART.match(source.text)

@@ -43,7 +43,7 @@ def parse_formula(text: str, *, symbols: Iterable[str] | None = None) -> Expr:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         With the column and what was expected (a ``FormulaError``).
     """
     if len(text) > LONGEST:
@@ -60,7 +60,7 @@ def parse_tokens(pieces: list[Token], length: int, *, tight: bool) -> Expr:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         With the column and what was expected.
     """
     if not pieces:

@@ -127,7 +127,7 @@ def tokenize(text: str, symbols: frozenset[str] | None, *, loose: bool = False) 
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If a character or a name is not part of the grammar.
     """
     pieces = _split_tokens(text, symbols, loose=loose)
@@ -208,7 +208,7 @@ def parse_number_literal(word: str, column: int = 1) -> Num:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If it has too many digits or too large an exponent.
     """
     mantissa, _, exponent = word.lower().partition("e")

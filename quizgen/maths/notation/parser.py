@@ -225,7 +225,7 @@ def _build_bracketed(begun: _Begun, following: str) -> Expr:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         If a function has too many or too few arguments.
     """
     opened = _opened_by(begun)
@@ -254,7 +254,7 @@ def build_tree(pieces: list[Token], end: int) -> Expr:
 
     Raises
     ------
-    ReadError
+    FormulaReadError
         With the column and the token kinds that could have stood there.
     """
     parser = _Parser()

@@ -40,7 +40,7 @@ def effective_level(drawn: Variant, wanted: str) -> str:
 
     Raises
     ------
-    ChoiceError
+    InvalidChoiceError
         If there is no such level.
     """
     require_one_of("level", wanted, CHOICES)

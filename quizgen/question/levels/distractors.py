@@ -45,8 +45,14 @@ _OTHER = {
 _RAISED = frozenset({"pow", "sqrt", "root"})
 
 
-def offer_formulas(drawn: Variant, step: ChainStep, known: frozenset[str]) -> list[FormulaOption]:
-    """The formulas to choose from, in a drawn order."""
+def draw_formula_options(
+    drawn: Variant, step: ChainStep, known: frozenset[str]
+) -> list[FormulaOption]:
+    """The right formula and up to three wrong ones, in a drawn order.
+
+    The step has at least one wrong formula. A slip may replace the last, so that its length does
+    not tell which one is right.
+    """
     ways = [right_option(drawn, step, known), *wrong_options(drawn, step, known)[: WAYS - 1]]
     key = f"{level_seed(drawn)}/{step.name}"
     side = _compare_first_length(ways)

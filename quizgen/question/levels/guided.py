@@ -32,7 +32,7 @@ from quizgen.question.levels.contract import (
     share_points,
     without_bold_questions,
 )
-from quizgen.question.levels.distractors import offer_formulas
+from quizgen.question.levels.distractors import draw_formula_options
 from quizgen.question.levels.steps import (
     FormulaOption,
     applicable_branch,
@@ -277,7 +277,7 @@ class _Guide:
         body = self._build_strong_paragraph(
             key, thing=quantity_inlines(self.drawn, step.name, self.lang)
         )
-        ways = offer_formulas(self.drawn, step, stage.known)
+        ways = draw_formula_options(self.drawn, step, stage.known)
         return make_choice_part(
             self.drawn, self.lang, body, [self._build_formula_option(step, way) for way in ways]
         )
