@@ -174,7 +174,7 @@ def answered(folder: ClassFolder, count: int) -> int:
 
 def _typed(key: AnswerKey) -> dict[str, str]:
     """What is right in each part."""
-    return {part.id: show_key(part.ordered_spec()) for one in key.questions for part in one.parts}
+    return {part.id: show_key(part.parse_spec()) for one in key.questions for part in one.parts}
 
 
 def _answer(right: str, chance: random.Random) -> str:

@@ -159,7 +159,8 @@ class Class:
                 account = {"key": f"s{number}", "password": "", "manages": False}
                 connection.execute(insert(ACCOUNT).values(learner=learner, **account))
         self.tokens = [
-            store.accounts.begin(store.learner(f"s{number}").id) for number in range(STUDENTS)
+            store.accounts.start_session(store.learner(f"s{number}").id)
+            for number in range(STUDENTS)
         ]
         store.close()
         self.sittings: dict[int, str] = {}

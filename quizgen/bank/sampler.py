@@ -15,6 +15,7 @@ from quizgen.bank.misconceptions import PartChecker
 from quizgen.bank.rules import KeepRule, Scalar
 from quizgen.bank.template import Template
 from quizgen.core.errors import BankError, MathError
+from quizgen.core.untrusted import error_context
 from quizgen.maths.number_systems import CompiledFormula, compile_nested, exact_system
 from quizgen.maths.numbers import count_decimals, to_float, to_rational
 from quizgen.maths.precision import working_precision
@@ -91,7 +92,8 @@ class Sampler:
         drawn = {v.name for v in self.variables}
         self.early = [c for c in conditions if c.needs <= drawn]
         self.late = [c for c in conditions if not c.needs <= drawn]
-        self.parts = [PartChecker(template, index) for index in range(len(template.rules.part))]
+        with error_context(template.file):  # a unit of the file may be none, and knows no file
+            self.parts = [PartChecker(template, index) for index in range(len(template.rules.part))]
 
     def _check_order(self) -> None:
         known: set[str] = set()

@@ -16,7 +16,7 @@ import time
 from functools import cache
 from pathlib import Path
 
-SHIPPED = Path(__file__).parent / "builtin" / "kept"
+SHIPPED = Path(__file__).parent.parent / "builtin" / "kept"
 """What the wheel brings."""
 LARGEST = 1_000_000
 """Bytes of the largest thing that is kept."""

@@ -34,11 +34,11 @@ PLACES = [
     ("quizgen.bank.bank", "module.Bank.rules", ["templates"]),
     ("quizgen.lint.template_checks", "module.lint_template", ["lint", "--only", "rgb-to-hsv"]),
     ("quizgen.bank.bank", "module.Bank.template", ["preview", "rgb-to-hsv"]),
-    ("quizgen.lint.doctor", "module.checks", ["doctor"]),
-    ("quizgen.tradeoff.report", "module.measure", ["tradeoff"]),
+    ("quizgen.lint.doctor", "module.run_checks", ["doctor"]),
+    ("quizgen.tradeoff.report", "module.measure_tradeoff", ["tradeoff"]),
     ("quizgen.camera.scene_file", "module.load_scene", ["simulate", "flat"]),
-    ("quizgen.paper.answer_key", "module.read_key", ["check", "key.json", "answers.toml"]),
-    ("quizgen.cards", "module.build", ["cards"]),
+    ("quizgen.paper.answer_key", "module.read_answer_key", ["check", "key.json", "answers.toml"]),
+    ("quizgen.cards", "module.build_deck", ["cards"]),
     ("quizgen.kinds.grade", "module.grade_answer", ["mark", "{}", "1"]),
 ]
 

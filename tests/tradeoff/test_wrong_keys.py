@@ -113,7 +113,7 @@ def test_every_arithmetic_is_timed_on_the_same_questions():
 def call_seconds(drawn, system, enter):
     """Seconds of one question's chain by ``timeit``, every step called as the chain has it."""
     given = {name: enter(drawn.values[name]) for name in drawn.template.chain.given}
-    steps = list(drawn.template.chain.compiled(system()).items())
+    steps = list(drawn.template.chain.compile_steps(system()).items())
 
     def solve():
         with working_precision():
