@@ -53,7 +53,7 @@ class CompileCache(Generic[T]):
             return self._decoder.decode(found)
         return None
 
-    def put(self, thing: T, *sources: bytes) -> T:
+    def store_compiled(self, thing: T, *sources: bytes) -> T:
         """Keep what sources came to, if it comes back the same."""
         with suppress(*_UNFIT):
             data = msgspec.msgpack.encode(thing, enc_hook=str)

@@ -47,7 +47,7 @@ class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=Tru
         return BankError(f"entry {self.id!r}: {what}", rule=rule, file=Path(self.file), place=place)
 
     @contextmanager
-    def located(self, *keys: str) -> Iterator[None]:
+    def name_in_errors(self, *keys: str) -> Iterator[None]:
         """Have errors about what it says name it."""
         try:
             yield

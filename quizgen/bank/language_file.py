@@ -65,7 +65,7 @@ def read_language_file(path: Path) -> LanguageFile:
         raise BankError(what, rule="QG102", file=path, line=line)
     with untrusted.error_context(path, BankError):
         found = _TEXTS.get(source.encode())
-        return found or _TEXTS.put(parse_language_file(source), source.encode())
+        return found or _TEXTS.store_compiled(parse_language_file(source), source.encode())
 
 
 def parse_language_file(source: str) -> LanguageFile:

@@ -417,21 +417,21 @@ def _fill_part(part: Inline, value: SlotValue, program: Program) -> tuple[Inline
 def fill_blocks(parts: tuple[Block, ...], value: SlotValue, program: Program) -> tuple[Block, ...]:
     """Fill every sentence of blocks as ``fill`` does, and programs by ``program``."""
 
-    def filled(block: Block) -> Block:
+    def fill_one_block(block: Block) -> Block:
         match block:
             case Paragraph(children):
                 return Paragraph(fill_inlines(children, value, program))
             case CodeBlock(text):
                 return CodeBlock(program(text))
             case ListBlock(items, ordered):
-                return ListBlock(tuple(tuple(map(filled, item)) for item in items), ordered)
+                return ListBlock(tuple(tuple(map(fill_one_block, item)) for item in items), ordered)
             case TableBlock(head, rows):
                 return TableBlock(row(head), tuple(map(row, rows)))
 
     def row(cells: tuple[tuple[Inline, ...], ...]) -> tuple[tuple[Inline, ...], ...]:
         return tuple(fill_inlines(cell, value, program) for cell in cells)
 
-    return tuple(map(filled, parts))
+    return tuple(map(fill_one_block, parts))
 
 
 def fill_text(text: str, value: Callable[[str], str]) -> str:

@@ -154,7 +154,7 @@ def read_picture(folder: Path, name: str) -> PictureFile:
     data = read_bytes(path, BankError, MOST_BYTES)
     pack = _pack_svg if path.suffix.lower() == ".svg" else _pack_pixels
     try:
-        return _PICTURES.get(data) or _PICTURES.put(pack(data), data)
+        return _PICTURES.get(data) or _PICTURES.store_compiled(pack(data), data)
     except BankError as error:
         raise BankError(f"picture {name!r}: {error.message}") from error
 

@@ -66,7 +66,7 @@ def read_quantities(paths: Iterable[Path]) -> dict[str, QuantityNames]:
         source = read_text(path, BankError)
         read = _FILES.get(source.encode())
         if read is None:
-            read = _FILES.put(_read_quantities(path, source), source.encode())
+            read = _FILES.store_compiled(_read_quantities(path, source), source.encode())
         for solver in read:
             if solver in found:
                 what = f"solver {solver!r} stands twice"

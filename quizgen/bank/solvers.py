@@ -150,7 +150,7 @@ def load_chain(folder: Path, name: str) -> tuple[Chain, bytes]:
         with LOCK:
             chain = _compile_solver(folder, name)
         if all(map(_is_pure, sources)) and sources == _read_solver_sources(folder, name):
-            _CHAINS.put(chain, *sources)
+            _CHAINS.store_compiled(chain, *sources)
     return chain, sources[0]
 
 

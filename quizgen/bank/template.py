@@ -186,7 +186,7 @@ def read_rules(path: Path) -> Rules:
     if found:
         return found
     with error_context(path, BankError):
-        return _RULES.put(_read_rules(path, source), source.encode())
+        return _RULES.store_compiled(_read_rules(path, source), source.encode())
 
 
 def _read_rules(path: Path, source: str) -> Rules:

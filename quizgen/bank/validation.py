@@ -56,7 +56,7 @@ def find_problems(rules: Rules) -> FieldProblems:
     yield from _check_names(rules)
     yield from _check_figure_reads(rules)
     yield from _check_sizes(rules)
-    yield from _ignored(rules)
+    yield from _check_ignored_codes(rules)
     yield from _check_claims(rules)
     for name, rule in rules.draw.items():
         yield from _below(("draw", name), _check_draw_rule(rule))
@@ -99,7 +99,7 @@ def _check_figure_reads(rules: Rules) -> FieldProblems:
             yield place, "QG117", f"{name!r} is no drawn number (write it under [draw])"
 
 
-def _ignored(rules: Rules) -> FieldProblems:
+def _check_ignored_codes(rules: Rules) -> FieldProblems:
     """Codes that are none, and those that say what stops a paper."""
     for index, code in enumerate(rules.ignore):
         if code not in CODES:

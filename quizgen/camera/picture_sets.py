@@ -83,10 +83,10 @@ def make_focused(scene: Scene, depths: Sequence[float], *cameras: Camera) -> tup
     far_first = sorted(range(len(depths)), key=lambda thing: -depths[thing])
     groups = [(depth, tuple(some)) for depth, some in groupby(far_first, key=depths.__getitem__)]
     with numpy_only():
-        return tuple(_focused(scene, groups, camera) for camera in cameras)
+        return tuple(_focus_on_depth(scene, groups, camera) for camera in cameras)
 
 
-def _focused(
+def _focus_on_depth(
     scene: Scene, groups: Sequence[tuple[float, tuple[int, ...]]], camera: Camera
 ) -> Codes:
     view = View(scene, camera)
@@ -97,7 +97,7 @@ def _focused(
     for depth, some in groups:
         kernel = disc_kernel(view.blur_diameter(depth))
         part, keep, colour = (
-            _blurred(scene, some, kernel) if kernel.size > 1 else _sharp(scene, some)
+            _blur_things(scene, some, kernel) if kernel.size > 1 else _sharp(scene, some)
         )
         blend_into(light[part], keep, colour)
         top, bottom = min(top, part[0].start), max(bottom, part[0].stop)
@@ -126,18 +126,18 @@ def _laid(part: PixelBox, light: Image) -> LaidLight:
 
 @lru_cache(maxsize=16)
 def _sharp(scene: Scene, some: tuple[int, ...]) -> LaidLight:
-    image, box = _drawn(scene, some)
+    image, box = _rasterize_things(scene, some)
     return _laid(box, image[box])
 
 
-def _blurred(scene: Scene, some: tuple[int, ...], kernel: BlurKernel) -> LaidLight:
-    image, box = _drawn(scene, some)
+def _blur_things(scene: Scene, some: tuple[int, ...], kernel: BlurKernel) -> LaidLight:
+    image, box = _rasterize_things(scene, some)
     part = grow_box(box, (kernel.shape[0] // 2, kernel.shape[1] // 2), image.shape)
     return _laid(part, convolve(np.ascontiguousarray(image[part]), kernel))
 
 
 @lru_cache(maxsize=16)
-def _drawn(scene: Scene, some: tuple[int, ...]) -> tuple[Image, PixelBox]:
+def _rasterize_things(scene: Scene, some: tuple[int, ...]) -> tuple[Image, PixelBox]:
     """Colour and cover of some things that share a depth, shape (H, W, 4), and where they are."""
     things = tuple(replace(scene.things[place], depth=1.0) for place in some)
     blurring = Camera(focal_length=0.05, pixel_pitch=1e-4, f_number=2.0)

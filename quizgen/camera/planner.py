@@ -135,7 +135,7 @@ class PreparedScene:
 
 def _round(signal: Signal) -> Signal:
     slack = _ROUNDING * signal.size
-    return signal.widened(slack, slack)
+    return signal.with_margins(slack, slack)
 
 
 @dataclass(frozen=True)

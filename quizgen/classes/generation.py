@@ -30,7 +30,7 @@ from quizgen.classes.class_folder import (
     PrintedHead,
     format_record,
 )
-from quizgen.classes.lock import locked
+from quizgen.classes.lock import lock_folder
 from quizgen.classes.pseudonyms import form_seal, new_secret, student_code, student_seed
 from quizgen.classes.roster import RosterStudent, seat_neighbours
 from quizgen.core.errors import ClassError
@@ -166,7 +166,7 @@ def generate_papers(
         If the bank or the blueprint is no longer that of the papers there are, or another
         command writes there.
     """
-    with locked(folder.path):
+    with lock_folder(folder.path):
         return _make(folder, students, blueprint, executor, ahead, tell)
 
 

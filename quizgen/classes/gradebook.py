@@ -47,7 +47,7 @@ class GradedStudent:
         """Why the line is not the last word."""
         if self.marks is None:
             return "no answers"
-        return "provisional" if self.marks.undecided else ""
+        return "provisional" if self.marks.undecided_count else ""
 
 
 def grade_students(
@@ -114,7 +114,7 @@ def _build_grade_row(line: GradedStudent, items: list[str], scale: GradeScale) -
     got = {part.item: part.marks for part in marks.parts}
     each: list[Cell] = ["" if (given := got.get(item)) is None else given for item in items]
     return [*who, counted, marks.points, percent, line.grade, "yes" if line.passed else "no",
-            marks.undecided, line.remark, *each]  # fmt: skip
+            marks.undecided_count, line.remark, *each]  # fmt: skip
 
 
 def _build_posted_rows(lines: Iterable[GradedStudent], scale: GradeScale) -> list[list[Cell]]:

@@ -84,7 +84,7 @@ class GradedClassPart(msgspec.Struct, frozen=True, omit_defaults=True):
         return None if self.marks is None or not self.points else self.marks / self.points
 
     @property
-    def undecided(self) -> bool:
+    def needs_decision(self) -> bool:
         """Whether a person is asked about it."""
         return self.marks is None
 
@@ -111,9 +111,9 @@ class StudentMarks(msgspec.Struct, frozen=True, omit_defaults=True):
         return sum(part.points for part in self.parts)
 
     @property
-    def undecided(self) -> int:
+    def undecided_count(self) -> int:
         """Parts that a person is asked about."""
-        return sum(part.undecided for part in self.parts)
+        return sum(part.needs_decision for part in self.parts)
 
 
 def item_name(question: KeyQuestion, part: KeyPart) -> str:

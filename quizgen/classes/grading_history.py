@@ -118,7 +118,7 @@ class GradingHistory:
         changes: list[MarkChange] = []
         with _Lines() as lines, open_private(fresh, anew=True) as stream:
             for one in marked:
-                students, undecided = students + 1, undecided + one.undecided
+                students, undecided = students + 1, undecided + one.undecided_count
                 line = _ENCODE(one) + b"\n"
                 before = places.get(one.student)
                 old = lines.at(*before) if before else b""

@@ -12,7 +12,7 @@ from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.grading import StudentMarks, Submission, grade_submission
 from quizgen.classes.grading_history import GradingHistory, GradingOutcome
 from quizgen.classes.key_index import KeyIndex, read_key_at
-from quizgen.classes.lock import locked
+from quizgen.classes.lock import lock_folder
 from quizgen.classes.manual_grading import (
     decision_cases,
     group_cases,
@@ -79,7 +79,7 @@ def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingR
         If rulings, the queue or the folder cannot be read, or another command writes there;
         nothing is changed then.
     """
-    with locked(folder.path):
+    with lock_folder(folder.path):
         return _mark(folder, executor, ahead)
 
 

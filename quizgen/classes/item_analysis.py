@@ -126,7 +126,7 @@ class _Counts:
         """One student's part."""
         self.points = max(self.points, part.points)
         self.blank += part.status == "blank"
-        self.undecided += part.undecided
+        self.undecided += part.needs_decision
         if options:
             self.had.update(options)
             self.chosen.update(part.chosen)

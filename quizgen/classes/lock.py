@@ -19,7 +19,7 @@ _PAUSE = 0.05
 
 
 @contextlib.contextmanager
-def locked(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
+def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
     """Hold the folder of a class; the system lets go of it where a process is killed.
 
     Parameters

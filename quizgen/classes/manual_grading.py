@@ -130,7 +130,7 @@ def undecided_answers(
     found: dict[str, AnswerGroupMember] = {}
     for one in marked:
         for part in one.parts:
-            if not part.group or part.undecided == decided or not part.points:
+            if not part.group or part.needs_decision == decided or not part.points:
                 continue
             before = found.get(part.group)
             found[part.group] = (

@@ -31,7 +31,7 @@ from pathlib import Path
 
 import msgspec
 
-from quizgen.classes.lock import locked
+from quizgen.classes.lock import lock_folder
 from quizgen.core.errors import ClassError, FormulaError
 from quizgen.core.files import open_private
 from quizgen.core.untrusted import format_csv, parse_csv, read_text, unescape_csv_formula
@@ -187,7 +187,7 @@ def append_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
     ClassError
         If one of them says nothing that can be done, or another command writes there.
     """
-    with locked(folder):
+    with lock_folder(folder):
         return note_rulings(folder, rulings)
 
 

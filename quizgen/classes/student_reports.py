@@ -17,7 +17,7 @@ from quizgen.classes.gradebook import FOLDER, GradedStudent, grade_students, wri
 from quizgen.classes.grading import DROPPED, GradedClassPart, StudentMarks, item_name
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
-from quizgen.classes.lock import locked
+from quizgen.classes.lock import lock_folder
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context, escape_control_characters
@@ -101,14 +101,15 @@ class ReportQuestion:
         own = "" if self.lang == FIRST else f" --lang {self.lang}"
         return f"quizgen practice --topic {self.topic}{own}"
 
-    def told(self, words: Mapping[str, str]) -> str:
+    def format_loss(self, words: Mapping[str, str]) -> str:
         """How much was lost."""
         return words["lost"].format(
-            lost=format_amount(self.lost, self.lang), points=format_amount(self.points, self.lang)
+            lost=format_amount(self.lost_points, self.lang),
+            points=format_amount(self.points, self.lang),
         )
 
     @property
-    def lost(self) -> float:
+    def lost_points(self) -> float:
         """Points that were not reached."""
         return self.points - self.marks - self.undecided
 
@@ -153,18 +154,18 @@ class StudentReport:
     @property
     def revise(self) -> list[ReportQuestion]:
         """Where points were lost; most first."""
-        lost = [section for section in self.sections if section.lost > 0]
-        return sorted(lost, key=lambda section: -section.lost)[:MOST_TO_REVISE]
+        lost = [section for section in self.sections if section.lost_points > 0]
+        return sorted(lost, key=lambda section: -section.lost_points)[:MOST_TO_REVISE]
 
     @property
     def nothing(self) -> str:
         """That all points were reached; empty while that is still to be decided."""
-        return "" if self.marks.undecided else self.words["nothing"]
+        return "" if self.marks.undecided_count else self.words["nothing"]
 
     @property
     def provisional(self) -> str:
         """That something is still to be decided; empty if nothing is."""
-        count = self.marks.undecided
+        count = self.marks.undecided_count
         name = "provisional_one" if count == 1 else "provisional"
         return self.words[name].format(count=count) if count else ""
 
@@ -202,7 +203,7 @@ def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion
         title,
         sum(part.marks or 0.0 for part in mine),
         sum(part.points for part in mine),
-        sum(part.points for part in mine if part.undecided),
+        sum(part.points for part in mine if part.needs_decision),
         rows,
         question.topic,
         fallback_language(marks.lang),
@@ -321,7 +322,7 @@ def _typeset_revision_list(report: StudentReport) -> str:
     if not report.revise:
         return f"#block({typst_literal(report.nothing)})" if report.nothing else ""
     rows = ", ".join(
-        f"({typst_literal(one.name)}, {typst_literal(one.told(words))}"
+        f"({typst_literal(one.name)}, {typst_literal(one.format_loss(words))}"
         f", {typst_literal(one.practise)})"
         for one in report.revise
     )
@@ -376,7 +377,7 @@ def write_grades_and_reports(
     RenderError
         If something cannot be written.
     """
-    with locked(folder.path):
+    with lock_folder(folder.path):
         return _grade(folder, formats, anonymous=anonymous)
 
 

@@ -91,7 +91,7 @@ class Submissions:
             self._add_problem(path, f"no form ({', '.join(FORMS)})")
             return
         try:
-            table = _Table.found(path)
+            table = _Table.find_in_file(path)
             if table is None:
                 yield self._read_form_sheet(path)
             else:
@@ -109,7 +109,7 @@ class Submissions:
         former = form.code.strip().upper() in self.keys.places[student][0].former
         if form.paper and form.paper != paper and not former:
             raise KeyFileError(f"is for other questions than the paper of {safe_echo(student)}")
-        return Submission(student, form.typed(), about.lang, about.decimal, path.name)
+        return Submission(student, form.list_typed_texts(), about.lang, about.decimal, path.name)
 
     def _identify_student(self, code: str, student: str) -> str:
         """Whose answers they are: by the code, else by the id, which must agree."""
@@ -203,7 +203,7 @@ class _Table:
         self.path, self.encoding, self.head = path, encoding, head
 
     @classmethod
-    def found(cls, path: Path) -> _Table | None:
+    def find_in_file(cls, path: Path) -> _Table | None:
         """The table in a file; None if it is no table of students."""
         if path.suffix.lower() != ".csv":
             return None

@@ -161,7 +161,9 @@ def _grade_form(key: AnswerKey, path: Path, lang: str | None, *, settle: bool) -
         )
     chosen = lang or _choose_form_language(form, key)
     student = form.student
-    result = grade_paper(key, form.typed(), chosen, decimal=student.decimal, settle=settle)
+    result = grade_paper(
+        key, form.list_typed_texts(), chosen, decimal=student.decimal, settle=settle
+    )
     return GradedForm(str(path), str(student.name), str(student.matriculation), chosen, result)
 
 

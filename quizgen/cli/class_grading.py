@@ -171,7 +171,7 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
     )
     for student in left:
         print_sentence(f"{to_one_line(student)} handed in, but is not on the roster: no grade")
-    open_still = sum(one.marks.undecided for one in there if one.marks)
+    open_still = sum(one.marks.undecided_count for one in there if one.marks)
     if open_still:
         print_sentence(f"Provisional: {format_count(open_still, 'answer')} still to be decided")
     for path in files:

@@ -95,7 +95,7 @@ class Conversation:
         QuitSession
             If the learner stops before.
         """
-        while not self.session.finished:
+        while not self.session.is_finished:
             turn = self.session.current_question()
             self._show_question(turn)
             for task in turn.tasks:
@@ -136,12 +136,12 @@ class Conversation:
         """Ask a part until it is done."""
         self._show_part(task)
         while task.outcome is None:
-            typed = self._typed(self.words["prompt"])
-            with self._kept():
+            typed = self._read_line(self.words["prompt"])
+            with self._save_on_stop():
                 self._take(task, typed)
 
     @contextmanager
-    def _kept(self) -> Iterator[None]:
+    def _save_on_stop(self) -> Iterator[None]:
         """Keep what has been done, also if the learner stops in the middle of it."""
         try:
             yield
@@ -160,7 +160,7 @@ class Conversation:
         else:
             self._answer(task, typed)
 
-    def _typed(self, prompt: str) -> str:
+    def _read_line(self, prompt: str) -> str:
         """What was typed.
 
         Raises
@@ -205,7 +205,7 @@ class Conversation:
             case NextStep.SELF_MARK:
                 print_wrapped(verdict.message)
                 self._solution(task)
-                task.self_mark(right=self._judged(task))
+                task.self_mark(right=self._ask_self_mark(task))
                 return
         lang = self.session.state.wish.lang
         self._say("read", read_as=format_read_back(task.kind, verdict.read_as, lang))
@@ -216,11 +216,11 @@ class Conversation:
         elif feedback.then is NextStep.OUT_OF_TRIES:
             self._solution(task)
 
-    def _judged(self, task: PartAttempt[QuestionPart, PartSolution]) -> bool:
+    def _ask_self_mark(self, task: PartAttempt[QuestionPart, PartSolution]) -> bool:
         """Whether the learner finds the own answer right."""
         self._say("self-mark", points=task.solved.answer)
         while True:
-            typed = self._typed(self.words["yes-or-no"])
+            typed = self._read_line(self.words["yes-or-no"])
             if self._means("yes-words", typed):
                 return True
             if self._means("no-words", typed):

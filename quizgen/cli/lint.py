@@ -184,7 +184,7 @@ def _of_bank(bank: Bank, limit: float, *, whole: bool) -> list[Diagnostic]:
             found += check_cards(bank)
             found += check_sheet(bank) if whole and not found else ()
     except (QuizgenError, CpuLimitExceeded) as error:
-        found.append(_stopped(bank, bank.folder / "bank.toml", error))
+        found.append(_diagnose_crash(bank, bank.folder / "bank.toml", error))
     return found
 
 
@@ -221,7 +221,7 @@ def _build_teaching_rows(bank: Bank, seeds: int, limit: float, name: str) -> lis
         with cpu_limit(limit):
             found = review_template(bank.template(name), seeds)
     except (QuizgenError, CpuLimitExceeded) as error:
-        stopped = _stopped(bank, bank.template_paths[name] / "template.toml", error)
+        stopped = _diagnose_crash(bank, bank.template_paths[name] / "template.toml", error)
         return [(name, "", "error", stopped.code, f"{stopped.file}: {stopped.message}")]
     return [(one.template, one.label, one.level, one.code, one.what) for one in found]
 
@@ -287,7 +287,11 @@ def _examine_template(
             raise KeyboardInterrupt from error
         if debug:
             traceback.print_exception(error)
-        return NOTHING, [_stopped(bank, bank.template_paths[name] / "template.toml", error)], []
+        return (
+            NOTHING,
+            [_diagnose_crash(bank, bank.template_paths[name] / "template.toml", error)],
+            [],
+        )
     return _format_report_cells(report), report.problems, report.heard
 
 
@@ -326,7 +330,7 @@ def _build_template_report(bank: Bank, name: str, seeds: int) -> TemplateReport:
     return report
 
 
-def _stopped(bank: Bank, file: Path, error: BaseException) -> Diagnostic:
+def _diagnose_crash(bank: Bank, file: Path, error: BaseException) -> Diagnostic:
     """What stopped the examination: the place in the bank, else in quizgen."""
     from quizgen.core.diagnostics import diagnose
     from quizgen.lint.cpu_limit import CpuLimitExceeded

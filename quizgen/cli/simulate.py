@@ -78,7 +78,7 @@ class SimulatedShot:
     """ms of reading, planning, drawing, the effects and writing."""
 
     @contextmanager
-    def timed(self, what: str) -> Iterator[None]:
+    def measure_time(self, what: str) -> Iterator[None]:
         """Count the time of what is done within."""
         started = perf_counter()
         yield
@@ -222,7 +222,7 @@ def _write_pictures(
     out, beside = options["out"], options["compare"]
     if out is not None:
         photo = shot.whole if options["everything"] and shot.whole else shot.photo
-        with shot.timed("written"):
+        with shot.measure_time("written"):
             write_all(out.parent, {out.name: encode(photo.pixels())})
     if beside is not None:
         told = (REALLY, *_iter_table_rows(shot))

@@ -174,7 +174,7 @@ def _open_progress(what: str, total: int) -> RichProgress:
 
 def build_command_line(*arguments: str | Path) -> str:
     """A quizgen command that works from where the user stands."""
-    return join_words([*_started(), *map(str, arguments)])
+    return join_words([*_find_start_command(), *map(str, arguments)])
 
 
 def join_words(words: list[str]) -> str:
@@ -186,14 +186,14 @@ def join_words(words: list[str]) -> str:
     return shlex.join(words)
 
 
-def _started() -> list[str]:
+def _find_start_command() -> list[str]:
     """How this program was started: by uv, as a module, or by its name or path."""
     if os.environ.get("UV_RUN_RECURSION_DEPTH"):
         return ["uv", "run", *_project(), "quizgen"]
     script = Path(sys.argv[0])
     if script.name == "__main__.py":
-        return [_found(Path(sys.executable)), "-m", "quizgen"]
-    return [_found(script) if script.stem == "quizgen" else "quizgen"]
+        return [_shorten_program(Path(sys.executable)), "-m", "quizgen"]
+    return [_shorten_program(script) if script.stem == "quizgen" else "quizgen"]
 
 
 def _project() -> list[str]:
@@ -203,7 +203,7 @@ def _project() -> list[str]:
     return [] if inside else ["--project", str(home)]
 
 
-def _found(program: Path) -> str:
+def _shorten_program(program: Path) -> str:
     """A program's name if the shell finds the same one by it, else its path."""
     found = shutil.which(program.name)
     return program.name if found and Path(found).samefile(program) else str(program)

@@ -329,7 +329,7 @@ def parse_toml(
     for place, value, _ in _iter_table_values(table if "\\" in text else ()):
         if isinstance(value, str) and (odd := CONTROLS.search(value)):
             what = (
-                f"{escape_control_characters(_dotted(place)) or 'a name'}"
+                f"{escape_control_characters(_format_place(place)) or 'a name'}"
                 f": {_format_character_name(odd[0])} in a text"
             )
             raise _error_at(where, what, error, "QG102", place)
@@ -388,7 +388,7 @@ def _shorten_text(found: Exception) -> str:
 def _check_table_limits(table: object, where: object, error: ErrorType) -> None:
     """Refuse a table that is too deep or too long, and numbers and texts that nobody means."""
     for count, (place, value, depth) in enumerate(_iter_table_values(table)):
-        problem, said = _find_value_problem(value), escape_control_characters(_dotted(place))
+        problem, said = _find_value_problem(value), escape_control_characters(_format_place(place))
         if problem:
             raise _error_at(where, f"{said or 'the file'}: {problem}", error, "QG102", place)
         if depth > DEEPEST:
@@ -414,7 +414,7 @@ def _iter_table_values(table: object) -> Iterator[tuple[Place, object, int]]:
             todo += [((*place, i), inner, depth + 1) for i, inner in enumerate(value)]
 
 
-def _dotted(place: Place) -> str:
+def _format_place(place: Place) -> str:
     """``entry[0].term`` for people."""
     steps = (f"[{key}]" if isinstance(key, int) else f".{key[:LONGEST_NAME]}" for key in place)
     return "".join(steps).removeprefix(".")

@@ -50,7 +50,9 @@ def _sentence(spec: AnySpec, verdict: Verdict, lang: str) -> str:
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
         said = feedback_sentence(lang, verdict.note, verdict.fields) if name else ""
-        return " ".join(filter(None, (said, _shared(verdict, lang), _reasons(spec, verdict, lang))))
+        return " ".join(
+            filter(None, (said, _common_reason(verdict, lang), _reasons(spec, verdict, lang)))
+        )
     return spec.notes.get(lang, {}).get(name) or feedback_sentence(lang, "trap", verdict.fields)
 
 
@@ -63,7 +65,7 @@ def _reasons(spec: AnySpec, verdict: Verdict, lang: str) -> str:
     return " ".join(dict.fromkeys(known[label] for label in chosen if label in known))
 
 
-def _shared(verdict: Verdict, lang: str) -> str:
+def _common_reason(verdict: Verdict, lang: str) -> str:
     """What all wrong cells have in common, behind the names of the wrong ones."""
     if verdict.note not in NAMING:
         return ""

@@ -54,16 +54,16 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
         """Judge a typed angle."""
         plain = read_plain_side(typed, options.decimal)
         if plain is not None:
-            return _resolved(self, plain, options)
+            return _judge_equal_side(self, plain, options)
         sides = read_sides(drop_name(normalise_typed(typed)), options.decimal)
-        return best_verdict(_resolved(self, side, options) for side in sides)
+        return best_verdict(_judge_equal_side(self, side, options) for side in sides)
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         return f"{pretty.format_number(format_key(self, parse_exact(self.value)))}°"
 
 
-def _resolved(spec: AngleSpec, side: EqualitySide, options: GradingOptions) -> Verdict:
+def _judge_equal_side(spec: AngleSpec, side: EqualitySide, options: GradingOptions) -> Verdict:
     return judge_readings(
         side.readings, lambda n: _judge(spec, n, side.quantity, options), spec.decimals
     )

@@ -231,7 +231,7 @@ def unit_hint(text: str, lang: str) -> str:
 
 def rounding_hint(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
     """How exactly an answer must be given, if that was stated."""
-    rule, number = spec.stated or ("", "")
+    rule, number = spec.stated_rule or ("", "")
     if rule == "decimals":
         name = f"ask.decimals_{number}" if number in {0, 1} else "ask.decimals"
         return translate(lang, name, n=number)

@@ -107,7 +107,9 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
         if self.kind == "tf":
             return _judge_one(self, _truth(self, typed))
         whole = _by_text(self, typed)
-        chosen = [whole] if whole else _labelled(self, typed) or _positions(self, typed)
+        chosen = (
+            [whole] if whole else _parse_labelled_options(self, typed) or _positions(self, typed)
+        )
         if self.kind == "multi":
             return _judge_many(self, chosen)
         if len(chosen) > 1:
@@ -148,7 +150,7 @@ def _word(text: str) -> int:
     return 1 if word in _TRUE else 2 if word in _FALSE else 0
 
 
-def _labelled(spec: ChoiceSpec, typed: str) -> list[int]:
+def _parse_labelled_options(spec: ChoiceSpec, typed: str) -> list[int]:
     """Positions of options written with their letter and their words; none if they are not.
 
     Raises
@@ -168,7 +170,7 @@ def _both(spec: ChoiceSpec, piece: str) -> int:
         return 0
     mark = match["mark"].translate(BANGLA_LETTERS)
     position = int(mark) if mark.isdecimal() else LETTERS.find(mark.upper()) + 1
-    meant = _meant(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
+    meant = _find_meant_options(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
     if not 1 <= position <= len(spec.choices()) or not meant:
         return 0
     if position not in meant:
@@ -176,7 +178,7 @@ def _both(spec: ChoiceSpec, piece: str) -> int:
     return position
 
 
-def _meant(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[int]:
+def _find_meant_options(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[int]:
     """Options that words can mean: whole, in part, or (foreign) in a script they do not use."""
     folded = fold_word(words)
     options = [fold_word(option) for option in spec.choices()]

@@ -93,7 +93,7 @@ def _judge(spec: ExpressionSpec, tree: Expr, options: GradingOptions) -> Verdict
         return correct(read_as, ground="proved")
     found = compare_by_sampling(key, tree, spec.symbols)
     if found.equal is None and options.settle:
-        found = _settled(key, tree, spec, found)
+        found = _settle_equality(key, tree, spec, found)
     if found.equal is None:
         return ambiguous("undecided", read_as)
     if found.equal:
@@ -111,7 +111,9 @@ def _choose(
     return choose_reading(verdict, _judge(spec, formula.other, options), formula.doubt, echoes)
 
 
-def _settled(key: Expr, tree: Expr, spec: ExpressionSpec, found: SamplingResult) -> SamplingResult:
+def _settle_equality(
+    key: Expr, tree: Expr, spec: ExpressionSpec, found: SamplingResult
+) -> SamplingResult:
     return msgspec.structs.replace(
         found, equal=decide_by_sympy(key, tree, spec.symbols), ground="settled"
     )

@@ -73,7 +73,7 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
             raise FormulaReadError("item-count", 1, str(len(words)), [str(len(gaps))])
         cells = [_one(self, gap, word) for gap, word in zip(gaps, words, strict=True)]
         if len(cells) == 1:
-            return self._reasoned(cells[0])
+            return self._add_reason(cells[0])
         read_as = "; ".join(cell.read_as for cell in cells)
         stopped = next((cell for cell in cells if not cell.is_graded), None)
         if stopped is not None:
@@ -85,7 +85,7 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
         )
         return _together(cells, read_as, because)
 
-    def _reasoned(self, only: Verdict) -> Verdict:
+    def _add_reason(self, only: Verdict) -> Verdict:
         """The verdict of the only gap, with what a reason can be given for."""
         if only.credit == 1 or not only.is_graded:
             return only
@@ -103,7 +103,7 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
 
     def show_in(self, lang: str, /) -> str:
         """Return the words as printed: each in the language's letters if it has such a synonym."""
-        return "; ".join(_shown(gap, lang) for gap in self.gaps())
+        return "; ".join(_format_gap(gap, lang) for gap in self.gaps())
 
 
 _JOINERS = "\u200c\u200d"
@@ -148,14 +148,14 @@ def _words(typed: str, gaps: list[list[str]]) -> list[str]:
     refuse_invisible(SourceText.of(typed.strip("\u200e\u200f\ufeff \r\n")), "\r\n\t" + _JOINERS)
     typed = typed.strip()
     if " " in typed or ":" in typed:
-        typed = _unnamed(ANSWER.sub("", typed), gaps)
+        typed = _strip_gap_word(ANSWER.sub("", typed), gaps)
     count = len(gaps)
     if count == 1:
         return [_NUMBERED.sub("", typed).strip(_ENDS + _QUOTES)]
     return _by_number(apply_rewrite("digits", typed), count) or _in_a_row(typed, count)
 
 
-def _unnamed(typed: str, gaps: list[list[str]]) -> str:
+def _strip_gap_word(typed: str, gaps: list[list[str]]) -> str:
     """``photo 3`` without its word, if each gap takes a number; ``photo 1: 2`` has two readings."""
     if not all(any(word.isdigit() for word in gap) for gap in gaps):
         return typed
@@ -182,7 +182,7 @@ def _by_number(typed: str, count: int) -> list[str]:
     marks = next((some for some in (marked, found) if _all_once(some, count)), [])
     if not marks or marks[0].start():
         return []
-    names = list(map(_numbered, marks))
+    names = list(map(_gap_number, marks))
     ends = [*(mark.start() for mark in marks[1:]), len(typed)]
     words = {
         name: _JOINED.sub("", typed[mark.end() : end].strip(_ENDS)).strip(_ENDS)
@@ -191,12 +191,12 @@ def _by_number(typed: str, count: int) -> list[str]:
     return [words[str(number)] for number in range(1, count + 1)]
 
 
-def _numbered(mark: re.Match[str]) -> str:
+def _gap_number(mark: re.Match[str]) -> str:
     return mark[1] or str("abcdefgh".index(mark[2]) + 1)
 
 
 def _all_once(marks: list[re.Match[str]], count: int) -> bool:
-    return sorted(map(_numbered, marks)) == sorted(map(str, range(1, count + 1)))
+    return sorted(map(_gap_number, marks)) == sorted(map(str, range(1, count + 1)))
 
 
 def _in_a_row(typed: str, count: int) -> list[str]:
@@ -226,7 +226,7 @@ def _one(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     folded = fold_word(word)
     if not folded:
         return wrong("", "gap-empty") if not word else unreadable("no-answer")
-    if folded in right or _compact(word) in right or _inflected(word, right):
+    if folded in right or _compact(word) in right or _is_inflection(word, right):
         return correct(safe_echo(" ".join(word.split())))
     others = [o for g in spec.gaps() for o in g if fold_word(o) not in right] + spec.among
     if folded in map(fold_word, others):
@@ -255,7 +255,7 @@ def _compact(word: str) -> str:
     return fold_word(re.sub(r"[\s,./·-]", "", word)) if spelt else ""
 
 
-def _inflected(word: str, right: set[str]) -> bool:
+def _is_inflection(word: str, right: set[str]) -> bool:
     """An adverb or an ending of German: ``additively``, ``additive Mischung`` without its noun."""
     whole = fold_word(word)
     return whole.endswith(_ENDINGS) and any(
@@ -281,7 +281,7 @@ def _together(cells: list[Verdict], read_as: str, because: tuple[str, ...]) -> V
     return verdict
 
 
-def _shown(gap: list[str], lang: str) -> str:
+def _format_gap(gap: list[str], lang: str) -> str:
     if not any(letter.isalpha() for letter in gap[0]):
         return gap[0]
     return next((word for word in gap if is_written_in(fallback_language(lang), word)), gap[0])

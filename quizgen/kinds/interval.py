@@ -114,8 +114,8 @@ def _brackets(source: SourceText, match: re.Match[str], decimal: str) -> Interva
     if len(cuts) != 1:
         code = "comma-twice" if cuts and not strong else "item-count"
         raise FormulaReadError(code, source.column(0), str(len(cuts) + 1), ["2"])
-    low = _bound(inside.slice(0, cuts[0].start()), decimal, "-")
-    high = _bound(inside.slice(cuts[0].end()), decimal, "+")
+    low = _parse_bound(inside.slice(0, cuts[0].start()), decimal, "-")
+    high = _parse_bound(inside.slice(cuts[0].end()), decimal, "+")
     closed_low = match[1] == "[" and low is not None
     return IntervalValue(low, high, closed_low, match[3] == "]" and high is not None)
 
@@ -127,11 +127,11 @@ def _chain(source: SourceText, decimal: str) -> IntervalValue:
     low = high = None
     closed_low = closed_high = False
     if match["low"]:
-        low = _bound(source.slice(match.start("low"), match.end("low")), decimal, "-")
+        low = _parse_bound(source.slice(match.start("low"), match.end("low")), decimal, "-")
         closed_low = match["left"] in {"<=", "≤"} and low is not None
     if match["high"]:
         side = "+" if match["right"][0] in "<≤" else "-"
-        bound = _bound(source.slice(match.start("high"), match.end("high")), decimal, side)
+        bound = _parse_bound(source.slice(match.start("high"), match.end("high")), decimal, side)
         closed = match["right"] in {"<=", "≤", ">=", "≥"} and bound is not None
         if match["right"][0] in "<≤":
             high, closed_high = bound, closed
@@ -142,7 +142,7 @@ def _chain(source: SourceText, decimal: str) -> IntervalValue:
     return IntervalValue(low, high, closed_low, closed_high)
 
 
-def _bound(source: SourceText, decimal: str, side: str) -> Value | None:
+def _parse_bound(source: SourceText, decimal: str, side: str) -> Value | None:
     """Read a bound; None is the infinity of its side.
 
     Raises

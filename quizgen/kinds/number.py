@@ -92,7 +92,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
             return judge_readings(plain, lambda n: _judge(self, n, options), self.decimals)
         source = _read_source(self, typed)
         return best_verdict(
-            _judged(self, side, source, options) for side in _read(self, source, options)
+            _judge_side(self, side, source, options) for side in _read(self, source, options)
         )
 
     def show(self) -> str:
@@ -108,7 +108,7 @@ def _with_unit(spec: NumberSpec, typed: str, options: GradingOptions) -> Verdict
     return quantity.QuantitySpec(**fields, bare=True).judge(typed, options)
 
 
-def _resolved(spec: NumberSpec, readings: Readings, options: GradingOptions) -> Verdict:
+def _judge_all_readings(spec: NumberSpec, readings: Readings, options: GradingOptions) -> Verdict:
     return judge_readings(readings, lambda n: _judge(spec, n, options), spec.decimals)
 
 
@@ -200,7 +200,7 @@ def _sides(source: SourceText, options: GradingOptions) -> list[EqualitySide]:
         return []
 
 
-def _judged(
+def _judge_side(
     spec: NumberSpec, side: EqualitySide, source: SourceText, options: GradingOptions
 ) -> Verdict:
     """Judge one side, whose unit may be what is counted, or percent as a word.
@@ -212,21 +212,21 @@ def _judged(
     """
     typed = side.quantity.unit
     if typed is None:
-        return _resolved(spec, side.readings, options)
+        return _judge_all_readings(spec, side.readings, options)
     if typed.text == "%":
-        return _resolved(spec, map_readings(side.readings, as_percent), options)
+        return _judge_all_readings(spec, map_readings(side.readings, as_percent), options)
     if not spec.counts:
         raise FormulaReadError("unit-not-asked", source.column(0), typed.text)
     unit_counted = listed_unit(count_noun_unit(spec.counts))
     if typed.dimension != unit_counted.dimension:
         return _other_thing(spec, side.readings, typed, options)
     factor = typed.factor / unit_counted.factor
-    return _resolved(
-        spec, map_readings(side.readings, lambda n: _converted(n, typed, factor)), options
+    return _judge_all_readings(
+        spec, map_readings(side.readings, lambda n: _scale_to_unit(n, typed, factor)), options
     )
 
 
-def _converted(number: ReadNumber, typed: TypedUnit, factor: Value) -> ReadNumber:
+def _scale_to_unit(number: ReadNumber, typed: TypedUnit, factor: Value) -> ReadNumber:
     read_as = f"{number.read_as} {format_unit(typed.text)}"
     return replace(scale_number(number, factor), read_as=read_as)
 
@@ -235,7 +235,7 @@ def _other_thing(
     spec: NumberSpec, readings: Readings, typed: TypedUnit, options: GradingOptions
 ) -> Verdict:
     """Say that something else is counted than what was typed."""
-    right = _resolved(spec, readings, options).credit
+    right = _judge_all_readings(spec, readings, options).credit
     fields = {"given": format_unit(typed.text), "asked": count_noun_name(spec.counts, options.lang)}
     read_as = f"{readings.main.read_as} {fields['given']}"
     return wrong(read_as, "unit-wrong" if right else "unit-clash", **fields)

@@ -184,17 +184,17 @@ def _labels(spec: OrderSpec, typed: str) -> list[str]:
     text = re.sub(r"[\r\n]+", " ", typed.strip())
     source = normalise_typed(text, keep_x=True, longest=1000)
     known = {fold_word(label): label for label in (*spec.steps, *spec.distractors)}
-    words = _numbered(source.text) or _words(source.text, known)
+    words = _parse_numbered_lines(source.text) or _words(source.text, known)
     if len(words) == 1 and fold_word(words[0]) not in known:
         words = list(words[0])
-    found = [_known(word, known) for word in words]
+    found = [_find_label(word, known) for word in words]
     for label in found:
         if found.count(label) > 1:
             raise FormulaReadError("used-twice", 1, label)
     return found
 
 
-def _numbered(text: str) -> list[str]:
+def _parse_numbered_lines(text: str) -> list[str]:
     """Labels behind the numbers of lines, ``1. B 2. D``, in the order of the numbers."""
     pairs = dict(_LINE.findall(text))
     whole = not _LINE.sub("", text).strip(" ,;.")
@@ -211,7 +211,7 @@ def _words(text: str, known: dict[str, str]) -> list[str]:
     return cut if len(cut) > 2 and any(fold_word(w) not in known for w in words) else words
 
 
-def _known(word: str, known: dict[str, str]) -> str:
+def _find_label(word: str, known: dict[str, str]) -> str:
     label = known.get(fold_word(word)) or known.get(fold_word(word.translate(BANGLA_LETTERS)))
     if label is None:
         raise FormulaReadError("label-expected", 1, safe_echo(word), list(known.values()))

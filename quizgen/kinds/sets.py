@@ -76,7 +76,7 @@ def _elements(
 def _judge(spec: SetSpec, numbers: list[ReadNumber]) -> Verdict:
     read_as = "{" + "; ".join(number.read_as for number in numbers) + "}"
     keys = spec.keys()
-    found, extra, twice = _matched(spec, numbers, keys)
+    found, extra, twice = _match_elements(spec, numbers, keys)
     if len(found) == len(keys) and not extra:
         return correct(read_as, "duplicates" if twice else "")
     for name, values in spec.traps.items():
@@ -88,7 +88,7 @@ def _judge(spec: SetSpec, numbers: list[ReadNumber]) -> Verdict:
     return verdict_by_share(credit, read_as, note, right=len(found), of=len(keys))
 
 
-def _matched(
+def _match_elements(
     spec: SetSpec, numbers: list[ReadNumber], keys: list[Value]
 ) -> tuple[set[int], int, bool]:
     """Elements found, elements that do not belong, and whether one came twice."""

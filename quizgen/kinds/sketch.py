@@ -137,7 +137,7 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
         missed = tuple(name for name, share in shares.items() if share < 1)
         return verdict_by_share(
             credit / sum(worth.values()),
-            safe_echo(self._told(strokes), 80),
+            safe_echo(self._format_lines(strokes), 80),
             note,
             right=len(shares) - len(missed),
             of=len(shares),
@@ -152,9 +152,9 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """The wanted lines, curved ones by a few of their points."""
-        return self._told([_few(parse_key_line(line)) for line in self.lines.values()])
+        return self._format_lines([_few(parse_key_line(line)) for line in self.lines.values()])
 
-    def _told(self, lines: Sequence[Sequence[FieldPoint]]) -> str:
+    def _format_lines(self, lines: Sequence[Sequence[FieldPoint]]) -> str:
         """Lines as people write them, and as they can be typed."""
         return format_strokes(lines, self.digits).replace("-", MINUS)
 
@@ -216,7 +216,7 @@ def ask(part: PartContext) -> AskedPart[SketchSpec]:
     answer = convert(part.answer, AuthoredSketch)
     right = _Place({name: to_float(value) for name, value in part.shown_values.items()})
     traps = {
-        trap: _typed(right.but(changed).lines(answer.lines))
+        trap: _format_typed_lines(right.but(changed).lines(answer.lines))
         for trap, changed in answer.traps.items()
     }
     features = {name: _feature(right, one) for name, one in answer.features.items()}
@@ -227,7 +227,7 @@ def ask(part: PartContext) -> AskedPart[SketchSpec]:
         view=[right.number(limit) for limit in answer.view],
         tall=tall,
         cuts=[right.number(place) for place in answer.cuts],
-        lines=_typed(lines),
+        lines=_format_typed_lines(lines),
         features=features,
         traps=traps,
         notes=part.misconception_notes(traps) if traps else {},
@@ -263,13 +263,13 @@ class _Place:
 
     def number(self, formula: Scalar) -> float:
         """The value of a formula."""
-        return self._compiled(formula)(0.0)
+        return self._compile_formula(formula)(0.0)
 
     def point(self, formulas: Formulas) -> FieldPoint:
         """The values of two."""
         return self.number(formulas[0]), self.number(formulas[1])
 
-    def filled(self, value: Scalar | list[Scalar]) -> float | list[float]:
+    def fill_value(self, value: Scalar | list[Scalar]) -> float | list[float]:
         """The value of a formula or of several; what is true or false stays so."""
         if isinstance(value, bool):
             return value
@@ -281,13 +281,13 @@ class _Place:
 
     def _line(self, line: AuthoredLine) -> list[FieldPoint]:
         if not isinstance(line, ParametricCurve):
-            return [_rounded(*self.point(point)) for point in line]
-        x, y = self._compiled(line.x), self._compiled(line.y)
+            return [_round_point(*self.point(point)) for point in line]
+        x, y = self._compile_formula(line.x), self._compile_formula(line.y)
         first, last = self.point(line.t)
         steps = [first + (last - first) * i / SAMPLES for i in range(SAMPLES + 1)]
-        return [_rounded(x(t), y(t)) for t in steps]
+        return [_round_point(x(t), y(t)) for t in steps]
 
-    def _compiled(self, formula: Scalar) -> Callable[[float], float]:
+    def _compile_formula(self, formula: Scalar) -> Callable[[float], float]:
         compiled = _formula(str(formula), (*self._values, "t"))
         return lambda t: float(compiled({**self._values, "t": t}))
 
@@ -298,17 +298,19 @@ def _formula(text: str, symbols: tuple[str, ...]) -> CompiledFormula:
     return compile_expr(parse_formula(text, symbols=symbols), float64_system())
 
 
-def _typed(lines: Mapping[str, list[FieldPoint]]) -> dict[str, str]:
+def _format_typed_lines(lines: Mapping[str, list[FieldPoint]]) -> dict[str, str]:
     return {name: format_strokes([line], DIGITS) for name, line in lines.items()}
 
 
-def _rounded(x: float, y: float) -> FieldPoint:
+def _round_point(x: float, y: float) -> FieldPoint:
     return round(x, DIGITS[0]) + 0.0, round(y, DIGITS[1]) + 0.0
 
 
 def _feature(place: _Place, authored: Mapping[str, Any]) -> dict[str, Any]:
     """A feature with numbers in place of formulas, whichever keys its way to read has."""
-    return {key: value if key in COMMON else place.filled(value) for key, value in authored.items()}
+    return {
+        key: value if key in COMMON else place.fill_value(value) for key, value in authored.items()
+    }
 
 
 HOW_TO_TYPE = hint("ask.sketch", example="0,0 1,0.4 2,0; 0,1 2,1")

@@ -96,7 +96,7 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge each cell."""
         names = list(self.values)
-        placed = _placed(typed, names, options.decimal)
+        placed = _place_cells(typed, names, options.decimal)
         asked = {name: cell_spec(self, name) for name in names}
         cells = [_one(asked[name], name, placed.get(name), options) for name in names]
         stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
@@ -151,7 +151,7 @@ def _shape(spec: TableSpec, name: str) -> tuple[type[Cell], dict[str, Any]]:
     return CELLS[table["kind"]], table
 
 
-def _placed(typed: str, names: list[str], decimal: str) -> dict[str, SourceText]:
+def _place_cells(typed: str, names: list[str], decimal: str) -> dict[str, SourceText]:
     """Name to what was typed for it: by name, or all in order."""
     count = None if any(mark in typed for mark in "=:") else len(names)
     items, _ = read_list(typed, count, decimal)

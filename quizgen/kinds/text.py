@@ -104,14 +104,14 @@ def _occurs(term: str, words: list[str]) -> bool:
 
 def _places(term: str, words: list[str]) -> Iterator[int]:
     """Where a term's words occur in a row."""
-    wanted = _folded(term)
+    wanted = _fold_words(term)
     for start in range(len(words) - len(wanted) + 1 if wanted else 0):
         if all(_alike(words[start + i], word) for i, word in enumerate(wanted)):
             yield from range(start, start + len(wanted))
 
 
 @lru_cache(maxsize=4096)
-def _folded(term: str) -> tuple[str, ...]:
+def _fold_words(term: str) -> tuple[str, ...]:
     """The words of a term, as they are compared."""
     return tuple(fold_word(word) for word in _WORD.findall(term))
 

@@ -82,16 +82,16 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
         """Names to give, in order."""
         return tuple(self.symbols)
 
-    def known(self) -> tuple[str, ...]:
+    def usable_names(self) -> tuple[str, ...]:
         """Names that conditions may use."""
         return (*self.symbols, *self.let)
 
     def validate(self) -> None:
         """The predicate and every constraint must be relations over the names."""
         for text in self.let.values():
-            parse_authored(text, self.known())
+            parse_authored(text, self.usable_names())
         for text in (self.predicate, *self.where):
-            tree = parse_authored(text, self.known())
+            tree = parse_authored(text, self.usable_names())
             if not isinstance(tree, Call) or tree.op not in CONDITIONS:
                 raise FormulaError(f"{text!r} is not a relation")
         domains = self.symbols.values() if isinstance(self.symbols, dict) else ()
@@ -130,7 +130,7 @@ def _add_let_values(spec: WitnessSpec, env: dict[str, Any]) -> dict[str, Any]:
     """Add the quantities that ``let`` derives, in order."""
     full = dict(env)
     for name, text in spec.let.items():
-        full[name] = _compile_formula(text, spec.known())(full)
+        full[name] = _compile_formula(text, spec.usable_names())(full)
     return full
 
 
@@ -151,7 +151,7 @@ def _judge_conditions(spec: WitnessSpec, env: dict[str, Any], read_as: str) -> V
 
 def _holds(spec: WitnessSpec, text: str, env: dict[str, Any]) -> bool | None:
     """Whether a relation holds; False where it has no value, None if it cannot be told."""
-    result = _compile_formula(text, spec.known())(env)
+    result = _compile_formula(text, spec.usable_names())(env)
     if isinstance(result, type):
         return None
     return bool(result)
@@ -182,7 +182,7 @@ def _format_failed_relation(spec: WitnessSpec, text: str, env: dict[str, Any]) -
 
     The relation itself is program text and may hold names that no question mentions.
     """
-    tree = parse_authored(text, spec.known())
+    tree = parse_authored(text, spec.usable_names())
     sides = tree.args if isinstance(tree, Call) and tree.op in _SIGNS else ()
     values = [_format_side_value(side, env) for side in sides]
     if len(values) != 2 or None in values:
@@ -314,16 +314,16 @@ def ask(part: PartContext) -> AskedPart[WitnessSpec]:
     let, example = answer.get("let", {}), answer.get("example", {})
     symbols = (*answer["symbols"], *let, *known)
 
-    def stated(text: object) -> str:
+    def format_condition(text: object) -> str:
         return format_tree(substitute(parse_formula(str(text), symbols=symbols), known))
 
     spec = make_spec(
         WitnessSpec,
         part,
         example={name: _short_text(part, formula) for name, formula in example.items()},
-        let={name: stated(text) for name, text in let.items()},
-        predicate=stated(answer["predicate"]),
-        where=[stated(text) for text in answer.get("where", ())],
+        let={name: format_condition(text) for name, text in let.items()},
+        predicate=format_condition(answer["predicate"]),
+        where=[format_condition(text) for text in answer.get("where", ())],
     )
     boxes = tuple(map(InputBox, spec.symbols))
     return AskedPart(spec, InputControl("lines", lines=2, boxes=boxes, named=True))

@@ -121,10 +121,12 @@ class AskedContent:
     @property
     def is_checkable(self) -> bool:
         """Whether there is anything that could be told."""
-        return bool(self.formulas or self.numbers or self.words or self.named or self.steps)
+        return bool(
+            self.formulas or self.numbers or self.words or self.named_key_points or self.steps
+        )
 
     @cached_property
-    def named(self) -> dict[str, list[str]]:
+    def named_key_points(self) -> dict[str, list[str]]:
         """Key points with the words that name each; none if they are too few to tell them."""
         points = self.points.key_points() if self.points else {}
         named = {name: [f" {t.casefold()}" for t in terms] for name, terms in points.items()}
@@ -211,8 +213,8 @@ def _iter_leaks(secret: AskedContent, other: PrintedContent) -> Iterator[tuple[s
             for line, others in other.words:
                 if needed <= others and len(words & others) >= SAME * len(words):
                     yield f"'{sentence}' in {line!r}", line
-    if secret.named:
-        yield from _named_points(secret.named, other)
+    if secret.named_key_points:
+        yield from _named_points(secret.named_key_points, other)
     places = [other.sentences.index(step) for step in secret.steps if step in other.sentences]
     if len(places) > 1 and places == sorted(places):
         yield f"order of {len(places)} steps", other.sentences[places[0]]

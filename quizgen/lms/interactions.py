@@ -262,7 +262,7 @@ def _numeric_interaction(
 
 def _precision_text(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
     """How exactly a number is meant, since it can only be typed as a decimal."""
-    rule, number = spec.stated or ("", "")
+    rule, number = spec.stated_rule or ("", "")
     if rule == "exact":
         return translate(lang, "export.exact")
     if rule == "abs":

@@ -252,14 +252,14 @@ def hint_html(item: ExportItem) -> Iterator[Markup]:
     parts = item.key.solution.parts
     for row in islice(zip_longest(*(part.lines for part in parts)), HINT_COUNT):
         steps = [
-            _labelled(part.label, to_course_html(line.why, item.lang))
+            _with_label(part.label, to_course_html(line.why, item.lang))
             for part, line in zip(parts, row, strict=True)
             if line
         ]
         yield Markup("").join(steps)
 
 
-def _labelled(label: str, words: Markup) -> Markup:
+def _with_label(label: str, words: Markup) -> Markup:
     return Markup("<p>{}{}</p>").format(f"({label}) " if label else "", words)
 
 

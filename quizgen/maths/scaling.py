@@ -35,9 +35,9 @@ def scaling_exponent(target: str, quantity: str, steps: Mapping[str, Expr]) -> F
         if isinstance(expr, Sym):
             known = steps.get(expr.name)
             return Fraction(expr.name == quantity) if known is None else of(known)
-        return _called(expr)
+        return _call_exponent(expr)
 
-    def _called(expr: Call) -> Fraction | None:
+    def _call_exponent(expr: Call) -> Fraction | None:
         powers = [of(arg) for arg in expr.args if not _is_zero(arg)]
         found = [power for power in powers if power is not None]
         if len(found) < len(powers):

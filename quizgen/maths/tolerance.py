@@ -77,7 +77,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
         return (self.decimals, self.sigfigs, self.rel, self.abs, self.exact or None)
 
     @property
-    def stated(self) -> tuple[str, Scalar] | None:
+    def stated_rule(self) -> tuple[str, Scalar] | None:
         """The rule that was given, as its name and its number; None if none was."""
         for name, number in zip(RULES, self.stated_values(), strict=True):
             if number is not None:
@@ -108,7 +108,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
         """
         if self.exact:
             return min(ROUNDED, ROUNDED_REL * abs(key))
-        name, number = self.stated or self.unstated
+        name, number = self.stated_rule or self.unstated
         if name == "rel":
             return to_float(parse_exact(number)) * abs(key) * MARGIN
         beyond = fmpq(*(abs(key) * MARGIN).as_integer_ratio())

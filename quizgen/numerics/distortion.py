@@ -113,10 +113,10 @@ def _is_moderate(sizes: Array) -> bool:
 def _invert_radius(r_d: Array, k1: Array, k2: Array) -> Array:
     if _is_cubic(r_d, k1, k2):
         whole = QuinticSolver(np.ones(1), k1, np.zeros(1), r_d)
-        return whole.refine_root(solve_cubic(r_d, k1)).rounded()
+        return whole.refine_root(solve_cubic(r_d, k1)).round_to_double()
     equation, j = _scale_equation(r_d, k1, k2)
     centre = equation.m == 0
-    result = np.ldexp(equation.refine_root(equation.root()).rounded(), j)
+    result = np.ldexp(equation.refine_root(equation.root()).round_to_double(), j)
     return np.where(centre, 0.0, result) if centre.any() else result
 
 

@@ -83,7 +83,7 @@ class DoubleDouble:
             self._halves = split_double(self.high)
         return self._halves
 
-    def rounded(self) -> Array:
+    def round_to_double(self) -> Array:
         """The nearest double (up to 2**-100)."""
         result = self.high if self.low is None else self.high + self.low
         return np.asarray(result, dtype=np.float64)

@@ -42,7 +42,7 @@ def _to_rgb(H: Array, S: Array, V: Array) -> tuple[Array, ...]:
 
 def _complement_fraction(S: Array, degrees: DoubleDouble) -> Array:
     """1 - S degrees/60 to twice the working precision; NaN, which asks for fractions, near 0."""
-    left: Array = (60 - S * degrees).rounded() / 60
+    left: Array = (60 - S * degrees).round_to_double() / 60
     return np.where(np.abs(left) < _CLOSE, np.nan, left)
 
 

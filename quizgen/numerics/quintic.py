@@ -50,7 +50,7 @@ def solve_cubic(m: Array, B: Array) -> Array:
 
 def _solve_barrel_cubic(m: Array, B: Array, size: Array) -> Array:
     """2/sqrt(-3 B) sin(asin(m/fold)/3), the arc sine from both its legs."""
-    leg = np.sqrt(np.maximum(cubic_discriminant(m, B).rounded(), 0.0))
+    leg = np.sqrt(np.maximum(cubic_discriminant(m, B).round_to_double(), 0.0))
     result: Array = 2 / size * np.sin(np.arctan2(3 * size * m, leg) / 3)
     return result
 
@@ -77,7 +77,7 @@ class QuinticSolver(msgspec.Struct, frozen=True):
         if close.size:
             some = self.take(close)
             A, B, C = as_pairs(some.A, some.B, some.C)
-            value[close] = (B * B * 9 - A * C * 20).rounded()
+            value[close] = (B * B * 9 - A * C * 20).round_to_double()
         for i in close[np.abs(value[close]) < _UNSURE * size[close]]:
             a, b, c = exact_arguments((self.A, self.B, self.C), i)
             value[i] = nearest_double(9 * b * b - 20 * a * c)
@@ -123,7 +123,7 @@ class QuinticSolver(msgspec.Struct, frozen=True):
         A, B, C, x_pair = as_pairs(self.A, self.B, self.C, x)
         square = x_pair * x_pair
         bend = B if not self.C.any() else B + C * square
-        return (x_pair * (square * bend) + (x_pair * A - self.m)).rounded()
+        return (x_pair * (square * bend) + (x_pair * A - self.m)).round_to_double()
 
     def root(self) -> Array:
         """The root to about twelve digits, less next to the fold."""
@@ -159,8 +159,8 @@ class QuinticSolver(msgspec.Struct, frozen=True):
         A, B, C, x_pair = as_pairs(self.A, self.B, self.C, x)
         square = x_pair * x_pair
         bend = square * (C * 10)
-        slope = (A + square * (B * 3 + square * (C * 5))).rounded()
-        second, third = (x_pair * (B * 3 + bend)).rounded(), (B + bend).rounded()
+        slope = (A + square * (B * 3 + square * (C * 5))).round_to_double()
+        second, third = (x_pair * (B * 3 + bend)).round_to_double(), (B + bend).round_to_double()
         terms = (residual, slope, second, third, 5 * self.C * x, self.C)
         near, fold = _NEAR * x, self.fold()
         last = np.minimum(near, fold - x * (1 - _FOLD_OFF))

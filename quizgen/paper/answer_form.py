@@ -73,9 +73,9 @@ class FilledForm(msgspec.Struct):
     def is_blank(self) -> bool:
         """Whether the form has neither an answer nor a name."""
         known = self.student.name or self.student.matriculation
-        return not known and not any(text.strip() for text in self.typed().values())
+        return not known and not any(text.strip() for text in self.list_typed_texts().values())
 
-    def typed(self) -> dict[str, str]:
+    def list_typed_texts(self) -> dict[str, str]:
         """Texts as typed; a number written without quotes counts as its text."""
         return {
             part: "" if text is None else str(text).lower() if isinstance(text, bool) else str(text)

@@ -365,11 +365,11 @@ def _drop_repeated_blocks(question: Question, first: Question) -> Question:
     bodies = (first.stem, *(part.body for part in first.parts))
     shown = {alike for body in bodies for alike in map(_strip_language, body) if alike}
 
-    def left(body: tuple[Block, ...]) -> tuple[Block, ...]:
+    def keep_new(body: tuple[Block, ...]) -> tuple[Block, ...]:
         return tuple(block for block in body if _strip_language(block) not in shown)
 
-    parts = tuple(replace(part, body=left(part.body)) for part in question.parts)
-    return replace(question, stem=left(question.stem), parts=parts)
+    parts = tuple(replace(part, body=keep_new(part.body)) for part in question.parts)
+    return replace(question, stem=keep_new(question.stem), parts=parts)
 
 
 def _strip_language(block: Block) -> object:

@@ -18,7 +18,7 @@ from quizgen.bank.variant import draw_variant
 from quizgen.core.errors import BankError, BlueprintError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
 from quizgen.paper.constraints import ConstraintSolver, explain_infeasible, paper_minutes
-from quizgen.question.figure import coloured
+from quizgen.question.figure import has_coloured_figure
 
 ORDERS = 3
 """Orders in which the places of a demanding blueprint are filled; an impossible one takes all."""
@@ -256,7 +256,7 @@ def find_coloured_templates(bank: Bank) -> frozenset[str]:
 def _may_need_colour(template: Template) -> bool:
     says = getattr(template.figure, "COLOUR", False)
     return (
-        any(coloured(draw_variant(template, n)) for n in range(DRAWN))
+        any(has_coloured_figure(draw_variant(template, n)) for n in range(DRAWN))
         if callable(says)
         else bool(says)
     )

@@ -21,7 +21,7 @@ from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tree import Expr, substitute
 from quizgen.maths.values import Value
-from quizgen.question.figure import coloured
+from quizgen.question.figure import has_coloured_figure
 from quizgen.question.part_context import ask_part, authored_answer
 
 REDRAWS = 50
@@ -91,7 +91,7 @@ def _draw_least_revealing(
     new: list[Variant] = []
     for again in range(REDRAWS):
         one = draw_variant(template, seed, f"{place}.{again}" if again else place)
-        if one.identity not in seen.questions and (colour or not coloured(one)):
+        if one.identity not in seen.questions and (colour or not has_coloured_figure(one)):
             new.append(one)
             if not seen.tells(one) and not any(shared_content(one, other) for other in near):
                 return one

@@ -50,7 +50,7 @@ class QuestionAttempt(msgspec.Struct, frozen=True):
         return {task.part.label: task.state for task in self.tasks}
 
     @property
-    def finished(self) -> bool:
+    def is_finished(self) -> bool:
         """Whether every task is done."""
         return len(self.outcomes) == len(self.tasks)
 
@@ -81,7 +81,7 @@ class Session:
         """Names of the templates that fit the wish; without any the session is finished."""
 
     @property
-    def finished(self) -> bool:
+    def is_finished(self) -> bool:
         """Whether there is nothing more to ask."""
         return not self.templates or self.state.done >= self.state.wish.count
 

@@ -48,7 +48,7 @@ def entry_inlines(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
 def _iter_field_text(entry: Entry, name: str, lang: str) -> Iterator[str]:
     """The text of a field; what is wrong with it is located."""
     texts: Passage = getattr(entry, name)
-    with entry.located(name, lang):
+    with entry.name_in_errors(name, lang):
         try:
             yield pick_language(texts, lang, "")
         except BankError as error:

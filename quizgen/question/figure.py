@@ -28,7 +28,7 @@ def describe_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> str | 
     return _draw_question_figure(describe_figure, drawn, lang, quiz=quiz)
 
 
-def coloured(drawn: Variant) -> bool:
+def has_coloured_figure(drawn: Variant) -> bool:
     """Whether a question has a figure that cannot be read on grey paper, without drawing it."""
 
     def judge(figure: ModuleType, values: Mapping[str, Any], **_how: object) -> bool:

@@ -142,14 +142,14 @@ def draw_sketch(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...]) -> tupl
     wanted = entry.figure
     if wanted is None:
         return ()
-    with entry.located("figure"):
+    with entry.name_in_errors("figure"):
         figure = bank.figure(wanted.name)
         return tuple(draw_figure(figure, wanted.values, quiz=False, lang=lang) for lang in langs)
 
 
 def _typeset_sheet_formula(line: str, entry: FormulaEntry) -> TypesetMaths:
     """A line in one piece."""
-    with entry.located("lines"):
+    with entry.name_in_errors("lines"):
         signs, parts = parse_formula_line(line, entry.inside)
     node = typeset.relation_chain(signs, [part.node for part in parts])
     return TypesetMaths(node, line)

@@ -70,7 +70,7 @@ class Accounts:
             connection.execute(insert(INVITATION).values(hash=_hash_token(token), **row))
         return token
 
-    def invited(self, token: str) -> Invitation | None:
+    def find_valid_invitation(self, token: str) -> Invitation | None:
         """What a token invites to; None if it was used or withdrawn, or is too old."""
         with self.database.reading() as connection:
             return _find_invitation(connection, token)

@@ -20,8 +20,8 @@ from sqlalchemy import (
 from quizgen.core.errors import StoreError
 from quizgen.store.schema import METADATA
 
-NEWEST = "0001"
-"""The last step in ``migrations/versions``."""
+OLDEST, NEWEST = "0005", "0006"
+"""The first and the last step in ``migrations/versions``."""
 _VERSIONS = Table(
     "alembic_version",
     MetaData(),
@@ -37,7 +37,7 @@ def upgrade(connection: Connection) -> None:
     Raises
     ------
     StoreError
-        If a newer version has written it.
+        If a newer version has written it, or one from before the first step.
     """
     if connection.dialect.name == "postgresql":  # of two servers that start at once one waits
         connection.execute(text("SELECT pg_advisory_xact_lock(hashtext('quizgen'))"))
@@ -48,6 +48,11 @@ def upgrade(connection: Connection) -> None:
         return
     if found is not None and found > NEWEST:
         raise StoreError(f"the database is of a newer version ({found}, this one knows {NEWEST})")
+    if found is not None and found < OLDEST:
+        raise StoreError(
+            f"the database is too old ({found}, this version goes back to {OLDEST}): "
+            "save everything as a file with the version that wrote it, and take the file in here"
+        )
     from alembic import command  # loaded where something is to be done
     from alembic.config import Config
 

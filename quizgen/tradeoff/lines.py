@@ -41,7 +41,7 @@ def blur_disc(f: Column, N: Column, s: Column, z: Column) -> Column:
 def far_limit(f: Array, N: Array, c: Array, s: Array) -> Array:
     """Far limit of the depth of field; only the difference that cancels has twice the digits."""
     f2, N2, c2, s2 = as_pairs(f, N, c, s)
-    rest = (f2 * f2 - N2 * c2 * (s2 - f2)).rounded()
+    rest = (f2 * f2 - N2 * c2 * (s2 - f2)).round_to_double()
     return s * (f * f / rest)
 
 

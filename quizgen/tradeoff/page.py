@@ -217,7 +217,7 @@ def _format_wrong_keys(report: TradeoffReport, name: str) -> str:
 
 def describe_digits(report: TradeoffReport, lang: str) -> str:
     """How many printed formulas keep how many digits in an exam."""
-    kept, digits = report.kept
+    kept, digits = report.formulas_keeping_digits
     left = next(int(one.exam_digits) for one in report.sweeps if one.name == ITERATED)
     said: str = words(lang)["plot"]["sentence"]
     return said.format(kept=kept, count=len(report.sweeps), digits=digits, left=left, exams=EXAMS)

@@ -97,7 +97,9 @@ def measure_questions(bank: Bank) -> Questions:
     least = {name: [times[i].least for times in spent] for i, name in enumerate(systems)}
     costs = {name: _summarise_cost(seconds, least["float64"]) for name, seconds in least.items()}
     alone = in_turns(_ALONE, 10 * _RUNS)
-    return Questions(len(drawn), costs | {"rounded": costs["float64"]}, tuple(alone), recorded())
+    return Questions(
+        len(drawn), costs | {"rounded": costs["float64"]}, tuple(alone), load_recorded_counts()
+    )
 
 
 def _is_solved(drawn: Variant, system: str) -> bool:
@@ -111,7 +113,7 @@ def _is_solved(drawn: Variant, system: str) -> bool:
 
 def _prepare_solving(drawn: Variant, system: str) -> Callable[[], object]:
     way, chain = ARITHMETICS[system], drawn.template.chain
-    given = way.given({quantity: drawn.values[quantity] for quantity in chain.given})
+    given = way.convert_given({quantity: drawn.values[quantity] for quantity in chain.given})
     return partial(_solve_chain, way, chain, given)
 
 
@@ -126,6 +128,6 @@ def _summarise_cost(seconds: Sequence[float], doubles: Sequence[float]) -> Cost:
     return Cost(statistics.median(seconds), times, low, high, more)
 
 
-def recorded() -> Counted:
+def load_recorded_counts() -> Counted:
     """What was counted when it was last counted in full."""
     return decode_json((files("quizgen.tradeoff") / "counted.json").read_bytes(), Counted)

@@ -29,7 +29,7 @@ class TradeoffReport:
     seconds: float
 
     @property
-    def kept(self) -> tuple[int, int]:
+    def formulas_keeping_digits(self) -> tuple[int, int]:
         """Printed formulas that keep their digits in an exam: all but the worst, and how many."""
         worst = sorted(int(one.exam_digits) for one in self.sweeps)
         return len(worst) - 1, worst[1]

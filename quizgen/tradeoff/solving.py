@@ -39,7 +39,7 @@ class Arithmetic:
     enter: Callable[[Value], AnyNumber]
     leave: Callable[[AnyNumber], Value]
 
-    def given(self, values: Values) -> dict[str, AnyNumber]:
+    def convert_given(self, values: Values) -> dict[str, AnyNumber]:
         """What is given, as numbers of the system."""
         return {name: self.enter(value) for name, value in values.items()}
 
@@ -85,5 +85,5 @@ FAILURES = (QuizgenError, ZeroDivisionError, OverflowError, ValueError)
 def solve_in(drawn: Variant, name: str) -> Variant:
     """The same question, its values as an arithmetic gives them."""
     way, chain = ARITHMETICS[name], drawn.template.chain
-    given = way.given({quantity: drawn.values[quantity] for quantity in chain.given})
+    given = way.convert_given({quantity: drawn.values[quantity] for quantity in chain.given})
     return replace(drawn, values=way.values(way.run(chain, given)))

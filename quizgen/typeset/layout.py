@@ -163,7 +163,7 @@ class _Layout:
         if isinstance(expr, Sym):
             return self.leaf(expr.name)
         if isinstance(expr, Num):
-            return self.slashed(number(decimal(expr.value) if expr.decimal else expr.value))
+            return self.allow_slash(number(decimal(expr.value) if expr.decimal else expr.value))
         rule = _RULES.get(expr.op)
         if rule is None:
             raise RenderError(f"no way to write the operator {expr.op!r}")
@@ -175,9 +175,9 @@ class _Layout:
     def leaf(self, symbol: str) -> Node:
         """Print the drawn number of a symbol, or its name."""
         node = self.leaves.get(symbol)
-        return lay_out_name(symbol) if node is None else self.slashed(node)
+        return lay_out_name(symbol) if node is None else self.allow_slash(node)
 
-    def slashed(self, node: Node) -> Node:
+    def allow_slash(self, node: Node) -> Node:
         """Let a fraction of two numbers follow the style of the formula around it."""
         if self.inline and isinstance(node, Frac):
             return replace(node, inline=True)
@@ -189,7 +189,7 @@ class _Layout:
         """Exponents are set on one line."""
         return self.lay(expr) if self.inline else _Layout(self.leaves, inline=True).lay(expr)
 
-    def held(self, expr: Expr, level: int) -> Node:
+    def lay_out_bracketed(self, expr: Expr, level: int) -> Node:
         """Lay out, in brackets unless it holds together at ``level``."""
         return add_brackets(self.lay(expr), level)
 
@@ -208,7 +208,7 @@ def add_brackets(node: Node, level: int) -> Node:
 def _lay_out_sum(run: _Layout, args: tuple[Expr, ...]) -> Node:
     if not args:
         raise ValueError
-    items = [run.held(args[0], SUM)]
+    items = [run.lay_out_bracketed(args[0], SUM)]
     for arg in args[1:]:
         minus, term = split_sign(arg)
         items += (
@@ -223,7 +223,12 @@ def _lay_out_difference(run: _Layout, args: tuple[Expr, ...]) -> Node:
     first, second = args
     return MathRow(
         _flatten_rows(
-            [run.held(first, SUM), OperatorSign("-"), _lay_out_subtrahend(run, second)], SUM
+            [
+                run.lay_out_bracketed(first, SUM),
+                OperatorSign("-"),
+                _lay_out_subtrahend(run, second),
+            ],
+            SUM,
         ),
         SUM,
     )
@@ -252,7 +257,7 @@ def _has_leading_minus(node: Node) -> bool:
 
 def _lay_out_negative(run: _Layout, args: tuple[Expr, ...]) -> Node:
     (arg,) = args
-    return negative(run.held(arg, PRODUCT))
+    return negative(run.lay_out_bracketed(arg, PRODUCT))
 
 
 def split_sign(expr: Expr) -> tuple[bool, Expr]:
@@ -293,10 +298,10 @@ def _flatten_rows(items: list[Node], level: int) -> tuple[Node, ...]:
 
 def _lay_out_product(run: _Layout, args: tuple[Expr, ...]) -> Node:
     if args[0] in _MINUS_ONES and len(args) > 1:
-        return negative(run.held(_with_first(Call("mul", args), Num(_ONE)), PRODUCT))
-    items = [run.held(args[0], NEGATIVE)]
+        return negative(run.lay_out_bracketed(_with_first(Call("mul", args), Num(_ONE)), PRODUCT))
+    items = [run.lay_out_bracketed(args[0], NEGATIVE)]
     for arg in args[1:]:
-        factor = run.held(arg, PRODUCT)
+        factor = run.lay_out_bracketed(arg, PRODUCT)
         items += [needs_dot(items[-1], factor), factor]
     level = NEGATIVE if items[0].level == NEGATIVE else PRODUCT
     return MathRow(_flatten_rows(items, PRODUCT), level)
@@ -317,7 +322,7 @@ def _has_slash(node: Node) -> bool:
 
 
 def _lay_out_modulo(run: _Layout, args: tuple[Expr, ...]) -> Node:
-    left, right = (run.held(arg, FRACTION) for arg in args)
+    left, right = (run.lay_out_bracketed(arg, FRACTION) for arg in args)
     return MathRow((left, OperatorSign("mod"), right), MODULO)
 
 
@@ -377,7 +382,7 @@ def _make_function_rule(row: Operator) -> LayoutRule:
 
 def _make_relation_rule(sign: str) -> LayoutRule:
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
-        left, right = (run.held(arg, SUM) for arg in args)
+        left, right = (run.lay_out_bracketed(arg, SUM) for arg in args)
         return MathRow((left, OperatorSign(sign), right), RELATION)
 
     return rule
@@ -388,9 +393,9 @@ def _make_connective_rule(word: str) -> LayoutRule:
         between = _between_bounds(run, args) if word == "and" and len(args) == 2 else None
         if between is not None:
             return between
-        items = [run.held(args[0], RELATION)]
+        items = [run.lay_out_bracketed(args[0], RELATION)]
         for arg in args[1:]:
-            items += [ReaderWord(word), run.held(arg, RELATION)]
+            items += [ReaderWord(word), run.lay_out_bracketed(arg, RELATION)]
         return MathRow(tuple(items), WORDS)
 
     return rule
@@ -405,7 +410,7 @@ def _between_bounds(run: _Layout, args: tuple[Expr, ...]) -> Node | None:
         first, second = second, first
     if first[2] != second[1]:
         return None
-    parts = [run.held(expr, SUM) for expr in (first[1], first[2], second[2])]
+    parts = [run.lay_out_bracketed(expr, SUM) for expr in (first[1], first[2], second[2])]
     return MathRow(
         (parts[0], OperatorSign(first[0]), parts[1], OperatorSign(second[0]), parts[2]), RELATION
     )

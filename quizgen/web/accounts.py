@@ -151,7 +151,7 @@ async def sign_out(request: Request) -> Response:
 
 async def _find_invitation(request: Request) -> Invitation:
     key = request.query_params.get("key", "")
-    found = await run_in_threadpool(_get_accounts(request).invited, key)
+    found = await run_in_threadpool(_get_accounts(request).find_valid_invitation, key)
     if found is None:
         raise HTTPException(410)
     return found
@@ -269,10 +269,10 @@ async def invite(request: Request) -> Response:
     _require_manager(request)
     manages = bool(field_text(form, "manages"))
 
-    def made() -> Response:
+    def create_invitation() -> Response:
         return _render_people_page(request, _make_invitation_link(request, None, manages=manages))
 
-    return await run_in_threadpool(made)
+    return await run_in_threadpool(create_invitation)
 
 
 async def revoke_invitation(request: Request) -> Response:

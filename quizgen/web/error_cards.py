@@ -68,7 +68,7 @@ async def download_exam_cards(request: Request) -> Response:
 async def download_all_cards(request: Request) -> Response:
     """Cards of the latest that was practised and sat."""
 
-    def collected() -> ErrorCardsJob:
+    def collect_mistakes() -> ErrorCardsJob:
         site: ServerState = request.app.state.site
         learner = request.state.learner.id
         handed = [one for one in site.store.sittings.latest(learner) if one.handed is not None]
@@ -78,7 +78,7 @@ async def download_all_cards(request: Request) -> Response:
             request_language(request), sat, tuple(_iter_wrong_attempts(latest))[:PRACTISED]
         )
 
-    return await _send_cards(request, await run_in_threadpool(collected))
+    return await _send_cards(request, await run_in_threadpool(collect_mistakes))
 
 
 def _read_sitting(site: ServerState, sitting: ExamRecord) -> FinishedExam:

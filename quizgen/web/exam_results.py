@@ -138,12 +138,15 @@ class MarkPaper:
         for key, typed in zip(decode_json(self.keys, list[KeyQuestion]), self.typed, strict=True):
             marker = QuestionGrader(key, GradingOptions(self.lang))
             found.append(
-                [_sent(marker.grade_part(*one)) for one in zip(key.parts, typed, strict=True)]
+                [
+                    _strip_numbers(marker.grade_part(*one))
+                    for one in zip(key.parts, typed, strict=True)
+                ]
             )
         return pickle.dumps(found)
 
 
-def _sent(result: PartResult) -> PartResult:
+def _strip_numbers(result: PartResult) -> PartResult:
     """A result without the numbers that only the parts after it need."""
     return replace(result, verdict=_bare(result.verdict))
 

@@ -53,7 +53,7 @@ class ResultCache(Generic[K, V]):
         self._found.move_to_end(wanted)
         return self._found[wanted][0]
 
-    def put(self, wanted: K, found: V, size: int) -> None:
+    def store_result(self, wanted: K, found: V, size: int) -> None:
         """Keep something; what was not asked for the longest goes."""
         before = self._found.pop(wanted)[1] if wanted in self._found else 0
         self._found[wanted] = (found, size)
@@ -150,7 +150,7 @@ class WorkerPool:
             async with self._turns.turn(asker):
                 data = await asyncio.wrap_future(self._submit(wanted))
             found = decode_json(data, QuestionView) if isinstance(wanted, QuestionRequest) else data
-            self._kept.put(wanted, found, len(data))
+            self._kept.store_result(wanted, found, len(data))
             return found
         finally:
             del self._due[wanted]

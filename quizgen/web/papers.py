@@ -71,7 +71,7 @@ def pack(papers: dict[str, PaperView]) -> Packed:
         return name
 
     whole = {
-        lang: msgspec.Raw(msgspec.json.encode(_pictured(msgspec.to_builtins(paper), note)))
+        lang: msgspec.Raw(msgspec.json.encode(_replace_pictures(msgspec.to_builtins(paper), note)))
         for lang, paper in papers.items()
     }
     data = msgspec.json.encode(KeptPaper(FORMAT, quizgen.__version__, whole, figures))
@@ -86,18 +86,21 @@ def unpack(data: bytes, lang: str) -> PaperView:
     kept = decode_json(zlib.decompress(data), KeptPaper)
     raw = kept.papers.get(lang) or next(iter(kept.papers.values()))
     return convert(
-        _pictured(msgspec.json.decode(raw), lambda name: kept.figures.get(name, name)), PaperView
+        _replace_pictures(msgspec.json.decode(raw), lambda name: kept.figures.get(name, name)),
+        PaperView,
     )
 
 
-def _pictured(value: Any, other: Callable[[str], str]) -> Any:
+def _replace_pictures(value: Any, other: Callable[[str], str]) -> Any:
     """The same with something else in the place of each picture."""
     if isinstance(value, list):
-        return [_pictured(one, other) for one in value]
+        return [_replace_pictures(one, other) for one in value]
     if not isinstance(value, dict):
         return value
     return {
-        name: other(one) if name in PICTURES and isinstance(one, str) else _pictured(one, other)
+        name: other(one)
+        if name in PICTURES and isinstance(one, str)
+        else _replace_pictures(one, other)
         for name, one in value.items()
     }
 
@@ -144,7 +147,7 @@ class Papers:
         if found is None:
             data = await run_in_threadpool(self.store.sittings.paper, name)
             found = await run_in_threadpool(unpack, data, lang)
-            self._kept.put((name, lang), found, len(data) * 8)
+            self._kept.store_result((name, lang), found, len(data) * 8)
         return found
 
     async def _attach(self, sitting: ExamRecord) -> str:

@@ -117,7 +117,9 @@ class PasswordLimits:
         self.turns = FairQueue(AT_ONCE)
         """Of those whose passwords are hashed."""
 
-    def _counted(self, name: str, address: str, browser: str) -> list[tuple[Allowance, object]]:
+    def _list_allowances(
+        self, name: str, address: str, browser: str
+    ) -> list[tuple[Allowance, object]]:
         if browser:
             return [(self._of_browser, browser)]
         return [
@@ -137,7 +139,7 @@ class PasswordLimits:
         browser : str
             What tells a browser in which somebody of this name has signed in; empty for others.
         """
-        counted = self._counted(name, address, browser)
+        counted = self._list_allowances(name, address, browser)
         wait = max(allowance.seconds_to_wait(asker) for allowance, asker in counted)
         if not wait:
             for allowance, asker in counted:
@@ -146,5 +148,5 @@ class PasswordLimits:
 
     def count_right(self, name: str, address: str, browser: str) -> None:
         """Take back that a try counted as failed."""
-        for allowance, asker in self._counted(name, address, browser):
+        for allowance, asker in self._list_allowances(name, address, browser):
             allowance.give_back(asker)

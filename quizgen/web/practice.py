@@ -161,7 +161,7 @@ def _perform_action(
         place.progress.values = values
     elif action in {"right", "wrong"} and place.to_judge:
         place.task.self_mark(right=action == "right")
-    elif action == "solution" and not place.done:
+    elif action == "solution" and not place.is_finished:
         place.task.give_up()
         place.progress.values = values
     elif action in {"", "answer"}:

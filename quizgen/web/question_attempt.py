@@ -51,31 +51,33 @@ class AttemptPart:
         return self.part.field.id
 
     @property
-    def done(self) -> bool:
+    def is_finished(self) -> bool:
         """Whether it is answered, given up or skipped."""
         return self.task.outcome is not None
 
     @property
-    def explained(self) -> Verdict | None:
+    def explained_verdict(self) -> Verdict | None:
         """The verdict with its message: for pages, since an answer sent is only stored."""
         return self.task.explain_verdict(self.verdict) if self.verdict else None
 
     @property
     def unread(self) -> ReadErrorView | None:
         """Why it could not be read, if it could not."""
-        if self.explained is None or not self.progress.asked_back:
+        if self.explained_verdict is None or not self.progress.asked_back:
             return None
-        return explain_read_error(self.part.field, self.progress.values, self.explained, self._lang)
+        return explain_read_error(
+            self.part.field, self.progress.values, self.explained_verdict, self._lang
+        )
 
     @property
-    def left(self) -> int:
+    def tries_left(self) -> int:
         """Tries that are left."""
         return TRIES - self.task.state.tries
 
     @property
     def to_judge(self) -> bool:
         """Whether the learner has to say whether it was right."""
-        return not self.done and self.verdict is not None and self.verdict.needs_self_marking
+        return not self.is_finished and self.verdict is not None and self.verdict.needs_self_marking
 
 
 class AttemptInBrowser:
@@ -112,9 +114,9 @@ class AttemptInBrowser:
         return next((place for place in self.places if place.name == name), None)
 
     @property
-    def finished(self) -> bool:
+    def is_finished(self) -> bool:
         """Whether every part is done."""
-        return all(place.done for place in self.places)
+        return all(place.is_finished for place in self.places)
 
     def answer(self, place: AttemptPart, values: list[str]) -> None:
         """Mark what stands in the fields of a part, unless that is nothing, or it is done.
@@ -123,7 +125,7 @@ class AttemptInBrowser:
         """
         typed = join_fields(place.part.field.control, values, place.part.field.marks)
         place.progress.values = values
-        if not typed or place.done:
+        if not typed or place.is_finished:
             return
         if not _is_fully_filled(place.part, values):
             place.verdict, place.progress.asked_back = HALF, typed
@@ -135,12 +137,12 @@ class AttemptInBrowser:
     def save_state(self) -> tuple[OutcomeRecord, ...]:
         """Write into the attempt how far the question has got; say which parts have just ended."""
         before = self.attempt.state.get("ended", [])
-        ended = [place for place in self.places if place.done]
+        ended = [place for place in self.places if place.is_finished]
         self.attempt.state = {
             "parts": {p.name: msgspec.to_builtins(p.progress) for p in self.places},
             "ended": [place.name for place in ended],
         }
-        if self.finished and self.attempt.ended is None:
+        if self.is_finished and self.attempt.ended is None:
             self.attempt.ended = time.time()
         return tuple(self._build_review_event(place) for place in ended if place.name not in before)
 

@@ -68,7 +68,7 @@ class SecurityMiddleware:
         state = scope.setdefault("state", {})
         state["request_id"], began, begun = secrets.token_hex(4), time.monotonic(), False
 
-        async def guarded(message: Message) -> None:
+        async def send_guarded(message: Message) -> None:
             nonlocal begun
             if message["type"] == "http.response.start":
                 begun = True
@@ -83,10 +83,10 @@ class SecurityMiddleware:
 
         refused = self._find_refusal(scope)
         if refused is not None:
-            await refused(scope, receive, guarded)
+            await refused(scope, receive, send_guarded)
             return
         try:
-            await self.app(scope, _Measured(receive, body_limit(scope)), guarded)
+            await self.app(scope, _Measured(receive, body_limit(scope)), send_guarded)
         except ClientDisconnect:
             return
         except Exception as error:
@@ -95,7 +95,7 @@ class SecurityMiddleware:
                 _log_failure(scope, 500, time.monotonic() - began)
                 raise
             crash = plain_error("crash", 500, state["request_id"])
-            await crash(scope, receive, guarded)
+            await crash(scope, receive, send_guarded)
 
     def _find_refusal(self, scope: Scope) -> Response | None:
         headers = Headers(scope=scope)

@@ -113,7 +113,7 @@ def page_response(request: Request, layout: str, status: int = 200, **content: o
 def relative_time(now: float, lang: str) -> Callable[..., str]:
     """Says in words when something was or will be."""
 
-    def told(moment: float | None, *, ahead: bool = False) -> str:
+    def format_moment(moment: float | None, *, ahead: bool = False) -> str:
         if moment is None:
             return "" if ahead else translate_page(lang, "progress.never")
         if ahead and moment <= now:
@@ -128,7 +128,7 @@ def relative_time(now: float, lang: str) -> Callable[..., str]:
             count=abs(days),
         )
 
-    return told
+    return format_moment
 
 
 def redirect(address: str) -> Response:

@@ -181,7 +181,9 @@ def test_a_turning_thing_at_the_border_comes_in_from_outside():
     assert (
         np.abs(
             composite_layers((turned,))
-            - layers._turned([colour], detail_regions.full_box((80, 90)), layer.motion, [0.7])[0]
+            - layers._turn_images([colour], detail_regions.full_box((80, 90)), layer.motion, [0.7])[
+                0
+            ]
         ).max()
         < 1e-6
     )

@@ -33,7 +33,7 @@ A, B, C, D = "a-question/a", "a-question/b", "a-question/c", "another"
 def test_without_a_ruling_the_checker_marks_and_people_are_asked():
     found, whole = marks(**{"1a": "4", "1b": "more light", "1c": "A, C", "2": "soon"})
     assert found == {A: 2.0, B: None, C: 1.0, D: None}
-    assert (whole.marks, whole.points, whole.undecided) == (3.0, 7.0, 2)
+    assert (whole.marks, whole.points, whole.undecided_count) == (3.0, 7.0, 2)
     assert [part.chosen for part in whole.parts] == [(), (), ("one", "three"), ()]
 
 

@@ -161,7 +161,9 @@ def keys() -> tuple[dict, ...]:
 
 def use_answers(folder: Path, key: Path, form: Path) -> None:
     answers = read_filled_form(form)
-    result = grade_paper(read_answer_key(key), answers.typed(), decimal=answers.student.decimal)
+    result = grade_paper(
+        read_answer_key(key), answers.list_typed_texts(), decimal=answers.student.decimal
+    )
     list(format_table(result, "en", 80, paint=False))
     write_class_csv([(str(form), str(answers.student.name), "", result)])
     json.dumps(result.as_json()).encode()

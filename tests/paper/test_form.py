@@ -70,7 +70,7 @@ def test_the_form_of_a_spreadsheet_keeps_code_paper_and_name(sheet, form):
     assert (found.code, found.paper) == (model.code, model.paper)
     assert found.student.lang == model.student.lang == "en"
     assert (found.student.name, found.student.matriculation) == ("Ayesha", "0815")
-    assert found.typed() == {"1": "(4; 6)"}
+    assert found.list_typed_texts() == {"1": "(4; 6)"}
     assert has_answers(sheet)
 
 
@@ -99,13 +99,13 @@ def filled(sheet, **cells):
 def test_what_spreadsheets_write_is_read(tmp_path, data):
     path = tmp_path / "class.CSV"
     path.write_bytes(data)
-    assert read_filled_form(path).typed() == {"1a": "0,2", "2": "yes"}
+    assert read_filled_form(path).list_typed_texts() == {"1a": "0,2", "2": "yes"}
 
 
 def test_a_cell_may_hold_lines_and_quotes(tmp_path):
     path = tmp_path / "a.csv"
     path.write_bytes(b'part,answer\n1,"print(""x"")\nprint(2)"\n')
-    assert read_filled_form(path).typed() == {"1": 'print("x")\nprint(2)'}
+    assert read_filled_form(path).list_typed_texts() == {"1": 'print("x")\nprint(2)'}
 
 
 @pytest.mark.parametrize(
@@ -137,14 +137,14 @@ def test_a_form_is_known_by_what_it_holds(form, tmp_path, name):
     renamed = tmp_path / name
     text = form.read_text("utf-8").replace('"1" = ""', '"1" = "4"')
     renamed.write_text(text, "utf-8")
-    assert read_filled_form(renamed).typed() == {"1": "4"}
+    assert read_filled_form(renamed).list_typed_texts() == {"1": "4"}
 
 
 def test_blanks_are_no_answer_and_a_form_reads_back(form):
     text = form.read_text("utf-8").replace('"1" = ""', '"1" = "  "')
     form.write_text(text, "utf-8")
     assert not has_answers(form)
-    assert read_filled_form(form).typed() == {"1": "  "}
+    assert read_filled_form(form).list_typed_texts() == {"1": "  "}
 
 
 @pytest.mark.parametrize(
@@ -166,7 +166,7 @@ def test_latex_between_quotes_is_read_as_typed(tmp_path, line, meant):
     path = tmp_path / "a.toml"
     path.write_text(f"[answers]\n{line}\n", "utf-8")
     if meant is not None:
-        assert read_filled_form(path).typed() == {"1": meant}
+        assert read_filled_form(path).list_typed_texts() == {"1": meant}
         return
     with pytest.raises(KeyFileError, match=r"line 2.*between straight quotes"):
         read_filled_form(path)

@@ -47,7 +47,7 @@ def wrong(spec):
 def numeric_task():
     """The first task that a number or a point answers, and its spec."""
     held = session(PracticeRequest(count=50, topic="projection", tier="A"))
-    while not held.finished:
+    while not held.is_finished:
         turn = held.current_question()
         for task, spec in zip(turn.tasks, key_of(turn, held.state).specs, strict=True):
             if kind_of(task) in {"point", "quantity"} and task.solved.lines:
@@ -235,7 +235,7 @@ def test_a_kept_session_goes_on_where_it_stopped(tmp_path):
     turn = held.current_question()
     for task in turn.tasks:
         task.give_up()
-    assert turn.finished
+    assert turn.is_finished
     held.finish(turn)
     shelf.save(held.state)
     state = shelf.load(held.state.wish)
@@ -329,14 +329,14 @@ def test_the_summary_counts_by_topic():
         PartOutcome("optics", right=False, first=False),
     ]
     held = Session(builtin_bank(), SessionState(WISH, "s", 2, outcomes))
-    assert held.finished
+    assert held.is_finished
     found = [(row.topic, row.count, row.right, row.later) for row in held.summary()]
     assert found == [("colour", 1, 0, 1), ("optics", 2, 1, 0)]
 
 
 def test_a_wish_that_nothing_fits_is_finished_at_once():
     held = session(PracticeRequest(topic="cooking"))
-    assert held.finished
+    assert held.is_finished
     assert held.summary() == ()
 
 

@@ -24,7 +24,7 @@ from quizgen.tradeoff.page import (
     whole_page,
     write_page,
 )
-from quizgen.tradeoff.questions import recorded
+from quizgen.tradeoff.questions import load_recorded_counts
 from quizgen.tradeoff.texts import words
 
 SHOWN = [formula.name for formula in FORMULAS if formula.shown]
@@ -56,7 +56,7 @@ def test_the_sentence_on_exams_is_what_python_and_mpmath_find(english):
 
 
 def test_the_sentence_on_questions_is_what_was_counted(english):
-    counted = recorded()
+    counted = load_recorded_counts()
     wrong = counted.wrong["rounded"]
     assert (
         f"would have got {sum(wrong.values())} of 10\u202f000 questions wrong, "

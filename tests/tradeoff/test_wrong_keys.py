@@ -15,7 +15,7 @@ from quizgen.bank.variant import draw_variant
 from quizgen.maths.number_systems import exact_system, float64_system
 from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
-from quizgen.tradeoff.questions import Counted, measure_questions, recorded
+from quizgen.tradeoff.questions import Counted, load_recorded_counts, measure_questions
 from quizgen.tradeoff.rivals import in_turns
 from quizgen.tradeoff.solving import ARITHMETICS
 
@@ -54,7 +54,7 @@ def test_nobody_marks_by_equality_with_doubles():
 
 
 def test_a_careful_engine_gets_one_template_of_all_wrong():
-    counted = recorded()
+    counted = load_recorded_counts()
     assert counted.drawn == ROUND == 10_000
     assert list(counted.wrong["rounded"]) == [THIRDS]
     assert counted.questions("exact") == 0
@@ -62,7 +62,7 @@ def test_a_careful_engine_gets_one_template_of_all_wrong():
 
 def test_no_template_of_a_sample_is_wrong_that_was_right_when_it_was_counted():
     """One question of each template; after a failure: ``uv run python tools/do.py counts``."""
-    counted, bank = recorded(), builtin_bank()
+    counted, bank = load_recorded_counts(), builtin_bank()
     assert counted.templates == len(bank.template_paths)
     for name in bank.template_paths:
         template = bank.template(name)
@@ -74,7 +74,7 @@ def test_no_template_of_a_sample_is_wrong_that_was_right_when_it_was_counted():
 
 @pytest.mark.slow
 def test_the_counts_are_those_of_today():
-    assert count_wrong(builtin_bank()).wrong == recorded().wrong
+    assert count_wrong(builtin_bank()).wrong == load_recorded_counts().wrong
 
 
 def test_counts_are_kept_by_template():

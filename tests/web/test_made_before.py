@@ -95,15 +95,15 @@ def keys(kept: ResultCache) -> list[str]:
 
 def test_the_latest_are_kept_as_far_as_there_is_room():
     kept = ResultCache(10)
-    kept.put("a", b"1", 4)
-    kept.put("b", b"2", 4)
+    kept.store_result("a", b"1", 4)
+    kept.store_result("b", b"2", 4)
     assert keys(kept) == ["a", "b"]
     kept.get("a")
-    kept.put("c", b"3", 4)
+    kept.store_result("c", b"3", 4)
     assert keys(kept) == ["a", "c"], "b was not asked for the longest"
-    kept.put("c", b"4", 6)
+    kept.store_result("c", b"4", 6)
     assert keys(kept) == ["a", "c"], "in place of the other one"
-    kept.put("d", b"5", 11)
+    kept.store_result("d", b"5", 11)
     assert keys(kept) == []
-    kept.put("a", b"6", 10)
+    kept.store_result("a", b"6", 10)
     assert keys(kept) == ["a"]

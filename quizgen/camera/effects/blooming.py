@@ -71,5 +71,5 @@ EFFECT = Effect(
     run=on_composite(run),
     omission_bound=omission_bound,
     carry_error=carry_error,
-    range_after=lambda signal, _: signal.clipped(-math.inf, 1.0),
+    range_after=lambda signal, _: signal.clip_range(-math.inf, 1.0),
 )

@@ -102,13 +102,13 @@ def operation(view: View) -> TileOperation:
     """Mix the colours of every pixel."""
     weights = _mixture(view).astype(view.precision)
 
-    def mixed(part: Image, _: Tile) -> None:
+    def mix_channels(part: Image, _: Tile) -> None:
         scene = [part[channel::3].copy() for channel in range(3)]
         for channel, row in enumerate(weights):
             terms = [colour * weight for colour, weight in zip(scene, row, strict=True) if weight]
             part[channel::3] = sum(terms[1:], terms[0])
 
-    return mixed
+    return mix_channels
 
 
 def omission_bound(signal: Signal, view: View) -> float:
@@ -122,7 +122,7 @@ def omission_bound(signal: Signal, view: View) -> float:
 def range_after(signal: Signal, view: View) -> Signal:
     """Between the smallest and the largest sum of a row."""
     rows = _mixture(view).sum(axis=1)
-    return signal.scaled(float(rows.min()), float(rows.max()))
+    return signal.scale_range(float(rows.min()), float(rows.max()))
 
 
 EFFECT = Effect(

@@ -66,7 +66,7 @@ def operation(view: View) -> TileOperation:
     signals = counts * (1.0 / electrons_at_white(view))
     first = int(np.searchsorted(signals, 0.0, side="right"))
 
-    def darkened(part: Image, tile: Tile) -> None:
+    def add_dark_current(part: Image, tile: Tile) -> None:
         if first <= _MOSTLY_NONE:
             part += charge.draw_from_table(signals, tile.number, part.size)
         elif first < WORDS:
@@ -75,7 +75,7 @@ def operation(view: View) -> TileOperation:
         if share:
             part.reshape(-1, 3)[stuck.draw_uniform(tile.number, part.size // 3) < share] = 1.0
 
-    return darkened
+    return add_dark_current
 
 
 def _most(view: View) -> float:
@@ -91,7 +91,7 @@ def omission_bound(signal: Signal, view: View) -> float:
 
 def range_after(signal: Signal, view: View) -> Signal:
     """Brighter: no charge makes anything darker, but a hot pixel what is beyond the full well."""
-    bright = signal.widened(0.0, _most(view))
+    bright = signal.with_margins(0.0, _most(view))
     return bright.including(1.0, 1.0) if view.camera[HOT_PIXELS] else bright
 
 

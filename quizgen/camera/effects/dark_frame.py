@@ -33,7 +33,7 @@ def _mean(view: View) -> float:
     return (fixed_pattern.pedestal(view) + dark) * gain_factor(view)
 
 
-def _left(view: View) -> float:
+def _remaining_noise(view: View) -> float:
     """Noise left in the mean of the dark frames: that of one, over the root of their number.
 
     A mean of counts is taken as normal; with one frame of few electrons it is not quite.
@@ -46,7 +46,7 @@ def _left(view: View) -> float:
 def master_dark(shape: tuple[int, ...], view: View) -> Image:
     """Mean of the dark frames, shape (H, W, 3)."""
     dark = dark_electrons(view) / electrons_at_white(view)
-    left = add_normal_noise(_left(view), effect_random(view, "dark frame"))
+    left = add_normal_noise(_remaining_noise(view), effect_random(view, "dark frame"))
     works = [fixed_pattern.operation(view), multiply_by(gain_factor(view)), left]
     even = np.full((*shape[:2], 3), dark, view.precision)
     return apply_tilewise(even, works, into=even)[0]
@@ -60,13 +60,13 @@ def run(image: Image, view: View) -> Image:
 
 def _farthest(view: View) -> float:
     """How far the mean of the frames is from its own mean, 1 = white."""
-    return fixed_pattern.farthest(view) * gain_factor(view) + FARTHEST * _left(view)
+    return fixed_pattern.farthest(view) * gain_factor(view) + FARTHEST * _remaining_noise(view)
 
 
 def range_after(signal: Signal, view: View) -> Signal:
     """Darker; pattern and what noise the frames have left are spread."""
     far, mean = _farthest(view), _mean(view)
-    return signal.widened(far + mean, far - mean)
+    return signal.with_margins(far + mean, far - mean)
 
 
 EFFECT = Effect(

@@ -128,7 +128,7 @@ def source_positions(view: View, box: PixelBox = (slice(None), slice(None))) -> 
     )
     if view.width * view.height > _KEPT:
         return _map(lens, rows, columns)
-    x, y = _kept(lens)
+    x, y = _compute_whole_map(lens)
     return x[box], y[box]
 
 
@@ -140,7 +140,7 @@ _Lens = tuple[int, int, float, float, float, float, Precision]
 
 
 @lru_cache(maxsize=4)
-def _kept(lens: _Lens) -> tuple[Image, Image]:
+def _compute_whole_map(lens: _Lens) -> tuple[Image, Image]:
     return _map(lens, range(lens[1]), range(lens[0]))
 
 

@@ -38,12 +38,12 @@ def operation(view: View) -> TileOperation:
     sigma = view.camera[FIXED_PATTERN] / electrons_at_white(view)
     spread, bias = add_normal_noise(sigma, effect_random(camera, "fixed pattern")), pedestal(view)
 
-    def lifted(part: Image, tile: Tile) -> None:
+    def add_pattern(part: Image, tile: Tile) -> None:
         part += bias
         if sigma:
             spread(part, tile)
 
-    return lifted
+    return add_pattern
 
 
 def farthest(view: View) -> float:
@@ -53,7 +53,7 @@ def farthest(view: View) -> float:
 
 def range_after(signal: Signal, view: View) -> Signal:
     """Brighter by the pedestal, and spread."""
-    return signal.widened(farthest(view) - pedestal(view), farthest(view) + pedestal(view))
+    return signal.with_margins(farthest(view) - pedestal(view), farthest(view) + pedestal(view))
 
 
 EFFECT = Effect(

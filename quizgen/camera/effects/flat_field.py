@@ -38,7 +38,7 @@ EFFECT = Effect(
     run=PointByPoint(operation),
     omission_bound=lambda signal, view: (_most(view) - 1.0) * signal.size,
     carry_error=lambda error, _, view: error * _most(view),
-    range_after=lambda signal, view: signal.scaled(1.0 / _most(view), _most(view)),
+    range_after=lambda signal, view: signal.scale_range(1.0 / _most(view), _most(view)),
     size=EffectSize(
         lambda view: 100.0 * (_most(view) - 1.0),
         "brighten the corners by {:.3g} % against the centre",

@@ -28,5 +28,5 @@ EFFECT = Effect(
     is_present=lambda view: view.camera[FULL_WELL] is not None,
     run=PointByPoint(operation),
     omission_bound=lambda signal, _: signal.outside(-math.inf, 1.0),
-    range_after=lambda signal, _: signal.clipped(-math.inf, 1.0),
+    range_after=lambda signal, _: signal.clip_range(-math.inf, 1.0),
 )

@@ -43,7 +43,7 @@ def make_gain_effect(
         run=PointByPoint(lambda view: multiply_by(factor(view))),
         omission_bound=lambda signal, view: abs(factor(view) - 1.0) * signal.size,
         carry_error=lambda error, _, view: error * factor(view),
-        range_after=lambda signal, view: signal.scaled(factor(view), factor(view)),
+        range_after=lambda signal, view: signal.scale_range(factor(view), factor(view)),
         size=EffectSize(factor, "make the picture {:.3g} times as bright"),
         always="brightness",
     )

@@ -62,7 +62,7 @@ def range_after(signal: Signal, view: View) -> Signal:
     """Encoded."""
     gamma = view.camera[GAMMA]
     ends = encode_value(signal.low, gamma), encode_value(signal.high, gamma)
-    return Signal(*ends).widened(CURVE_ERROR, CURVE_ERROR)
+    return Signal(*ends).with_margins(CURVE_ERROR, CURVE_ERROR)
 
 
 EFFECT = Effect(

@@ -53,7 +53,9 @@ EFFECT = Effect(
     is_present=lambda view: view.camera[GAUSSIAN_NOISE] > 0.0,
     run=PointByPoint(operation),
     omission_bound=lambda signal, view: signal.outside(0.0, 1.0) + _far(view),
-    range_after=lambda signal, view: signal.widened(_far(view), _far(view)).clipped(0.0, 1.0),
+    range_after=lambda signal, view: signal.with_margins(_far(view), _far(view)).clip_range(
+        0.0, 1.0
+    ),
     size=EffectSize(
         lambda view: 255.0 * view.camera[GAUSSIAN_NOISE], "add noise of {:.3g} grey levels", 2.0
     ),

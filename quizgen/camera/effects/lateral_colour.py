@@ -40,10 +40,10 @@ def operation(layer: Layer, view: View) -> Layer:
         cover = np.broadcast_to(layer.cover, layer.colour.shape)
         layer = replace(layer, cover=cover, own=False)
 
-    def split(images: list[Image], box: PixelBox) -> list[Image]:
+    def split_colours(images: list[Image], box: PixelBox) -> list[Image]:
         return [_magnify(image, view, box) for image in images]
 
-    return replace_regions(layer, where, split)
+    return replace_regions(layer, where, split_colours)
 
 
 def _magnify(image: Image, view: View, box: PixelBox) -> Image:

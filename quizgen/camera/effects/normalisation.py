@@ -51,13 +51,13 @@ def operation(view: View) -> TileOperation:
     """`stretch_range` with the camera's limits."""
     ends = _ends(view)
 
-    def stretched(part: Image, _: Tile) -> None:
+    def stretch_values(part: Image, _: Tile) -> None:
         part[...] = stretch_range(part, *ends)
 
-    return stretched
+    return stretch_values
 
 
-def _normalised(value: float, view: View) -> float:
+def _stretch_number(value: float, view: View) -> float:
     """`stretch_range` of one number."""
     low, high, new_low, new_high = _ends(view)
     return new_low + (new_high - new_low) * min(max((value - low) / (high - low), 0.0), 1.0)
@@ -67,7 +67,7 @@ def omission_bound(signal: Signal, view: View) -> float:
     """Largest at an end of the range or where clipping starts."""
     ends = (signal.low, signal.high, _ends(view)[0], _ends(view)[1])
     inside = [value for value in ends if signal.low <= value <= signal.high]
-    return max(abs(_normalised(value, view) - value) for value in inside)
+    return max(abs(_stretch_number(value, view) - value) for value in inside)
 
 
 def carry_error(error: float, signal: Signal, view: View) -> float:
@@ -78,7 +78,7 @@ def carry_error(error: float, signal: Signal, view: View) -> float:
 
 def range_after(signal: Signal, view: View) -> Signal:
     """Stretched and clipped."""
-    ends = _normalised(signal.low, view), _normalised(signal.high, view)
+    ends = _stretch_number(signal.low, view), _stretch_number(signal.high, view)
     return Signal(min(ends), max(ends))
 
 

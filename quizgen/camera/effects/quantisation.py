@@ -25,14 +25,14 @@ def operation(view: View) -> TileOperation:
     """Clip to [0, 1] and round to the converter's codes, halves upward."""
     top = float(_largest_code(view))
 
-    def coded(part: Image, _: Tile) -> None:
+    def encode_values(part: Image, _: Tile) -> None:
         part *= top
         part += 0.5
         np.floor(part, out=part)
         np.clip(part, 0.0, top, out=part)
         part /= top
 
-    return coded
+    return encode_values
 
 
 def _step(view: View) -> float:
@@ -49,6 +49,8 @@ EFFECT = Effect(
     omission_bound=lambda signal, view: _step(view) / 2.0 + signal.outside(0.0, 1.0),
     # any difference may become a whole code
     carry_error=lambda error, _, view: math.ceil(error / _step(view) - 1e-9) * _step(view),
-    range_after=lambda signal, view: signal.widened(_step(view) / 2, _step(view) / 2).clipped(0, 1),
+    range_after=lambda signal, view: signal.with_margins(
+        _step(view) / 2, _step(view) / 2
+    ).clip_range(0, 1),
     size=EffectSize(lambda view: _largest_code(view) + 1.0, "leave {:.5g} levels"),
 )

@@ -36,7 +36,7 @@ EFFECT = Effect(
     is_present=lambda view: view.camera[READ_NOISE] > 0.0,
     run=PointByPoint(operation),
     omission_bound=lambda _, view: farthest(view),
-    range_after=lambda signal, view: signal.widened(farthest(view), farthest(view)),
+    range_after=lambda signal, view: signal.with_margins(farthest(view), farthest(view)),
     size=EffectSize(lambda view: view.camera[READ_NOISE], "add noise of {:.3g} electrons"),
     speckles=True,
 )

@@ -46,7 +46,7 @@ def operation(layer: Layer, view: View) -> Layer:
     if not across and not down:
         return layer
 
-    def sheared(images: list[Image], box: PixelBox) -> list[Image]:
+    def shear_rows(images: list[Image], box: PixelBox) -> list[Image]:
         late = times[box[0]]
         x = np.arange(view.width)[None, box[1]] - across * late
         y = np.arange(view.height)[box[0], None] - down * late + np.zeros_like(x)
@@ -55,7 +55,7 @@ def operation(layer: Layer, view: View) -> Layer:
 
     latest = float(times[-1, 0])
     far = abs(across) * latest, abs(down) * latest
-    return replace_regions(layer, sampled_regions(layer, far), sheared)
+    return replace_regions(layer, sampled_regions(layer, far), shear_rows)
 
 
 def _near(positions: Field, length: int, view: View) -> Image:

@@ -29,7 +29,7 @@ def operation(view: View) -> TileOperation:
     source, well = effect_random(view, "shot noise"), electrons_at_white(view)
     to_electrons, to_signal = float(well), 1.0 / well
 
-    def counted(part: Image, tile: Tile) -> None:
+    def count_photons(part: Image, tile: Tile) -> None:
         np.clip(part, 0.0, math.inf, out=part)
         part *= to_electrons
         counts = poisson_quantiles(
@@ -37,7 +37,7 @@ def operation(view: View) -> TileOperation:
         )
         np.multiply(counts, to_signal, out=part)
 
-    return counted
+    return count_photons
 
 
 def omission_bound(signal: Signal, view: View) -> float:

@@ -23,7 +23,7 @@ def run(image: Image, view: View) -> Image:
 def range_after(signal: Signal, view: View) -> Signal:
     """Brighter by a share of the column's mean."""
     share = view.camera[SMEAR]
-    return signal.widened(share * max(-signal.low, 0.0), share * max(signal.high, 0.0))
+    return signal.with_margins(share * max(-signal.low, 0.0), share * max(signal.high, 0.0))
 
 
 EFFECT = Effect(

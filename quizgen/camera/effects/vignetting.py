@@ -95,7 +95,7 @@ EFFECT = Effect(
     is_present=is_present,
     run=PointByPoint(operation),
     omission_bound=lambda signal, view: (1.0 - corner_falloff(view) + 1e-6) * signal.size,
-    range_after=lambda signal, view: signal.scaled(corner_falloff(view) * (1.0 - 1e-6), 1.0),
+    range_after=lambda signal, view: signal.scale_range(corner_falloff(view) * (1.0 - 1e-6), 1.0),
     size=EffectSize(
         lambda view: 100.0 * (1.0 - corner_falloff(view)), "darken the corners by {:.3g} %", 5.0
     ),

@@ -24,10 +24,10 @@ def operation(view: View) -> TileOperation:
     """Multiply the channels by their gains."""
     gains = np.tile(np.asarray(view.camera[WHITE_BALANCE], view.precision), TILE_VALUES // 3)
 
-    def balanced(part: Image, _: Tile) -> None:
+    def balance_channels(part: Image, _: Tile) -> None:
         part *= gains[: part.size]
 
-    return balanced
+    return balance_channels
 
 
 def omission_bound(signal: Signal, view: View) -> float:
@@ -44,7 +44,7 @@ def carry_error(error: float, signal: Signal, view: View) -> float:
 def range_after(signal: Signal, view: View) -> Signal:
     """Scaled by gains between the smallest and the largest."""
     gains = view.camera[WHITE_BALANCE]
-    return signal.scaled(min(gains), max(gains))
+    return signal.scale_range(min(gains), max(gains))
 
 
 EFFECT = Effect(

@@ -33,11 +33,11 @@ _numpy_only: ContextVar[bool] = ContextVar("numpy only", default=False)
 
 def load_opencv() -> ModuleType | None:
     """OpenCV if it can be imported and may be used here, else None."""
-    return None if _numpy_only.get() else _imported()
+    return None if _numpy_only.get() else _import_opencv()
 
 
 @cache
-def _imported() -> ModuleType | None:
+def _import_opencv() -> ModuleType | None:
     try:
         import cv2
     except ImportError:
@@ -82,7 +82,7 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
         Odd-sized, non-negative.
     """
     cv2 = load_opencv()
-    kernel = _folded(_folded(kernel, image.shape[0]).T, image.shape[1]).T
+    kernel = _fold_kernel(_fold_kernel(kernel, image.shape[0]).T, image.shape[1]).T
     if kernel.size == 1:
         return image
     if cv2 is not None and is_direct_sum_faster(kernel):
@@ -94,7 +94,7 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
     return _convolve_by_fourier(image, kernel)
 
 
-def _folded(kernel: NDArray[np.float64], length: int) -> NDArray[np.float64]:
+def _fold_kernel(kernel: NDArray[np.float64], length: int) -> NDArray[np.float64]:
     """A kernel no higher than a picture can show: rows beyond its edge all read the edge."""
     beyond = kernel.shape[0] // 2 - (length - 1)
     if beyond <= 0:
@@ -140,7 +140,7 @@ def _by_slabs(cv2: ModuleType, rows: Image, kernel: NDArray[np.float64], count: 
     return total
 
 
-def _padded(image: Image, kernel: NDArray[np.float64]) -> Image:
+def _pad_edges(image: Image, kernel: NDArray[np.float64]) -> Image:
     height, width = image.shape[:2]
     rows, columns = (side // 2 for side in kernel.shape)
     wide = np.empty((height + 2 * rows, width + 2 * columns, image.shape[2]), image.dtype)
@@ -155,7 +155,7 @@ def _padded(image: Image, kernel: NDArray[np.float64]) -> Image:
 def _convolve_by_shifts(image: Image, kernel: NDArray[np.float64]) -> Image:
     """A shift is a distance along all values in a row, which is faster than row by row."""
     height, width, channels = image.shape
-    wide = _padded(image, kernel)
+    wide = _pad_edges(image, kernel)
     flat, line = wide.reshape(-1), wide.shape[1] * channels
     result = np.zeros((height, *wide.shape[1:]), image.dtype)
     total = result.reshape(-1)[: height * line - (wide.shape[1] - width) * channels]
@@ -170,7 +170,7 @@ def _convolve_by_shifts(image: Image, kernel: NDArray[np.float64]) -> Image:
 
 def _convolve_by_fourier(image: Image, kernel: NDArray[np.float64]) -> Image:
     """Double precision, so that rounding differs between machines only below one part in 1e12."""
-    wide, result = _padded(image, kernel), np.empty_like(image)
+    wide, result = _pad_edges(image, kernel), np.empty_like(image)
     shape = tuple(_smooth(side) for side in wide.shape[:2])
     spectrum = np.fft.rfft2(kernel, shape)
     rows, columns = (side - 1 for side in kernel.shape)
@@ -217,7 +217,9 @@ def sample_bilinear(image: Image, x: Image, y: Image) -> Image:
     return result
 
 
-def _split(position: Image, length: int) -> tuple[NDArray[np.intp], NDArray[np.intp], Image]:
+def _split_position(
+    position: Image, length: int
+) -> tuple[NDArray[np.intp], NDArray[np.intp], Image]:
     position = np.clip(position, 0, length - 1)
     first = position.astype(np.intp)
     return first, np.minimum(first + 1, length - 1), (position - first).astype(position.dtype)
@@ -225,8 +227,8 @@ def _split(position: Image, length: int) -> tuple[NDArray[np.intp], NDArray[np.i
 
 def _sample_rows(image: Image, x: Image, y: Image) -> Image:
     height, width, channels = image.shape
-    left, right, across = _split(x, width)
-    top, bottom, down = _split(y, height)
+    left, right, across = _split_position(x, width)
+    top, bottom, down = _split_position(y, height)
     upper, lower = (row * width * channels for row in (top, bottom))
     left, right = left * channels, right * channels
     rows = (upper, lower) if down.any() else (upper,)
@@ -236,12 +238,14 @@ def _sample_rows(image: Image, x: Image, y: Image) -> Image:
     found = np.empty((*x.shape, channels), image.dtype)
     for channel in range(channels):  # far faster than NumPy's loops over three values
         plane = flat[channel:]
-        lines = [_mixed([plane.take(corner) for corner in row], across) for row in corners]
-        found[..., channel] = _mixed(lines, down)
+        lines = [
+            _interpolate_ends([plane.take(corner) for corner in row], across) for row in corners
+        ]
+        found[..., channel] = _interpolate_ends(lines, down)
     return found
 
 
-def _mixed(ends: list[Image], share: Image) -> Image:
+def _interpolate_ends(ends: list[Image], share: Image) -> Image:
     """What lies between two ends, or the only one where all is read at the first."""
     return ends[0] * (1 - share) + ends[1] * share if len(ends) > 1 else ends[0]
 
@@ -261,8 +265,8 @@ def sample_grid(
 
     OpenCV's remap would take as long.
     """
-    left, right, across = _split(x.astype(channel.dtype), channel.shape[1])
-    top, bottom, down = _split(y.astype(channel.dtype), channel.shape[0])
+    left, right, across = _split_position(x.astype(channel.dtype), channel.shape[1])
+    top, bottom, down = _split_position(y.astype(channel.dtype), channel.shape[0])
     rest = 1 - across
     for start, stop in split_range(y.size, _GRID_ROWS):
         part, share = slice(start, stop), down[start:stop, None]

@@ -76,13 +76,13 @@ def _sharing(positions: BlurKernel) -> Callable[[BlurKernel], BlurKernel]:
     share = (positions - np.floor(positions))[:, None]
     rest = 1.0 - share
 
-    def shared(rows: BlurKernel) -> BlurKernel:
+    def share_rows(rows: BlurKernel) -> BlurKernel:
         found = np.zeros((reach + 1, rows.shape[1]))
         found[:-1] = np.add.reduceat(rows * rest, starts)
         found[1:] += np.add.reduceat(rows * share, starts)
         return found
 
-    return shared
+    return share_rows
 
 
 @lru_cache(maxsize=64)
@@ -104,7 +104,7 @@ def disc_kernel(diameter: float) -> BlurKernel:
     if radius == 0.0:
         return np.ones((1, 1))
     count = max(SAMPLES, min(32 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
-    return _splatted(_disc_cell_areas(count), radius * _centres(count))
+    return _splat_cells(_disc_cell_areas(count), radius * _centres(count))
 
 
 @lru_cache(maxsize=16)
@@ -131,7 +131,7 @@ def _disc_cell_areas(count: int) -> BlurKernel:
     return cells
 
 
-def _splatted(cells: BlurKernel, centres: BlurKernel) -> BlurKernel:
+def _splat_cells(cells: BlurKernel, centres: BlurKernel) -> BlurKernel:
     """Light at a grid of positions (px along both axes, > 0) on the pixels, sum 1, symmetric.
 
     One quarter stands for all: the light in the middle row and column comes from both sides.
@@ -186,7 +186,7 @@ def airy_kernel(scale: float) -> BlurKernel:
     centres = radius * _centres(count)
     far = np.hypot(centres[:, None], centres[None, :]) * (math.pi / scale)
     light = np.where(far < DARK_RINGS[1], (2.0 * _bessel_j1(far) / far) ** 2, 0.0)
-    return _splatted(light, centres)
+    return _splat_cells(light, centres)
 
 
 @lru_cache(maxsize=64)
@@ -221,9 +221,9 @@ def moved_share(one: BlurKernel, other: BlurKernel = _UNMOVED) -> float:
         Square or not, odd-sized, each with sum 1; by default the light that stays where it is.
     """
     sides = [max(pair) for pair in zip(one.shape, other.shape, strict=True)]
-    return float(np.abs(_widened(one, sides) - _widened(other, sides)).sum() / 2.0)
+    return float(np.abs(_widen_kernel(one, sides) - _widen_kernel(other, sides)).sum() / 2.0)
 
 
-def _widened(kernel: BlurKernel, sides: list[int]) -> BlurKernel:
+def _widen_kernel(kernel: BlurKernel, sides: list[int]) -> BlurKernel:
     margins = [((side - had) // 2,) * 2 for side, had in zip(sides, kernel.shape, strict=True)]
     return np.pad(kernel, margins)

@@ -122,11 +122,11 @@ def _bands(
         top, bottom = max(first + rows.start, start), min(first + rows.stop, stop)
         if top >= bottom:
             continue
-        blurry = convolve(_masked(sharp[first:][rows, columns], there[rows, columns]), kernel)
+        blurry = convolve(_append_mask(sharp[first:][rows, columns], there[rows, columns]), kernel)
         yield (slice(top, bottom), columns), blurry[top - first - rows.start :][: bottom - top]
 
 
-def _masked(image: Image, there: NDArray[np.bool_]) -> Image:
+def _append_mask(image: Image, there: NDArray[np.bool_]) -> Image:
     """A picture where it is there, and as its last channel where that is."""
     channels = image.shape[2]
     found = np.empty((*image.shape[:2], channels + 1), image.dtype)

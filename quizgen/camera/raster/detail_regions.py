@@ -76,7 +76,7 @@ def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[
     most = grow_box(seen, reach, layer.colour.shape)
     boxes = (
         (slice(top * SQUARE, bottom * SQUARE), slice(left * SQUARE, right * SQUARE))
-        for top, bottom, left, right in _merged(squares, read)
+        for top, bottom, left, right in _merge_squares(squares, read)
     )
     return [part for box in boxes if (part := intersect_boxes(box, most)) is not None]
 
@@ -173,7 +173,7 @@ class _Frame(NamedTuple):
         return (height + 2 * down) * (width + 2 * across) + kernel + _CALL
 
 
-def _merged(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
+def _merge_squares(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
     """Rectangles around all squares that are meant, one instead of two where that is cheaper."""
     done: list[_Frame] = []
     above: list[_Frame] = []

@@ -63,7 +63,9 @@ def replace_regions(
     if not where.boxes:
         return layer
     images = [layer.colour] if layer.cover is None else [layer.colour, layer.cover]
-    results = images if layer.own else [_copied(image, layer, where.boxes[0]) for image in images]
+    results = (
+        images if layer.own else [_copy_image(image, layer, where.boxes[0]) for image in images]
+    )
     made: list[MadeRegion] = []
     for box in sorted(_in_pieces(where.boxes, most), key=_top):
         # nothing may be written over while others still look at it
@@ -89,7 +91,7 @@ def _write(made: Iterable[MadeRegion], results: list[Image]) -> None:
             result[box] = part
 
 
-def _copied(image: Image, layer: Layer, first: PixelBox) -> Image:
+def _copy_image(image: Image, layer: Layer, first: PixelBox) -> Image:
     """A copy of what stays; unlike in others, what is empty takes no memory."""
     if image[first].shape == image.shape:
         return np.empty(image.shape, image.dtype)
@@ -205,7 +207,7 @@ def rotate_layer(layer: Layer, angles: Sequence[float | Field], reach: float) ->
     """
 
     def turn(images: list[Image], box: PixelBox) -> list[Image]:
-        return _turned(images, box, layer.motion, angles)
+        return _turn_images(images, box, layer.motion, angles)
 
     where, near = sampled_regions(layer, (reach, reach)), _round(layer)
     boxes = [part for box in where.boxes if (part := intersect_boxes(box, near)) is not None]
@@ -231,7 +233,7 @@ _TURNED = 128, 1024
 """Rows and columns turned at once: few calls, and all that they need is small."""
 
 
-def _turned(
+def _turn_images(
     images: list[Image], box: PixelBox, motion: Motion, angles: Sequence[float | Field]
 ) -> list[Image]:
     height, width = images[0].shape[:2]

@@ -28,7 +28,7 @@ _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?:/\d+)?"
 _QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER})\s*(?P<unit>.*?)\s*")
 
 
-def _meant(value: float) -> float:
+def _check_magnitude(value: float) -> float:
     if abs(value) > LARGEST:
         raise ValueError(f"expected at most {LARGEST:g} in base units")
     return value
@@ -43,7 +43,7 @@ def _measure(text: object) -> tuple[float, Dimension]:
         raise ValueError(f"cannot read {text!r}; expected a number and a unit")
     try:
         found = get_unit(match["unit"])
-        value = _meant(float(parse_written_number(match["number"]) * found.factor))
+        value = _check_magnitude(float(parse_written_number(match["number"]) * found.factor))
     except (FormulaError, OverflowError) as error:
         raise ValueError(str(error)) from error
     turn = math.pi / 180.0 if ("deg", 1) in found.dimension else 1.0
@@ -82,7 +82,7 @@ def parse_plain_number(value: object) -> float:
     """A plain number."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise ValueError("expected a number")
-    return _meant(float(value))
+    return _check_magnitude(float(value))
 
 
 def parse_integer(value: object) -> int:

@@ -140,11 +140,11 @@ class Signal(msgspec.Struct, frozen=True):
         """Largest magnitude."""
         return max(abs(self.low), abs(self.high))
 
-    def widened(self, down: float, up: float) -> Signal:
+    def with_margins(self, down: float, up: float) -> Signal:
         """With more room below and above."""
         return Signal(self.low - down, self.high + up)
 
-    def scaled(self, least: float, most: float) -> Signal:
+    def scale_range(self, least: float, most: float) -> Signal:
         """Every value times a factor of its own between two that are >= 0."""
         return Signal(
             min(self.low * least, self.low * most), max(self.high * least, self.high * most)
@@ -154,7 +154,7 @@ class Signal(msgspec.Struct, frozen=True):
         """With two more values in it."""
         return Signal(min(self.low, low), max(self.high, high))
 
-    def clipped(self, low: float, high: float) -> Signal:
+    def clip_range(self, low: float, high: float) -> Signal:
         """Cut at two values."""
         return Signal(min(max(self.low, low), high), max(min(self.high, high), low))
 

@@ -30,7 +30,7 @@ def notes(wish: DeckRequest) -> Iterator[Note]:
 
 
 def _draw_entry_picture(entry: FigureEntry, wish: DeckRequest, *, quiz: bool) -> CardPicture:
-    with entry.located("figure"):
+    with entry.name_in_errors("figure"):
         figure = wish.bank.figure(entry.figure)
         drawn = [draw_figure(figure, entry.values, quiz=quiz, lang=lang) for lang in wish.langs]
     return CardPicture(entry.figure, drawn[0], " / ".join(one.alt for one in drawn))

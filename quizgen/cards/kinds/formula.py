@@ -36,7 +36,7 @@ def notes(wish: DeckRequest) -> Iterator[Note]:
 
 def _iter_cloze_holes(entry: FormulaEntry) -> Iterator[ClozeHole]:
     for index, line in enumerate(entry.lines):
-        with entry.located("lines"):
+        with entry.name_in_errors("lines"):
             signs, parts = parse_formula_line(line, entry.inside)
         if not signs:
             raise entry.fault(f"{line!r} has only one side", "QG155", "lines")

@@ -49,16 +49,19 @@ class CurveFeature(Feature, frozen=True):
             raise ValueError("peaks, top or ends must be asked of a curve")
         if sheet.scale.view[2]:
             raise ValueError("the field of a curve begins at 0, from where its heights count")
-        if not all(sheet.cached(wanted_heights)[name] for name in self.of):
+        if not all(sheet.compute_once(wanted_heights)[name] for name in self.of):
             raise ValueError("a curve runs along x and has one height at each place, above 0")
 
     def is_judgeable(self, sheet: DrawingComparison, /) -> bool:
         """Whether there is a line above or below any of the wanted ones."""
-        return any(sheet.cached(drawn_heights)[name] for name in self.of)
+        return any(sheet.compute_once(drawn_heights)[name] for name in self.of)
 
     def holds_for(self, name: str, sheet: DrawingComparison, /) -> bool:
         """Whether a curve has it."""
-        drawn, wanted = sheet.cached(drawn_heights)[name], sheet.cached(wanted_heights)[name]
+        drawn, wanted = (
+            sheet.compute_once(drawn_heights)[name],
+            sheet.compute_once(wanted_heights)[name],
+        )
         if len(drawn) < COVERED * PLACES:
             return False
         return (

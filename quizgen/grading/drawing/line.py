@@ -54,17 +54,20 @@ class LineFeature(Feature, frozen=True):
 
     def validate(self, sheet: DrawingComparison, /) -> None:
         """Check lines and circle."""
-        sheet.cached(wanted_lines)
+        sheet.compute_once(wanted_lines)
         if self.circle:
             circle_on_sheet(self.circle, sheet)
 
     def is_judgeable(self, sheet: DrawingComparison, /) -> bool:
         """Whether any line lies where one is wanted."""
-        return bool(sheet.cached(fit_lines))
+        return bool(sheet.compute_once(fit_lines))
 
     def holds_for(self, name: str, sheet: DrawingComparison, /) -> bool:
         """Whether a line has it."""
-        drawn, wish = sheet.cached(fit_lines).get(name), sheet.cached(wanted_lines)[name]
+        drawn, wish = (
+            sheet.compute_once(fit_lines).get(name),
+            sheet.compute_once(wanted_lines)[name],
+        )
         if drawn is None or not wish.is_comparable(drawn):
             return False
         return (

@@ -23,19 +23,19 @@ class MovedFeature(Feature, frozen=True):
 
     def validate(self, sheet: DrawingComparison, /) -> None:
         """Check lines, circle and factor."""
-        sheet.cached(wanted_lines)
+        sheet.compute_once(wanted_lines)
         circle_on_sheet(self.circle, sheet)
         if to_floats([self.within])[0] <= 1:
             raise ValueError("within: a factor above 1")
 
     def is_judgeable(self, sheet: DrawingComparison, /) -> bool:
         """Whether any line lies where one is wanted."""
-        return bool(sheet.cached(fit_lines))
+        return bool(sheet.compute_once(fit_lines))
 
     def holds_for(self, name: str, sheet: DrawingComparison, /) -> bool:
         """Whether the line is there, and the ends of all have moved as far as wanted."""
-        drawn = sheet.cached(fit_lines).get(name)
-        if drawn is None or not sheet.cached(wanted_lines)[name].is_comparable(drawn):
+        drawn = sheet.compute_once(fit_lines).get(name)
+        if drawn is None or not sheet.compute_once(wanted_lines)[name].is_comparable(drawn):
             return False
         (within,), ratios = to_floats([self.within]), [*self._iter_shift_ratios(sheet)]
         return bool(ratios) and 1 / within <= median(ratios) <= within
@@ -44,7 +44,7 @@ class MovedFeature(Feature, frozen=True):
         """What each end has moved by over what was wanted of it."""
         centre, radius = circle_on_sheet(self.circle, sheet)
         for name in self.of:
-            drawn, line = sheet.cached(fit_lines).get(name), sheet.wanted[name]
+            drawn, line = sheet.compute_once(fit_lines).get(name), sheet.wanted[name]
             for end, goal in zip(drawn.ends if drawn else (), (line[0], line[-1]), strict=False):
                 wanted = math.dist(goal, centre) - radius
                 if wanted:

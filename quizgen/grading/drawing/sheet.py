@@ -64,7 +64,7 @@ class DrawingComparison:
     others: Sequence[Mapping[str, StrokePoints]] = ()
     _read: dict[object, object] = field(default_factory=dict, repr=False, compare=False)
 
-    def cached(self, read: Callable[[DrawingComparison], T]) -> T:
+    def compute_once(self, read: Callable[[DrawingComparison], T]) -> T:
         """What is read off the sheet, worked out for the first feature that asks."""
         if read not in self._read:
             self._read[read] = read(self)

@@ -1,9 +1,9 @@
-"""All tables, as the first release keeps them."""
+"""All tables as they were before exams kept their papers; databases in use begin here."""
 
 import sqlalchemy as sa
 from alembic import op
 
-revision = "0001"
+revision = "0005"
 down_revision = None
 
 
@@ -47,13 +47,6 @@ def upgrade() -> None:
     )
     op.create_index("seen_of", "seen", ["learner", "at"])
     op.create_table(
-        "paper",
-        sa.Column("id", sa.String(64), primary_key=True),
-        sa.Column("code", sa.String(200), nullable=False),
-        sa.Column("parts", sa.JSON, nullable=False),
-        sa.Column("data", sa.LargeBinary, nullable=False),
-    )
-    op.create_table(
         "sitting",
         sa.Column("id", sa.String(32), primary_key=True),
         sa.Column(
@@ -67,9 +60,6 @@ def upgrade() -> None:
         sa.Column("resting", sa.Float),
         sa.Column("handed", sa.Float),
         sa.Column("marks", sa.JSON, nullable=False),
-        sa.Column("paper", sa.String(64), sa.ForeignKey("paper.id")),
-        sa.Column("practice", sa.Boolean, nullable=False, server_default=sa.text("false")),
-        sa.Column("counted", sa.Boolean, nullable=False, server_default=sa.text("false")),
     )
     op.create_index("sitting_of", "sitting", ["learner", "begun"])
     sitting = sa.ForeignKey("sitting.id", ondelete="CASCADE")
