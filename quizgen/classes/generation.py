@@ -167,34 +167,25 @@ def generate_papers(
         command writes there.
     """
     with lock_folder(folder.path):
-        return _make(folder, students, blueprint, executor, ahead, tell)
-
-
-def _make(
-    folder: ClassFolder,
-    students: Sequence[RosterStudent],
-    blueprint: Blueprint,
-    executor: Executor,
-    ahead: int,
-    tell: ProgressCallback,
-) -> GenerationReport:
-    _check_bank_unchanged(folder, blueprint)
-    heads = folder.heads()
-    todo = [one for one in students if not _is_made(folder, one, heads.get(one.id))]
-    folder.write_roster(students)
-    done: list[GeneratedPaper] = []
-    former = {one: head.codes for one, head in heads.items()}
-    jobs = _iter_jobs(folder.settings, blueprint, todo, _assign_neighbours(students, heads), former)
-    for results in map_unordered(executor, run_generation_job, jobs, ahead):
-        _write_papers_and_keys(folder, results)
-        for one in results:
-            done.append(one._replace(files={}, line=b""))
-            tell(one.student)
-    order = dict.fromkeys(one.id for one in students)
-    if done:
-        folder.compact([*order])
-    left = tuple(one for one in heads if one not in order)
-    return GenerationReport(tuple(done), len(students) - len(todo), left)
+        _check_bank_unchanged(folder, blueprint)
+        heads = folder.heads()
+        todo = [one for one in students if not _is_made(folder, one, heads.get(one.id))]
+        folder.write_roster(students)
+        done: list[GeneratedPaper] = []
+        former = {one: head.codes for one, head in heads.items()}
+        jobs = _iter_jobs(
+            folder.settings, blueprint, todo, _assign_neighbours(students, heads), former
+        )
+        for results in map_unordered(executor, run_generation_job, jobs, ahead):
+            _write_papers_and_keys(folder, results)
+            for one in results:
+                done.append(one._replace(files={}, line=b""))
+                tell(one.student)
+        order = dict.fromkeys(one.id for one in students)
+        if done:
+            folder.compact([*order])
+        left = tuple(one for one in heads if one not in order)
+        return GenerationReport(tuple(done), len(students) - len(todo), left)
 
 
 def _check_bank_unchanged(folder: ClassFolder, blueprint: Blueprint) -> None:

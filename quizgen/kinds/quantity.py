@@ -14,9 +14,7 @@ from quizgen.grading.diagnosis.numeric_slips import (
 )
 from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.equalities import EqualitySide, read_plain_side, read_sides
-from quizgen.grading.reading.labels import drop_name
-from quizgen.grading.reading.normalise import normalise_typed
+from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.units import TypedUnit, listed_unit
@@ -66,10 +64,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge a typed quantity."""
-        plain = read_plain_side(typed, options.decimal)
-        if plain is not None:
-            return _judge_side(self, plain, options)
-        sides = read_sides(drop_name(normalise_typed(typed)), options.decimal)
+        sides = read_typed_sides(typed, options.decimal)
         return best_verdict(_judge_side(self, side, options) for side in sides)
 
     def show(self) -> str:

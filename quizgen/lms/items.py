@@ -171,7 +171,7 @@ def items_from_templates(
 
     Raises
     ------
-    BankError, DrawError
+    BankError, SamplingError
         If a template is wrong, or not written in one of the languages.
     """
     for lang in langs:

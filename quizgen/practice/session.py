@@ -90,7 +90,7 @@ class Session:
 
         Raises
         ------
-        BankError, DrawError
+        BankError, SamplingError
             If its template is wrong.
         """
         number = self.state.done + 1

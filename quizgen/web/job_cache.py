@@ -95,7 +95,7 @@ class WorkerPool:
 
         Raises
         ------
-        BankError, DrawError
+        BankError, SamplingError
             If its template is wrong.
         """
         found = await self._get_or_make(wanted, asker)
@@ -107,7 +107,7 @@ class WorkerPool:
 
         Parameters
         ----------
-        job : Job
+        job : WorkerJob
         asker : hashable, optional
             Who waits for it: all who ask have their turns.
 

@@ -13,9 +13,10 @@ from flint import fmpq
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.reading.formulas import read_formula
-from quizgen.grading.reading.labels import WORDS
+from quizgen.grading.reading.labels import WORDS, drop_name
 from quizgen.grading.reading.lists import strip_brackets
 from quizgen.grading.reading.literals import Ambiguity
+from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import (
     Readings,
     ReadNumber,
@@ -72,6 +73,18 @@ def read_plain_side(typed: str, decimal: str) -> EqualitySide | None:
         )
     except FormulaError:
         return None
+
+
+def read_typed_sides(typed: str, decimal: str) -> list[EqualitySide]:
+    """Read what was typed: as it stands if it is plain, else without names and odd spellings.
+
+    Raises
+    ------
+    FormulaReadError
+        If it cannot be read, or the sides contradict each other.
+    """
+    plain = read_plain_side(typed, decimal)  # most answers, and needs no rewriting
+    return [plain] if plain else read_sides(drop_name(normalise_typed(typed)), decimal)
 
 
 def read_sides(source: SourceText, decimal: str) -> list[EqualitySide]:
