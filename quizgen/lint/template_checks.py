@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+from quizgen.bank.dimensions import find_unit_errors
 from quizgen.bank.levels import EXAM
 from quizgen.bank.markdown import LanguageFile, slot_names
 from quizgen.bank.sampler import sampler_for
@@ -29,7 +30,6 @@ from quizgen.core.positions import TEXT, Place
 from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
-from quizgen.lint.dimensions import check_dimensions
 from quizgen.lint.figures import check_figures
 from quizgen.lint.item_quality import QualityReview
 from quizgen.lint.leaks import QuestionContent, question_content
@@ -114,7 +114,8 @@ def lint_template(
     """
     report = TemplateReport(template.id)
     ignored = template.rules.ignore
-    found = [*_language_problems(template, langs), *check_dimensions(template)]
+    clashes = [error.diagnostic(template.file) for error in find_unit_errors(template)]
+    found = [*_language_problems(template, langs), *clashes]
     report.problems += [problem for problem in found if problem.code not in ignored]
     if report.problems:
         return report

@@ -1,9 +1,13 @@
 """Whether units fit formulas: the dimension of every step, and of what is asked.
 
 Values are in base units, so a formula of a step must have the dimension of the unit that the step
-is shown in. Things that are counted (pixels, bits, grey levels, ...) come and go in formulas, and
-so do degrees: only kinds of quantities with a size are compared, and a formula of plain numbers
-alone may give any (one second by the number on a dial).
+is shown in. Things that are counted (pixels, bits, grey levels, ...) come and go in formulas:
+only kinds of quantities with a size are compared, and a formula of plain numbers alone may give any
+(one second by the number on a dial).
+
+Angles have a rule of their own, since a wrong one is off by 57 and looks well: inverse functions
+give radians, as SymPy's do, and functions take them. ``180/pi`` times radians is degrees. So a step
+in degrees may not be an angle in radians, nor a quotient of two lengths, which is one.
 """
 
 from __future__ import annotations
@@ -12,14 +16,14 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 from quizgen.bank.template import Template
-from quizgen.core.diagnostics import Diagnostic, diagnose
+from quizgen.core.errors import BankError
 from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
 from quizgen.maths.units import UnitRegistry
 
-COUNTED = frozenset({"px", "bit", "DN", "e-", "photon", "stop", "dB", "row", "frame", "lp", "deg"})
+COUNTED = frozenset({"px", "bit", "DN", "e-", "photon", "stop", "dB", "row", "frame", "lp"})
 """Base units that formulas do not keep."""
 
 Dimension = Mapping[str, Fraction]
@@ -28,9 +32,13 @@ _ALIKE = frozenset({"add", "sub", "min", "max", "mod", "atan2", "eq", "ne", "lt"
 """Operators whose arguments are of one kind."""
 _KEPT = frozenset({"add", "sub", "min", "max", "mod", "neg", "abs", "floor", "ceil", "round"})
 """Operators that give what they get."""
-_NUMBERS = frozenset({"exp", "ln", "log2", "log10", "sin", "cos", "tan", "asin", "acos", "atan",
-                      "erf", "erfc"})  # fmt: skip
+_TRIGONOMETRIC = frozenset({"sin", "cos", "tan"})
+_INVERSE = frozenset({"asin", "acos", "atan", "atan2"})
+_NUMBERS = frozenset({"exp", "ln", "log2", "log10", "asin", "acos", "atan", "erf", "erfc"})
 """Functions of plain numbers."""
+_DEGREES, _RADIANS = {"deg": Fraction(1)}, {"rad": Fraction(1)}
+_PART_OF_TURN = 45
+"""Degrees are made by 180/π, and half or double an angle by 90/π or 360/π."""
 _ROOT = Fraction(1, 2)
 
 
@@ -38,14 +46,24 @@ class _ClashError(Exception):
     """Two kinds of quantities where one is needed."""
 
 
-def check_dimensions(template: Template) -> Iterator[Diagnostic]:
-    """Units that do not fit: of what is drawn, of steps, of what is asked."""
+def find_unit_errors(template: Template) -> Iterator[BankError]:
+    """Units that do not fit: of what is drawn, of steps, of what is asked.
+
+    Each is an error with its code, file and place, for ``lint`` to list and for whatever draws
+    numbers to raise; those that the template ignores are left out.
+    """
+    ignored = template.rules.ignore
+    yield from (error for error in _iter_unit_errors(template) if error.rule not in ignored)
+
+
+def _iter_unit_errors(template: Template) -> Iterator[BankError]:
     units = template.about.system
     for name, unit in template.chain.given.items():
         drawn = template.units[name]
         if _parse_unit_dimension(units, drawn) != _parse_unit_dimension(units, unit):
             what = f"draw.{name}: unit {drawn!r} is of another kind than {unit!r} in the solver"
-            yield diagnose("QG201", template.file, what, ("draw", name, "unit"))
+            place = ("draw", name, "unit")
+            yield BankError(what, rule="QG201", file=template.file, place=place)
     known = {
         name: _parse_unit_dimension(units, unit) for name, unit in template.chain.given.items()
     }
@@ -54,7 +72,7 @@ def check_dimensions(template: Template) -> Iterator[Diagnostic]:
         for problem in _check_step(units, step, known):
             wrong.add(step.name)
             file = template.solver_file or template.file
-            yield diagnose("QG203", file, problem, ("Step", step.name))
+            yield BankError(problem, rule="QG203", file=file, place=("Step", step.name))
         known[step.name] = _parse_unit_dimension(units, step.unit)
     for index, part in enumerate(template.rules.part):
         asked = part.answer.get("unit")
@@ -68,7 +86,8 @@ def check_dimensions(template: Template) -> Iterator[Diagnostic]:
             if not fits:
                 what = f"{name} is asked in {asked!r}, and its step is in {shown!r}"
                 place = ("part", index, "answer", "unit")
-                yield diagnose("QG202", template.file, f"part {index + 1}: {what}", place)
+                what = f"part {index + 1}: {what}"
+                yield BankError(what, rule="QG202", file=template.file, place=place)
 
 
 def _check_step(
@@ -80,12 +99,36 @@ def _check_step(
     except _ClashError as error:
         yield f"{written}: {error}"
         return
+    shown = _parse_unit_dimension(units, step.unit)
     plain = not any(known[name] for name in names_in(step.expr))
-    if found is not None and not plain and found != _parse_unit_dimension(units, step.unit):
+    if shown == _DEGREES and (found == _RADIANS or (found == {} and _is_angle(step.expr, plain))):
+        yield f"{written} is in radians, and the step says {step.unit!r}: write 180/pi*(...)"
+    elif found is not None and not plain and _without_angles(found) != _without_angles(shown):
         yield (
             f"{written} is in {_format_dimension(found)}, and "
             f"the step says {step.unit or 'a plain number'!r}"
         )
+    elif shown == _RADIANS and found == _DEGREES:
+        yield f"{written} is in degrees, and the step says {step.unit!r}: write pi/180*(...)"
+
+
+def _is_angle(expr: Expr, plain: bool) -> bool:
+    """Whether a formula without a unit must be an angle in radians.
+
+    So is what has lengths that cancel (an arc by its radius) or a π in it. ``360/n`` is not.
+    """
+    return not plain or "pi" in {call.op for call in _iter_calls(expr)}
+
+
+def _iter_calls(expr: Expr) -> Iterator[Call]:
+    if isinstance(expr, Call):
+        yield expr
+        for arg in expr.args:
+            yield from _iter_calls(arg)
+
+
+def _without_angles(dimension: Dimension) -> Dimension:
+    return {base: power for base, power in dimension.items() if base not in {"deg", "rad"}}
 
 
 def _parse_unit_dimension(units: UnitRegistry, text: str) -> Dimension:
@@ -112,15 +155,21 @@ def _infer_call_dimension(call: Call, args: list[Dimension | None]) -> Dimension
         return _require_common_dimension(call, args[::2])
     if call.op in _ALIKE:
         one = _require_common_dimension(call, args)
+        if call.op in _INVERSE:
+            return _RADIANS
         return one if call.op in _KEPT else {}
     if call.op in _KEPT:
         return args[0]
-    if call.op in _NUMBERS:
+    if call.op in _TRIGONOMETRIC:
+        if args[0] == _DEGREES:
+            raise _ClashError(f"{call.op} of degrees, where radians are needed: write pi/180*(...)")
+        args = [_without_angles(args[0]) if args[0] else args[0]]
+    if call.op in _NUMBERS or call.op in _TRIGONOMETRIC:
         if args[0]:
             raise _ClashError(
                 f"{call.op} of {_format_dimension(args[0])}, where a plain number is needed"
             )
-        return {}
+        return _RADIANS if call.op in _INVERSE else {}
     return _infer_product_dimension(call, args)
 
 
@@ -128,7 +177,7 @@ def _require_common_dimension(call: Call, args: list[Dimension | None]) -> Dimen
     """The one dimension that all arguments have."""
     found = [arg for arg in args if arg is not None]
     for other in found[1:]:
-        if other != found[0]:
+        if other != found[0] and _without_angles(other) != _without_angles(found[0]):
             both = f"{_format_dimension(found[0])} and {_format_dimension(other)}"
             raise _ClashError(f"{both} cannot be put together by {call.op!r}")
     return found[0] if found else None
@@ -146,8 +195,40 @@ def _infer_product_dimension(call: Call, args: list[Dimension | None]) -> Dimens
     if call.op == "sqrt":
         return _scale_dimension(known[0], _ROOT)
     if call.op in {"mul", "div"}:
-        return _multiply_dimensions(known, -1 if call.op == "div" else 1)
+        product = _multiply_dimensions(known, -1 if call.op == "div" else 1)
+        return _convert_angle(call, product)
     return {}
+
+
+def _convert_angle(call: Call, product: Dimension) -> Dimension:
+    """Degrees if the product has the factor 180/π on radians; radians for π/180 on degrees."""
+    ratio, pi_power = _constant_factor(call)
+    if product == _RADIANS and pi_power == -1 and ratio.numerator % _PART_OF_TURN == 0:
+        return _DEGREES
+    if product == _DEGREES and pi_power == 1 and ratio.denominator % _PART_OF_TURN == 0:
+        return _RADIANS
+    return product
+
+
+def _constant_factor(expr: Expr) -> tuple[Fraction, int]:
+    """What numbers a product holds: their product, and the power of π."""
+    if isinstance(expr, Num):
+        return (expr.value or Fraction(1)), 0
+    if not isinstance(expr, Call):
+        return Fraction(1), 0
+    if expr.op == "pi":
+        return Fraction(1), 1
+    if expr.op == "neg":
+        return _constant_factor(expr.args[0])
+    if expr.op not in {"mul", "div"}:
+        return Fraction(1), 0
+    ratio, power = _constant_factor(expr.args[0])
+    for arg in expr.args[1:]:
+        other, pis = _constant_factor(arg)
+        ratio, power = (
+            (ratio * other, power + pis) if expr.op == "mul" else (ratio / other, power - pis)
+        )
+    return ratio, power
 
 
 def _scale_dimension(dimension: Dimension, power: Fraction) -> Dimension:
