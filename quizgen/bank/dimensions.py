@@ -85,9 +85,9 @@ def _iter_unit_errors(template: Template) -> Iterator[BankError]:
             )
             if not fits:
                 what = f"{name} is asked in {asked!r}, and its step is in {shown!r}"
-                place = ("part", index, "answer", "unit")
+                where = ("part", index, "answer", "unit")
                 what = f"part {index + 1}: {what}"
-                yield BankError(what, rule="QG202", file=template.file, place=place)
+                yield BankError(what, rule="QG202", file=template.file, place=where)
 
 
 def _check_step(

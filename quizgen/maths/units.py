@@ -234,11 +234,11 @@ def _list_simple_units() -> dict[str, _SimpleUnit]:
         size = _KILOGRAM if name == "g" else Fraction(1)
         base = "kg" if name == "g" else name
         _add_prefixed(table, name, prefixes, _SimpleUnit(size, ((base, 1),)))
-    for name, (size, made_of, prefixes) in _DERIVED.items():
+    for name, (times, made_of, prefixes) in _DERIVED.items():
         unit = _multiply_out(made_of, table)
         if unit is None:
             raise AssertionError(f"{name} is made of what is not above it")
-        _add_prefixed(table, name, prefixes, unit._replace(factor=unit.factor * Fraction(size)))
+        _add_prefixed(table, name, prefixes, unit._replace(factor=unit.factor * Fraction(times)))
     return table
 
 
