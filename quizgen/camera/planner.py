@@ -101,10 +101,10 @@ class PreparedScene:
         SceneError
             If an effect makes signals of more than `LARGEST_SIGNAL`.
         """
-        found, signal = [], _round(Signal(*self.view.scene.radiance_range))
+        found, signal = [], _widen_for_rounding(Signal(*self.view.scene.radiance_range))
         for effect, view in zip(self.present, self.views, strict=True):
             found.append(signal)
-            signal = _round(effect.range_after(signal, view))
+            signal = _widen_for_rounding(effect.range_after(signal, view))
             if not signal.size < LARGEST_SIGNAL:
                 raise SceneError(f"{effect.name} makes signals of more than {LARGEST_SIGNAL:g}")
         return tuple(found)
@@ -133,7 +133,7 @@ class PreparedScene:
         return GREY_LEVELS * error
 
 
-def _round(signal: Signal) -> Signal:
+def _widen_for_rounding(signal: Signal) -> Signal:
     slack = _ROUNDING * signal.size
     return signal.with_margins(slack, slack)
 
@@ -274,7 +274,7 @@ def plan_budget(
         runs = {
             one.name: one.always or "may be seen" for one in prepared.present if one.name not in why
         }
-        return _report(prepared, runs, why, budget=limit)
+        return _build_plan(prepared, runs, why, budget=limit)
 
 
 def plan_question(
@@ -298,8 +298,10 @@ def plan_question(
     with error_context(prepared.given.scene.file):
         for name in (*chosen.only, *chosen.plus):
             if name not in there:
-                raise SceneError(f"this camera has no {name}{_hint(effects.get_effect(name))}")
-        asked = chosen.only or _answering(there.values(), kinds)
+                raise SceneError(
+                    f"this camera has no {name}{_suggest_setting_of(effects.get_effect(name))}"
+                )
+        asked = chosen.only or _find_answering(there.values(), kinds)
         runs = {one.name: one.always for one in there.values() if one.always}
         runs |= dict.fromkeys(chosen.plus, "wanted") | dict.fromkeys(asked, "asked")
         for name in list(runs):
@@ -312,10 +314,10 @@ def plan_question(
         out = {name: "not asked" for name in there if name not in runs}
         out |= {name: "not wanted" for name in chosen.minus if name in there}
         runs = {name: why for name, why in runs.items() if name not in out}
-        return _report(prepared, runs, out, asked=tuple(name for name in runs if name in asked))
+        return _build_plan(prepared, runs, out, asked=tuple(name for name in runs if name in asked))
 
 
-def _answering(there: Iterable[Effect], kinds: Iterable[str]) -> tuple[str, ...]:
+def _find_answering(there: Iterable[Effect], kinds: Iterable[str]) -> tuple[str, ...]:
     """Present effects that answer a question; every kind has one."""
     found: list[str] = []
     for kind in kinds:
@@ -325,12 +327,14 @@ def _answering(there: Iterable[Effect], kinds: Iterable[str]) -> tuple[str, ...]
             raise SceneError(f"unknown question {kind!r}; one of {kinds}")
         names = [effect.name for effect in there if effect in known]
         if not names:
-            raise SceneError(f"nothing in this camera answers {kind!r}{_hint(known[0])}")
+            raise SceneError(
+                f"nothing in this camera answers {kind!r}{_suggest_setting_of(known[0])}"
+            )
         found.extend(names)
     return tuple(dict.fromkeys(found))
 
 
-def _hint(effect: Effect) -> str:
+def _suggest_setting_of(effect: Effect) -> str:
     """What would bring an effect into a camera."""
     names = " or ".join(setting.name for setting in effect.settings) or effect.needs
     return f": it needs {names}" if names else ""
@@ -346,7 +350,7 @@ def describe_size(effect: Effect, view: View) -> str:
     return size.says.format(value) if size and (value or size.least) else ""
 
 
-def _report(
+def _build_plan(
     prepared: PreparedScene,
     runs: Mapping[str, str],
     out: Mapping[str, str],

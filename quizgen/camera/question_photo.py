@@ -174,7 +174,7 @@ def measure_visibility(
     """
     found, gray = _Differences(), _Differences()
     for start, stop in split_range(len(shown), _ROWS):
-        apart = _codes(shown[start:stop]) - _codes(plain[start:stop])
+        apart = _to_grey_levels(shown[start:stop]) - _to_grey_levels(plain[start:stop])
         found.add(np.abs(apart))
         if apart.shape[2] > 1:
             gray.add(np.abs(apart @ _LUMA)[..., None])
@@ -186,7 +186,7 @@ _ROWS, _MEGAPIXEL = 64, 1e6
 """Rows looked at at once, so that large pictures are not held twice."""
 
 
-def _codes(image: Image | NDArray[np.uint8]) -> NDArray[np.floating]:
+def _to_grey_levels(image: Image | NDArray[np.uint8]) -> NDArray[np.floating]:
     """Grey levels, shape (H, W, 1) or (H, W, 3)."""
     levels = np.asarray(image, np.float32)
     levels = levels if image.dtype == np.uint8 else np.clip(levels * GREY_LEVELS, 0.0, GREY_LEVELS)
@@ -305,9 +305,9 @@ def take_question_photo(
     asked = PictureQuestion(kinds or own.asks, own.reads if reads is None else reads)
     key = _find_key(scene, camera, asked, chosen)
     if key is None:
-        return _take(scene, camera, asked, chosen, told)
+        return _take_photo(scene, camera, asked, chosen, told)
     if key not in _KEPT:
-        _KEPT[key] = _take(scene, camera, asked, chosen, told)
+        _KEPT[key] = _take_photo(scene, camera, asked, chosen, told)
         while len(_KEPT) > _MOST_KEPT:
             _KEPT.popitem(last=False)
     return _KEPT[key]
@@ -328,7 +328,7 @@ def _find_key(
     return drawn, rest, camera, asked.asks, tuple(asked.reads.items()), chosen
 
 
-def _take(
+def _take_photo(
     scene: Scene,
     camera: Camera,
     asked: PictureQuestion,
@@ -347,24 +347,26 @@ def _take(
 
     groups = _group_asked(plan, asked.asks, chosen)
     plain = {kind: run_without(names) for kind, names in groups.items()} if not large else {}
-    thin = {kind: _thin(run_without(names).values) for kind, names in groups.items() if large}
+    thin = {kind: _subsample(run_without(names).values) for kind, names in groups.items() if large}
     photo = run_plan(prepared, told=told, last=large and not asked.reads)
     readings = {}
     for name, reading in asked.reads.items():
         if added := _find_needed(whole, plan, photo, reading):
-            return _take(scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)), told)
+            return _take_photo(
+                scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)), told
+            )
         readings[name] = _check_reading(prepared, plan, photo, name, reading)
-    shown, seen = _thin(photo.values), []
+    shown, seen = _subsample(photo.values), []
     for kind, names in groups.items():
-        other = thin[kind] if large else _thin(plain[kind].values)
-        seen.append(_measure(kind, names, prepared.view, shown, other))
+        other = thin[kind] if large else _subsample(plain[kind].values)
+        seen.append(_measure_kind(kind, names, prepared.view, shown, other))
     alone = plain[next(iter(plain))] if len(plain) == 1 else None
     return QuestionPhoto(
         photo, plan, tuple(seen), readings, lambda: alone or run_without(plan.asked)
     )
 
 
-def _thin(values: Image) -> Image:
+def _subsample(values: Image) -> Image:
     """A megapixel of a picture, which tells as much as all of a large one."""
     every = max(1, round(math.sqrt(values.shape[0] * values.shape[1] / _MEGAPIXEL)))
     return values[::every, ::every].copy() if every > 1 else values
@@ -380,7 +382,7 @@ def _group_asked(
     return {kind: tuple(name for name in answers if kind in answers[name]) for kind in kinds}
 
 
-def _measure(
+def _measure_kind(
     kind: str, names: Collection[str], view: View, shown: Image, plain: Image
 ) -> Visibility:
     asked = [effects.get_effect(name) for name in names]
@@ -398,7 +400,7 @@ def _measure(
 
 def read_value(image: Image, reading: Reading) -> float:
     """What is read off a finished picture."""
-    levels, measure = _codes(image), reading.measure
+    levels, measure = _to_grey_levels(image), reading.measure
     levels = np.broadcast_to(levels, (*levels.shape[:2], 3))
     if isinstance(measure, str):
         return MEASURES[measure](levels)

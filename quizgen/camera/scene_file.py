@@ -54,14 +54,14 @@ TableParsers = Mapping[str, ValueParser[Any]]
 """Readers of the keys of one table; each gives the type of its own field."""
 
 
-def _depth(value: object) -> float:
+def _parse_depth(value: object) -> float:
     depth = quantity_parser("m")(value)
     if depth <= 0.0:
         raise ValueError("a depth must be positive")
     return depth
 
 
-def _between(least: int, most: int) -> ValueParser[int]:
+def _integer_parser(least: int, most: int) -> ValueParser[int]:
     """Reader of a whole number in a range."""
 
     def read(value: object) -> int:
@@ -72,14 +72,14 @@ def _between(least: int, most: int) -> ValueParser[int]:
     return read
 
 
-def _corners(value: object) -> tuple[tuple[float, float], ...]:
+def _parse_corners(value: object) -> tuple[tuple[float, float], ...]:
     corners = list_parser(pair_parser(parse_plain_number))(value)
     if len(corners) > MOST_THINGS:
         raise ValueError(f"expected at most {MOST_THINGS} corners")
     return corners
 
 
-def _asks(value: object) -> tuple[str, ...]:
+def _parse_asks(value: object) -> tuple[str, ...]:
     kinds = list_parser(choice_parser(*effects.question_kinds()))(
         [value] if isinstance(value, str) else value
     )
@@ -88,7 +88,7 @@ def _asks(value: object) -> tuple[str, ...]:
     return kinds
 
 
-def _reads(value: object) -> dict[str, Reading]:
+def _parse_reads(value: object) -> dict[str, Reading]:
     table = value if isinstance(value, dict) else {}
     if not table:
         raise ValueError("expected a table such as { corner = 3 }")
@@ -110,20 +110,20 @@ SIDES = 2, 2**15
 
 _KEYS: Mapping[str, TableParsers] = {"scene": {
     **dict.fromkeys(("title", "image", "depth_map"), parse_text),
-    **dict.fromkeys(("width", "height"), _between(*SIDES)),
-    **dict.fromkeys(("background_depth", "depth", "depth_near", "depth_far"), _depth),
-    "background": parse_colour, "seed": _between(0, 2**63), "precision": choice_parser(*PRECISIONS),
-}, "question": {"asks": _asks, "reads": _reads}, "thing": {
+    **dict.fromkeys(("width", "height"), _integer_parser(*SIDES)),
+    **dict.fromkeys(("background_depth", "depth", "depth_near", "depth_far"), _parse_depth),
+    "background": parse_colour, "seed": _integer_parser(0, 2**63), "precision": choice_parser(*PRECISIONS),
+}, "question": {"asks": _parse_asks, "reads": _parse_reads}, "thing": {
     **dict.fromkeys(length_fields(), length_parser()),
-    "shape": choice_parser(*SHAPES), "depth": _depth, "colour": parse_colour, "other": parse_colour,
+    "shape": choice_parser(*SHAPES), "depth": _parse_depth, "colour": parse_colour, "other": parse_colour,
     "texture": choice_parser(*TEXTURES), "angle": quantity_parser("deg"),
     "velocity": pair_parser(length_parser("/s")), "spin": quantity_parser("deg/s"),
-    "count": _between(1, MOST_THINGS), "points": _corners,
+    "count": _integer_parser(1, MOST_THINGS), "points": _parse_corners,
 }}  # fmt: skip
 TABLES = (*_KEYS, "camera")
 
 
-def _table_keys(table: str) -> TableParsers:
+def _table_parsers(table: str) -> TableParsers:
     """Parsers of one table; those of the camera come from the effects."""
     if table != "camera":
         return _KEYS[table]
@@ -135,7 +135,7 @@ _HEADER = re.compile(r"\s*\[\[?\s*([\w-]+)\s*\]\]?")
 _KEY = re.compile(r"\s*([\w-]+)\s*=")
 
 
-def _lines(text: str) -> dict[tuple[str, int, str], int]:
+def _find_key_lines(text: str) -> dict[tuple[str, int, str], int]:
     """Line of every key: (table, which of its kind, key) to a line from 1."""
     found: dict[tuple[str, int, str], int] = {}
     table, counts = "", dict[str, int]()
@@ -149,21 +149,21 @@ def _lines(text: str) -> dict[tuple[str, int, str], int]:
     return found
 
 
-class _File:
+class _SceneFile:
     """A scene file: its tables, and where each key stands."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
         text = read_text(path, SceneError)
         self.tables: dict[str, Any] = parse_toml(text, path, SceneError)
-        self.lines = _lines(text)
+        self.lines = _find_key_lines(text)
 
     def fail(self, table: str, which: int, key: str, message: str) -> SceneError:
         line = self.lines.get((table, which, key)) or self.lines.get((table, which, ""), 1)
         return SceneError(f"{self.path}:{line}: {message}")
 
     def read(self, table: str, which: int, values: Mapping[str, object]) -> dict[str, Any]:
-        known, found = _table_keys(table), {}
+        known, found = _table_parsers(table), {}
         for key, value in values.items():
             if key not in known:
                 hint = suggest_setting(key, known)
@@ -205,21 +205,21 @@ def load_scene(path: str | Path, precision: Precision | None = None) -> tuple[Sc
     SceneError
         With file and line.
     """
-    file = _File(Path(path))
+    file = _SceneFile(Path(path))
     file.check_tables()
     things = [
-        _thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))
+        _read_thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))
     ]
-    scene = replace(_scene(file, tuple(things), precision), question=_question(file))
+    scene = replace(_read_scene(file, tuple(things), precision), question=_read_question(file))
     values = file.read("camera", 0, file.tables.get("camera", {}))
     if values.pop("exif", False):
-        scene = replace(scene, exif=_shot_with(file, values))
-    camera = _camera(file, {**scene.exif, **values}, scene.width)
+        scene = replace(scene, exif=_read_exif(file, values))
+    camera = _read_camera(file, {**scene.exif, **values}, scene.width)
     _check_effects(file, View(scene, camera))
     return scene, camera
 
 
-def _question(file: _File) -> PictureQuestion | None:
+def _read_question(file: _SceneFile) -> PictureQuestion | None:
     if "question" not in file.tables:
         return None
     values = file.read("question", 0, file.tables["question"])
@@ -228,7 +228,7 @@ def _question(file: _File) -> PictureQuestion | None:
     return PictureQuestion(**values)
 
 
-def _shot_with(file: _File, given: Mapping[str, object]) -> dict[str, float]:
+def _read_exif(file: _SceneFile, given: Mapping[str, object]) -> dict[str, float]:
     """What a photograph's file says of its camera and the scene does not.
 
     An f-number needs to know the size of a pixel, and the ISO value of a metered picture has been
@@ -248,7 +248,7 @@ def _shot_with(file: _File, given: Mapping[str, object]) -> dict[str, float]:
     return taken
 
 
-def _camera(file: _File, values: dict[str, Any], columns: int) -> Camera:
+def _read_camera(file: _SceneFile, values: dict[str, Any], columns: int) -> Camera:
     if (width := values.pop("sensor_width", None)) is not None:
         if "pixel_pitch" in values:
             raise file.fail("camera", 0, "sensor_width", "give sensor_width or pixel_pitch")
@@ -259,7 +259,7 @@ def _camera(file: _File, values: dict[str, Any], columns: int) -> Camera:
         raise file.fail("camera", 0, error.setting, str(error)) from error
 
 
-def _check_effects(file: _File, view: View) -> None:
+def _check_effects(file: _SceneFile, view: View) -> None:
     """Name the line of what cannot be computed."""
     for effect in effects.present_effects(view):
         try:
@@ -269,7 +269,7 @@ def _check_effects(file: _File, view: View) -> None:
             raise file.fail("camera", 0, next(given, ""), str(error)) from error
 
 
-def _thing(file: _File, which: int, table: Mapping[str, object]) -> SceneObject:
+def _read_thing(file: _SceneFile, which: int, table: Mapping[str, object]) -> SceneObject:
     values = file.read("thing", which, table)
     thing = SceneObject(**values)
     for size in SIZES[thing.shape]:
@@ -281,7 +281,9 @@ def _thing(file: _File, which: int, table: Mapping[str, object]) -> SceneObject:
     return thing
 
 
-def _scene(file: _File, things: tuple[SceneObject, ...], precision: Precision | None) -> Scene:
+def _read_scene(
+    file: _SceneFile, things: tuple[SceneObject, ...], precision: Precision | None
+) -> Scene:
     values = file.read("scene", 0, file.tables.get("scene", {}))
     kind = values["precision"] = precision or values.get("precision", Scene.precision)
     pixels = values.get("width", Scene.width) * values.get("height", Scene.height)
@@ -290,15 +292,15 @@ def _scene(file: _File, things: tuple[SceneObject, ...], precision: Precision | 
     near, far = values.pop("depth_near", 1.0), values.pop("depth_far", math.inf)
     for key in ("image", "depth_map"):
         if key in values:
-            values[key] = _picture(file, key, values[key])
+            values[key] = _read_picture(file, key, values[key])
     if "image" in values:
-        values["image"] = _look_up(srgb_decode, values["image"], kind)  # linear radiance
+        values["image"] = _map_codes(srgb_decode, values["image"], kind)  # linear radiance
         values["height"], values["width"] = values["image"].shape[:2]
     if (nearness := values.pop("depth_map", None)) is not None:
         shape = (values.get("height"), values.get("width"))
         if nearness.shape[:2] != shape:
             raise file.fail("scene", 0, "depth_map", "a depth map needs an image of its size")
-        values["depth"] = _look_up(
+        values["depth"] = _map_codes(
             # white is near, black is far, linear in 1/z
             lambda share: 1.0 / np.maximum(share / near + (1.0 - share) / far, 1e-9),
             nearness[..., 0], kind,
@@ -309,7 +311,7 @@ def _scene(file: _File, things: tuple[SceneObject, ...], precision: Precision | 
 _ROWS = 64
 
 
-def _look_up(value: Callable[[Any], Any], codes: codecs.Codes, precision: Precision) -> Image:
+def _map_codes(value: Callable[[Any], Any], codes: codecs.Codes, precision: Precision) -> Image:
     """A value for the share of white of every code, from a table of all codes.
 
     Some rows at once, as codes become larger numbers for it.
@@ -322,7 +324,7 @@ def _look_up(value: Callable[[Any], Any], codes: codecs.Codes, precision: Precis
     return found
 
 
-def _picture(file: _File, key: str, name: str) -> codecs.Codes:
+def _read_picture(file: _SceneFile, key: str, name: str) -> codecs.Codes:
     """Codes, shape (H, W, 3)."""
     path = file.path.parent / name
     try:

@@ -114,7 +114,7 @@ class _Run:
                 then = steps[done][1] if done < len(steps) else self.frame
                 self._run_layers(some, then)
             elif kind is PointByPoint:
-                self._run_points(some)
+                self._run_pointwise(some)
             else:
                 for step in some:
                     self._run_one(step)
@@ -122,7 +122,7 @@ class _Run:
         times = {effect.name: self.times.get(effect.name, 0.0) for effect, _ in steps}
         return Photo(composite_layers(tuple(self.stack)), times, self.drawn_ms)
 
-    def _count(self, effect: Effect, started: float) -> None:
+    def _add_time(self, effect: Effect, started: float) -> None:
         spent = (perf_counter() - started) * 1e3
         self.times[effect.name] = self.times.get(effect.name, 0.0) + spent
 
@@ -135,7 +135,7 @@ class _Run:
         started = perf_counter()
         self._crop(view)
         self.stack = list(effect.run(tuple(self.stack), view))
-        self._count(effect, started)
+        self._add_time(effect, started)
 
     def _run_layers(self, steps: list[_Step], then: View) -> None:
         """Finish each layer and lay it over those behind, so that few are there at a time.
@@ -146,36 +146,36 @@ class _Run:
         picture: Image | None = None
         while self.stack:
             drawn = self.stack.pop(0)
-            layer, even = replace(drawn, own=self._is_ours(drawn.colour)), drawn.is_uniform
+            layer, even = replace(drawn, own=self._is_writable(drawn.colour)), drawn.is_uniform
             for effect, view in steps:
                 started = perf_counter()
                 layer = crop_layer(layer, view)
                 if not even:
                     (layer,) = effect.run((layer,), view)
-                self._count(effect, started)
-            picture = self._lay(layer, picture, then)
+                self._add_time(effect, started)
+            picture = self._composite_layer(layer, picture, then)
         self.stack = [Layer(picture)] if picture is not None else []
 
-    def _lay(self, layer: Layer, behind: Image | None, view: View) -> Image:
-        if behind is None and self._is_ours(layer.colour):
+    def _composite_layer(self, layer: Layer, behind: Image | None, view: View) -> Image:
+        if behind is None and self._is_writable(layer.colour):
             return crop_in_place(layer.colour, view)
         layer = crop_layer(layer, view)
         if behind is None:
             return layer.colour
-        return composite_over(layer, behind if self._is_ours(behind) else behind.copy())
+        return composite_over(layer, behind if self._is_writable(behind) else behind.copy())
 
-    def _is_ours(self, picture: Image) -> bool:
+    def _is_writable(self, picture: Image) -> bool:
         others = (other for other in self.kept if other is not None)
         return not any(np.may_share_memory(picture, other) for other in others)
 
-    def _run_points(self, steps: list[_Step]) -> None:
+    def _run_pointwise(self, steps: list[_Step]) -> None:
         """Effects that look at one pixel only, while a tile of the picture is at hand."""
         self.told(", ".join(effect.name for effect, _ in steps))
         started, view = perf_counter(), steps[-1][1]
         self._crop(view)
         picture = composite_layers(tuple(self.stack))
         self.stack = []
-        own = picture.flags.c_contiguous and self._is_ours(picture)
+        own = picture.flags.c_contiguous and self._is_writable(picture)
         works = [one.run.operation(view) for one, _ in steps if isinstance(one.run, PointByPoint)]
         result, clock = apply_tilewise(
             picture, works, into=picture if own else np.empty_like(picture)

@@ -36,9 +36,9 @@ MAX_SLICES = 24
 def blur_by_depth(layer: Layer, view: View, shift: float = 0.0) -> Layer:
     """Blur a layer by its circle of confusion, depth by depth where it has a map."""
     if isinstance(layer.depth, np.ndarray):
-        middles = slice_diameters(_extremes(layer.depth, view, shift))
-        index = _slice_of(layer.depth, middles, view, shift)
-        return replace(layer, colour=_blurred_by_depth(layer.colour, index, middles))
+        middles = slice_diameters(_diameter_range(layer.depth, view, shift))
+        index = _assign_slices(layer.depth, middles, view, shift)
+        return replace(layer, colour=_blur_slices(layer.colour, index, middles))
     return blur_layer(layer, disc_kernel(float(view.blur_diameter(layer.depth)) + shift))
 
 
@@ -70,13 +70,13 @@ def slice_diameters(diameters: tuple[float, float]) -> Field:
     return step * np.arange(np.rint(least / step), np.rint(most / step) + 1.0)
 
 
-def _extremes(depth: Image, view: View, shift: float) -> tuple[float, float]:
+def _diameter_range(depth: Image, view: View, shift: float) -> tuple[float, float]:
     """Smallest and largest blur diameter of a depth map: farther is always more, or always less."""
     ends = view.blur_diameter(np.array([depth.min(), depth.max()], depth.dtype)) + shift
     return float(ends.min()), float(ends.max())
 
 
-def _slice_of(depth: Image, middles: Field, view: View, shift: float) -> NDArray[np.uint8]:
+def _assign_slices(depth: Image, middles: Field, view: View, shift: float) -> NDArray[np.uint8]:
     """Number of the slice that each pixel of a depth map is in."""
     step = float(middles[1] - middles[0]) if len(middles) > 1 else math.inf
     index = np.empty(depth.shape, np.uint8)
@@ -92,7 +92,7 @@ _BAND = 128
 """Rows blurred at once; eight times as many as light gets far, where that is more."""
 
 
-def _blurred_by_depth(sharp: Image, index: NDArray[np.uint8], middles: Field) -> Image:
+def _blur_slices(sharp: Image, index: NDArray[np.uint8], middles: Field) -> Image:
     """Lay blurred slices over each other, far ones first.
 
     The farthest slice is divided by its own blurred coverage, so that the colour of what stands in
@@ -100,7 +100,9 @@ def _blurred_by_depth(sharp: Image, index: NDArray[np.uint8], middles: Field) ->
     """
     picture, farthest = sharp.copy(), int(index.max())
     for number in range(farthest, -1, -1):
-        for part, blurry in _bands(sharp, index, number, disc_kernel(float(middles[number]))):
+        for part, blurry in _iter_slice_bands(
+            sharp, index, number, disc_kernel(float(middles[number]))
+        ):
             colour, cover = blurry[..., :-1], blurry[..., -1:]
             if number == farthest:
                 seen = cover > 1e-3
@@ -110,7 +112,7 @@ def _blurred_by_depth(sharp: Image, index: NDArray[np.uint8], middles: Field) ->
     return picture
 
 
-def _bands(
+def _iter_slice_bands(
     sharp: Image, index: NDArray[np.uint8], number: int, kernel: BlurKernel
 ) -> Iterator[tuple[PixelBox, Image]]:
     """Where light of a slice gets, and its blurred colour and coverage there, band by band."""
@@ -140,7 +142,7 @@ def blur_margin(view: View, shifts: tuple[float, ...]) -> tuple[float, float]:
     """Discs bring light from as far as their radius."""
 
     def reach(spec: LayerSpec) -> tuple[float, float]:
-        radius = max(abs(_diameter(spec, view) + shift) / 2.0 for shift in shifts)
+        radius = max(abs(_spec_diameter(spec, view) + shift) / 2.0 for shift in shifts)
         return radius + bool(radius), radius + bool(radius)
 
     return largest_margin(view, reach)
@@ -150,10 +152,10 @@ def check_blur_width(view: View) -> None:
     """No disc may be too wide."""
     for spec in layer_specs(view):
         if not has_depth_map(spec, view):
-            kernels.check_kernel_size(_diameter(spec, view))
+            kernels.check_kernel_size(_spec_diameter(spec, view))
 
 
-def _diameter(spec: LayerSpec, view: View) -> float:
+def _spec_diameter(spec: LayerSpec, view: View) -> float:
     return view.blur_diameter(math.inf if spec.depth is None else spec.depth)
 
 
@@ -162,10 +164,10 @@ def widest_disc(view: View) -> float:
     widest = 0.0
     for spec in layer_specs(view):
         if has_depth_map(spec, view):
-            ends = _extremes(np.asarray(view.scene.depth), view, 0.0)
+            ends = _diameter_range(np.asarray(view.scene.depth), view, 0.0)
             widest = max(widest, *(abs(end) for end in ends))
         else:
-            widest = max(widest, abs(_diameter(spec, view)))
+            widest = max(widest, abs(_spec_diameter(spec, view)))
     return widest
 
 
@@ -180,19 +182,19 @@ def bound_discs(signal: Signal, view: View, shift: float | None = None) -> float
     def share(spec: LayerSpec) -> float:
         if has_depth_map(spec, view):
             shifts = (0.0,) if shift is None else (0.0, shift)
-            return sum(_share_by_depth(view, one) for one in shifts)
-        plain = disc_kernel(_diameter(spec, view))
+            return sum(_moved_share_by_depth(view, one) for one in shifts)
+        plain = disc_kernel(_spec_diameter(spec, view))
         if shift is None:
             return moved_share(plain)
-        return moved_share(plain, disc_kernel(_diameter(spec, view) + shift))
+        return moved_share(plain, disc_kernel(_spec_diameter(spec, view) + shift))
 
     return bound_layers(signal, view, share)
 
 
-def _share_by_depth(view: View, shift: float) -> float:
+def _moved_share_by_depth(view: View, shift: float) -> float:
     """Share of the light that leaves its place where every pixel has a depth of its own.
 
     Slices are divided by their own blurred coverage, so that of several any may be all.
     """
-    middles = slice_diameters(_extremes(np.asarray(view.scene.depth), view, shift))
+    middles = slice_diameters(_diameter_range(np.asarray(view.scene.depth), view, shift))
     return moved_share(disc_kernel(float(middles[0]))) if len(middles) == 1 else 1.0

@@ -55,7 +55,7 @@ def sampled_regions(layer: Layer, reach: tuple[float, float]) -> Regions:
     """
     sides = layer.colour.shape[1::-1]
     across, down = (math.ceil(min(far, side)) + 1 for far, side in zip(reach, sides, strict=True))
-    return Regions(_boxes(layer, (down, across), (0, 0)), down)
+    return Regions(_find_uneven_boxes(layer, (down, across), (0, 0)), down)
 
 
 def regions_changed_by_blur(layer: Layer, kernel: NDArray[np.float64]) -> Regions:
@@ -64,15 +64,17 @@ def regions_changed_by_blur(layer: Layer, kernel: NDArray[np.float64]) -> Region
     Near boxes are merged: each reads a margin of the kernel's reach, so many small ones are dear.
     """
     reach = kernel.shape[0] // 2, kernel.shape[1] // 2
-    return Regions(_boxes(layer, reach, reach), reach[0])
+    return Regions(_find_uneven_boxes(layer, reach, reach), reach[0])
 
 
-def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[PixelBox]:
+def _find_uneven_boxes(
+    layer: Layer, reach: tuple[int, int], read: tuple[int, int]
+) -> list[PixelBox]:
     """What lies within so many rows and columns of something uneven."""
     seen = content_box(layer)
-    squares = _uneven(layer, seen)
+    squares = _find_uneven_squares(layer, seen)
     down, across = (-(-far // SQUARE) for far in reach)
-    squares = _near(_near(squares, down).T, across).T
+    squares = _dilate_squares(_dilate_squares(squares, down).T, across).T
     most = grow_box(seen, reach, layer.colour.shape)
     boxes = (
         (slice(top * SQUARE, bottom * SQUARE), slice(left * SQUARE, right * SQUARE))
@@ -102,10 +104,10 @@ def full_box(shape: tuple[int, ...]) -> PixelBox:
     return slice(0, shape[0]), slice(0, shape[1])
 
 
-def _uneven(layer: Layer, seen: PixelBox) -> Squares:
+def _find_uneven_squares(layer: Layer, seen: PixelBox) -> Squares:
     """Squares that have more than one colour or cover; there is nothing but in a box."""
     if layer.cover is None:
-        return _squares(layer.colour)
+        return _compare_squares(layer.colour)
     found = np.zeros([-(-length // SQUARE) for length in layer.colour.shape[:2]], bool)
     if not seen[0].stop:
         return found
@@ -114,12 +116,12 @@ def _uneven(layer: Layer, seen: PixelBox) -> Squares:
         slice(max(part.start // SQUARE - 1, 0), -(-part.stop // SQUARE)) for part in seen
     )
     box = tuple(slice(part.start * SQUARE, part.stop * SQUARE + 1) for part in (rows, columns))
-    both = _squares(layer.colour[box]) | _squares(layer.cover[box])
+    both = _compare_squares(layer.colour[box]) | _compare_squares(layer.cover[box])
     found[rows, columns] = both[: rows.stop - rows.start, : columns.stop - columns.start]
     return found
 
 
-def _squares(values: Image) -> Squares:
+def _compare_squares(values: Image) -> Squares:
     """Squares whose pixels differ, or that differ from the next pixel to the right or below."""
     channels = values.shape[2]
     side = SQUARE * channels
@@ -142,7 +144,7 @@ def _squares(values: Image) -> Squares:
     return found
 
 
-def _near(squares: Squares, far: int) -> Squares:
+def _dilate_squares(squares: Squares, far: int) -> Squares:
     """Rows of squares so near to one that is meant."""
     if not far or squares.all():
         return squares
@@ -180,11 +182,11 @@ def _merge_squares(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
     edges = np.diff(squares.astype(np.int8), axis=1, prepend=0, append=0)
     for number, row in enumerate(edges):
         ends = np.flatnonzero(row).reshape(-1, 2).tolist()  # where runs of squares begin and end
-        runs = _in_row((_Frame(number, number + 1, *run) for run in ends), read)
+        runs = _merge_row((_Frame(number, number + 1, *run) for run in ends), read)
         rights, more = [run.right for run in runs], list(runs)
         for frame in above:
             below = bisect_right(rights, frame.left)  # others have no column in common with it
-            if below < len(runs) and _together(frame, more[below], read):
+            if below < len(runs) and _is_merge_cheaper(frame, more[below], read):
                 more[below] = more[below].around(frame)
             else:
                 done.append(frame)
@@ -197,15 +199,15 @@ def _merge_squares(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
     return [everything] if whole else done
 
 
-def _together(one: _Frame, other: _Frame, read: tuple[int, int]) -> bool:
+def _is_merge_cheaper(one: _Frame, other: _Frame, read: tuple[int, int]) -> bool:
     """Whether it is cheaper to do all that lies around two rectangles."""
     return one.around(other).cost(read) <= one.cost(read) + other.cost(read)
 
 
-def _in_row(frames: Iterator[_Frame], read: tuple[int, int]) -> list[_Frame]:
+def _merge_row(frames: Iterator[_Frame], read: tuple[int, int]) -> list[_Frame]:
     found: list[_Frame] = []
     for frame in frames:
-        if found and _together(found[-1], frame, read):
+        if found and _is_merge_cheaper(found[-1], frame, read):
             found[-1] = found[-1].around(frame)
         else:
             found.append(frame)

@@ -67,13 +67,13 @@ def replace_regions(
         images if layer.own else [_copy_image(image, layer, where.boxes[0]) for image in images]
     )
     made: list[MadeRegion] = []
-    for box in sorted(_in_pieces(where.boxes, most), key=_top):
+    for box in sorted(_split_boxes(where.boxes, most), key=_first_row):
         # nothing may be written over while others still look at it
-        done = _top(box) - (where.reach if results is images else 0)
-        _write((one for one in made if one[0][0].stop <= done), results)
+        done = _first_row(box) - (where.reach if results is images else 0)
+        _write_regions((one for one in made if one[0][0].stop <= done), results)
         made = [one for one in made if one[0][0].stop > done]
         made.append((box, make(images, box)))
-    _write(made, results)
+    _write_regions(made, results)
     cover = None if layer.cover is None else results[1]
     return replace(layer, colour=results[0], cover=cover, own=True)
 
@@ -81,11 +81,11 @@ def replace_regions(
 MadeRegion = tuple[PixelBox, list[Image]]
 
 
-def _top(box: PixelBox) -> int:
+def _first_row(box: PixelBox) -> int:
     return int(box[0].start)
 
 
-def _write(made: Iterable[MadeRegion], results: list[Image]) -> None:
+def _write_regions(made: Iterable[MadeRegion], results: list[Image]) -> None:
     for box, parts in made:
         for result, part in zip(results, parts, strict=True):
             result[box] = part
@@ -103,7 +103,7 @@ def _copy_image(image: Image, layer: Layer, first: PixelBox) -> Image:
     return result
 
 
-def _in_pieces(boxes: list[PixelBox], most: tuple[int, int]) -> Iterator[PixelBox]:
+def _split_boxes(boxes: list[PixelBox], most: tuple[int, int]) -> Iterator[PixelBox]:
     for rows, columns in boxes:
         for top, bottom in split_range(rows.stop - rows.start, most[0]):
             for left, right in split_range(columns.stop - columns.start, most[1]):
@@ -209,12 +209,12 @@ def rotate_layer(layer: Layer, angles: Sequence[float | Field], reach: float) ->
     def turn(images: list[Image], box: PixelBox) -> list[Image]:
         return _turn_images(images, box, layer.motion, angles)
 
-    where, near = sampled_regions(layer, (reach, reach)), _round(layer)
+    where, near = sampled_regions(layer, (reach, reach)), _turning_box(layer)
     boxes = [part for box in where.boxes if (part := intersect_boxes(box, near)) is not None]
     return replace_regions(layer, where._replace(boxes=boxes), turn, _TURNED)
 
 
-def _round(layer: Layer) -> PixelBox:
+def _turning_box(layer: Layer) -> PixelBox:
     """Where anything of a layer may get that turns about its pivot."""
     shape = layer.colour.shape
     ends = content_box(layer)

@@ -126,7 +126,7 @@ def bounding_box(cover: Image) -> PixelBox:
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
-def _place(thing: SceneObject, view: View) -> tuple[float, float]:
+def _centre_of(thing: SceneObject, view: View) -> tuple[float, float]:
     return view.centre[0] + thing.x.value, view.centre[1] + thing.y.value
 
 
@@ -159,7 +159,7 @@ def extends_beyond_frame(spec: LayerSpec, view: View) -> bool:
     return False
 
 
-def _box(thing: SceneObject, view: View) -> PixelBox:
+def _thing_box(thing: SceneObject, view: View) -> PixelBox:
     """The part of the picture that a thing can cover."""
 
     def part(middle: float, far: float, length: int) -> slice:
@@ -168,7 +168,7 @@ def _box(thing: SceneObject, view: View) -> PixelBox:
         ends = math.floor(middle - far), math.ceil(middle + far) + 1
         return slice(*(min(max(end, 0), length) for end in ends))
 
-    (column, row), (across, down) = _place(thing, view), _extent(thing)
+    (column, row), (across, down) = _centre_of(thing, view), _extent(thing)
     return part(row, down, view.height), part(column, across, view.width)
 
 
@@ -180,11 +180,11 @@ def intersect_boxes(one: PixelBox, other: PixelBox) -> PixelBox | None:
     return (rows, columns) if rows.start < rows.stop and columns.start < columns.stop else None
 
 
-def _own_axes(
+def _to_own_axes(
     thing: SceneObject, view: View, rows: Coordinates, columns: Coordinates
 ) -> tuple[Coordinates, Coordinates]:
     """Places from a thing's centre along its own axes: a row and a column, or planes if turned."""
-    column, row = _place(thing, view)
+    column, row = _centre_of(thing, view)
     x, y = columns[None, :] - column, rows[:, None] - row
     if not thing.angle:
         return x, y
@@ -192,16 +192,18 @@ def _own_axes(
     return cosine * x + sine * y, cosine * y - sine * x
 
 
-def _pixels(part: slice) -> Coordinates:
+def _pixel_centres(part: slice) -> Coordinates:
     return np.arange(part.start, part.stop, dtype=np.float64)
 
 
-def _add(layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty: bool) -> bool:
+def _draw_edge(
+    layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty: bool
+) -> bool:
     """Draw the edge upon a part of a layer, empty or not; say whether anything is there to draw.
 
     Memory nothing is written to is not taken from the system.
     """
-    place = _own_axes(thing, view, *map(_pixels, part))
+    place = _to_own_axes(thing, view, *map(_pixel_centres, part))
     share = np.subtract(0.5, SHAPES[thing.shape](thing, *place))
     np.maximum(share, 0.0, out=share)
     np.minimum(share, 1.0, out=share)
@@ -209,10 +211,10 @@ def _add(layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty:
     if not cover.any():
         return False
     image = np.empty((*cover.shape, 3), view.precision)
-    for channel, plane in enumerate(_planes(thing, view, place)):
+    for channel, plane in enumerate(_colour_planes(thing, view, place)):
         np.multiply(cover, plane, out=image[..., channel])  # far faster than all three together
     if empty:  # nothing behind is kept
-        _lay(layer, part, image, cover[..., None])
+        _assign_region(layer, part, image, cover[..., None])
         return True
     keep = 1.0 - cover[..., None]
     blend_into(layer.colour[part], keep, image)
@@ -221,24 +223,24 @@ def _add(layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty:
     return True
 
 
-def _lay(layer: Layer, part: PixelBox, image: Image, cover: Image | float) -> None:
+def _assign_region(layer: Layer, part: PixelBox, image: Image, cover: Image | float) -> None:
     layer.colour[part] = image
     if layer.cover is not None:
         layer.cover[part] = cover
 
 
-def _fill(layer: Layer, thing: SceneObject, view: View, part: PixelBox) -> None:
+def _fill_region(layer: Layer, thing: SceneObject, view: View, part: PixelBox) -> None:
     """Draw upon a part of a layer that a thing covers; of an even one a row stands for all."""
-    rows, columns = map(_pixels, part)
-    planes = _planes(thing, view, _own_axes(thing, view, rows, columns))
+    rows, columns = map(_pixel_centres, part)
+    planes = _colour_planes(thing, view, _to_own_axes(thing, view, rows, columns))
     shape = np.broadcast_shapes((1, columns.size), *map(np.shape, planes))
     image = np.empty((*shape, 3), view.precision)
     for channel, plane in enumerate(planes):
         image[..., channel] = plane
-    _lay(layer, part, image, 1.0)
+    _assign_region(layer, part, image, 1.0)
 
 
-def _planes(
+def _colour_planes(
     thing: SceneObject, view: View, place: tuple[Coordinates, Coordinates]
 ) -> Sequence[float | Image]:
     """A thing's colours over a part."""
@@ -262,7 +264,7 @@ def thing_motion(thing: SceneObject, view: View) -> Motion:
     across, down = thing.velocity[0].value, thing.velocity[1].value
     if not thing.spin:
         return Motion((across, down)) if across or down else STILL
-    return Motion((across, down), thing.spin, _place(thing, view), outline_radius(thing))
+    return Motion((across, down), thing.spin, _centre_of(thing, view), outline_radius(thing))
 
 
 class LayerSpec(msgspec.Struct, frozen=True):
@@ -368,12 +370,12 @@ def iter_runs(row: list[int]) -> Iterator[tuple[slice, bool]]:
 
 def _draw_layer(spec: LayerSpec, view: View) -> Layer:
     """One band after the other, each with all that it shows."""
-    layer, boxes = _bare(spec, view), [_box(thing, view) for thing in spec.things]
+    layer, boxes = _allocate_layer(spec, view), [_thing_box(thing, view) for thing in spec.things]
     if view.scene.image is not None and not spec.things:
         return layer
     line = np.empty((view.width, 3), view.precision)
     line[...] = view.scene.background
-    each = [_states(thing, view) for thing in spec.things]
+    each = [_classify_thing_cells(thing, view) for thing in spec.things]
     for number, rows in enumerate(
         starmap(slice, split_range(view.height, cell_height(view.width)))
     ):
@@ -387,24 +389,24 @@ def _draw_layer(spec: LayerSpec, view: View) -> Layer:
                 if part is None:
                     continue
                 if full:
-                    _fill(layer, thing, view, part)
-                if full or _add(layer, thing, view, part, empty=not any(drawn[cells])):
+                    _fill_region(layer, thing, view, part)
+                if full or _draw_edge(layer, thing, view, part, empty=not any(drawn[cells])):
                     drawn[cells] = [True] * len(drawn[cells])
     return layer
 
 
-def _states(thing: SceneObject, view: View) -> CellStates:
+def _classify_thing_cells(thing: SceneObject, view: View) -> CellStates:
     """What a thing does to every cell of the picture."""
     height = cell_height(view.width)
     rows, columns = (
         np.arange(0.0, length, side) + (side - 1) / 2.0
         for length, side in ((view.height, height), (view.width, CELL))
     )
-    place = _own_axes(thing, view, rows, columns)
+    place = _to_own_axes(thing, view, rows, columns)
     return classify_cells(CLOSEST[thing.shape](thing, *place), math.hypot(height, CELL) / 2.0)
 
 
-def _bare(spec: LayerSpec, view: View) -> Layer:
+def _allocate_layer(spec: LayerSpec, view: View) -> Layer:
     """A layer on which nothing is drawn yet; a picture that is not kept will be drawn upon."""
     scene, shape = view.scene, (view.height, view.width)
     depth = math.inf if spec.depth is None else spec.depth

@@ -211,10 +211,12 @@ class Scene:
         seen = [thing.other for thing in self.things if thing.texture != "plain"]
         seen.extend(thing.colour for thing in self.things)
         colours = [level for colour in seen for level in colour]
-        return min((*colours, *self._behind)), max((*colours, *self._behind))
+        return min((*colours, *self._background_radiance)), max(
+            (*colours, *self._background_radiance)
+        )
 
     @cached_property
-    def _behind(self) -> tuple[float, ...]:
+    def _background_radiance(self) -> tuple[float, ...]:
         if self.image is None:
             return self.background
         return float(self.image.min()), float(self.image.max())

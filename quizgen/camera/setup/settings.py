@@ -111,7 +111,7 @@ def suggest_setting(name: str, known: Iterable[str]) -> str:
 # Settings that several effects share: the lens, the shutter, the size of a photosite
 
 
-def _f_number(value: object) -> float:
+def _parse_f_number(value: object) -> float:
     if not isinstance(value, str):
         return parse_plain_number(value)
     try:
@@ -120,15 +120,15 @@ def _f_number(value: object) -> float:
         raise ValueError(f"cannot read {value!r}; expected 2.8 or 'f/2.8'") from None
 
 
-def _maybe(
+def _optional_setting(
     name: str, read: ValueParser[float], *rules: SettingRule[float | None]
 ) -> Setting[float | None]:
     return Setting(name, read, None, rules)
 
 
-FOCAL_LENGTH = _maybe("focal_length", quantity_parser("m"), in_range(1e-6, 1e3, "m"))
-PIXEL_PITCH = _maybe("pixel_pitch", quantity_parser("m"), in_range(1e-9, 1.0, "m"))
-FULL_WELL = _maybe("full_well", quantity_parser("e-"), in_range(1.0, 1e12, "e-"))
+FOCAL_LENGTH = _optional_setting("focal_length", quantity_parser("m"), in_range(1e-6, 1e3, "m"))
+PIXEL_PITCH = _optional_setting("pixel_pitch", quantity_parser("m"), in_range(1e-9, 1.0, "m"))
+FULL_WELL = _optional_setting("full_well", quantity_parser("e-"), in_range(1.0, 1e12, "e-"))
 """Electrons at signal 1; None counts no electrons."""
 NEEDS_LENS = SettingRule[object](
     lambda _, camera: camera[FOCAL_LENGTH] is not None and camera[PIXEL_PITCH] is not None,
@@ -137,7 +137,7 @@ NEEDS_LENS = SettingRule[object](
 NEEDS_FULL_WELL = SettingRule[object](
     lambda _, camera: camera[FULL_WELL] is not None, "needs full_well"
 )
-F_NUMBER = _maybe("f_number", _f_number, in_range(0.01, 1e6), NEEDS_LENS)
+F_NUMBER = _optional_setting("f_number", _parse_f_number, in_range(0.01, 1e6), NEEDS_LENS)
 """None is a pinhole without width."""
 _FOCUS = SettingRule[float](
     lambda distance, camera: distance > (camera[FOCAL_LENGTH] or 0.0), "must exceed focal_length"
@@ -147,7 +147,9 @@ _NO_LENS = SettingRule[object](
     lambda _, camera: camera[F_NUMBER] is None and math.isinf(camera[FOCUS_DISTANCE]),
     "stands instead of f_number and focus_distance",
 )
-PINHOLE = _maybe("pinhole", quantity_parser("m"), in_range(1e-6, 1.0, "m"), NEEDS_LENS, _NO_LENS)
+PINHOLE = _optional_setting(
+    "pinhole", quantity_parser("m"), in_range(1e-6, 1.0, "m"), NEEDS_LENS, _NO_LENS
+)
 """Diameter of a hole without a lens, m; `FOCAL_LENGTH` is then its distance from the sensor."""
 SHUTTER = Setting("shutter", quantity_parser("s"), 0.0, (NOT_NEGATIVE,))
 """Exposure time, s."""

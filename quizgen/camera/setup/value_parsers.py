@@ -34,7 +34,7 @@ def _check_magnitude(value: float) -> float:
     return value
 
 
-def _measure(text: object) -> tuple[float, Dimension]:
+def _parse_quantity(text: object) -> tuple[float, Dimension]:
     """Number in base units and its dimension; degrees become radians."""
     if not isinstance(text, str):
         raise ValueError("expected a quantity with its unit in quotes")
@@ -57,7 +57,7 @@ def quantity_parser(name: str) -> ValueParser[float]:
     def read(text: object) -> float:
         if text == "inf" and expected == get_unit("m").dimension:
             return math.inf
-        value, dimension = _measure(text)
+        value, dimension = _parse_quantity(text)
         if dimension != expected:
             raise ValueError(f"expected a unit like {name!r}")
         return value
@@ -69,7 +69,7 @@ def length_parser(per: str = "") -> ValueParser[Length]:
     """Reader of a length in px or m, or of one per time."""
 
     def read(text: object) -> Length:
-        value, dimension = _measure(text)
+        value, dimension = _parse_quantity(text)
         for metric in (True, False):
             if dimension == get_unit(("m" if metric else "px") + per).dimension:
                 return Length(value, metric)
