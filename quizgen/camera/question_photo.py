@@ -49,11 +49,11 @@ _LUMA = np.array([0.3, 0.59, 0.11], np.float32)
 
 
 class InvisibleEffectError(SceneError):
-    """What a picture is asked about cannot be seen in it."""
+    """Raised if what a picture is asked about cannot be seen in it."""
 
 
 class MovedReadingError(SceneError):
-    """What is read off a picture is not what the key says, or something else decides about it."""
+    """Raised if a value read off a picture is not the key's, or another effect moves it."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class Visibility:
 
     @property
     def is_visible(self) -> bool:
-        """Whether somebody who looks at both pictures sees it."""
+        """Whether somebody who looks at both pictures sees the difference."""
         if self.too_small:
             return False
         if self.speckles and (self.spread >= LEAST_SPREAD or self.specks >= LEAST_SPECKS[0]):
@@ -106,11 +106,11 @@ class Visibility:
 
     @property
     def needs_colour(self) -> bool:
-        """Whether it is seen in colour and not in a greyscale print."""
+        """Whether it is seen in colour but not in a greyscale print."""
         return self.is_visible and self.grey is not None and not self.grey.is_visible
 
     def explain(self) -> str:
-        """One sentence: what the effects do, then how far the picture differs from one without."""
+        """Return one sentence: what the effects do, then how far the two pictures differ."""
         does = " and ".join(says.replace(" ", "s ", 1) for says in self.says)  # blur: it blurs
         does += "; " if does else ""
         if self.too_small:
@@ -148,7 +148,7 @@ class QuestionPhoto:
 
     @cached_property
     def without(self) -> Photo:
-        """The same photograph without what is asked."""
+        """The same photograph without the effects that are asked about."""
         return self.take_without()
 
     @property
@@ -161,7 +161,7 @@ def measure_visibility(
     shown: Image | NDArray[np.uint8], plain: Image | NDArray[np.uint8], kind: str = "", *,
     speckles: bool = False,
 ) -> Visibility:  # fmt: skip
-    """How two pictures differ, in colour and in grey.
+    """Return how two pictures differ, in colour and in grey.
 
     Parameters
     ----------
@@ -187,20 +187,21 @@ _ROWS, _MEGAPIXEL = 64, 1e6
 
 
 def _to_grey_levels(image: Image | NDArray[np.uint8]) -> NDArray[np.floating]:
-    """Grey levels, shape (H, W, 1) or (H, W, 3)."""
+    """Return a picture in grey levels, shape (H, W, 1) or (H, W, 3), from values or 8-bit codes."""
     levels = np.asarray(image, np.float32)
     levels = levels if image.dtype == np.uint8 else np.clip(levels * GREY_LEVELS, 0.0, GREY_LEVELS)
     return levels.reshape(*levels.shape[:2], -1)
 
 
 class _Differences:
-    """Sums over the differences of two pictures."""
+    """Running sums over the differences of two pictures, added band by band."""
 
     def __init__(self) -> None:
         self.count = self.there = self.specks = 0
         self.most = self.sum = self.squares = 0.0
 
     def add(self, apart: NDArray[np.float64]) -> None:
+        """Add the differences of some pixels, in grey levels."""
         most = np.maximum.reduce([apart[..., place] for place in range(apart.shape[2])])
         there = most[most >= LEAST_LEVELS]
         self.count += most.size
@@ -211,6 +212,7 @@ class _Differences:
         self.squares += float(np.square(apart).mean()) * most.size
 
     def summarise(self, kind: str, speckles: bool) -> Visibility:
+        """Return the measured visibility of all pixels added."""
         mean, spread = self.sum / max(self.there, 1), math.sqrt(self.squares / self.count)
         share = self.there / self.count
         return Visibility(
@@ -219,7 +221,7 @@ class _Differences:
 
 
 def check_visible(seen: Visibility, *, grey: bool = False) -> None:
-    """Refuse what cannot be seen.
+    """Raise an error if a measured effect cannot be seen.
 
     Parameters
     ----------
@@ -250,7 +252,7 @@ def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some
     chosen: EffectSelection = NO_SELECTION,
     told: Callable[[str], None] = ignore_progress,
 ) -> QuestionPhoto:
-    """Photograph a scene for a question and measure that it shows what is asked.
+    """Return a photograph for a question, measured to show what is asked.
 
     Pictures of scenes that are drawn are kept, the last 64 of them.
 
@@ -293,7 +295,7 @@ def take_question_photo(
     chosen: EffectSelection = NO_SELECTION,
     told: Callable[[str], None] = ignore_progress,
 ) -> QuestionPhoto:
-    """What `photograph_question` gives, whether or not it can be seen what is asked.
+    """Return what `photograph_question` does, but do not refuse what cannot be seen.
 
     Parameters
     ----------
@@ -320,7 +322,10 @@ _MOST_KEPT, _MOST_PIXELS = 64, 1 << 16
 def _find_key(
     scene: Scene, camera: Camera, asked: PictureQuestion, chosen: EffectSelection
 ) -> Hashable | None:
-    """What a picture depends on; None where it is large, or a photograph, and not kept."""
+    """Return what a picture is cached under.
+
+    None where it is large or from a file, and not cached.
+    """
     if scene.image is not None or scene.width * scene.height > _MOST_PIXELS:
         return None
     drawn = scene.things, scene.background, scene.background_depth, scene.width, scene.height
@@ -335,12 +340,14 @@ def _take_photo(
     chosen: EffectSelection,
     told: Callable[[str], None],
 ) -> QuestionPhoto:
+    """Return the photograph of a question, measured against the one without what is asked."""
     whole = PreparedScene(scene, camera)
     plan = plan_question(whole, asked.asks, chosen)
     prepared = PreparedScene(scene, camera, plan.names)
     large = scene.width * scene.height > 2 * _MEGAPIXEL  # layers are let go and drawn again
 
     def run_without(names: Collection[str]) -> Photo:
+        """Return the photograph without some effects."""
         rest = [name for name in plan.names if name not in names]
         again = PreparedScene(scene, camera, plan.names) if large else prepared
         return run_plan(again, rest, told, last=large)
@@ -367,7 +374,7 @@ def _take_photo(
 
 
 def _subsample(values: Image) -> Image:
-    """A megapixel of a picture, which tells as much as all of a large one."""
+    """Return about a megapixel of a picture, which tells as much as all of a large one."""
     every = max(1, round(math.sqrt(values.shape[0] * values.shape[1] / _MEGAPIXEL)))
     return values[::every, ::every].copy() if every > 1 else values
 
@@ -375,7 +382,7 @@ def _subsample(values: Image) -> Image:
 def _group_asked(
     plan: Plan, kinds: tuple[str, ...], chosen: EffectSelection
 ) -> dict[str, tuple[str, ...]]:
-    """Effects of every kind of question; those chosen by name each for itself."""
+    """Return the effects that answer each kind of question; one chosen by name is its own kind."""
     if chosen.only:
         return {name: (name,) for name in plan.asked}
     answers = {name: effects.get_effect(name).answers for name in plan.asked}
@@ -385,6 +392,7 @@ def _group_asked(
 def _measure_kind(
     kind: str, names: Collection[str], view: View, shown: Image, plain: Image
 ) -> Visibility:
+    """Return the visibility of one kind of question: shown with, plain without its effects."""
     asked = [effects.get_effect(name) for name in names]
     says = tuple(filter(None, (describe_size(one, view) for one in asked)))
     small = [one.size for one in asked if one.size and one.size.of(view) < one.size.least]
@@ -399,7 +407,7 @@ def _measure_kind(
 
 
 def read_value(image: Image, reading: Reading) -> float:
-    """What is read off a finished picture."""
+    """Return the value that a measure reads off a finished picture."""
     levels, measure = _to_grey_levels(image), reading.measure
     levels = np.broadcast_to(levels, (*levels.shape[:2], 3))
     if isinstance(measure, str):
@@ -408,7 +416,7 @@ def read_value(image: Image, reading: Reading) -> float:
 
 
 def _find_needed(whole: PreparedScene, plan: Plan, photo: Photo, reading: Reading) -> str:
-    """An effect left out without which what is read is wrong, and with which it is right."""
+    """Return the name of an effect left out without which a reading is wrong, or ""."""
     if _is_right(photo, reading):
         return ""
     others = (choice.effect for choice in plan.left_out if choice.why == "not asked")
@@ -417,6 +425,7 @@ def _find_needed(whole: PreparedScene, plan: Plan, photo: Photo, reading: Readin
 
 
 def _is_right(photo: Photo, reading: Reading) -> bool:
+    """Return whether what is read off a photograph is within the tolerance of its value."""
     value = reading.value
     return value is None or abs(read_value(photo.values, reading) - value) <= reading.tolerance
 
@@ -424,7 +433,10 @@ def _is_right(photo: Photo, reading: Reading) -> bool:
 def _check_reading(
     prepared: PreparedScene, plan: Plan, photo: Photo, name: str, reading: Reading
 ) -> float:
-    """What is read off, if that is right and nothing else moves it."""
+    """Return what is read off.
+
+    Raise if it is wrong or an effect that is not asked about moves it.
+    """
     value = read_value(photo.values, reading)
     if not _is_right(photo, reading):
         raise MovedReadingError(
@@ -446,7 +458,7 @@ def _check_reading(
 
 
 def simulate_question(scene: Scene, camera: Camera, budget: str | float = 0.5) -> Photo:
-    """Photograph a scene without what no value shows by more than a budget.
+    """Return a photograph without the effects that no value shows by more than a budget.
 
     Parameters
     ----------

@@ -55,6 +55,7 @@ TableParsers = Mapping[str, ValueParser[Any]]
 
 
 def _parse_depth(value: object) -> float:
+    """Return a depth > 0 in m; raise ``ValueError`` for anything else."""
     depth = quantity_parser("m")(value)
     if depth <= 0.0:
         raise ValueError("a depth must be positive")
@@ -62,9 +63,10 @@ def _parse_depth(value: object) -> float:
 
 
 def _integer_parser(least: int, most: int) -> ValueParser[int]:
-    """Reader of a whole number in a range."""
+    """Return a parser of whole numbers from least to most."""
 
     def read(value: object) -> int:
+        """Return the number, or raise ``ValueError``."""
         if not least <= parse_integer(value) <= most:
             raise ValueError(f"expected {least} to {most}")
         return parse_integer(value)
@@ -73,6 +75,7 @@ def _integer_parser(least: int, most: int) -> ValueParser[int]:
 
 
 def _parse_corners(value: object) -> tuple[tuple[float, float], ...]:
+    """Return the corners of a polygon in px."""
     corners = list_parser(pair_parser(parse_plain_number))(value)
     if len(corners) > MOST_THINGS:
         raise ValueError(f"expected at most {MOST_THINGS} corners")
@@ -80,6 +83,7 @@ def _parse_corners(value: object) -> tuple[tuple[float, float], ...]:
 
 
 def _parse_asks(value: object) -> tuple[str, ...]:
+    """Return the kinds of question of ``asks``: one text or a list of them."""
     kinds = list_parser(choice_parser(*effects.question_kinds()))(
         [value] if isinstance(value, str) else value
     )
@@ -89,6 +93,10 @@ def _parse_asks(value: object) -> tuple[str, ...]:
 
 
 def _parse_reads(value: object) -> dict[str, Reading]:
+    """Return the readings of ``reads``.
+
+    Measure to a tolerance, or to a table with the key as well.
+    """
     table = value if isinstance(value, dict) else {}
     if not table:
         raise ValueError("expected a table such as { corner = 3 }")
@@ -112,10 +120,12 @@ _KEYS: Mapping[str, TableParsers] = {"scene": {
     **dict.fromkeys(("title", "image", "depth_map"), parse_text),
     **dict.fromkeys(("width", "height"), _integer_parser(*SIDES)),
     **dict.fromkeys(("background_depth", "depth", "depth_near", "depth_far"), _parse_depth),
-    "background": parse_colour, "seed": _integer_parser(0, 2**63), "precision": choice_parser(*PRECISIONS),
+    "background": parse_colour, "seed": _integer_parser(0, 2**63),
+    "precision": choice_parser(*PRECISIONS),
 }, "question": {"asks": _parse_asks, "reads": _parse_reads}, "thing": {
     **dict.fromkeys(length_fields(), length_parser()),
-    "shape": choice_parser(*SHAPES), "depth": _parse_depth, "colour": parse_colour, "other": parse_colour,
+    "shape": choice_parser(*SHAPES), "depth": _parse_depth,
+    "colour": parse_colour, "other": parse_colour,
     "texture": choice_parser(*TEXTURES), "angle": quantity_parser("deg"),
     "velocity": pair_parser(length_parser("/s")), "spin": quantity_parser("deg/s"),
     "count": _integer_parser(1, MOST_THINGS), "points": _parse_corners,
@@ -124,7 +134,7 @@ TABLES = (*_KEYS, "camera")
 
 
 def _table_parsers(table: str) -> TableParsers:
-    """Parsers of one table; those of the camera come from the effects."""
+    """Return the parser of every key of one table; those of the camera come from the effects."""
     if table != "camera":
         return _KEYS[table]
     named = {name: setting.read for name, setting in effects.all_settings().items()}
@@ -136,7 +146,7 @@ _KEY = re.compile(r"\s*([\w-]+)\s*=")
 
 
 def _find_key_lines(text: str) -> dict[tuple[str, int, str], int]:
-    """Line of every key: (table, which of its kind, key) to a line from 1."""
+    """Return the line (from 1) of every (table, which of its kind, key)."""
     found: dict[tuple[str, int, str], int] = {}
     table, counts = "", dict[str, int]()
     for line, content in enumerate(text.splitlines(), start=1):
@@ -150,7 +160,7 @@ def _find_key_lines(text: str) -> dict[tuple[str, int, str], int]:
 
 
 class _SceneFile:
-    """A scene file: its tables, and where each key stands."""
+    """A scene file: its tables, and the line where each key stands."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -159,10 +169,12 @@ class _SceneFile:
         self.lines = _find_key_lines(text)
 
     def fail(self, table: str, which: int, key: str, message: str) -> SceneError:
+        """Return an error that names the file and the line of a key."""
         line = self.lines.get((table, which, key)) or self.lines.get((table, which, ""), 1)
         return SceneError(f"{self.path}:{line}: {message}")
 
     def read(self, table: str, which: int, values: Mapping[str, object]) -> dict[str, Any]:
+        """Return the parsed values of one table; raise `SceneError` at the first wrong one."""
         known, found = _table_parsers(table), {}
         for key, value in values.items():
             if key not in known:
@@ -175,6 +187,7 @@ class _SceneFile:
         return found
 
     def check_tables(self) -> None:
+        """Raise `SceneError` for unknown tables, those of the wrong kind, and too many things."""
         for name in self.tables:
             if name not in TABLES:
                 line = self.lines.get((name, 0, "")) or self.lines.get(("", 0, name), 1)
@@ -191,7 +204,7 @@ class _SceneFile:
 
 
 def load_scene(path: str | Path, precision: Precision | None = None) -> tuple[Scene, Camera]:
-    """Read a scene and its camera.
+    """Return the scene and the camera of a TOML file.
 
     Parameters
     ----------
@@ -220,6 +233,7 @@ def load_scene(path: str | Path, precision: Precision | None = None) -> tuple[Sc
 
 
 def _read_question(file: _SceneFile) -> PictureQuestion | None:
+    """Return what the file asks about the picture, or None."""
     if "question" not in file.tables:
         return None
     values = file.read("question", 0, file.tables["question"])
@@ -229,7 +243,7 @@ def _read_question(file: _SceneFile) -> PictureQuestion | None:
 
 
 def _read_exif(file: _SceneFile, given: Mapping[str, object]) -> dict[str, float]:
-    """What a photograph's file says of its camera and the scene does not.
+    """Return the settings that the photograph's EXIF gives and the scene does not.
 
     An f-number needs to know the size of a pixel, and the ISO value of a metered picture has been
     made up for by its aperture and time.
@@ -249,6 +263,7 @@ def _read_exif(file: _SceneFile, given: Mapping[str, object]) -> dict[str, float
 
 
 def _read_camera(file: _SceneFile, values: dict[str, Any], columns: int) -> Camera:
+    """Return the camera; ``columns`` turn a sensor's width into the pitch of its pixels."""
     if (width := values.pop("sensor_width", None)) is not None:
         if "pixel_pitch" in values:
             raise file.fail("camera", 0, "sensor_width", "give sensor_width or pixel_pitch")
@@ -260,7 +275,7 @@ def _read_camera(file: _SceneFile, values: dict[str, Any], columns: int) -> Came
 
 
 def _check_effects(file: _SceneFile, view: View) -> None:
-    """Name the line of what cannot be computed."""
+    """Raise `SceneError` with the line of a setting that an effect cannot be computed for."""
     for effect in effects.present_effects(view):
         try:
             effect.check_camera(view)
@@ -270,6 +285,7 @@ def _check_effects(file: _SceneFile, view: View) -> None:
 
 
 def _read_thing(file: _SceneFile, which: int, table: Mapping[str, object]) -> SceneObject:
+    """Return one thing to be drawn, with all sizes that its shape needs."""
     values = file.read("thing", which, table)
     thing = SceneObject(**values)
     for size in SIZES[thing.shape]:
@@ -284,6 +300,7 @@ def _read_thing(file: _SceneFile, which: int, table: Mapping[str, object]) -> Sc
 def _read_scene(
     file: _SceneFile, things: tuple[SceneObject, ...], precision: Precision | None
 ) -> Scene:
+    """Return the scene with its pictures loaded, but without its question."""
     values = file.read("scene", 0, file.tables.get("scene", {}))
     kind = values["precision"] = precision or values.get("precision", Scene.precision)
     pixels = values.get("width", Scene.width) * values.get("height", Scene.height)
@@ -312,7 +329,9 @@ _ROWS = 64
 
 
 def _map_codes(value: Callable[[Any], Any], codes: codecs.Codes, precision: Precision) -> Image:
-    """A value for the share of white of every code, from a table of all codes.
+    """Return ``value`` of the share of white (0 to 1) of every code, from a table of all codes.
+
+    A few rows at once: indexing makes larger numbers of the codes.
 
     Some rows at once, as codes become larger numbers for it.
     """
@@ -325,7 +344,7 @@ def _map_codes(value: Callable[[Any], Any], codes: codecs.Codes, precision: Prec
 
 
 def _read_picture(file: _SceneFile, key: str, name: str) -> codecs.Codes:
-    """Codes, shape (H, W, 3)."""
+    """Return the codes of a picture file, shape (H, W, 3)."""
     path = file.path.parent / name
     try:
         pixels = codecs.decode_photo(read_bytes(path, SceneError, LARGEST_PICTURE))

@@ -28,7 +28,7 @@ from quizgen.core.untrusted import error_context
 
 
 class Photo(msgspec.Struct, frozen=True):
-    """A simulated picture.
+    """A simulated picture, with the time that each effect took.
 
     Parameters
     ----------
@@ -47,11 +47,11 @@ class Photo(msgspec.Struct, frozen=True):
 
     @property
     def measured_ms(self) -> float:
-        """Time of all effects."""
+        """The time of all effects, ms."""
         return sum(self.times.values())
 
     def pixels(self) -> NDArray[np.uint8]:
-        """8-bit codes, halves rounded upward."""
+        """Return 8-bit codes, shape (H, W, 3), halves rounded upward."""
         flat = self.values.reshape(-1)
         codes = np.empty(flat.shape, np.uint8)
         for start, stop in split_range(flat.size, TILE_VALUES):
@@ -60,7 +60,7 @@ class Photo(msgspec.Struct, frozen=True):
 
 
 def ignore_progress(name: str) -> None:
-    """Nobody wants to know what is done now."""
+    """Do nothing: for callers who do not follow the progress."""
 
 
 def run_plan(
@@ -70,7 +70,7 @@ def run_plan(
     *,
     last: bool = False,
 ) -> Photo:
-    """Run effects on a scene.
+    """Return the photograph that some or all effects make of a scene.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ _Step = tuple[Effect, View]
 
 
 class _Run:
-    """One run: the layers, whether the picture may be written over, and the times."""
+    """One run of effects: the layers, whether they may be overwritten, and the times."""
 
     def __init__(self, prepared: PreparedScene, told: Callable[[str], None], *, last: bool) -> None:
         self.frame, self.told = prepared.view, told
@@ -103,6 +103,7 @@ class _Run:
             del prepared.stack
 
     def photograph(self, names: Collection[str] | None) -> Photo:
+        """Return the photograph after the effects of these names, None for all present ones."""
         steps = [one for one in self.present if names is None or one[0].name in names]
         if steps:
             warm_up()
@@ -123,13 +124,16 @@ class _Run:
         return Photo(composite_layers(tuple(self.stack)), times, self.drawn_ms)
 
     def _add_time(self, effect: Effect, started: float) -> None:
+        """Add the ms since ``started`` (``perf_counter``) to an effect's time."""
         spent = (perf_counter() - started) * 1e3
         self.times[effect.name] = self.times.get(effect.name, 0.0) + spent
 
     def _crop(self, view: View) -> None:
+        """Crop all layers to a view."""
         self.stack = [crop_layer(layer, view) for layer in self.stack]
 
     def _run_one(self, step: _Step) -> None:
+        """Run one effect on the whole stack."""
         effect, view = step
         self.told(effect.name)
         started = perf_counter()
@@ -138,7 +142,7 @@ class _Run:
         self._add_time(effect, started)
 
     def _run_layers(self, steps: list[_Step], then: View) -> None:
-        """Finish each layer and lay it over those behind, so that few are there at a time.
+        """Run effects that work layer by layer, and composite each layer as soon as it is done.
 
         Each effect gets no more than it and the later ones need, the last leaves what comes then.
         """
@@ -157,6 +161,7 @@ class _Run:
         self.stack = [Layer(picture)] if picture is not None else []
 
     def _composite_layer(self, layer: Layer, behind: Image | None, view: View) -> Image:
+        """Return the picture with a layer over it, in place where nobody else needs the memory."""
         if behind is None and self._is_writable(layer.colour):
             return crop_in_place(layer.colour, view)
         layer = crop_layer(layer, view)
@@ -165,11 +170,12 @@ class _Run:
         return composite_over(layer, behind if self._is_writable(behind) else behind.copy())
 
     def _is_writable(self, picture: Image) -> bool:
+        """Return whether a picture shares no memory with what others still need."""
         others = (other for other in self.kept if other is not None)
         return not any(np.may_share_memory(picture, other) for other in others)
 
     def _run_pointwise(self, steps: list[_Step]) -> None:
-        """Effects that look at one pixel only, while a tile of the picture is at hand."""
+        """Run effects that look at one pixel only, together on each tile of the picture."""
         self.told(", ".join(effect.name for effect, _ in steps))
         started, view = perf_counter(), steps[-1][1]
         self._crop(view)
@@ -187,7 +193,7 @@ class _Run:
 
 
 def measure_difference(one: Photo, other: Photo) -> float:
-    """Largest difference of two pictures in 8-bit grey levels, before rounding."""
+    """Return the largest difference of two pictures in 8-bit grey levels, before rounding."""
     if one.values is other.values:
         return 0.0
     return float(np.abs(one.values - other.values).max()) * GREY_LEVELS
@@ -198,5 +204,5 @@ _SLACK = 1e-4
 
 
 def is_within(bound_dn: float, one: Photo, other: Photo) -> bool:
-    """Whether two pictures are no farther apart than a bound on every value says."""
+    """Return whether two pictures are no farther apart than a bound in grey levels."""
     return measure_difference(one, other) <= bound_dn + _SLACK

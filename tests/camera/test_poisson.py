@@ -10,8 +10,8 @@ from quizgen.camera.pixels.noise import (
     _COLUMNS,
     FARTHEST,
     FEW_ELECTRONS,
-    _normal_table,
     _count_tables,
+    _normal_table,
     poisson_quantiles,
 )
 

@@ -36,9 +36,7 @@ _ROWS = 32
 
 
 def _fill_band(result: Image, plane: Image, tile: tuple[tuple[int, int], ...]) -> None:
-    """Fill an even number of rows of the result from the same rows of the plane and one more each
-    side.
-    """
+    """Fill an even number of rows of the result from the plane's same rows and one each side."""
     for row in (0, 1):
         for column in (0, 1):
             site = _average_neighbours(plane, row, column, green=tile[row][column] == CHANNELS["G"])

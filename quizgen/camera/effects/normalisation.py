@@ -40,7 +40,7 @@ def _value_range(view: View) -> Ends:
 def stretch_range(
     image: Image, low: float, high: float, new_low: float = 0.0, new_high: float = 1.0
 ) -> Image:
-    """Return a picture with [low, high] mapped to [new_low, new_high], clipped on both sides (E44)."""
+    """Return a picture with [low, high] mapped to [new_low, new_high], clipped to both (E44)."""
     low, high, new_low, new_high = map(float, (low, high, new_low, new_high))
     share = (image - low) * (1.0 / (high - low))
     np.clip(share, 0.0, 1.0, out=share)

@@ -26,7 +26,7 @@ def project_scene(scene: Scene, view: View) -> Scene:
 
 
 def _project_thing(thing: SceneObject, distance: float) -> SceneObject:
-    """Return a thing with its metric lengths times ``distance`` (image distance, px) over its depth."""
+    """Return a thing with its metric lengths times ``distance`` (to the sensor, px) over depth."""
 
     def on_sensor(length: Length) -> Length:
         """Return a length in px; one that is in px stays."""

@@ -103,7 +103,7 @@ def _decode_jpeg(file: JpegImageFile | PngImageFile) -> Codes:
 
 
 def _decode_png(data: bytes) -> Codes:
-    """Return the pixels of a PNG file at their full depth of 8 or 16 bits, which Pillow would cut."""
+    """Return the pixels of a PNG file at their full 8 or 16 bits, which Pillow would cut."""
     file = _open_file(data)
     packing = str(file.tile[0].args) if file.tile else ""
     if packing not in _UNPACKINGS:  # few bits become eight; a palette its colours, with alpha

@@ -44,7 +44,7 @@ def _assign_bins(values: Numbers, bins: int, top: float) -> NDArray[np.int64]:
 
 
 def _average_patch(levels: NDArray[np.floating], down: float, across: float) -> float:
-    """Return the mean of a patch (1/16 of each side) at relative position down, across in [0, 1]."""
+    """Return the mean of a patch (1/16 of each side) at relative position (0 to 1)."""
     height, width = levels.shape[:2]
     rows, columns = max(1, height // 16), max(1, width // 16)
     top, left = int((height - rows) * down), int((width - columns) * across)

@@ -57,9 +57,7 @@ class EffectRandom:
     def table_places(
         self, first: int, tile: int, count: int
     ) -> tuple[PixelPlaces, NDArray[np.uint16]]:
-        """Return the places where a table of 2^16 is read at index ``first`` or beyond, and the
-        indices.
-        """
+        """Return where a table of 2^16 is read at ``first`` or beyond, and the indices."""
         words = self._draw_words(tile, count)
         where = np.flatnonzero(words >= first)
         return where, words[where]
@@ -144,7 +142,7 @@ def electrons_at_white(view: View) -> float:
 
 
 def farthest_count(mean: float) -> float:
-    """Return a bound, in electrons, on the distance of any count from its mean, for means up to this.
+    """Return a bound in electrons on how far a count is from its mean, for means up to this.
 
     Chernoff: P(X >= m + t) <= exp(-t^2/(2 (m + t/3))), and no luck is rarer than 2^-49. One more
     for whole electrons, and one for the expansion that counts come from.
@@ -237,7 +235,7 @@ def _count_few(mean: Numbers, normal: Numbers) -> PixelPlaces:
 
 
 def _interpolate_cubic(t: Numbers, node: PixelPlaces, values: Numbers, rates: Numbers) -> Numbers:
-    """Return values at a share t (0 to 1) from one node to the next, by values and slopes at both."""
+    """Return values at share t (0 to 1) between two nodes, by values and slopes at both."""
     first, bend = values[node], rates[node]
     node += 1
     rise = values[node] - first

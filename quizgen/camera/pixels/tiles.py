@@ -111,7 +111,7 @@ def multiply_by(factor: float) -> TileOperation:
 
 
 def multiply_by_map(factors: Image) -> TileOperation:
-    """Return what multiplies every pixel's three channels by a factor of its own, shape (H, W, 1)."""
+    """Return what multiplies the three channels of every pixel by one factor, shape (H, W, 1)."""
 
     def work(part: Image, tile: Tile) -> None:
         """Multiply a tile in place by its part of the map."""

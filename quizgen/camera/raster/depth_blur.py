@@ -34,7 +34,10 @@ MAX_SLICES = 24
 
 
 def blur_by_depth(layer: Layer, view: View, shift: float = 0.0) -> Layer:
-    """Blur a layer by its circle of confusion, depth by depth where it has a map."""
+    """Return a layer blurred by its circle of confusion, slice by slice if it has a depth map.
+
+    ``shift`` (px) is added to every diameter.
+    """
     if isinstance(layer.depth, np.ndarray):
         middles = slice_diameters(_diameter_range(layer.depth, view, shift))
         index = _assign_slices(layer.depth, middles, view, shift)
@@ -43,7 +46,7 @@ def blur_by_depth(layer: Layer, view: View, shift: float = 0.0) -> Layer:
 
 
 def blur_channels(layer: Layer, view: View, shifts: Mapping[int, float]) -> Layer:
-    """Blur some channels of a layer, each by the discs of its own shift."""
+    """Return a layer with some channels blurred, each by discs with its own shift of diameter."""
     colour, cover = layer.colour.copy(), layer.cover
     if cover is not None:  # a cover for each colour
         cover = np.array(np.broadcast_to(cover, colour.shape))
@@ -60,7 +63,7 @@ def blur_channels(layer: Layer, view: View, shifts: Mapping[int, float]) -> Laye
 
 
 def slice_diameters(diameters: tuple[float, float]) -> Field:
-    """Blur diameters of the slices of a depth map, px, ascending.
+    """Return the blur diameters (px, ascending) of the slices that a depth map is cut into.
 
     Multiples of one step, so that what is in focus stays sharp: uniform in the signed circle of
     confusion (linear in 1/z). The step is 0.5 px, or more where that makes over `MAX_SLICES`.
@@ -71,13 +74,13 @@ def slice_diameters(diameters: tuple[float, float]) -> Field:
 
 
 def _diameter_range(depth: Image, view: View, shift: float) -> tuple[float, float]:
-    """Smallest and largest blur diameter of a depth map: farther is always more, or always less."""
+    """Return the smallest and the largest blur diameter of a depth map, px."""
     ends = view.blur_diameter(np.array([depth.min(), depth.max()], depth.dtype)) + shift
     return float(ends.min()), float(ends.max())
 
 
 def _assign_slices(depth: Image, middles: Field, view: View, shift: float) -> NDArray[np.uint8]:
-    """Number of the slice that each pixel of a depth map is in."""
+    """Return for each pixel of a depth map the number of the slice that it is in."""
     step = float(middles[1] - middles[0]) if len(middles) > 1 else math.inf
     index = np.empty(depth.shape, np.uint8)
     for start, stop in split_range(len(depth), _ROWS):
@@ -93,7 +96,7 @@ _BAND = 128
 
 
 def _blur_slices(sharp: Image, index: NDArray[np.uint8], middles: Field) -> Image:
-    """Lay blurred slices over each other, far ones first.
+    """Return the picture with each slice blurred by its own disc, laid over each other far to near.
 
     The farthest slice is divided by its own blurred coverage, so that the colour of what stands in
     front does not leak into the background.
@@ -115,7 +118,7 @@ def _blur_slices(sharp: Image, index: NDArray[np.uint8], middles: Field) -> Imag
 def _iter_slice_bands(
     sharp: Image, index: NDArray[np.uint8], number: int, kernel: BlurKernel
 ) -> Iterator[tuple[PixelBox, Image]]:
-    """Where light of a slice gets, and its blurred colour and coverage there, band by band."""
+    """Yield boxes that the light of a slice reaches, each with its blurred colour and coverage."""
     reach = kernel.shape[0] // 2
     for start, stop in split_range(len(sharp), max(_BAND, 8 * reach)):
         first = max(start - reach, 0)
@@ -129,7 +132,7 @@ def _iter_slice_bands(
 
 
 def _append_mask(image: Image, there: NDArray[np.bool_]) -> Image:
-    """A picture where it is there, and as its last channel where that is."""
+    """Return a picture that is empty where ``there`` is false, with that mask as last channel."""
     channels = image.shape[2]
     found = np.empty((*image.shape[:2], channels + 1), image.dtype)
     for channel in range(channels):  # far faster than NumPy's loops over three values
@@ -139,9 +142,10 @@ def _append_mask(image: Image, there: NDArray[np.bool_]) -> Image:
 
 
 def blur_margin(view: View, shifts: tuple[float, ...]) -> tuple[float, float]:
-    """Discs bring light from as far as their radius."""
+    """Return how far outside the frame discs bring light from, across and down, px."""
 
     def reach(spec: LayerSpec) -> tuple[float, float]:
+        """Return the largest radius of a layer's discs, px."""
         radius = max(abs(_spec_diameter(spec, view) + shift) / 2.0 for shift in shifts)
         return radius + bool(radius), radius + bool(radius)
 
@@ -149,18 +153,19 @@ def blur_margin(view: View, shifts: tuple[float, ...]) -> tuple[float, float]:
 
 
 def check_blur_width(view: View) -> None:
-    """No disc may be too wide."""
+    """Raise an error if a disc is too wide to be computed."""
     for spec in layer_specs(view):
         if not has_depth_map(spec, view):
             kernels.check_kernel_size(_spec_diameter(spec, view))
 
 
 def _spec_diameter(spec: LayerSpec, view: View) -> float:
+    """Return the largest blur diameter of a layer, px, without sign."""
     return view.blur_diameter(math.inf if spec.depth is None else spec.depth)
 
 
 def widest_disc(view: View) -> float:
-    """Diameter of the largest disc that anything in the frame is blurred by, px."""
+    """Return the diameter, px, of the largest disc that blurs anything in the frame."""
     widest = 0.0
     for spec in layer_specs(view):
         if has_depth_map(spec, view):
@@ -172,14 +177,18 @@ def widest_disc(view: View) -> float:
 
 
 def has_depth_map(spec: LayerSpec, view: View) -> bool:
-    """Whether every pixel of a layer has a depth of its own."""
+    """Return whether every pixel of a layer has a depth of its own."""
     return spec.opaque and view.has_depth_map
 
 
 def bound_discs(signal: Signal, view: View, shift: float | None = None) -> float:
-    """How far a picture can be from one in which no layer is blurred, or all without a shift."""
+    """Return how far a picture can be from one in which no layer is blurred.
+
+    With a shift (px): from one in which all discs are so much narrower.
+    """
 
     def share(spec: LayerSpec) -> float:
+        """Return how much of its range a layer can change."""
         if has_depth_map(spec, view):
             shifts = (0.0,) if shift is None else (0.0, shift)
             return sum(_moved_share_by_depth(view, one) for one in shifts)
@@ -192,7 +201,7 @@ def bound_discs(signal: Signal, view: View, shift: float | None = None) -> float
 
 
 def _moved_share_by_depth(view: View, shift: float) -> float:
-    """Share of the light that leaves its place where every pixel has a depth of its own.
+    """Return the share of light that leaves its pixel in a picture with a depth map.
 
     Slices are divided by their own blurred coverage, so that of several any may be all.
     """

@@ -31,7 +31,7 @@ _CALL = 4096
 
 
 class Regions(NamedTuple):
-    """Boxes; outside of them an effect changes nothing; they may overlap.
+    """The boxes of a layer outside which an effect changes nothing; they may overlap.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class Regions(NamedTuple):
 
 
 def sampled_regions(layer: Layer, reach: tuple[float, float]) -> Regions:
-    """Where values are read at places between pixels, nearest or mixed.
+    """Return the regions that change if values are read so far from their pixels.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def sampled_regions(layer: Layer, reach: tuple[float, float]) -> Regions:
 
 
 def regions_changed_by_blur(layer: Layer, kernel: NDArray[np.float64]) -> Regions:
-    """Boxes; outside of them convolving a layer with a kernel changes nothing.
+    """Return the regions outside which convolving a layer with a kernel changes nothing.
 
     Near boxes are merged: each reads a margin of the kernel's reach, so many small ones are dear.
     """
@@ -70,7 +70,10 @@ def regions_changed_by_blur(layer: Layer, kernel: NDArray[np.float64]) -> Region
 def _find_uneven_boxes(
     layer: Layer, reach: tuple[int, int], read: tuple[int, int]
 ) -> list[PixelBox]:
-    """What lies within so many rows and columns of something uneven."""
+    """Return boxes of what lies within ``reach`` rows and columns of anything uneven.
+
+    ``read`` is the margin that each box reads, by which merging is decided.
+    """
     seen = content_box(layer)
     squares = _find_uneven_squares(layer, seen)
     down, across = (-(-far // SQUARE) for far in reach)
@@ -84,12 +87,15 @@ def _find_uneven_boxes(
 
 
 def content_box(layer: Layer) -> PixelBox:
-    """Where anything of a layer is."""
+    """Return the box outside which a layer is empty."""
     return full_box(layer.colour.shape) if layer.cover is None else bounding_box(layer.cover)
 
 
 def grow_box(box: PixelBox, far: tuple[int, int], shape: tuple[int, ...]) -> PixelBox:
-    """A box, unless it is empty, with so many more rows and columns on each side as there are."""
+    """Return a box with so many more rows and columns on each side as the picture has.
+
+    Empty stays empty.
+    """
     if not box[0].stop:
         return box
     rows, columns = (
@@ -100,12 +106,12 @@ def grow_box(box: PixelBox, far: tuple[int, int], shape: tuple[int, ...]) -> Pix
 
 
 def full_box(shape: tuple[int, ...]) -> PixelBox:
-    """All rows and columns."""
+    """Return the box of all rows and columns."""
     return slice(0, shape[0]), slice(0, shape[1])
 
 
 def _find_uneven_squares(layer: Layer, seen: PixelBox) -> Squares:
-    """Squares that have more than one colour or cover; there is nothing but in a box."""
+    """Return flags of the squares of a layer with more than one colour or coverage."""
     if layer.cover is None:
         return _compare_squares(layer.colour)
     found = np.zeros([-(-length // SQUARE) for length in layer.colour.shape[:2]], bool)
@@ -122,7 +128,7 @@ def _find_uneven_squares(layer: Layer, seen: PixelBox) -> Squares:
 
 
 def _compare_squares(values: Image) -> Squares:
-    """Squares whose pixels differ, or that differ from the next pixel to the right or below."""
+    """Return flags of the squares whose pixels differ, or differ from the next right or below."""
     channels = values.shape[2]
     side = SQUARE * channels
     flat = values.reshape(len(values), -1)
@@ -145,7 +151,7 @@ def _compare_squares(values: Image) -> Squares:
 
 
 def _dilate_squares(squares: Squares, far: int) -> Squares:
-    """Rows of squares so near to one that is meant."""
+    """Return flags of the squares within ``far`` rows of a flagged one."""
     if not far or squares.all():
         return squares
     before = np.zeros((len(squares) + 1, squares.shape[1]), int)
@@ -164,11 +170,12 @@ class _Frame(NamedTuple):
     right: int
 
     def around(self, other: _Frame) -> _Frame:
+        """Return the smallest frame around two."""
         top, left = min(self.top, other.top), min(self.left, other.left)
         return _Frame(top, max(self.bottom, other.bottom), left, max(self.right, other.right))
 
     def cost(self, read: tuple[int, int]) -> int:
-        """Pixels to be read, with so many rows and columns beside it."""
+        """Return the number of pixels read for a frame, with its margin of rows and columns."""
         down, across = read
         height, width = (self.bottom - self.top) * SQUARE, (self.right - self.left) * SQUARE
         kernel = 16 * down * across  # transformed, where it is wide
@@ -176,7 +183,7 @@ class _Frame(NamedTuple):
 
 
 def _merge_squares(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
-    """Rectangles around all squares that are meant, one instead of two where that is cheaper."""
+    """Return frames around all flagged squares; two become one where that reads fewer pixels."""
     done: list[_Frame] = []
     above: list[_Frame] = []
     edges = np.diff(squares.astype(np.int8), axis=1, prepend=0, append=0)
@@ -200,11 +207,12 @@ def _merge_squares(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
 
 
 def _is_merge_cheaper(one: _Frame, other: _Frame, read: tuple[int, int]) -> bool:
-    """Whether it is cheaper to do all that lies around two rectangles."""
+    """Return whether one frame around two reads fewer pixels than both."""
     return one.around(other).cost(read) <= one.cost(read) + other.cost(read)
 
 
 def _merge_row(frames: Iterator[_Frame], read: tuple[int, int]) -> list[_Frame]:
+    """Return the frames of one row, neighbours merged where that is cheaper."""
     found: list[_Frame] = []
     for frame in frames:
         if found and _is_merge_cheaper(found[-1], frame, read):

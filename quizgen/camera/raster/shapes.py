@@ -19,11 +19,16 @@ TextureFunction = Callable[[SceneObject, Coordinates, Coordinates], Coverage]
 
 
 def _box_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to a box, largest of both axes, px."""
     return np.maximum(np.abs(x) - thing.width.value / 2, np.abs(y) - thing.height.value / 2)
 
 
 def _disc_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
-    """Of one smaller than a pixel what gives each pixel its exact share: an edge would be wider."""
+    """Return the signed distance to a disc, px.
+
+    Below a radius of 1 px, the value that gives each pixel its exact share of the area: the soft
+    edge would be wider than the disc.
+    """
     radius = thing.radius.value
     if radius >= 1.0:
         return _circle_distance(thing, x, y)
@@ -36,10 +41,12 @@ def _disc_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordi
 
 
 def _circle_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to a circle, px."""
     return np.hypot(x, y) - thing.radius.value
 
 
 def _ellipse_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to an ellipse, px, to first order near its outline."""
     half_width, half_height = thing.width.value / 2, thing.height.value / 2
     level = np.hypot(x / half_width, y / half_height)
     slope = np.hypot(x / half_width**2, y / half_height**2)
@@ -48,13 +55,17 @@ def _ellipse_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coo
 
 
 def _grid_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to the nearest line of a grid, px."""
+
     def to_line(position: Coordinates) -> Coordinates:
+        """Return the distance to the middle of the nearest line."""
         return np.abs(position - thing.cell.value * np.round(position / thing.cell.value))
 
     return np.minimum(to_line(x), to_line(y)) - thing.stroke.value / 2
 
 
 def _blades_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to the blades of a propeller and its hub, px."""
     step = 2.0 * math.pi / thing.count
     turn = np.arctan2(y, x)
     turn -= step * np.round(turn / step)
@@ -67,7 +78,7 @@ def _blades_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coor
 def _polygon_distance(
     thing: SceneObject, x: Coordinates, y: Coordinates, reach: float = 1.0
 ) -> Coordinates:
-    """Distances beyond the soft edge are not computed: only near a side does its own one count."""
+    """Return the signed distance to a polygon, px; infinite beyond ``reach``, which saves time."""
     shape = np.broadcast_shapes(x.shape, y.shape)
     distance, inside = np.full(shape, np.inf), np.zeros(shape, bool)
     rows, columns = _value_ends(y, 1), _value_ends(x, 0)
@@ -92,25 +103,26 @@ def _polygon_distance(
 
 
 def _value_ends(plane: Coordinates, axis: int) -> tuple[Coordinates, Coordinates]:
-    """Smallest and largest value of every row or column."""
+    """Return the smallest and the largest value of every row or column."""
     return plane.min(axis=axis), plane.max(axis=axis)
 
 
 def _find_near_lines(
     ends: tuple[Coordinates, Coordinates], start: float, stop: float, reach: float
 ) -> slice:
-    """Rows or columns from the first to the last that is so near to a side."""
+    """Return the rows or columns within ``reach`` of a side from start to stop."""
     low, high = ends
     near = np.flatnonzero((high >= min(start, stop) - reach) & (low <= max(start, stop) + reach))
     return slice(near[0], near[-1] + 1) if near.size else slice(0, 0)
 
 
 def _select_lines(rows: slice, plane: Coordinates) -> slice:
-    """These rows of a plane, or the only one that stands for all."""
+    """Return these rows of a plane, or the only one that stands for all."""
     return rows if len(plane) > 1 else slice(None)
 
 
 def _everywhere(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return -infinity: all of the picture is inside."""
     return np.full(np.broadcast_shapes(x.shape, y.shape), -np.inf)
 
 
@@ -127,6 +139,7 @@ SHAPES: dict[str, ShapeFunction] = {
 
 
 def _least_ellipse_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return a lower bound of the distance to an ellipse that changes at most as one moves."""
     half_width, half_height = thing.width.value / 2, thing.height.value / 2
     level = np.hypot(x / half_width, y / half_height)
     return np.asarray((level - 1.0) * min(half_width, half_height))
@@ -154,26 +167,35 @@ SIZES = {
 
 
 def _checker_share(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
+    """Return the share of the second colour in a checkerboard."""
     return _is_floor_odd(x / thing.cell.value) != _is_floor_odd(y / thing.cell.value)
 
 
 def _is_floor_odd(place: Coordinates) -> NDArray[np.bool_]:
-    """Whether the whole number below is odd: a remainder of NumPy's takes three times as long."""
+    """Return whether the integer part is odd; ``place`` is overwritten.
+
+    NumPy's remainder takes three times as long.
+    """
     half = np.floor(place, out=place)
     half *= 0.5
     return np.asarray(half != np.floor(half))
 
 
 def _stripes_share(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
+    """Return the share of the second colour in stripes with a cosine profile."""
     return _cosine_wave(2.0 * math.pi * x / thing.cell.value)
 
 
 def _ramp_share(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
+    """Return the share of the second colour, rising from 0 to 1 over the width."""
     return np.clip(x / max(thing.width.value, 1e-9) + 0.5, 0.0, 1.0)
 
 
 def _rings_share(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
-    """Rings whose period shrinks to ``cell`` at ``radius`` (a zone plate)."""
+    """Return the share of the second colour in rings (a zone plate).
+
+    Their period shrinks to ``cell`` at ``radius``.
+    """
     scale = math.pi / (thing.cell.value * max(thing.radius.value, 1.0))
     squared = x * x + y * y
     squared *= scale
@@ -181,7 +203,7 @@ def _rings_share(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage
 
 
 def _cosine_wave(phase: Coordinates) -> Coverage:
-    """From 0 to 1 and back; over the phase, which nobody else needs."""
+    """Return (1 - cos phase)/2; ``phase`` is overwritten."""
     np.cos(phase, out=phase)
     phase *= 0.5
     return np.subtract(0.5, phase, out=phase)
