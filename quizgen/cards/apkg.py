@@ -106,11 +106,11 @@ def _fill_collection(connection: sqlite3.Connection, deck: Deck) -> None:
     notes, cards = _number_notes_and_cards(deck)
     connection.executemany(
         "INSERT INTO notes VALUES (?,?,?,?,-1,?,?,?,?,0,'')",
-        (_note_row(notes[note.key], note, deck.wish.seed) for note in deck.notes),
+        (_build_note_row(notes[note.key], note, deck.wish.seed) for note in deck.notes),
     )
     connection.executemany(
         "INSERT INTO cards VALUES (?,?,?,?,?,-1,0,0,?,0,0,0,0,0,0,0,0,'')",
-        _card_rows(deck, notes, cards),
+        _iter_card_rows(deck, notes, cards),
     )
 
 
@@ -121,16 +121,16 @@ def _format_json(table: object) -> str:
 def _number_notes_and_cards(deck: Deck) -> tuple[dict[str, int], dict[tuple[str, int], int]]:
     """Ids of notes and cards: from the key, and different for every deck that holds them."""
     taken: set[int] = set()
-    notes = {note.key: _take_free_number(f"note/{note.key}", taken) for note in _by_key(deck)}
+    notes = {note.key: _take_free_number(f"note/{note.key}", taken) for note in _sort_notes(deck)}
     cards = {
         (note.key, number): _take_free_number(f"card/{note.key}/{number}", taken)
-        for note in _by_key(deck)
+        for note in _sort_notes(deck)
         for number in note.cards()
     }
     return notes, cards
 
 
-def _by_key(deck: Deck) -> list[Note]:
+def _sort_notes(deck: Deck) -> list[Note]:
     return sorted(deck.notes, key=lambda note: note.key)
 
 
@@ -142,7 +142,7 @@ def _take_free_number(name: str, taken: set[int]) -> int:
     return number
 
 
-def _note_row(number: int, note: Note, seed: int) -> tuple[Any, ...]:
+def _build_note_row(number: int, note: Note, seed: int) -> tuple[Any, ...]:
     fields = note.fields()
     tags = f" {' '.join(note.tags)} "
     checksum = int(hashlib.sha1(fields[0].encode(), usedforsecurity=False).hexdigest()[:8], 16)
@@ -152,7 +152,7 @@ def _note_row(number: int, note: Note, seed: int) -> tuple[Any, ...]:
             sorted_by, checksum)  # fmt: skip
 
 
-def _card_rows(
+def _iter_card_rows(
     deck: Deck, notes: dict[str, int], cards: dict[tuple[str, int], int]
 ) -> Iterator[tuple[Any, ...]]:
     for place, note in enumerate(deck.notes, 1):

@@ -33,7 +33,7 @@ def answer_rows(points: Fraction) -> int:
 _KIND = "layouts"
 
 
-class _Loader(jinja2.PackageLoader):
+class _LayoutLoader(jinja2.PackageLoader):
     """Layouts that go by their names: bytecode says nothing of the folder that it was made in."""
 
     def get_source(
@@ -44,7 +44,7 @@ class _Loader(jinja2.PackageLoader):
         return source, template, fresh
 
 
-class _Kept(BytecodeCache):
+class _BytecodeStore(BytecodeCache):
     """Bytecode under the digest of its layout, of how Jinja is used here, and of Python."""
 
     def get_bucket(
@@ -78,8 +78,8 @@ def _compute_compiler_digest() -> bytes:
 def jinja_environment(*packages: str) -> jinja2.Environment:
     """The layouts in the folders ``pages`` of packages: texts are escaped, unknown names fail."""
     return jinja2.Environment(
-        loader=jinja2.ChoiceLoader([_Loader(name, "pages") for name in packages]),
-        bytecode_cache=_Kept(),
+        loader=jinja2.ChoiceLoader([_LayoutLoader(name, "pages") for name in packages]),
+        bytecode_cache=_BytecodeStore(),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,

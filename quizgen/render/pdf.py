@@ -32,7 +32,7 @@ SURE_TO_FIT = 80
 """Characters of a typed formula that is no wider than the page: none takes more than 5.5 pt."""
 
 
-class _Sheet:
+class _TypstPaper:
     """Typst source of one sheet, and the pictures it refers to."""
 
     def __init__(self, paper: Paper, kind: str) -> None:
@@ -235,7 +235,7 @@ class _Sheet:
         if self.kind == "solutions":
             return f"#whole[{body}]\n{rows}\n{self._typeset_part_solution(item, index)}"
         field = self._typeset_answer_space(questions, index)
-        return f"#part[{body}\n{rows}\n{field}]\n{_left_over(first)}"
+        return f"#part[{body}\n{rows}\n{field}]\n{_typeset_notes_area(first)}"
 
     def _typeset_answer_space(self, questions: tuple[Question, ...], index: int) -> str:
         """What stands below a part and its options: hints, room to work in, lines to write on."""
@@ -366,7 +366,7 @@ def _format_holder(paper: Paper) -> str:
     return " · ".join(map(replace_unprintable, filter(None, known)))
 
 
-def _left_over(part: QuestionPart) -> str:
+def _typeset_notes_area(part: QuestionPart) -> str:
     """What of the page is left goes to calculations, by points; without any it is for notes."""
     return f"#more-room({float(part.points):g})" if part.field.control.needs_working else "#rest"
 
@@ -397,7 +397,7 @@ def _typeset_heading(section: str, lang: str) -> str:
 
 def typst_sources(paper: Paper, kind: str) -> dict[str, bytes]:
     """Typst files of a sheet, and its pictures."""
-    sheet = _Sheet(paper, kind)
+    sheet = _TypstPaper(paper, kind)
     return {**document_files("paper.typ", sheet.source()), **sheet.pictures}
 
 

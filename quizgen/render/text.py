@@ -57,7 +57,7 @@ def _format_paragraph(part: markdown.Paragraph) -> Iterable[str]:
 
 
 @_reject_block.register
-def _code_block(part: markdown.CodeBlock) -> Iterable[str]:
+def _format_code_block(part: markdown.CodeBlock) -> Iterable[str]:
     return [f"    {line}" for line in part.text.splitlines()]
 
 

@@ -112,7 +112,7 @@ def _format_paragraph(part: markdown.Paragraph, lang: str) -> str:
 
 
 @_reject_block.register
-def _code_block(part: markdown.CodeBlock, _lang: str) -> str:
+def _format_code_block(part: markdown.CodeBlock, _lang: str) -> str:
     return f"#raw({typst_literal(part.text)}, block: true);"
 
 

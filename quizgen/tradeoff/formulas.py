@@ -167,7 +167,7 @@ def _draw_count_inputs(rng: Random, n: int) -> Columns:
     return [rng.poisson(lam).astype(np.float64), lam]
 
 
-def _mean_count(left: Column) -> Column:
+def _solve_mean_count(left: Column) -> Column:
     """Solve 1 = left m ln m for whole m."""
     mean = 1 / left
     for _ in range(60):
@@ -192,7 +192,7 @@ def _make_grey_inputs(left: Column) -> Columns:
     return [R, (R + B) / 2, B]
 
 
-def _gap_of(left: Column) -> Columns:
+def _make_gap_inputs(left: Column) -> Columns:
     d = np.sqrt(left / 0.15)
     return [0.5 * (1 - d), 0.5 * (1 + d)]
 
@@ -293,7 +293,7 @@ FORMULAS = (
         "((a + b)/2)^(5/11) - (a^(5/11) + b^(5/11))/2",
         lambda rng, n: [rng.integers(1, 5, n) / 10, rng.integers(5, 10, n) / 10],
         lambda a, b: lines.gamma_gap(a, b) / ((a + b) / 2) ** (5 / 11),
-        _gap_of,
+        _make_gap_inputs,
         0.1,
         stable=lines.gamma_gap,
         shown=Shown(
@@ -377,7 +377,7 @@ FORMULAS = (
         "",
         _draw_count_inputs,
         lambda k, lam: 1 / np.maximum(k * np.log(lam), 1),
-        lambda u: [_mean_count(u), _mean_count(u)],
+        lambda u: [_solve_mean_count(u), _solve_mean_count(u)],
         0.2,
         printed=_textbook_poisson,
     ),

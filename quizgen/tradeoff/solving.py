@@ -60,19 +60,19 @@ def _return_unchanged(value: AnyNumber) -> Value:
     return kept
 
 
-def _as_it_is(value: float) -> fmpq:
+def _to_exact_fraction(value: float) -> fmpq:
     return fmpq(*Fraction(value).as_integer_ratio())
 
 
-def _to_figures(value: float) -> fmpq:
+def _round_to_figures(value: float) -> fmpq:
     if not math.isfinite(value):
         raise MathError("no finite value")
     return to_rational(f"{value:.{FIGURES}g}")
 
 
 ARITHMETICS: Mapping[str, Arithmetic] = {
-    "float64": Arithmetic(float64_system, to_float, _as_it_is),
-    "rounded": Arithmetic(float64_system, to_float, _to_figures),
+    "float64": Arithmetic(float64_system, to_float, _to_exact_fraction),
+    "rounded": Arithmetic(float64_system, to_float, _round_to_figures),
     "balls": Arithmetic(exact_system, arb, _return_unchanged),
     "exact": Arithmetic(exact_system, _return_unchanged, _return_unchanged),
 }

@@ -40,7 +40,7 @@ def truths(formula: Formula, columns: Columns) -> Column:
     compute = _choose_exact_function(formula)
     rows = zip(*(column.tolist() for column in columns), strict=True)
     names = formula.names.split()
-    read = _as_decimal if formula.decimal else _as_it_is
+    read = _to_printed_decimal if formula.decimal else _to_exact_fraction
     return np.array(
         [
             _round_to_nearest_double(compute, dict(zip(names, map(read, row), strict=True)))
@@ -54,11 +54,11 @@ def _choose_exact_function(formula: Formula) -> Callable[[Inputs], Any]:
     return special.get(formula.name) or compile_expr(formula.tree, exact_system())
 
 
-def _as_it_is(value: float) -> fmpq:
+def _to_exact_fraction(value: float) -> fmpq:
     return fmpq(*value.as_integer_ratio())
 
 
-def _as_decimal(value: float) -> fmpq:
+def _to_printed_decimal(value: float) -> fmpq:
     return to_rational(repr(value))
 
 
