@@ -21,7 +21,7 @@ DRAWN = "question"
 
 
 def check_cards(bank: Bank) -> Iterator[Diagnostic]:
-    """What is wrong with the files of ``templates/cards``."""
+    """Yield what is wrong with the files of ``templates/cards`` in a bank."""
     if not bank.cards:
         return
     for name, file in bank.cards.items():
@@ -40,7 +40,7 @@ def check_cards(bank: Bank) -> Iterator[Diagnostic]:
 
 
 def _check_entries(bank: Bank, kind: type[Entry]) -> Iterator[Diagnostic]:
-    """Why a file cannot be read, or which of its topics there are not."""
+    """Yield why the entries of a kind cannot be read, and which of their topics do not exist."""
     try:
         found = read_card_entries(bank, kind)
     except QuizgenError as error:
@@ -54,7 +54,7 @@ def _check_entries(bank: Bank, kind: type[Entry]) -> Iterator[Diagnostic]:
 
 
 def _check_notes(bank: Bank) -> Iterator[Diagnostic]:
-    """Why the notes of a kind cannot be made, or the sketch of a formula cannot be drawn."""
+    """Yield why the notes of a kind, or the sketch of a formula, cannot be made."""
     wish = DeckRequest(bank.languages, bank=bank)
     for name, notes in KINDS.items():
         try:
@@ -70,5 +70,6 @@ def _check_notes(bank: Bank) -> Iterator[Diagnostic]:
 
 
 def _has_missing_note(bank: Bank, key: str) -> bool:
+    """Return whether a listed version is of a worked question that no template makes."""
     kind, _, name = key.partition("/")
     return kind == DRAWN and name not in {bank.origin(one) for one in bank.template_paths}

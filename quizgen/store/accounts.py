@@ -32,7 +32,7 @@ SESSION_DAYS, INVITATION_DAYS = 30, 7
 
 
 def fold_user_name(name: str) -> str:
-    """Return a name in the form in which names are compared: without case, Unicode NFKC-like."""
+    """Return a name in the form in which names are compared: NFKC, without case."""
     return unicodedata.normalize("NFKC", name).casefold()
 
 

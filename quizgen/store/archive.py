@@ -224,7 +224,7 @@ def _select_columns(names: tuple[str, ...], table: Mapping[str, Any]) -> dict[st
 def _iter_learner_rows(
     connection: Connection, table: Table, learner: int, *but: str
 ) -> Iterator[dict[str, Any]]:
-    """Yield a learner's rows of a table as dicts, without the column ``learner`` and those in ``but``."""
+    """Yield a learner's rows of a table as dicts, without the columns ``learner`` and ``but``."""
     columns = [c for c in table.c if c.name not in {"learner", *but}]
     for row in connection.execute(select(*columns).where(table.c.learner == learner)).mappings():
         yield {str(name): cell for name, cell in row.items()}

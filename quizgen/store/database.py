@@ -158,7 +158,7 @@ class Database:
 
 
 def _check_open(connection: Connection) -> None:
-    """Raise an error if SQLite has rolled the transaction back, as it does when the disk is full."""
+    """Raise an error if SQLite has rolled the transaction back, as it does on a full disk."""
     raw = connection.connection.dbapi_connection
     if isinstance(raw, sqlite3.Connection) and not raw.in_transaction:
         raise SQLAlchemyError("nothing was written")
@@ -340,6 +340,6 @@ def _format_url_safely(url: URL) -> str:
 
 
 def _format_database_error(error: Exception) -> str:
-    """Return the database's own words for an error, on one line."""
+    """Return what went wrong, in the database's own words."""
     cause = error.orig if isinstance(error, DBAPIError) else error
     return str(cause).strip().partition("\n")[0]

@@ -66,7 +66,7 @@ class Store:
             connection.execute(select(LEARNER.c.id).limit(1))
 
     def _begin_clock(self) -> Clock:
-        """Return a clock that agrees with all servers of this database since the machine was started."""
+        """Return a clock that all servers of this database share until the machine restarts."""
         began, name = Clock(), since_boot()
         if not name:
             return began

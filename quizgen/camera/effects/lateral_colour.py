@@ -27,8 +27,8 @@ def check_camera(view: View) -> None:
     """Raise `SceneError` if a colour would shrink to a point or turn inside out."""
     if _colour_scale(view) > MOST:
         raise SceneError(
-            f"lateral_colour of {_colour_scale(view) * view.frame_corner:g} px is more than half of "
-            f"the {view.frame_corner:.4g} px to the corner of the picture"
+            f"lateral_colour of {_colour_scale(view) * view.frame_corner:g} px is more than half "
+            f"of the {view.frame_corner:.4g} px to the corner of the picture"
         )
 
 
