@@ -22,7 +22,7 @@ def check_seen(
     shown: NDArray[np.uint8], plain: NDArray[np.uint8], kind: str, *, speckles: bool = False,
     grey: bool = True,
 ) -> None:  # fmt: skip
-    """Refuse a picture in which nobody sees what it is asked about.
+    """Raise an error if nobody sees in a picture what it is asked about.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def place_photo(
     fig: Any, codes: NDArray[np.uint8], box: Box, *, palette: Any = None, number: int = 0,
     told: str = "",
 ) -> None:  # fmt: skip
-    """Put a photograph into a box of the figure and frame it.
+    """Draw a photograph in a box of the figure, with a frame.
 
     Parameters
     ----------
