@@ -27,8 +27,6 @@ def amplify_difference(one: Image, other: Image) -> tuple[int, Codes]:
     The factor is 1, 2, 5, 10, ...: of the values that differ by a grey level (or of all, where none
     does) 98 % are not clipped.
 
-    Of the values that differ by a grey level (or of all, where none does) 98 % are not clipped.
-
     Returns
     -------
     int

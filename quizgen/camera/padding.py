@@ -61,8 +61,6 @@ def crop_in_place(picture: Image, view: View) -> Image:
     """Return the middle of a picture, moved row by row within its own memory.
 
     Nobody else may need the picture. New memory for a large one takes longer than copying it.
-
-    New memory for a large picture takes longer than copying it.
     """
     down, across = (picture.shape[0] - view.height) // 2, (picture.shape[1] - view.width) // 2
     if not down and not across:

@@ -332,8 +332,6 @@ def _map_codes(value: Callable[[Any], Any], codes: codecs.Codes, precision: Prec
     """Return ``value`` of the share of white (0 to 1) of every code, from a table of all codes.
 
     A few rows at once: indexing makes larger numbers of the codes.
-
-    Some rows at once, as codes become larger numbers for it.
     """
     top = int(np.iinfo(codes.dtype).max)
     table = np.asarray(value(np.arange(top + 1) / top), precision)

@@ -79,7 +79,7 @@ def modification_time(note: Note, seed: int) -> int:
 
 
 def _count_language_versions(langs: tuple[str, ...]) -> int:
-    """Return how much a note's languages add to its version: both count as later than one."""
+    """Return 0 for English alone, 1 for another language, 2 for several: the part of a version."""
     return 2 if len(langs) > 1 else int(langs != (FIRST,))
 
 

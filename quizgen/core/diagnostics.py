@@ -89,9 +89,6 @@ def can_be_ignored(code: str) -> bool:
     """Return whether a template may list a code under ``ignore``.
 
     What stops a paper cannot be ignored: lint would find nothing wrong where ``exam`` fails.
-
-    What stops a paper is told whatever a template says, or lint would say that nothing is wrong
-    and ``exam`` would fail.
     """
     return code in CODES and code[2] in "234"
 

@@ -237,8 +237,6 @@ def _set_up_worker(*threshold: int) -> None:
 
     It collects garbage as seldom as its parent: the usual threshold took a twentieth of the time of
     many papers.
-
-    It looks for garbage as seldom as its parent, which took a twentieth of each of many papers.
     """
     gc.set_threshold(*threshold)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # where it cannot be blocked

@@ -85,8 +85,6 @@ def error_context(file: Path | None, kind: ErrorType = QuizgenError) -> Iterator
 
     An error whose message names this file already, or another of its folder, stays as it is.
 
-    An error that names the file already, or another of its folder, stays as it is.
-
     Parameters
     ----------
     file : pathlib.Path or None
@@ -261,9 +259,6 @@ def iter_csv_rows(
     ``sep=;`` above it names one. ``where`` is the file or its name in messages.
 
     Blank rows are left out.
-
-    Cells are parted by the comma, semicolon or tab that the first row has most of; a line
-    ``sep=;`` before it says so. Cells may be quoted; rows of blanks are left out.
 
     Raises
     ------

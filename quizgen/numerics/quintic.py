@@ -105,8 +105,6 @@ class QuinticSolver(msgspec.Struct, frozen=True):
         """Return where m is larger than every value up to the fold, so that there is no root.
 
         The value at the fold hardly changes with x, so that a rounded fold will do.
-
-        The value there does not change with its place, so that a rounded place will do.
         """
         fold = self.fold()
         folds = np.isfinite(fold)
@@ -167,8 +165,6 @@ class QuinticSolver(msgspec.Struct, frozen=True):
 
         It is a root of the polynomial around x, whose coefficients may cancel where folds meet. Two
         such folds lie next to one another: the root is looked for up to the first.
-
-        Two such folds lie next to one another: the root is looked for up to the first.
         """
         A, B, C, x_pair = as_pairs(self.A, self.B, self.C, x)
         square = x_pair * x_pair

@@ -32,9 +32,6 @@ def warm_allocator(size: int) -> None:
 
     Until then the C library returns temporaries from 128 KiB on to the system one by one, which can
     cost as much as the computation. The array is never written to and takes no memory.
-
-    Until then it gives temporaries from 128 KiB on back to the system one by one, which can cost
-    as much as the computation. The array is never written to and takes no memory.
     """
     np.empty(size, np.uint8)
 
@@ -220,8 +217,6 @@ def broadcast_flat(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
 
     One that is the same number throughout, like the one camera of a picture, becomes an array of
     one.
-
-    What is the same number throughout, like the one camera of a picture, becomes one value.
     """
     arrays = list(map(_to_doubles, args))
     shape = np.broadcast_shapes(*[array.shape for array in arrays])

@@ -184,7 +184,7 @@ class Accounts:
             return [row_to_record(row, Person) for row in connection.execute(query).mappings()]
 
     def rename(self, learner: int, name: str) -> bool:
-        """Change a learner's name; return False, changing nothing, if somebody else has it."""
+        """Change a learner's name; return False, changing nothing, if it is taken or reserved."""
         if fold_user_name(name) == ALONE:
             return False
         try:

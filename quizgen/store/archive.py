@@ -256,8 +256,6 @@ def _choose_free_names(
 
     An id that somebody else has is replaced by one that follows from it, so that the same file
     never adds anything twice.
-
-    The same file always gives the same ones, so that it does not come in twice.
     """
     others = {name: hashlib.sha256(f"{learner}/{name}".encode()).hexdigest()[:24] for name in names}
     query = select(table.c.id, table.c.learner)
@@ -320,7 +318,7 @@ def _list_open_numbers(connection: Connection, learner: int) -> set[str]:
 
 
 def _add_sitting(connection: Connection, learner: int, sitting: ArchivedExam) -> int:
-    """Add an exam with its answers and flags if the learner lacks it; return 1 if added, else 0."""
+    """Add an exam with answers and flags; return 1, or 0 if it was there or the same is open."""
     # As handed in by a file, a paper would show the key of the same that is open here.
     if numbers_of(sitting.code) in _list_open_numbers(connection, learner):
         return 0

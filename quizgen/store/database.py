@@ -273,7 +273,7 @@ def _create_engine_for(url: URL) -> Engine:
 
     @event.listens_for(engine, "connect")
     def _set_up(connection: sqlite3.Connection, _record: object) -> None:
-        """Set a new SQLite connection up: foreign keys, log, waiting for locks."""
+        """Set a new SQLite connection up: write-ahead log, synchronous commits, foreign keys."""
         connection.isolation_level = None  # ``_begin`` says when something begins
         _enable_wal(connection)
         # In a log NORMAL waits for no disk: a power cut would take back what was acknowledged.
@@ -293,8 +293,6 @@ def _restrict_access(url: URL) -> None:
     """Create an SQLite file that only its owner may read, or restrict the one there is.
 
     It holds answers and names. SQLite gives its log the same mode; the umask is not asked.
-
-    It holds answers and names, and the person who serves it chooses where: the umask is not asked.
     """
     if url.get_backend_name() != "sqlite" or url.database in {None, "", ":memory:"}:
         return

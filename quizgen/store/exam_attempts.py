@@ -236,9 +236,6 @@ def _has_parts(connection: Connection, sitting: ExamRecord, answers: Mapping[str
     """Return whether the paper of an exam has all these parts.
 
     An exam without a stored paper takes any, up to more parts than any paper has.
-
-    One of before papers were kept has none until it is made again; what arrives before that is
-    kept, up to more parts than any paper has.
     """
     if sitting.paper is not None:
         query = select(PAPER.c.parts).where(PAPER.c.id == sitting.paper)

@@ -119,7 +119,7 @@ def _prepare_solving(drawn: Variant, system: str) -> Callable[[], object]:
 
 
 def _solve_chain(way: Arithmetic, chain: Chain, given: dict[str, AnyNumber]) -> object:
-    """Return every quantity of a chain as a key takes it."""
+    """Return every quantity of a chain, computed in an arithmetic from a copy of what is given."""
     return way.run(chain, dict(given))
 
 

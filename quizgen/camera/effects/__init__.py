@@ -102,7 +102,7 @@ def ineffective_settings(view: View) -> dict[str, str]:
 
 
 def get_effect(name: str) -> Effect:
-    """Return the effect of a name; raise ``KeyError`` if there is none."""
+    """Return the effect of a name, which must exist."""
     return next(effect for effect in EFFECTS if effect.name == name)
 
 

@@ -96,8 +96,6 @@ def mixing_matrix(temperature: float, *, infrared_filter: bool) -> Curve:
 
     No entry is negative. White under `DAYLIGHT`, seen through the infrared filter, makes 1 in every
     row.
-
-    White under `DAYLIGHT`, behind the filter against infrared, makes 1 in every row.
     """
     sites, infrared, bands = _sensor_curves()
     white = (sites * infrared * lamp_spectrum(DAYLIGHT)).sum(axis=1)

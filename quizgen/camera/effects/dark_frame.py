@@ -38,8 +38,6 @@ def _remaining_noise(view: View) -> float:
 
     It is that of one frame over the root of their number. A mean of counts is taken as normal; with
     one frame of few electrons it is not quite.
-
-    A mean of counts is taken as normal; with one frame of few electrons it is not quite.
     """
     variance = view.camera[READ_NOISE] ** 2 + dark_electrons(view)
     frames = view.camera[DARK_FRAMES]

@@ -114,8 +114,6 @@ def ratio_quadrant(
 
     Middle lines are included; lengths are in px. Beyond the corner of the frame, where the picture
     may fold, the ratio stays what it is there.
-
-    Beyond the corner of the frame, where the picture may fold, it stays what it is there.
     """
     right = np.abs(np.arange((width + 1) // 2) - (width - 1) / 2)
     lower = np.abs(np.arange((height + 1) // 2) - (height - 1) / 2)

@@ -34,8 +34,6 @@ def exposure_factor(view: View) -> float:
 
     `quizgen.camera.effects.gain` follows later. Without a light value the picture is metered:
     f-number and shutter do not change it.
-
-    Without a light value the picture is metered: f-number and shutter do not change it.
     """
     stops, light = view.camera[EXPOSURE], view.camera[LIGHT_VALUE]
     if light is not None:

@@ -16,7 +16,7 @@ FLAT_FIELD = Setting("flat_field", parse_bool, False)
 
 
 def operation(view: View) -> TileOperation:
-    """Return what divides a tile by the vignetting of an even picture; the mean stays (E31)."""
+    """Return what multiplies a tile by the gains that undo vignetting; the mean stays (E31)."""
     return multiply_by_map(flat_field_gains(falloff_map(view)))
 
 

@@ -63,8 +63,6 @@ def _clamp_to_edge(positions: Field, length: int, view: View) -> Image:
     """Return positions (px) brought back to just outside the picture, where its edge repeats.
 
     Samplers hold no larger whole numbers than 2^31.
-
-    Samplers hold no larger whole numbers than 2^31.
     """
     return np.clip(positions, -1.0, length).astype(view.precision)
 

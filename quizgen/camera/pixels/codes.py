@@ -15,8 +15,6 @@ def to_8bit(values: NDArray[np.floating]) -> NDArray[np.uint8]:
 
     Nothing is truncated (errata EC8), nothing wraps (errata E21); OpenCV's demosaicing rounds so,
     too.
-
-    Nothing is truncated (errata EC8) and nothing wraps (errata E21).
     """
     return np.asarray(np.clip(values + 0.5, 0, 255), np.uint8)  # which leaves out the fraction
 

@@ -71,9 +71,6 @@ def _build_row_splitter(positions: BlurKernel) -> Callable[[BlurKernel], BlurKer
 
     Every pixel up to the last has some. It sums in one thread and one order: a matrix product would
     take all cores for a moment.
-
-    There are some in every pixel up to the last. Sums in one thread and in one order: a product of
-    matrices takes all cores for a moment.
     """
     reach = math.floor(positions[-1]) + 1
     starts = np.searchsorted(positions, np.arange(reach))

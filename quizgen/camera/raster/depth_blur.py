@@ -184,7 +184,7 @@ def has_depth_map(spec: LayerSpec, view: View) -> bool:
 def bound_discs(signal: Signal, view: View, shift: float | None = None) -> float:
     """Return how far a picture can be from one in which no layer is blurred.
 
-    With a shift (px): from one in which all discs are so much narrower.
+    With a shift: from one in which all discs are ``shift`` px wider.
     """
 
     def share(spec: LayerSpec) -> float:

@@ -214,8 +214,6 @@ def _draw_edge(
     taken from the system.
 
     Return whether it covers anything there.
-
-    Memory nothing is written to is not taken from the system.
     """
     place = _to_own_axes(thing, view, *map(_pixel_centres, part))
     share = np.subtract(0.5, SHAPES[thing.shape](thing, *place))

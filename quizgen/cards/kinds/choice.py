@@ -47,8 +47,6 @@ def _rank_distractor(entry: VocabularyEntry, other: VocabularyEntry) -> tuple[in
     """Return the sort key of a distractor.
 
     Those of the term's group first, then the nearest in the list.
-
-    Those of the term's group first, then the nearest in the list.
     """
     far = 0 if other.group == entry.group else abs(other.number - entry.number)
     return far, _hash_entry_pair(entry, other)
