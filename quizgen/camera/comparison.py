@@ -49,7 +49,7 @@ def concatenate_pictures(*pictures: Codes) -> Codes:
 
 
 def measure_effects(
-    prepared: PreparedScene, photo: Photo, names: Collection[str], told: Callable[[str], None]
+    prepared: PreparedScene, photo: Photo, names: Collection[str], on_effect: Callable[[str], None]
 ) -> dict[str, float]:
     """Return the largest change, in grey levels, that each present effect makes to the picture.
 
@@ -59,13 +59,13 @@ def measure_effects(
     photo : Photo
         Taken with the effects of these names.
     names : collection of str
-    told : callable
+    on_effect : callable
         Gets the name of each effect before it is tried.
     """
     units = (prepared.find_unit(one) for one in prepared.present if one.prepare is None)
     found: dict[str, float] = {}
     for members in dict.fromkeys(units):
-        told(min(members))
+        on_effect(min(members))
         other = run_plan(prepared, set(names) ^ set(members))
         found.update(dict.fromkeys(members, measure_difference(photo, other)))
     return found

@@ -107,7 +107,7 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     range_after : callable
         ``range_after(signal, view)``: the `Signal` of what comes out, by default of what comes in.
     size : EffectSize, optional
-        What it does, in its own terms; without one only differences in grey levels are told.
+        What it does, in its own terms; without one only differences in grey levels are reported.
     speckles : bool
         Whether it is seen by the spread of single pixels, as noise is.
     needs_effects : tuple of str

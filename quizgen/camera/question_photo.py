@@ -250,7 +250,7 @@ def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some
     *,
     grey: bool = False,
     chosen: EffectSelection = NO_SELECTION,
-    told: Callable[[str], None] = ignore_progress,
+    on_effect: Callable[[str], None] = ignore_progress,
 ) -> QuestionPhoto:
     """Return a photograph for a question, measured to show what is asked.
 
@@ -268,7 +268,7 @@ def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some
         Whether what is asked must also be seen in a greyscale print.
     chosen : EffectSelection
         Effects that are chosen by name.
-    told : callable
+    on_effect : callable
         Gets the names of effects before they run.
 
     Raises
@@ -280,7 +280,7 @@ def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some
         that it should have.
     """
     with error_context(scene.file):
-        taken = take_question_photo(scene, camera, asks, reads, chosen=chosen, told=told)
+        taken = take_question_photo(scene, camera, asks, reads, chosen=chosen, on_effect=on_effect)
         for seen in taken.seen:
             check_visible(seen, grey=grey)
     return taken
@@ -293,13 +293,13 @@ def take_question_photo(
     reads: Mapping[str, Reading] | None = None,
     *,
     chosen: EffectSelection = NO_SELECTION,
-    told: Callable[[str], None] = ignore_progress,
+    on_effect: Callable[[str], None] = ignore_progress,
 ) -> QuestionPhoto:
     """Return what `photograph_question` does, but do not refuse what cannot be seen.
 
     Parameters
     ----------
-    scene, camera, asks, reads, chosen, told
+    scene, camera, asks, reads, chosen, on_effect
         As for `photograph_question`.
     """
     own = scene.question or PictureQuestion(())
@@ -307,9 +307,9 @@ def take_question_photo(
     asked = PictureQuestion(kinds or own.asks, own.reads if reads is None else reads)
     key = _find_key(scene, camera, asked, chosen)
     if key is None:
-        return _take_photo(scene, camera, asked, chosen, told)
+        return _take_photo(scene, camera, asked, chosen, on_effect)
     if key not in _KEPT:
-        _KEPT[key] = _take_photo(scene, camera, asked, chosen, told)
+        _KEPT[key] = _take_photo(scene, camera, asked, chosen, on_effect)
         while len(_KEPT) > _MOST_KEPT:
             _KEPT.popitem(last=False)
     return _KEPT[key]
@@ -338,7 +338,7 @@ def _take_photo(
     camera: Camera,
     asked: PictureQuestion,
     chosen: EffectSelection,
-    told: Callable[[str], None],
+    on_effect: Callable[[str], None],
 ) -> QuestionPhoto:
     """Return the photograph of a question, measured against the one without what is asked."""
     whole = PreparedScene(scene, camera)
@@ -350,17 +350,17 @@ def _take_photo(
         """Return the photograph without some effects."""
         rest = [name for name in plan.names if name not in names]
         again = PreparedScene(scene, camera, plan.names) if large else prepared
-        return run_plan(again, rest, told, last=large)
+        return run_plan(again, rest, on_effect, last=large)
 
     groups = _group_asked(plan, asked.asks, chosen)
     plain = {kind: run_without(names) for kind, names in groups.items()} if not large else {}
     thin = {kind: _subsample(run_without(names).values) for kind, names in groups.items() if large}
-    photo = run_plan(prepared, told=told, last=large and not asked.reads)
+    photo = run_plan(prepared, on_effect=on_effect, last=large and not asked.reads)
     readings = {}
     for name, reading in asked.reads.items():
         if added := _find_needed(whole, plan, photo, reading):
             return _take_photo(
-                scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)), told
+                scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)), on_effect
             )
         readings[name] = _check_reading(prepared, plan, photo, name, reading)
     shown, seen = _subsample(photo.values), []

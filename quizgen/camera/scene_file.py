@@ -101,9 +101,9 @@ def _parse_reads(value: object) -> dict[str, Reading]:
     if not table:
         raise ValueError("expected a table such as { corner = 3 }")
     found = {}
-    for name, told in table.items():  # a tolerance, or a table with the key as well
+    for name, given in table.items():  # a tolerance, or a table with the key as well
         measure = choice_parser(*MEASURES)(name)
-        fields = told if isinstance(told, dict) else {"tolerance": told}
+        fields = given if isinstance(given, dict) else {"tolerance": given}
         if "tolerance" not in fields or fields.keys() - {"tolerance", "value"}:
             raise ValueError(f"{name}: expected a tolerance, and maybe a value")
         values = {key: parse_plain_number(part) for key, part in fields.items()}

@@ -66,7 +66,7 @@ def ignore_progress(name: str) -> None:
 def run_plan(
     prepared: PreparedScene,
     names: Collection[str] | None = None,
-    told: Callable[[str], None] = ignore_progress,
+    on_effect: Callable[[str], None] = ignore_progress,
     *,
     last: bool = False,
 ) -> Photo:
@@ -77,13 +77,13 @@ def run_plan(
     prepared : PreparedScene
     names : collection of str, optional
         Of present effects; by default all of them.
-    told : callable
+    on_effect : callable
         Gets the names of effects before they run.
     last : bool
         Whether the drawn layers are not needed afterwards: each is let go once it is photographed.
     """
     with error_context(prepared.given.scene.file):
-        return _Run(prepared, told, last=last).photograph(names)
+        return _Run(prepared, on_effect, last=last).photograph(names)
 
 
 _Step = tuple[Effect, View]
@@ -92,8 +92,10 @@ _Step = tuple[Effect, View]
 class _Run:
     """One run of effects: the layers, whether they may be overwritten, and the times."""
 
-    def __init__(self, prepared: PreparedScene, told: Callable[[str], None], *, last: bool) -> None:
-        self.frame, self.told = prepared.view, told
+    def __init__(
+        self, prepared: PreparedScene, on_effect: Callable[[str], None], *, last: bool
+    ) -> None:
+        self.frame, self.on_effect = prepared.view, on_effect
         self.present = list(zip(prepared.present, prepared.views, strict=True))
         self.times = dict(prepared.prepared_ms)
         self.stack = list(prepared.stack)
@@ -135,7 +137,7 @@ class _Run:
     def _run_one(self, step: _Step) -> None:
         """Run one effect on the whole stack."""
         effect, view = step
-        self.told(effect.name)
+        self.on_effect(effect.name)
         started = perf_counter()
         self._crop(view)
         self.stack = list(effect.run(tuple(self.stack), view))
@@ -146,7 +148,7 @@ class _Run:
 
         Each effect gets no more than it and the later ones need, the last leaves what comes then.
         """
-        self.told(", ".join(effect.name for effect, _ in steps))
+        self.on_effect(", ".join(effect.name for effect, _ in steps))
         picture: Image | None = None
         while self.stack:
             drawn = self.stack.pop(0)
@@ -176,7 +178,7 @@ class _Run:
 
     def _run_pointwise(self, steps: list[_Step]) -> None:
         """Run effects that look at one pixel only, together on each tile of the picture."""
-        self.told(", ".join(effect.name for effect, _ in steps))
+        self.on_effect(", ".join(effect.name for effect, _ in steps))
         started, view = perf_counter(), steps[-1][1]
         self._crop(view)
         picture = composite_layers(tuple(self.stack))

@@ -266,6 +266,7 @@ def _format_table_block_html(part: TableBlock, lang: str, *, ask: bool | None = 
     """Return a table as HTML."""
 
     def row(cells: Iterable[Sequence[Inline]], tag: str) -> str:
+        """Return one row of the table; ``tag`` is ``th`` or ``td``."""
         return "".join(f"<{tag}>{to_card_html(cell, lang, ask=ask)}</{tag}>" for cell in cells)
 
     head = f"<tr>{row(part.head, 'th')}</tr>"
@@ -282,7 +283,7 @@ def _format_display_maths_html(part: DisplayMaths, lang: str, *, ask: bool | Non
 
 @to_card_html.register
 def _format_cloze_hole_html(part: ClozeHole, lang: str, *, ask: bool | None = None) -> str:
-    """Return a formula with a hidden side as HTML."""
+    """Return a formula with a hidden side as HTML; ``ask`` as for `to_card_html`."""
     del lang
     shown, hidden = (equations_to_mathjax(side.node) for side in (part.shown, part.hidden))
     if ask is None:
@@ -412,7 +413,7 @@ def _format_display_maths_text(part: DisplayMaths, *, ask: bool = False) -> str:
 
 @to_card_text.register
 def _format_cloze_hole_text(part: ClozeHole, *, ask: bool = False) -> str:
-    """Return a formula with a hidden side as plain text."""
+    """Return a formula with a hidden side as plain text, without that side if ``ask``."""
     return f"{part.shown.text} {'[...]' if ask else part.hidden.text}\n"
 
 

@@ -19,7 +19,7 @@
     |-- AttemptFinishedError  a part in practice is answered again after it has ended
     `-- InvalidChoiceError  an argument is none of the values allowed (names them)
 
-Two more stand beside their subject: ``SceneError`` in ``camera.setup.scene``, and
+Two more are defined with their subject: ``SceneError`` in ``camera.setup.scene``, and
 ``FormulaReadError`` in ``maths.notation.lexer``, the ``FormulaError`` that knows what was found and
 what was expected.
 ``DomainError`` in ``numerics.domain`` is a plain ``ValueError``: array functions know nothing of

@@ -38,18 +38,18 @@ def _get_final_path_name(path: str) -> str:
     return re.sub(r"\.([^/\\]*)\.\d+-[0-9a-f]{8}\.part", r"\1", path)
 
 
-def open_private(path: Path, *, anew: bool = False) -> io.BufferedWriter:
+def open_private(path: Path, *, truncate: bool = False) -> io.BufferedWriter:
     """Return a binary stream that appends to a file only its owner may read.
 
     Parameters
     ----------
     path : pathlib.Path
         Made if it does not exist.
-    anew : bool
-        Write it from its beginning instead.
+    truncate : bool
+        Empty the file first, in place of adding to it.
     """
     flags = os.O_WRONLY | os.O_CREAT | getattr(os, "O_BINARY", 0)
-    number = os.open(path, flags | (os.O_TRUNC if anew else os.O_APPEND), PRIVATE)
+    number = os.open(path, flags | (os.O_TRUNC if truncate else os.O_APPEND), PRIVATE)
     return os.fdopen(number, "wb")
 
 
@@ -82,10 +82,10 @@ def write_all(
     mode: int = USUAL,
     private: Collection[str] = (),
 ) -> list[Path]:
-    """Write several files so that either all of them appear or none changes.
+    """Write several files so that all of them appear or none changes; return their paths.
 
     A folder that is new appears with everything in it. In one that exists, the last file seals the
-    set: it goes first and comes back last, so a run that is killed never leaves it beside others
+    set: it goes first and comes back last, so a run that is killed never leaves it with others
     that it does not belong to.
 
     Parameters
@@ -217,13 +217,15 @@ def _write_synced(path: Path, data: bytes) -> None:
 
 
 def read_table(path: Path, meant: Callable[[str], str] = str) -> Mapping[str, Any]:
-    """Read a JSON file or, by its suffix or its first sign, a TOML file; 0.50 stays text.
+    """Return the table in a JSON or TOML file; numbers with a point stay text: 0.50 keeps its zero.
+
+    The suffix decides on the format, else the first character: ``{`` begins JSON.
 
     Parameters
     ----------
     path : pathlib.Path
     meant : callable
-        What becomes of a TOML file that people write by hand before it is read.
+        Applied to the text of a TOML file before it is parsed, to mend what people mistype.
 
     Raises
     ------

@@ -63,7 +63,7 @@ def draw_figure(
     lang : str
         Language of the description, and of the decimal signs in the picture.
     marks : mapping of str to float, optional
-        Values of a learner, to be drawn beside the right ones by the figure's ``mark``.
+        Values of a learner, to be drawn next to the right ones by the figure's ``mark``.
 
     Returns
     -------

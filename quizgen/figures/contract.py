@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 class FigureModule(Protocol):
     """A module that draws one figure: its parameters, the drawing, and a description in words.
 
-    Beside these it may have ``SIZE``, width and height in points of its axes or sheet (``COLUMN``,
+    It may also have ``SIZE``, width and height in points of its axes or sheet (``COLUMN``,
     ``WIDE`` and ``SQUARE`` of the kit are ready ones); ``COLOUR = True``, or a function of the
     values, if it cannot be read on grey paper; and ``mark(place, values, marks)``, which draws
-    values of a learner beside the right ones.
+    values of a learner next to the right ones.
     """
 
     PARAMETERS: dict[str, Parameter]
@@ -143,7 +143,7 @@ class Figure:
     def standalone_svg(self) -> bytes:
         """The SVG file in fixed colours on light paper, for programs without a page's variables.
 
-        Without its words, which stand beside it, so that all languages share one file.
+        Without its description, so that all languages share one file.
         """
         bare = _WORDS.sub(b"", _LANGUAGE.sub(b"", self.inline_svg, count=1), count=1)
         return _VARIABLE.sub(rb"\1", bare).replace(b"currentColor", b"#000000")

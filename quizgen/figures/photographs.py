@@ -64,7 +64,7 @@ def place_photo(
     number : int
         Written above; 0 writes none.
     told : str
-        Beside the number, what a quiz hides.
+        Text after the number, which a quiz hides.
     """
     fig.picture(codes, box, palette, gid="photographs")
     left, low, wide, high = box

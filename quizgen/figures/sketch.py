@@ -107,14 +107,17 @@ class Sketch(Artist):
         self, points: Any, stroke: str = "ink", width: float = 1.0, *, dashes: Dashes = None,
         part: str = "", cap: str = "butt",
     ) -> None:  # fmt: skip
-        """Draw a line through points."""
+        """Draw a line through points; ``width`` is in points, ``part`` its name in the SVG."""
         self._add_stroke(part, Path(self.to_points(points)), None, stroke, width, dashes, cap)
 
     def area(
         self, points: Iterable[Any], fill: str | None = "shade", stroke: str | None = None,
         width: float = 0.7, *, dashes: Dashes = None, part: str = "",
     ) -> None:  # fmt: skip
-        """Fill a polygon, outline it, or both."""
+        """Fill a polygon, outline it, or both.
+
+        ``width`` is in points, ``part`` its name in the SVG.
+        """
         corners = list(points)
         path = Path(self.to_points([*corners, corners[0]]), closed=True)
         self._add_stroke(part, path, fill, stroke, width, dashes)
@@ -222,7 +225,7 @@ class Sketch(Artist):
         angle : float
             Degrees, anticlockwise.
         halo : bool
-            Put paper behind it.
+            Draw a rim in the colour of paper around it.
         """
         place = self.to_points(at)[0] + shift
         self._acts.append(_Text(part, text, place, align, size, fill, angle, halo))
@@ -231,7 +234,7 @@ class Sketch(Artist):
         self, start: Any, end: Any, text: str, *, side: str = "t", size: float = 10.0,
         gap: float = 3.5, stroke: str = "grey", part: str = "measures",
     ) -> None:  # fmt: skip
-        """Draw a distance as drawings have it: a thin double arrow, its label in a gap or beside.
+        """Draw a distance as drawings have it: a thin double arrow, its label in a gap or next to it.
 
         Parameters
         ----------

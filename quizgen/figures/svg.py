@@ -120,7 +120,10 @@ def _format_step(dx: int, dy: int) -> str:
 
 @lru_cache(16384)
 def _load_glyph_outline(file: str, index: int, size: float) -> tuple[int, int, str] | None:
-    """Return where a glyph's outline starts (x, y) and its relative path; None if it has no ink."""
+    """Return where a glyph's outline starts (x, y) and its relative path; None without ink.
+
+    All in steps of the SVG's grid, at a font size in points.
+    """
     font = _open_font(file)
     font.set_size(_EM, 72)
     font.load_glyph(index, flags=LoadFlags.NO_HINTING)
@@ -330,7 +333,7 @@ class SvgRenderer(RendererBase):
         return points
 
     def option_image_nocomposite(self) -> bool:
-        """Return True: pictures stay apart."""
+        """Return True: matplotlib must not merge several pictures into one."""
         return True
 
     def option_scale_image(self) -> bool:
@@ -494,7 +497,7 @@ class SvgRenderer(RendererBase):
         self._add_path_data(gc, data, f' fill="url(#{name})"', join=False)
 
     def _define_element(self, tag: str, inside: str, attributes: str = "") -> str:
-        """Add an element to the definitions once, and return its id."""
+        """Add an element to the definitions once, and return its id, a digest of its content."""
         name = tag[0] + sha256(inside.encode()).hexdigest()[:8]
         if name not in self._defined:
             self._defined.add(name)

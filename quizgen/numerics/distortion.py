@@ -160,7 +160,7 @@ def _compute_fold_radius(k1: Array, k2: Array) -> Array:
 
     With r = 2**j x the slope is 1 + 3 k1 4**j x**2 + 5 k2 16**j x**4, here times 2**s. Mostly 1 and
     the larger coefficient decide. Where k1 > 0 lets the slope grow first and a far smaller k2 < 0
-    ends that, it is the two coefficients, and 1 is nothing beside them.
+    ends that, it is the two coefficients, and 1 is negligible.
     """
     if not k2.any() and (k1 > -_LARGEST).all():
         alone: Array = 1 / np.sqrt(-3 * np.minimum(k1, -0.0))

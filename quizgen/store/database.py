@@ -184,7 +184,7 @@ class _Write(Future[Any]):
 def back_up(address: str, file: Path) -> None:
     """Copy a database to a file of its own, also while a server writes to it.
 
-    The copy is of one moment, is one file without a log beside it, and is there whole or not at
+    The copy is of one moment, is one file without a separate log, and is there whole or not at
     all; only its owner reads it.
 
     Parameters
@@ -207,7 +207,7 @@ def back_up(address: str, file: Path) -> None:
         raise StoreError(f"{place}: there is no such database")
     fresh = file.with_name(f".{file.name}.new")
     try:
-        open_private(fresh, anew=True).close()
+        open_private(fresh, truncate=True).close()
         with (
             contextlib.closing(sqlite3.connect(place, timeout=PATIENCE)) as source,
             contextlib.closing(sqlite3.connect(fresh)) as copy,

@@ -18,7 +18,7 @@ BLOOMING = Setting("blooming", parse_bool, False, (NEEDS_FULL_WELL,))
 def run(image: Image, view: View) -> Image:
     """Return the picture after charge above the full well spilled along columns, half each way.
 
-    Of one sensor with colour filters: the sites for red, green and blue of a pixel lie behind each
+    Of one sensor with colour filters: the sites for red, green and blue of a pixel follow each
     other in its column and fill whatever the colour of what spills, so that a streak is white. Each
     keeps what it can; what reaches the border is drained.
     """

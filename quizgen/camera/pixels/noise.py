@@ -74,7 +74,7 @@ class EffectRandom:
         fine : bool
             Draw 8 more bits for every value. Without them those that are no more than 2.6 are
             the middles of 2^16 equal probabilities: enough where they are added to a picture, but
-            whole counts are so close beside each other that some would never be drawn.
+            whole counts are so close to each other that some would never be drawn.
         """
         words = self._draw_words(tile, count)
         values = np.take(_normal_table(np.dtype(kind)), words, mode="clip")
@@ -144,7 +144,7 @@ def electrons_at_white(view: View) -> float:
 def farthest_count(mean: float) -> float:
     """Return a bound in electrons on how far a count is from its mean, for means up to this.
 
-    Chernoff: P(X >= m + t) <= exp(-t^2/(2 (m + t/3))), and no luck is rarer than 2^-49. One more
+    Chernoff: P(X >= m + t) <= exp(-t^2/(2 (m + t/3))), and no drawn value is rarer than 2^-49. One more
     for whole electrons, and one for the expansion that counts come from.
     """
     third = _RAREST / 3.0
@@ -256,7 +256,7 @@ def _interpolate_cubic(t: Numbers, node: PixelPlaces, values: Numbers, rates: Nu
 def _count_tables(kind: np.dtype[np.floating]) -> tuple[PixelPlaces, Numbers, Numbers]:
     """Return by cell: node of the least count, probability of at most that count, its slope.
 
-    Rows are luck, or counts; columns are roots of means; all flattened. Over a cell a count grows
+    Rows are normal values, or counts; columns are roots of means; all flattened. Over a cell a count grows
     by one at most. The slope by the mean is minus the chance of the count; the cubic is within
     1e-6 of the chance.
     """

@@ -165,7 +165,7 @@ class Scene:
     things : tuple of SceneObject
         In any order; farther things are drawn first.
     background : (float, float, float)
-        Linear radiance behind everything.
+        Linear radiance where no thing is.
     background_depth : float
         Its distance in m.
     image : numpy.ndarray or None
@@ -181,7 +181,7 @@ class Scene:
     exif : mapping of str to float
         Settings of the camera that were read from the picture's file, in base units.
     precision : str
-        What the picture is computed in: random effects draw the same luck in either.
+        What the picture is computed in: random effects draw the same numbers in either.
     file : pathlib.Path or None
         What it was read from: errors that show only when it is photographed name it.
     """

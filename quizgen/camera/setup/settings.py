@@ -73,7 +73,7 @@ class Setting(msgspec.Struct, Generic[T], frozen=True):
     identity : object
         The value that changes nothing.
     rules : tuple of SettingRule
-        What it may be, also beside the other settings.
+        What it may be, alone and together with other settings.
     """
 
     name: str

@@ -79,7 +79,7 @@ class View(msgspec.Struct, frozen=True):
 
     @property
     def corner(self) -> float:
-        """Distance from the principal point to the farthest pixel centre, px."""
+        """Distance from the principal point to the farthest pixel centre, margin included, px."""
         return math.hypot(*self.centre)
 
     @property
@@ -132,12 +132,12 @@ class Signal(msgspec.Struct, frozen=True):
 
     @property
     def span(self) -> float:
-        """Largest minus smallest value."""
+        """Largest minus smallest value, 1 = white."""
         return self.high - self.low
 
     @property
     def size(self) -> float:
-        """Largest magnitude."""
+        """Largest magnitude of any value, 1 = white."""
         return max(abs(self.low), abs(self.high))
 
     def with_margins(self, down: float, up: float) -> Signal:
