@@ -92,9 +92,9 @@ def make_focused(scene: Scene, depths: Sequence[float], *cameras: Camera) -> tup
 def _focus_on_depth(
     scene: Scene, groups: Sequence[tuple[float, tuple[int, ...]]], camera: Camera
 ) -> Codes:
-    """Return the photograph of one camera.
+    """Return the photograph of one camera; groups of things are given far ones first.
 
-    Groups are (depth in m, indices of things), far first.
+    A group is a depth in m, and the indices of the things there.
     """
     view = View(scene, camera)
     encode = gamma.operation(view)

@@ -322,10 +322,7 @@ _MOST_KEPT, _MOST_PIXELS = 64, 1 << 16
 def _find_key(
     scene: Scene, camera: Camera, asked: PictureQuestion, chosen: EffectSelection
 ) -> Hashable | None:
-    """Return what a picture is cached under.
-
-    None where it is large or from a file, and not cached.
-    """
+    """Return what a picture is cached under; None if it is large or from a file."""
     if scene.image is not None or scene.width * scene.height > _MOST_PIXELS:
         return None
     drawn = scene.things, scene.background, scene.background_depth, scene.width, scene.height
@@ -433,9 +430,9 @@ def _is_right(photo: Photo, reading: Reading) -> bool:
 def _check_reading(
     prepared: PreparedScene, plan: Plan, photo: Photo, name: str, reading: Reading
 ) -> float:
-    """Return what is read off.
+    """Return what is read off a photograph.
 
-    Raise if it is wrong or an effect that is not asked about moves it.
+    Raises `MovedReadingError` if it is wrong, or moved by an effect that is not asked about.
     """
     value = read_value(photo.values, reading)
     if not _is_right(photo, reading):

@@ -93,9 +93,9 @@ def _parse_asks(value: object) -> tuple[str, ...]:
 
 
 def _parse_reads(value: object) -> dict[str, Reading]:
-    """Return the readings of ``reads``.
+    """Return the readings of ``reads``, by the measure that each names.
 
-    Measure to a tolerance, or to a table with the key as well.
+    A value there is a tolerance, or a table with the key as well.
     """
     table = value if isinstance(value, dict) else {}
     if not table:

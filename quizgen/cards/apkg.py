@@ -124,7 +124,7 @@ def _format_json(table: object) -> str:
 def _number_notes_and_cards(deck: Deck) -> tuple[dict[str, int], dict[tuple[str, int], int]]:
     """Return the ids of notes (by key) and cards (by key and number).
 
-    So a note has the same id in every deck that holds it, unless another one took it.
+    They follow from the keys: a note has the same id in every deck, unless another one took it.
     """
     taken: set[int] = set()
     notes = {note.key: _take_free_number(f"note/{note.key}", taken) for note in _sort_notes(deck)}

@@ -41,10 +41,7 @@ class DisplayMaths:
 
 @dataclass(frozen=True, slots=True)
 class ClozeHole:
-    """A formula with one side to be recalled.
-
-    The visible part, and the hidden rest with its number.
-    """
+    """A formula with one side to be recalled: what is visible, what is hidden, its number."""
 
     shown: TypesetMaths
     hidden: TypesetMaths

@@ -156,10 +156,7 @@ _TEMPLATES = {
 
 
 def note_type_name(form: str, columns: Columns) -> str:
-    """Return the name of a note type.
-
-    Short for the languages it was first made for, else with them.
-    """
+    """Return the name of a note type, with its languages unless they are the usual ones."""
     known = read_note_type_versions().languages
     return NAMES[form] if columns == known else f"{NAMES[form]} ({', '.join(columns)})"
 

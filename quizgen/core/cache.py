@@ -40,14 +40,14 @@ def compute_digest(*parts: bytes) -> str:
 def read_cached(kind: str, key: str) -> bytes | None:
     """Return the bytes stored under a key, or None.
 
-    What the wheel brings first, then the user's cache.
+    What the wheel brings is searched first, then the user's cache.
 
     Parameters
     ----------
     kind : str
-        What sort of thing it is: a folder of the cache.
+        What sort of thing it is, which is a folder of the cache.
     key : str
-        Digest of all that it follows from.
+        Digest of everything that the bytes follow from.
     """
     found = _read_entry(SHIPPED, kind, key)
     if found is None and (home := user_cache_folder()) is not None:

@@ -167,10 +167,7 @@ def _find_type_at_step(kind: object, step: str | int) -> object:
 
 
 def _choose_container(kind: object) -> object:
-    """Return the Struct or the dict, list or tuple among the members of a union.
-
-    Else the type itself.
-    """
+    """Return the Struct, dict, list or tuple among a union's members, else the type itself."""
     for one in get_args(kind) if get_origin(kind) not in {dict, tuple, list} else ():
         if isinstance(one, type) and issubclass(one, msgspec.Struct):
             return one

@@ -39,13 +39,14 @@ class Span(msgspec.Struct, frozen=True):
 def find_span(file: Path, place: Place) -> Span | None:
     """Return line and column of a place in a file, or None.
 
-    Of a place that is missing the nearest table, list or heading that holds it is taken.
+    For a missing place they are those of the nearest table, list or heading that holds it.
 
     Parameters
     ----------
     file : pathlib.Path
         Of TOML, Markdown or Python, by its suffix; in others nothing is found.
     place : tuple of str or int
+        In the words of the file, as the top of this module explains.
     """
     if not place or file.suffix not in _FINDERS:
         return None
@@ -90,9 +91,9 @@ class TomlPositions:
             self._scan()
 
     def find(self, place: Place) -> Span | None:
-        """Return the span of a key or a text.
+        """Return the span of a key or a text, or None.
 
-        Of a missing key that of the table which would hold it.
+        For a missing key it is the span of the table that would hold it.
         """
         if place[0] == TEXT:
             offset = self.texts.get(str(place[1]))
@@ -191,9 +192,9 @@ class TomlPositions:
             self._at = found.end()
 
     def _iter_entry_indices(self, closing: str) -> Iterator[int]:
-        """Yield 0, 1, ...
+        """Yield 0, 1 and so on, once for each entry before a closing bracket.
 
-        for the entries before a closing bracket; the caller reads each of them.
+        The caller reads the entry each time.
         """
         count = 0
         while self._skip_blank() < len(self.text) and not self._is_next(closing):
@@ -301,7 +302,7 @@ def _iter_matching_constants(node: ast.AST, text: str) -> Iterator[ast.AST]:
 def _iter_symbol_variables(tree: ast.AST, symbol: str) -> Iterator[str]:
     """Yield the Python names of a symbol.
 
-    ``image`` for ``z'`` in ``f, image = symbols("f z'")``.
+    In ``f, image = symbols("f z'")`` that of ``z'`` is ``image``.
     """
     import ast
 

@@ -71,7 +71,7 @@ def require_identifier(text: str, what: str, error: ErrorType) -> str:
     Raises
     ------
     QuizgenError
-        Of the kind asked for, if it is none.
+        Of class ``error``, if it is none.
     """
     if is_identifier(text):
         return text
@@ -210,7 +210,7 @@ def read_text(path: Path, error: ErrorType, most: int = LARGEST_FILE) -> str:
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file.
+        Of class ``error``, naming the file.
     """
     return decode_text(read_bytes(path, error, most), path, error)
 
@@ -223,7 +223,7 @@ def decode_text(data: bytes, where: object, error: ErrorType) -> str:
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file.
+        Of class ``error``, naming the file.
     """
     try:
         text = data.decode(detect_encoding(data))
@@ -263,7 +263,7 @@ def iter_csv_rows(
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file and the line.
+        Of class ``error``, naming the file and the line.
     """
     rest, above = iter(lines), [""]
     for line in islice(rest, MOST_VALUES):
@@ -291,7 +291,7 @@ def parse_csv(text: str, where: object, error: ErrorType) -> list[tuple[int, lis
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file and the line.
+        Of class ``error``, naming the file and the line.
     """
     rows: list[tuple[int, list[str]]] = []
     count = 0
@@ -363,7 +363,7 @@ def parse_json(text: str, where: object, error: ErrorType) -> object:
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file and the line or the place.
+        Of class ``error``, naming the file and the line or the place.
     """
     if (
         _count_json_values(text) > MOST_VALUES

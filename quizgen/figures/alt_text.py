@@ -29,10 +29,7 @@ def format_given(value: float) -> str:
 
 
 def format_derived(value: float) -> str:
-    """Return a computed number.
-
-    Whole, or rounded to 4 significant digits, halves away from zero.
-    """
+    """Return a computed number: whole, or rounded to 4 significant digits (half away from 0)."""
     return _format_plain(_to_short_decimal(value))
 
 

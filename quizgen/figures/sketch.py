@@ -234,7 +234,7 @@ class Sketch(Artist):
         self, start: Any, end: Any, text: str, *, side: str = "t", size: float = 10.0,
         gap: float = 3.5, stroke: str = "grey", part: str = "measures",
     ) -> None:  # fmt: skip
-        """Draw a distance as drawings have it: a thin double arrow, its label in a gap or next to it.
+        """Draw a distance as drawings have it: a thin double arrow with a label in or next to it.
 
         Parameters
         ----------

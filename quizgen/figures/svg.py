@@ -398,9 +398,9 @@ class SvgRenderer(RendererBase):
         offset_trans: Any, facecolors: Any, edgecolors: Any, linewidths: Any, linestyles: Any,
         *args: Any, **kwargs: Any,
     ) -> None:  # fmt: skip
-        """Add many paths.
+        """Add many paths; lines that look alike become one path.
 
-        Lines that look alike become one, all else goes matplotlib's usual way.
+        All else goes matplotlib's usual way.
         """
         styles = max(map(len, (edgecolors, linewidths, linestyles)))
         moved = len(all_transforms) or len(offsets) > 1 or np.any(offsets)
@@ -440,9 +440,9 @@ class SvgRenderer(RendererBase):
         gc.set_clip_rectangle(box)
 
     def draw_quad_mesh(self, gc: Any, *args: Any) -> None:
-        """Add cells.
+        """Add the cells of a mesh.
 
-        Those without edges get thin ones of their own colour, or viewers show seams.
+        Those without edges get thin ones of their own colour: viewers would show seams.
         """
         *others, edgecolors = args
         if not len(edgecolors):
@@ -544,9 +544,9 @@ class SvgRenderer(RendererBase):
         return shape_label(self._localise_label(text), font, font.get_size_in_points())
 
     def _localise_label(self, text: str) -> str:
-        """Return a label with the language's decimal sign.
+        """Return a label with the decimal sign of the language.
 
-        A bare comma in a formula would add space.
+        A comma in a formula is braced, as a bare one would add space.
         """
         if self.decimal == ".":
             return text

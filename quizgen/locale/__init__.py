@@ -106,10 +106,7 @@ def register_languages(langs: Iterable[str] = (), place: Path | None = None) -> 
 
 
 def list_language_choices() -> tuple[str, ...]:
-    """Return what a paper's language may be chosen from.
-
-    Each language, and ``both`` for all of a bank.
-    """
+    """Return what a paper's language may be: any language, or ``both`` for all of a bank."""
     return (*list_languages(), BOTH)
 
 
@@ -134,10 +131,7 @@ def resolve_language_choice(choice: str, held: tuple[str, ...]) -> tuple[str, ..
 
 
 def default_language(held: tuple[str, ...]) -> str:
-    """Return the language where none is chosen.
-
-    English if the bank has it, else the bank's first.
-    """
+    """Return the language where none is chosen: English if the bank has it, else its first."""
     return FIRST if FIRST in held or not held else held[0]
 
 
@@ -196,10 +190,7 @@ def is_right_to_left(lang: str) -> bool:
 
 
 def languages_in_script(script: str) -> tuple[str, ...]:
-    """Return the languages written in a script (ISO 15924, such as ``Beng``).
-
-    They need its fonts.
-    """
+    """Return the languages written in a script (ISO 15924, ``Beng``), which need its fonts."""
     return tuple(lang for lang in list_languages() if get_language(lang).script == script)
 
 

@@ -97,9 +97,9 @@ def merge_translation(english: Translation, own: Mapping[str, Any]) -> Translati
 
 
 def _can_be_filled(english: object, own: object) -> bool:
-    """Return whether a value fits where English has ``english`` (None: nothing).
+    """Return whether a value can replace the English one: same type, no other blanks.
 
-    Its type and blanks.
+    ``english`` is None where English has nothing there.
     """
     if english is not None and type(english) is not type(own):
         return False

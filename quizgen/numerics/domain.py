@@ -47,10 +47,7 @@ class Interval(msgspec.Struct, frozen=True):
     closed: bool = False
 
     def contains(self, low: float | Array, high: float | Array) -> Any:
-        """Return whether all values from ``low`` to ``high`` lie inside, element by element.
-
-        False for NaN.
-        """
+        """Return whether values from ``low`` to ``high`` all lie inside, by element; no for NaN."""
         finite = (low > -math.inf) & (high < math.inf)
         if self.closed:
             return finite & (low >= self.low) & (high <= self.high)

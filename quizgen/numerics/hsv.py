@@ -44,7 +44,7 @@ def _hsv_to_rgb_block(H: Array, S: Array, V: Array) -> tuple[Array, ...]:
 def _complement_fraction(S: Array, degrees: DoubleDouble) -> Array:
     """Return 1 - S degrees/60 to twice the working precision.
 
-    NaN near 0, which asks for fractions.
+    Near 0 it is NaN, which asks for fractions.
     """
     left: Array = (60 - S * degrees).round_to_double() / 60
     return np.where(np.abs(left) < _CLOSE, np.nan, left)

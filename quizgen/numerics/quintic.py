@@ -75,7 +75,7 @@ class QuinticSolver(msgspec.Struct, frozen=True):
     def discriminant(self) -> Array:
         """Return 9 B**2 - 20 A C, by fractions where it cancels.
 
-        Negative when the slope never vanishes.
+        It is negative when the slope never vanishes.
         """
         square, product = 9 * self.B * self.B, 20 * self.A * self.C
         value, size = square - product, square + np.abs(product)
@@ -90,10 +90,7 @@ class QuinticSolver(msgspec.Struct, frozen=True):
         return value
 
     def fold(self) -> Array:
-        """Return the smallest x > 0 where A + 3 B x**2 + 5 C x**4, the slope, vanishes.
-
-        Or infinity.
-        """
+        """Return the smallest x > 0 where the slope A + 3 B x**2 + 5 C x**4 is 0, or infinity."""
         inside = self.discriminant()
         root = np.sqrt(np.maximum(inside, 0.0))
         falling = 2 * self.A / np.where(self.B < 0, root - 3 * self.B, 1.0)

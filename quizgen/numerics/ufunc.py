@@ -71,9 +71,9 @@ class StableUfunc(msgspec.Struct, frozen=True):
     shortcut: Callable[..., bool] | None = None
 
     def __call__(self, *args: Numbers) -> FloatOrArray:
-        """Return the formula's value.
+        """Return the formula's value for scalars or arrays that broadcast together.
 
-        A float for scalars, an array (masked without an answer) for others.
+        It is a float for scalars and an array for others, masked where there is no answer.
         """
         shape, columns = broadcast_flat(*args)
         with np.errstate(all="ignore"):

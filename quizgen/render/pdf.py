@@ -218,9 +218,9 @@ class _TypstPaper:
         return self._typeset_picture(name, figures)
 
     def _typeset_picture(self, name: str, figures: list[Any]) -> str:
-        """Return a figure with its description, and note its file under ``name``.
+        """Return a figure with its description, or "" without one.
 
-        "" without one.
+        Its file is noted under ``name`` among the pictures of the paper.
         """
         if not figures or figures[0] is None:
             return ""

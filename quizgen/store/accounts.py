@@ -125,9 +125,9 @@ class Accounts:
         return int(made[0])
 
     def renew(self, token: str, password: str) -> int | None:
-        """Return the learner whose password hash was replaced by an invitation.
+        """Replace a password hash by an invitation.
 
-        None if it is no good.
+        Return the learner, or None if it is no good.
         """
         with self.database.writing() as connection:
             invitation = _consume_invitation(connection, token)
@@ -233,9 +233,9 @@ def _find_invitation(connection: Connection, token: str) -> Invitation | None:
 
 
 def _consume_invitation(connection: Connection, token: str) -> Invitation | None:
-    """Return and delete the invitation of a token.
+    """Return the invitation of a token and delete it, or return None.
 
-    Of two requests at once one gets it, one None.
+    Of two requests at once only one gets it.
     """
     found = _find_invitation(connection, token)
     gone = connection.execute(delete(INVITATION).where(INVITATION.c.hash == _hash_token(token)))

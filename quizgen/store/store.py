@@ -75,9 +75,9 @@ class Store:
         return Clock((at, then))
 
     def shared_value(self, name: str, value: str) -> str:
-        """Return the value that the first server stored under a name.
+        """Return the value that all servers of this database share under a name.
 
-        ``value`` if that is this one.
+        The first server's ``value`` is stored, and returned to the others.
         """
         query = select(SERVER.c.value).where(SERVER.c.name == name)
         with self.database.writing() as connection:

@@ -61,10 +61,7 @@ Ready = Callable[..., Call]
 
 @dataclass(frozen=True)
 class Rival:
-    """One way to compute a formula.
-
-    Seconds a value, and its worst digits on exam and hard inputs.
-    """
+    """One way to compute a formula: seconds a value, worst digits on exam and hard inputs."""
 
     name: str
     time: Timing

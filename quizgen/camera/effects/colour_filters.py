@@ -56,10 +56,7 @@ def _interpolate_curve(*points: tuple[float, float]) -> Curve:
 
 
 def _build_dye(centre: float, width: float, opens: float) -> Curve:
-    """Return the transmittance of a dye.
-
-    A bell (nm), open again in the infrared from ``opens`` on.
-    """
+    """Return a dye's transmittance: a bell (nm), open again in the infrared from ``opens``."""
     bell = np.exp(-0.5 * ((WAVELENGTHS - centre) / width) ** 2)
     return np.maximum(bell, _interpolate_curve((opens, 0.0), (opens + 120.0, 1.0)))
 
@@ -72,9 +69,9 @@ def lamp_spectrum(temperature: float) -> Curve:
 
 @lru_cache(maxsize=1)
 def _sensor_curves() -> tuple[Curve, Curve, Curve]:
-    """Return spectra.
+    """Return the spectra of the three sites, the infrared filter and the reflectances.
 
-    Sensitivity of the three sites, infrared filter, reflectance per colour value.
+    The last are those that a red, a green and a blue value stand for.
     """
     silicon = WAVELENGTHS * _interpolate_curve(
         (650.0, 1.0), (1100.0, 0.0)

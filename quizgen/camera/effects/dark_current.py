@@ -92,10 +92,7 @@ def _largest_charge(view: View) -> float:
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """Return the largest dark charge.
-
-    With hot pixels, the farthest that white is from any value.
-    """
+    """Return the largest dark charge, or with hot pixels how far white can be from a value."""
     return max(_largest_charge(view), signal.outside(1.0, 1.0) if view.camera[HOT_PIXELS] else 0.0)
 
 

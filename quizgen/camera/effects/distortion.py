@@ -160,9 +160,9 @@ def _compute_whole_map(lens: _Lens) -> tuple[Image, Image]:
 
 
 def _compute_map(lens: _Lens, rows: range, columns: range) -> tuple[Image, Image]:
-    """Return x and y of the source positions of some rows and columns.
+    """Return x and y (px) from which some rows and columns are read.
 
-    Three quadrants mirror one.
+    Three quadrants of the map mirror the first.
     """
     width, height = lens[:2]
     across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2

@@ -27,7 +27,7 @@ MOST_TURNS = 64
 def rotation_samples(motion: Motion, shutter: float) -> int:
     """Return at how many times a turning layer is sampled.
 
-    Steps of 1 px at its rim, with a limit.
+    Samples lie at most 1 px apart at its rim; there are `MOST_TURNS` at most.
     """
     return min(MOST_TURNS, max(1, math.ceil(abs(motion.spin) * shutter * motion.reach)))
 

@@ -50,8 +50,9 @@ def omission_bound(signal: Signal, view: View) -> float:
 def carry_error(error: float, signal: Signal, view: View) -> float:
     """Return the error after counting: another signal has another noise, and one electron more.
 
-    The root is steepest at the darkest place. Apart from that and from whole electrons, the skewness of the
-    law changes: z^2/4 electrons where the normal law turns negative, less where there are more.
+    The root is steepest at the darkest place. Apart from that and from whole electrons, the
+    skewness of the law changes: z^2/4 electrons where the normal law turns negative, less where
+    there are more.
     """
     well, start = electrons_at_white(view), max(signal.low - error, 0.0)
     apart = math.sqrt(start + error) - math.sqrt(start)

@@ -17,7 +17,7 @@ SMEAR = Setting("smear", quantity_parser("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
 def run(image: Image, view: View) -> Image:
     """Return the picture plus a share of each column's mean.
 
-    Light that falls in while rows shift.
+    It is the light that falls in while a CCD shifts its rows.
     """
     mean = image.mean(axis=0, keepdims=True, dtype=np.float64)
     return np.asarray(image + (view.camera[SMEAR] * mean).astype(image.dtype))

@@ -97,9 +97,9 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
 
 
 def _fold_kernel(kernel: NDArray[np.float64], length: int) -> NDArray[np.float64]:
-    """Return a kernel of the same effect, no higher than needed.
+    """Return an equivalent kernel, no higher than a picture of this length can show.
 
-    Rows beyond the edge read the edge.
+    Its rows beyond the edge all read the edge, and are added up.
     """
     beyond = kernel.shape[0] // 2 - (length - 1)
     if beyond <= 0:

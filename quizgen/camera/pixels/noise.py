@@ -144,8 +144,8 @@ def electrons_at_white(view: View) -> float:
 def farthest_count(mean: float) -> float:
     """Return a bound in electrons on how far a count is from its mean, for means up to this.
 
-    Chernoff: P(X >= m + t) <= exp(-t^2/(2 (m + t/3))), and no drawn value is rarer than 2^-49. One more
-    for whole electrons, and one for the expansion that counts come from.
+    Chernoff: P(X >= m + t) <= exp(-t^2/(2 (m + t/3))), and no drawn value is rarer
+    than 2^-49. One more for whole electrons, and one for the expansion that counts come from.
     """
     third = _RAREST / 3.0
     return third + math.sqrt(third**2 + 2.0 * mean * _RAREST) + 2.0
@@ -256,9 +256,9 @@ def _interpolate_cubic(t: Numbers, node: PixelPlaces, values: Numbers, rates: Nu
 def _count_tables(kind: np.dtype[np.floating]) -> tuple[PixelPlaces, Numbers, Numbers]:
     """Return by cell: node of the least count, probability of at most that count, its slope.
 
-    Rows are normal values, or counts; columns are roots of means; all flattened. Over a cell a count grows
-    by one at most. The slope by the mean is minus the chance of the count; the cubic is within
-    1e-6 of the chance.
+    Rows are normal values, or counts; columns are roots of means; all flattened. Over a cell a
+    count grows by one at most. The slope by the mean is minus the chance of the count; the cubic
+    is within 1e-6 of the chance.
     """
     roots = np.arange(_COLUMNS) / _CELLS
     chances = np.empty((_MOST, _COLUMNS))

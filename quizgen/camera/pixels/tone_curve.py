@@ -31,10 +31,7 @@ Field = NDArray[np.float64]
 
 
 def _cell_powers(exponent: float, first: int = 0) -> Field:
-    """Return m^exponent for the middle m of every cell.
-
-    A row per octave, subnormal numbers in row 0.
-    """
+    """Return m^exponent for the middle m of every cell: a row per octave, subnormal first."""
     middles = (1.0 + (cell + 0.5) / _CELLS for cell in range(_CELLS))
     within = np.array([math.pow(middle, exponent) for middle in middles])
     octaves = [math.pow(2.0, exponent * (n - _OCTAVES)) for n in range(first, _OCTAVES)]

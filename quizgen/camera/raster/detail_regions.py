@@ -92,9 +92,9 @@ def content_box(layer: Layer) -> PixelBox:
 
 
 def grow_box(box: PixelBox, far: tuple[int, int], shape: tuple[int, ...]) -> PixelBox:
-    """Return a box with so many more rows and columns on each side as the picture has.
+    """Return a box with more rows and columns on each side, within the picture.
 
-    Empty stays empty.
+    An empty box stays empty.
     """
     if not box[0].stop:
         return box

@@ -22,10 +22,7 @@ from quizgen.numerics.ufunc import warm_allocator
 
 
 class Motion(msgspec.Struct, frozen=True):
-    """How a layer moves.
-
-    Velocity (px/s), spin (rad/s) about a pivot (px), and its outline's reach.
-    """
+    """How a layer moves: velocity (px/s), spin (rad/s) about a pivot (px), outline's reach."""
 
     velocity: tuple[float, float] = (0.0, 0.0)
     spin: float = 0.0

@@ -44,10 +44,7 @@ def pick_distractors(
 
 
 def _rank_distractor(entry: VocabularyEntry, other: VocabularyEntry) -> tuple[int, bytes]:
-    """Return the sort key of a distractor.
-
-    Those of the term's group first, then the nearest in the list.
-    """
+    """Return the sort key of a distractor: its group first, then its distance in the list."""
     far = 0 if other.group == entry.group else abs(other.number - entry.number)
     return far, _hash_entry_pair(entry, other)
 

@@ -78,10 +78,7 @@ def template_notes(template: Template, wish: DeckRequest) -> Iterator[Note]:
 
 
 def section_for(bank: Bank, covers: tuple[str, ...], topic: str) -> str:
-    """Return the section of the notes that a question belongs to: its formula's, else its topic's.
-
-    Its formula's, else its topic's.
-    """
+    """Return the section of the notes a question belongs to: its formula's, else its topic's."""
     sections = {entry.id: entry.section for entry in read_formulas(bank)}
     found = [sections[ref] for ref in covers if ref in sections]
     by_topic = [
