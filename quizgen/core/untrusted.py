@@ -416,7 +416,10 @@ def _shorten_text(found: Exception) -> str:
 
 
 def _check_table_limits(table: object, where: object, error: ErrorType) -> None:
-    """Raise an error if a table is too deep or large, or a number or text in it too odd."""
+    """Raise an error if a table is too deep or large, or a number or text in it too odd.
+
+    ``where`` is the file or its name in messages; the error is of class ``error``.
+    """
     for count, (place, value, depth) in enumerate(_iter_table_values(table)):
         problem, said = _find_value_problem(value), escape_control_characters(_format_place(place))
         if problem:

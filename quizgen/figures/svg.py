@@ -684,7 +684,10 @@ def _apply_alpha(gc: Any, colour: Any) -> tuple[float, ...]:
 
 
 def _write_png(pixels: Any, palette: Any = None) -> bytes:
-    """Return a PNG file independent of the version of zlib; few colours become a palette."""
+    """Return a PNG file independent of the version of zlib; few colours become a palette.
+
+    ``pixels`` have shape (H, W, 4), or (H, W) with a palette of (red, green, blue), 0 to 255.
+    """
     if palette is not None:
         return encode_png(pixels, [(int(r), int(g), int(b)) for r, g, b in palette])
     pixels = np.ascontiguousarray(pixels)

@@ -118,7 +118,10 @@ def _blur_slices(sharp: Image, index: NDArray[np.uint8], middles: Field) -> Imag
 def _iter_slice_bands(
     sharp: Image, index: NDArray[np.uint8], number: int, kernel: BlurKernel
 ) -> Iterator[tuple[PixelBox, Image]]:
-    """Yield boxes that the light of a slice reaches, each with its blurred colour and coverage."""
+    """Yield boxes that the light of a slice reaches, each with its blurred colour and coverage.
+
+    ``index`` has the slice of every pixel; ``number`` is the slice that ``kernel`` blurs.
+    """
     reach = kernel.shape[0] // 2
     for start, stop in split_range(len(sharp), max(_BAND, 8 * reach)):
         first = max(start - reach, 0)
