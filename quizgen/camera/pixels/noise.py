@@ -107,9 +107,9 @@ def _normal_table(kind: np.dtype[np.floating]) -> Image:
 
 @cache
 def _cell_widths(kind: np.dtype[np.floating]) -> Image:
-    """Return by how much each of 8 more random bits moves a value within its cell.
+    """Return how far one of 256 steps within its cell moves each value of `_normal_table`.
 
-    It is the width of the cell around each value of `_normal_table`, over 2^8.
+    Eight more random bits choose the step.
     """
     edges = np.asarray(inverse_upper_tail(np.arange(1, WORDS // 2 + 1) / WORDS))
     lower = np.concatenate([[0.0], -np.diff(edges)]) / 256.0
