@@ -210,7 +210,7 @@ class ClassFolder:
         index = self.places()
         ids = [one for one in dict.fromkeys((*order, *index)) if one in index]
         fresh = self.path / f".{KEYS}.new"
-        with (self.path / KEYS).open("rb") as lines, open_private(fresh, anew=True) as stream:
+        with (self.path / KEYS).open("rb") as lines, open_private(fresh, truncate=True) as stream:
             for one in ids:
                 lines.seek(index[one][1])
                 stream.write(lines.readline())

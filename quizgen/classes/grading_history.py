@@ -116,7 +116,7 @@ class GradingHistory:
         fresh = final.with_suffix(".part")
         students = new = undecided = written = 0
         changes: list[MarkChange] = []
-        with _Lines() as lines, open_private(fresh, anew=True) as stream:
+        with _Lines() as lines, open_private(fresh, truncate=True) as stream:
             for one in marked:
                 students, undecided = students + 1, undecided + one.undecided_count
                 line = _ENCODE(one) + b"\n"

@@ -167,9 +167,9 @@ def _simulate_scene(scene: str, options: SimulateOptions, told: ProgressLine) ->
     shot.times = {"read": read, "drawn": shot.photo.drawn_ms, "effects": shot.photo.measured_ms}
     if prepared.given.scene.precision == "float64":
         single = PreparedScene(*load_scene(_find_scene(scene), "float32"), shot.plan.names)
-        shot.single = run_plan(single, told=told, last=True)
+        shot.single = run_plan(single, on_effect=told, last=True)
     if options["everything"] or (options["compare"] is not None and shot.taken is None):
-        shot.whole = run_plan(prepared, told=told)
+        shot.whole = run_plan(prepared, on_effect=told)
     if options["everything"]:
         told("timing")
         shot.race = time_in_turns(prepared, shot.plan.names, [one.name for one in prepared.present])
@@ -198,7 +198,7 @@ def _take_photo(
     if options["budget"] is None and (asks or chosen.only):
         # who chooses effects by name may look at what cannot be seen
         take = take_question_photo if chosen.only or chosen.minus else photograph_question
-        taken = take(seen, prepared.camera, options["asks"], chosen=chosen, told=told)
+        taken = take(seen, prepared.camera, options["asks"], chosen=chosen, on_effect=told)
         return SimulatedShot(title, prepared, taken.plan, taken.photo, taken)
     plan = plan_budget(prepared, options["budget"] or "same", chosen)
     again = options["everything"] or options["compare"] is not None
