@@ -39,7 +39,7 @@ class _ClashError(Exception):
 
 
 def check_dimensions(template: Template) -> Iterator[Diagnostic]:
-    """Units that do not fit: of what is drawn, of steps, of what is asked."""
+    """Yield units that do not fit: of drawn values, of steps, of what is asked."""
     units = template.about.system
     for name, unit in template.chain.given.items():
         drawn = template.units[name]
@@ -74,6 +74,7 @@ def check_dimensions(template: Template) -> Iterator[Diagnostic]:
 def _check_step(
     units: UnitRegistry, step: ChainStep, known: Mapping[str, Dimension]
 ) -> Iterator[str]:
+    """Yield what is wrong with the dimension of one step; ``known`` are the names before it."""
     written = f"step {step.name!r} = {format_tree(step.expr)}"
     try:
         found = _infer_dimension(step.expr, known)
@@ -89,17 +90,22 @@ def _check_step(
 
 
 def _parse_unit_dimension(units: UnitRegistry, text: str) -> Dimension:
+    """Return base units and exponents of a unit, without those that are counts."""
     powers = units.unit(text).dimension
     return {base: Fraction(power) for base, power in powers if base not in COUNTED}
 
 
 def _format_dimension(dimension: Dimension) -> str:
+    """Return a dimension in plain text, such as ``m*s^-1``."""
     powers = (base if power == 1 else f"{base}^{power}" for base, power in dimension.items())
     return "*".join(powers) or "plain numbers"
 
 
 def _infer_dimension(expr: Expr, known: Mapping[str, Dimension]) -> Dimension | None:
-    """Dimension of a formula; None where anything may stand."""
+    """Return the dimension of a formula; None if it fits any (as zero does).
+
+    Raises ``_ClashError`` where two kinds of quantities are combined.
+    """
     if isinstance(expr, Num):
         return None if expr.value == 0 else {}
     if isinstance(expr, Sym):
@@ -108,6 +114,7 @@ def _infer_dimension(expr: Expr, known: Mapping[str, Dimension]) -> Dimension | 
 
 
 def _infer_call_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:
+    """Return the dimension of a call from those of its arguments, as ``_infer_dimension``."""
     if call.op == "piecewise":
         return _require_common_dimension(call, args[::2])
     if call.op in _ALIKE:
@@ -125,7 +132,10 @@ def _infer_call_dimension(call: Call, args: list[Dimension | None]) -> Dimension
 
 
 def _require_common_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:
-    """The one dimension that all arguments have."""
+    """Return the one dimension of all arguments; None if they fit any.
+
+    Raises ``_ClashError`` if two differ.
+    """
     found = [arg for arg in args if arg is not None]
     for other in found[1:]:
         if other != found[0]:
@@ -135,6 +145,7 @@ def _require_common_dimension(call: Call, args: list[Dimension | None]) -> Dimen
 
 
 def _infer_product_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:
+    """Return the dimension of a power, root, product or quotient; None if it fits any."""
     if any(arg is None for arg in args):
         return None
     known = [arg for arg in args if arg is not None]
@@ -151,10 +162,12 @@ def _infer_product_dimension(call: Call, args: list[Dimension | None]) -> Dimens
 
 
 def _scale_dimension(dimension: Dimension, power: Fraction) -> Dimension:
+    """Return a dimension with each exponent multiplied by ``power``."""
     return {base: size * power for base, size in dimension.items() if power}
 
 
 def _multiply_dimensions(factors: list[Dimension], sign: int) -> Dimension:
+    """Return the dimension of a product (``sign`` 1) or quotient (``sign`` -1)."""
     total = dict(factors[0])
     for other in factors[1:]:
         for base, size in other.items():
