@@ -20,7 +20,9 @@ _PAUSE = 0.05
 
 @contextlib.contextmanager
 def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
-    """Hold the folder of a class; the system lets go of it where a process is killed.
+    """Hold an exclusive lock on the folder of a class during the body of ``with``.
+
+    The operating system releases it where a process is killed.
 
     Parameters
     ----------
@@ -52,7 +54,8 @@ def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
 
 
 def _take(number: int) -> bool:
-    """Whether the lock is ours now."""
+    """Return whether the lock could be taken now, without waiting; ``number`` is a file descriptor.
+    """
     try:
         if sys.platform == "win32":
             import msvcrt
