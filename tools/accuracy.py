@@ -15,7 +15,7 @@ MEASURED = re.compile(r"(?<=<!-- measured -->\n).*?(?=<!-- end -->)", re.DOTALL)
 
 
 def told(report: TradeoffReport) -> str:
-    """What the page says, as Markdown."""
+    """Return the measured part of ``docs/accuracy.md`` as Markdown."""
     text, questions = words("en"), describe_questions(report, "en")
     arrays = describe_arrays(report, "en")
     parts = [
@@ -38,13 +38,13 @@ def told(report: TradeoffReport) -> str:
 
 
 def rows(columns: list[str], lines: list[tuple[str, ...]]) -> str:
-    """A table."""
+    """Return a Markdown table."""
     head = ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"]
     return "\n".join([*head, *("| " + " | ".join(line) + " |" for line in lines)])
 
 
 def main() -> None:
-    """Measure, and write what came out."""
+    """Measure, and write the results into the page and its plot."""
     report = measure_tradeoff(builtin_bank())
     plot = draw_digits(report, words("en")["plot"]["alt"], "en")
     PAGE.with_suffix("").joinpath("digits.svg").write_bytes(plot.standalone_svg)

@@ -58,21 +58,21 @@ def count_wrong(bank: Bank, drawn: int = ROUND) -> Counted:
 
 
 def is_wrong(drawn: Variant, system: str) -> bool:
-    """Whether an arithmetic would print or mark a question wrongly, or have no key for it.
+    """Return whether an arithmetic prints or marks a question wrongly, or has no key for it.
 
-    Of doubles as they are only the digits count: nobody marks by equality with them.
+    For plain doubles only the digits count: nobody marks by equality with them.
     """
     found = faults(drawn, system)
     return bool(found - {"accepted", "rejected"} if system == "float64" else found)
 
 
 def specs(drawn: Variant) -> list[AnySpec]:
-    """What each part of a question is marked by."""
+    """Return the specification of each part of a question."""
     return [ask_part(drawn, index).spec for index in range(len(drawn.template.rules.part))]
 
 
 def faults(drawn: Variant, name: str) -> set[str]:
-    """What goes wrong with one question in an arithmetic, by comparing its key with the exact one.
+    """Return what goes wrong with a question in an arithmetic, compared with the exact key.
 
     Returns
     -------
@@ -92,6 +92,7 @@ def faults(drawn: Variant, name: str) -> set[str]:
 
 
 def _compared(drawn: Variant, index: int, right: AnySpec, other: AnySpec) -> set[str]:
+    """Return the faults of one part: ``digit``, ``accepted``, ``rejected``."""
     printed, made = show_key(right), show_key(other)
     tried = dict.fromkeys([printed, made, *_neighbours(printed), *_mistaken(drawn, index)])
     verdicts = {(_correct(right, typed), _correct(other, typed)) for typed in tried}
@@ -104,17 +105,18 @@ def _compared(drawn: Variant, index: int, right: AnySpec, other: AnySpec) -> set
 
 
 def _correct(spec: AnySpec, typed: str) -> bool:
+    """Return whether a specification accepts what was typed."""
     return grade_answer(spec, typed, decimal="point").verdict == "correct"
 
 
 def _mistaken(drawn: Variant, index: int) -> Iterator[str]:
-    """What those type who make a known mistake."""
+    """Yield the answers of those who make a known mistake."""
     for spec in ask_part(drawn, index).mistakes.values():
         yield show_key(spec)
 
 
 def _neighbours(printed: str) -> Iterator[str]:
-    """The printed answer with its first number one higher or lower in the last place."""
+    """Yield the printed answer with its first number one higher or lower in the last place."""
     found = _NUMBER.search(printed)
     if found is None or "/" in found[0] or "·" in found[0]:
         return
@@ -125,7 +127,7 @@ def _neighbours(printed: str) -> Iterator[str]:
 
 
 def _right_digits(drawn: Variant, index: int, printed: str, made: str) -> bool:
-    """Whether every number of a key is its value rounded to as many places as it has."""
+    """Return whether every number of a key is its value rounded to the places it shows."""
     numbers = [found[0].translate(_PLAIN) for found in _NUMBER.finditer(made)]
     percent = 100 if drawn.sampler.parts[index].answer.get("percent") else 1
     values = [value * percent for value in drawn.answer_of_part(index)]
@@ -135,10 +137,12 @@ def _right_digits(drawn: Variant, index: int, printed: str, made: str) -> bool:
 
 
 def _words(text: str) -> str:
+    """Return a printed key without its numbers."""
     return _NUMBER.sub("", text)
 
 
 def _rounds_to(value: Value, number: str) -> bool:
+    """Return whether a value rounded to the places of a printed number is that number."""
     if "/" in number:
         return isinstance(value, fmpq) and value == to_rational(number)
     mantissa, _, power = number.partition("·10")
@@ -149,7 +153,7 @@ def _rounds_to(value: Value, number: str) -> bool:
 
 
 def main() -> int:
-    """Count and write."""
+    """Count, and write ``counted.json``."""
     found = msgspec.json.format(msgspec.json.encode(count_wrong(builtin_bank())))
     COUNTED.write_bytes(found + b"\n")
     print(COUNTED)

@@ -33,12 +33,12 @@ MATHS_RANGE = [
 
 
 def maths_file() -> Path:
-    """STIX Two Math, whole, as a package of the dev group brings it."""
+    """Return the full STIX Two Math font, as a package of the dev group brings it."""
     return next(fonts.package_folder("ziamath").rglob("STIXTwoMath-Regular.ttf"))
 
 
 def sources() -> dict[Path, tuple[Path, list[int]]]:
-    """Packed file to the font that it is made from, and the characters in it."""
+    """Return for each packed file the font it is made from, and its characters (code points)."""
     return {
         fonts.packed_font_path(fonts.MATHS): (maths_file(), MATHS_RANGE),
         **{
@@ -49,7 +49,7 @@ def sources() -> dict[Path, tuple[Path, list[int]]]:
 
 
 def pack(source: Path, characters: list[int]) -> bytes:
-    """A font as WOFF2, with some of its characters and all that shapes them."""
+    """Return a font as WOFF2 with only these characters (code points) and the rules that shape them."""
     options = subset.Options()
     options.flavor = "woff2"
     options.layout_features = ["*"]

@@ -14,14 +14,14 @@ FILE = Path(__file__).parent.parent / "pyproject.toml"
 
 
 def pins() -> list[str]:
-    """``name==version`` of every installed package but this one, sorted."""
+    """Return ``name==version`` of every installed package but this one, sorted."""
     found = {re.sub(r"[-_.]+", "-", d.metadata["Name"]).lower(): d.version for d in distributions()}
     found.pop("quizgen", None)
     return [f"{name}=={version}" for name, version in sorted(found.items())]
 
 
 def main() -> None:
-    """Rewrite the list in place."""
+    """Rewrite the versions in ``pyproject.toml``."""
     block = "constraint-dependencies = [\n" + "".join(f'    "{pin}",\n' for pin in pins()) + "]"
     text = FILE.read_text(encoding="utf-8")
     new = re.sub(r"constraint-dependencies = \[[^\]]*\]", block, text)

@@ -237,8 +237,7 @@ class ClassFolder:
         return found
 
     def _read_record(self, at: int) -> PaperRecord:
-        """Return the paper in the line that begins at byte ``at``; ``ClassError`` if it is damaged.
-        """
+        """Return the paper in the line at byte ``at``; ``ClassError`` if it is damaged."""
         place = self.path / KEYS
         with place.open("rb") as stream:
             stream.seek(at)
@@ -252,6 +251,7 @@ class ClassFolder:
 
 class _Line(msgspec.Struct):
     """The fields of a line that tell whether its key was edited."""
+
     id: str
     key: msgspec.Raw
     digest: str = ""

@@ -117,8 +117,7 @@ class StudentMarks(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 def item_name(question: KeyQuestion, part: KeyPart) -> str:
-    """Return the name of a part in all papers of a class: template, and ``/label`` if it has one.
-    """
+    """Return a part's name in all papers of a class: template, and ``/label`` if it has one."""
     return item_name_from_parts(question.template, question.number, part.id)
 
 

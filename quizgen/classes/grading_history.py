@@ -168,6 +168,7 @@ class _Lines(contextlib.AbstractContextManager["_Lines"]):
 
 class _Who(msgspec.Struct):
     """The one field of a line of marks that tells whose it is."""
+
     student: str
 
 

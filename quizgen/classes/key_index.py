@@ -38,17 +38,20 @@ class PaperOutline:
 
 class _ShortSpec(msgspec.Struct):
     """The options of a specification, without what grades it."""
+
     options: tuple[str, ...] = ()
 
 
 class _ShortPart(msgspec.Struct):
     """A part's id and options."""
+
     id: str
     spec: _ShortSpec
 
 
 class _ShortQuestion(msgspec.Struct):
     """A question without its solution: decoding a full key takes far longer."""
+
     number: str
     template: str
     identity: str
@@ -62,11 +65,13 @@ class _ShortQuestion(msgspec.Struct):
 
 class _ShortKey(msgspec.Struct):
     """The questions of a key, in their short form."""
+
     questions: list[_ShortQuestion]
 
 
 class _ShortLine(msgspec.Struct):
     """A line of ``keys.jsonl``, as far as item analysis needs it."""
+
     key: _ShortKey
 
 

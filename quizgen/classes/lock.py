@@ -54,8 +54,7 @@ def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
 
 
 def _take(number: int) -> bool:
-    """Return whether the lock could be taken now, without waiting; ``number`` is a file descriptor.
-    """
+    """Return whether the lock on a file descriptor could be taken now, without waiting."""
     try:
         if sys.platform == "win32":
             import msvcrt

@@ -247,8 +247,7 @@ def _is_misspelling(one: str, other: str) -> bool:
 
 
 def _order_by_similarity(groups: list[list[DecisionCase]]) -> list[list[DecisionCase]]:
-    """Return the groups of one item: the largest first, then always the most similar to the last.
-    """
+    """Return an item's groups: the largest first, then always the most similar to the last."""
     from rapidfuzz import fuzz, process
 
     left = sorted(groups, key=lambda group: -_count_students(group))

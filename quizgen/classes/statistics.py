@@ -109,8 +109,7 @@ def kruskal_wallis(groups: Sequence[ScoreTable]) -> float | None:
 
 
 def spearman(first: ScoreTable, second: ScoreTable) -> tuple[float, float] | None:
-    """Return Spearman's rank correlation and its p-value; None with fewer than three or no spread.
-    """
+    """Return Spearman's rank correlation and its p-value; None if undetermined."""
     found = pearson(average_ranks(first), average_ranks(second))
     free = len(first) - 2
     if found is None or free < 1:
@@ -137,7 +136,9 @@ def chi_square_tail(value: float, free: int) -> float:
 
 @working_precision(BITS)
 def f_tail(value: float, first: int, second: int) -> float:
-    """Return the probability of more than ``value`` for F with ``first`` and ``second`` degrees of freedom.
+    """Return the probability of more than ``value`` under the F distribution.
+
+    ``first`` and ``second`` are the degrees of freedom of numerator and denominator.
     """
     share = arb(second) / (second + first * arb(value))
     return float(share.beta_lower(arb(second) / 2, arb(first) / 2, regularized=1).mid())

@@ -134,8 +134,7 @@ class AskedContent:
 
     @cached_property
     def words(self) -> list[tuple[str, frozenset[str], frozenset[str]]]:
-        """Return sentence, required stems and all stems of each sentence long enough to recognise.
-        """
+        """Return sentence, required stems and all stems of each sentence that is long enough."""
         found = [
             (
                 f"{must} {may}".strip(),

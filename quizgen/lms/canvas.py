@@ -167,11 +167,13 @@ def canvas_files(items: Iterable[ExportItem]) -> dict[str, bytes]:
 
 
 def _group(question: CanvasQuestion) -> str:
+    """Return the group of a question: the key that questions are sorted and grouped by."""
     return question.group
 
 
 @cache
 def _load_layouts() -> jinja2.Environment:
+    """Return the Jinja environment with the layouts of a Canvas package."""
     layouts = jinja_environment("quizgen.lms")
     layouts.globals.update(
         answers=weighted_answers,
@@ -186,10 +188,12 @@ def _load_layouts() -> jinja2.Environment:
 
 
 def _canvas_solution(question: CanvasQuestion) -> Markup:
+    """Return the worked solution of a question, without feedback that Canvas gives itself."""
     ((part, found),) = question.parts
     has_feedback = any(not isinstance(one, NumericInteraction) for one in found)
     return solution_html(question.item, _file_address, (part.label,), has_feedback=has_feedback)
 
 
 def _file_address(shown: Figure | PictureFile) -> str:
+    """Return the address of a package's file, as Canvas resolves it."""
     return f"%24IMS-CC-FILEBASE%24/{image_path(shown)}"

@@ -77,8 +77,7 @@ class Agenda:
         return sorted(found, key=lambda card: (self.due(card), card.name))
 
     def due_templates(self, names: Iterable[str]) -> list[str]:
-        """Return those of ``names`` that are due themselves or by a mistake; the longest due first.
-        """
+        """Return those of ``names`` that are due, themselves or by a mistake; longest due first."""
         wanted = set(names)
         since: dict[str, float] = {}
         for card in self.cards.values():

@@ -65,8 +65,7 @@ def _compute_request_digest(wish: PracticeRequest) -> str:
 
 
 def _read_state(path: Path) -> SessionState | None:
-    """Return the state in a file; None if it is missing or damaged, so that practice begins again.
-    """
+    """Return the state in a file; None if it is missing or damaged: practice then begins again."""
     try:
         return decode_json(path.read_bytes(), SessionState)
     except (OSError, msgspec.MsgspecError, RecursionError):
