@@ -84,10 +84,7 @@ def find_faults_of_names(trees: dict[Path, ast.Module]) -> list[str]:
 
 
 def main(folders: list[str]) -> int:
-    """Print the figures of all modules below the folders.
-
-    Return 1 if names are beyond the limits.
-    """
+    """Print the figures of all modules below the folders; return 1 if names exceed the limits."""
     paths = sorted(p for folder in folders for p in Path(folder).rglob("*.py"))
     trees = {p: ast.parse(p.read_text(encoding="utf-8")) for p in paths}
     lengths = [length(f) for tree in trees.values() for f in functions(tree)]

@@ -49,7 +49,10 @@ def sources() -> dict[Path, tuple[Path, list[int]]]:
 
 
 def pack(source: Path, characters: list[int]) -> bytes:
-    """Return a font as WOFF2 with only these characters (code points) and the rules that shape them."""
+    """Return a font as WOFF2 with only these characters and the rules that shape them.
+
+    ``characters`` are code points. A whole font would make each page megabytes larger.
+    """
     options = subset.Options()
     options.flavor = "woff2"
     options.layout_features = ["*"]

@@ -79,7 +79,7 @@ def disjoint_ranges(
 
 
 def _right_ranges(rule: Tolerance, key: Value, period: Value | None) -> Iterator[AnswerRange]:
-    """Yield the intervals that are right: of the key, one period apart, and what ``accept`` adds."""
+    """Yield the right intervals: of the key, one period apart, and what ``accept`` adds."""
     value, width = to_float(key), to_float(rule.half_width(key)) * BEYOND
     width = max(width, SAME * max(abs(value), 1))
     turn = to_float(period) if period is not None else 0
@@ -110,9 +110,9 @@ def _rounding_error(value: float) -> float:
 
 
 def _separate(wanted: Iterable[AnswerRange]) -> Iterator[AnswerRange]:
-    """Yield each interval narrowed to the room that those before it leave.
+    """Yield each interval narrowed to the room that those before it leave; drop one without room.
 
-    Drop one without room.
+    Systems differ in which of several intervals they apply, so none may meet another.
     """
     separate: list[AnswerRange] = []
     for one in wanted:

@@ -259,7 +259,7 @@ def _match_side(
 
 @render_interaction.register
 def _render_order(interaction: OrderInteraction, rules: ResponseRules) -> RenderedInteraction:
-    """Return steps to sort, with a share of the marks for each in its place, as in other systems."""
+    """Return steps to sort, with a share of the marks for each step in its place."""
     if not interaction.is_complete:
         return _render_match(order_as_match(interaction, rules.lang), rules)
     right = [rules.choice_identifier(letter) for letter in interaction.right]

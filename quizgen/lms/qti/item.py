@@ -164,7 +164,10 @@ def _response_processing(
 
 
 def _part_score(group: list[ItemPart], points: Fraction) -> Markup:
-    """Return the expression of a part's marks: of its one interaction, or its share of right values."""
+    """Return the expression of a part's marks.
+
+    Of one interaction its own score, of several values the part's share of right ones.
+    """
     rules = group[0].rules
     scores = [rules.tag("variable", {"identifier": row.rules.score_name}) for row in group]
     if len(scores) == 1:
