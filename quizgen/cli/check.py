@@ -34,7 +34,7 @@ HEAD = 4096
 
 
 class GradedForm(NamedTuple):
-    """A form that has been marked."""
+    """A graded form: file, name, matriculation, result and language."""
 
     file: str
     name: str
@@ -44,7 +44,7 @@ class GradedForm(NamedTuple):
 
 
 class CheckOptions(BankOptions):
-    """What is marked, and how it is told."""
+    """Options of ``quizgen check``."""
 
     key: Path
     answers: tuple[Path, ...]
@@ -100,7 +100,7 @@ def check(**options: Unpack[CheckOptions]) -> None:
 
 
 def _check_key_belongs(page: Path, key: AnswerKey) -> None:
-    """Refuse a key that lies beside the page of another paper.
+    """Raise ``KeyFileError`` if the page in the key's folder is of another paper.
 
     Raises
     ------
@@ -122,7 +122,7 @@ def _check_key_belongs(page: Path, key: AnswerKey) -> None:
 def _all_marked(
     key: AnswerKey, answers: tuple[Path, ...], lang: str | None, *, settle: bool
 ) -> Iterator[GradedForm]:
-    """Mark each form that can be read, and say of each other why not."""
+    """Yield each form graded; print why a form could not be read."""
     for path in answers:
         try:
             yield _grade_form(key, path, lang, settle=settle)
@@ -135,6 +135,7 @@ def _all_marked(
 def _print_results(
     marked: list[GradedForm], key: AnswerKey, flags: CheckOptions, *, many: bool
 ) -> None:
+    """Print the results as JSON, CSV or a table."""
     if flags["as_json"]:
         _print_json(marked, key)
     elif flags["as_csv"] or many:
@@ -146,6 +147,7 @@ def _print_results(
 
 
 def _grade_form(key: AnswerKey, path: Path, lang: str | None, *, settle: bool) -> GradedForm:
+    """Return a graded form; ``KeyFileError`` if it is of another paper."""
     from quizgen.paper.answer_form import read_filled_form
     from quizgen.paper.grading import grade_paper
 
@@ -168,12 +170,13 @@ def _grade_form(key: AnswerKey, path: Path, lang: str | None, *, settle: bool) -
 
 
 def _choose_form_language(form: FilledForm, key: AnswerKey) -> str:
-    """The language that the form, else the paper, is written in."""
+    """Return the language of the form, else of the paper, that quizgen has."""
     wished = (form.student.lang, *key.langs[:1])
     return next((lang for lang in wished if lang in list_languages()), FIRST)
 
 
 def _print_json(marked: list[GradedForm], key: AnswerKey) -> None:
+    """Print the results as JSON, a table for each form."""
     import json
 
     import msgspec
@@ -193,6 +196,7 @@ def _print_json(marked: list[GradedForm], key: AnswerKey) -> None:
 
 
 def _print_table(one: GradedForm) -> None:
+    """Print the table of one form, as wide as the terminal."""
     import shutil
 
     from quizgen.paper.grade_report import format_table
@@ -209,7 +213,7 @@ def check_responses(
     banks: tuple[Path, ...],
     flags: Mapping[str, object],
 ) -> int:
-    """Mark the responses in files, print them, and give the code to leave with.
+    """Grade the responses in files and print them; return the exit code.
 
     Raises
     ------
@@ -237,7 +241,7 @@ def check_responses(
 
 
 def _untold(found: Sequence[GradedAttempt]) -> Iterator[str]:
-    """What is no error, but not marked either."""
+    """Yield what is no error, but was not graded either."""
     for one in found:
         who = one.attempt.name or one.attempt.person_key[0]
         if not one.attempt.responses:
@@ -247,6 +251,7 @@ def _untold(found: Sequence[GradedAttempt]) -> Iterator[str]:
 
 
 def _print(found: Sequence[GradedAttempt], lang: str, flags: Mapping[str, object]) -> None:
+    """Print graded attempts as JSON, CSV or a table."""
     from quizgen.lms.attempt_report import attempt_to_json, attempts_to_csv, format_attempts
 
     if flags["as_json"]:

@@ -34,7 +34,7 @@ _BULLET = re.compile(r" *(?:- )*")
 
 
 class TextStyle(TypedDict, total=False):
-    """How a text stands out; nothing where colours are not wished."""
+    """Style options of ``click.secho``."""
 
     fg: str
     bold: bool
@@ -42,11 +42,14 @@ class TextStyle(TypedDict, total=False):
 
 
 class QuitSession(Exception):  # noqa: N818 - a wish, not a failure
-    """The learner wants to stop for now."""
+    """Raised when the learner wants to stop for now."""
 
 
 def print_wrapped(text: str, first: str = "", rest: str = "", **style: Unpack[TextStyle]) -> None:
-    """Print a text, broken between words at the width of the terminal."""
+    """Print a text, broken between words at the width of the terminal.
+
+    ``first`` and ``rest`` stand before the first and the other lines.
+    """
     for line in wrap_lines(escape_control_characters(text), terminal_width(), first, rest):
         click.secho(line, **style)
 
@@ -70,7 +73,7 @@ def print_prose(lines: Iterable[str], first: str = "", rest: str = "") -> None:
 
 
 class Conversation:
-    """One session on a terminal.
+    """Runs one practice session on a terminal.
 
     Parameters
     ----------
@@ -88,7 +91,7 @@ class Conversation:
         self.words = load_practice_words(session.state.wish.lang)
 
     def hold(self) -> None:
-        """Ask until every question is done.
+        """Ask until every question is done; the session is saved after each answer.
 
         Raises
         ------
@@ -110,12 +113,15 @@ class Conversation:
                 self.learning.save_practice(which, turn.question.topic, turn.parts)
 
     def _keep(self) -> None:
+        """Save the session."""
         self.shelf.save(self.session.state)
 
     def _say(self, name: str, **blanks: object) -> None:
+        """Print a sentence by its key, with its blanks filled in."""
         print_wrapped(self.words[name].format(**blanks))
 
     def _show_question(self, turn: QuestionAttempt) -> None:
+        """Print the question, and which of its parts are done."""
         count, title = self.session.state.wish.count, turn.question.title
         print_heading(self.words["question"].format(number=turn.number, count=count, title=title))
         print_prose(blocks_to_plain_text(turn.question.stem))
@@ -125,6 +131,7 @@ class Conversation:
             self._say("done-before", parts=", ".join(done))
 
     def _show_figure(self, figure: Figure | None) -> None:
+        """Print a figure in words and write its SVG file; nothing without one."""
         if figure is None:
             return
         path = self.shelf.figure(self.session.state.wish)
@@ -133,7 +140,7 @@ class Conversation:
         self._say("figure-file", path=path)
 
     def _ask(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
-        """Ask a part until it is done."""
+        """Ask a part until it has ended."""
         self._show_part(task)
         while task.outcome is None:
             typed = self._read_line(self.words["prompt"])
@@ -142,13 +149,14 @@ class Conversation:
 
     @contextmanager
     def _save_on_stop(self) -> Iterator[None]:
-        """Keep what has been done, also if the learner stops in the middle of it."""
+        """Save the session after the body of ``with``, also if the learner stops in it."""
         try:
             yield
         finally:
             self._keep()
 
     def _take(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
+        """Act on what was typed: a hint, the solution, a skip or an answer."""
         if typed == "?":
             self._hint(task)
         elif typed == "!":
@@ -161,7 +169,7 @@ class Conversation:
             self._answer(task, typed)
 
     def _read_line(self, prompt: str) -> str:
-        """What was typed.
+        """Return what was typed, without blanks around it.
 
         Raises
         ------
@@ -178,11 +186,12 @@ class Conversation:
         return typed
 
     def _means(self, name: str, typed: str) -> bool:
-        """Whether a word was typed that stands for something, here or in English."""
+        """Return whether the learner typed one of a command's words, translated or English."""
         listed = f"{self.words[name]}, {load_practice_words(FIRST)[name]}"
         return typed.casefold() in {word.casefold() for word in listed.split(", ")}
 
     def _show_part(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+        """Print a part with its options and how to answer it."""
         part = task.part
         label = f"({part.label}) " if part.label else ""
         click.echo()
@@ -196,6 +205,7 @@ class Conversation:
         print_wrapped(self.words["help"], "   ", "   ", dim=True)
 
     def _answer(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
+        """Grade an answer, print the feedback, and show the solution if the part has ended."""
         feedback = task.answer(typed)
         verdict = task.explain_verdict(feedback.verdict)
         match feedback.then:
@@ -217,7 +227,7 @@ class Conversation:
             self._solution(task)
 
     def _ask_self_mark(self, task: PartAttempt[QuestionPart, PartSolution]) -> bool:
-        """Whether the learner finds the own answer right."""
+        """Return whether the learner judges the own answer right."""
         self._say("self-mark", points=task.solved.answer)
         while True:
             typed = self._read_line(self.words["yes-or-no"])
@@ -227,6 +237,7 @@ class Conversation:
                 return False
 
     def _hint(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+        """Print the next hint, or that there is none."""
         rung = task.next_hint()
         if rung is None:
             self._say("no-more-hints")
@@ -238,6 +249,7 @@ class Conversation:
             self._say("hint-sheet", hint=inlines_to_plain_text(sheet))
 
     def _solution(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+        """Print the worked solution of a part."""
         for line in task.solved.lines:
             print_wrapped(inlines_to_plain_text(line.maths), "   ", "      ")
             print_wrapped(inlines_to_plain_text(line.why), "      ", "      ")

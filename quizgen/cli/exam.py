@@ -55,7 +55,7 @@ PRETENDED = 5
 
 
 class ExamOptions(BankOptions):
-    """Which paper, and where to."""
+    """Options of ``quizgen exam``."""
 
     seed: int | None
     code: str | None
@@ -121,7 +121,7 @@ def exam(**options: Unpack[ExamOptions]) -> None:
 
 
 def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
-    """Make papers of consecutive seeds; each is written whole as soon as it is made."""
+    """Write papers of consecutive seeds, each complete as soon as it is made."""
     from quizgen.core.executor import map_ordered, open_executor
 
     if options["code"] or options["reference"]:
@@ -157,7 +157,7 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
 def _make_numbered_paper(
     bank: Bank, blueprint: Blueprint, lang: str, formats: list[str], form: str, seed: int
 ) -> tuple[str, dict[str, bytes]]:
-    """Code and files of one paper of many."""
+    """Return code and files of one of many papers; runs in a worker."""
     from quizgen.paper.paper import build_paper, silent
 
     paper = build_paper(bank, blueprint, seed, lang)
@@ -172,7 +172,10 @@ def _make_numbered_paper(
 def _build_paper_files(
     paper: Paper, formats: list[str], form: str, tell: Callable[[str], None]
 ) -> dict[str, bytes]:
-    """All files of a paper, the key last."""
+    """Return the files of a paper by name, the key last.
+
+    In this order a key in the folder always has its paper.
+    """
     from quizgen.paper.answer_form import write_blank_form
     from quizgen.paper.answer_key import write_answer_key
 
@@ -185,7 +188,7 @@ def _build_paper_files(
 
 
 def _write_paper_files(form: Path, contents: dict[str, bytes], *, kept: bool) -> None:
-    """Write a paper's files; a form that has been written in stays as it is."""
+    """Write a paper's files; ``kept`` leaves a form with answers as it is."""
     from quizgen.core.files import write_all
 
     if kept:
@@ -196,7 +199,7 @@ def _write_paper_files(form: Path, contents: dict[str, bytes], *, kept: bool) ->
 
 
 def _filled_in(form: Path, paper: str) -> bool:
-    """Whether there is a form already, with answers to this very paper.
+    """Return whether the form exists and holds answers to this paper.
 
     Raises
     ------
@@ -228,6 +231,7 @@ def _filled_in(form: Path, paper: str) -> bool:
 
 
 def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
+    """Return the paper that the options name: by code, as reference, or by seed."""
     from quizgen.paper.paper import build_paper, build_reference_paper, rebuild_paper
     from quizgen.paper.provenance import bank_difference_context
 
@@ -256,7 +260,7 @@ def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
 
 
 def _banks_of(options: ExamOptions) -> tuple[BankRecord, ...]:
-    """The banks that the paper of a code was made from, if its key is still in its folder."""
+    """Return the banks of a code's paper, from the key in its folder; none without a key."""
     from quizgen.paper.answer_key import read_answer_key
 
     key = (options["out"] or _get_paper_folder(str(options["code"]))) / KEY
@@ -264,15 +268,20 @@ def _banks_of(options: ExamOptions) -> tuple[BankRecord, ...]:
 
 
 def _get_paper_folder(code: str) -> Path:
-    """The folder of a paper; what parts a bank from its blueprint's name parts drives elsewhere."""
+    """Return the folder of a paper's code.
+
+    The sign between bank and blueprint is not allowed in all file systems.
+    """
     return HOME / code.replace(BETWEEN, ".")
 
 
 def _first_seed(options: ExamOptions) -> int:
+    """Return the seed in the options, or a random one."""
     return secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
 
 
 def _load_blueprint_at_level(options: ExamOptions, bank: Bank) -> Blueprint:
+    """Return the blueprint that the options name, at their level."""
     import msgspec
 
     return msgspec.structs.replace(
@@ -281,6 +290,7 @@ def _load_blueprint_at_level(options: ExamOptions, bank: Bank) -> Blueprint:
 
 
 def _load_requested_blueprint(options: ExamOptions, bank: Bank) -> Blueprint:
+    """Return the blueprint of a topic, of a length, or by its name."""
     from quizgen.paper.blueprint import (
         EVERYTHING,
         default_blueprint_name,
@@ -302,6 +312,7 @@ def _load_requested_blueprint(options: ExamOptions, bank: Bank) -> Blueprint:
 def _iter_rendered_files(
     paper: Paper, formats: list[str], tell: Callable[[str], None]
 ) -> Iterator[tuple[str, bytes]]:
+    """Yield name and bytes of each rendered file of a paper."""
     for output in formats:
         for kind in render.KINDS:
             name = f"{kind}.{output}"
@@ -312,6 +323,7 @@ def _iter_rendered_files(
 def _report_paper(
     form: Path, paper: Paper, written: Collection[str], options: ExamOptions, *, kept: bool
 ) -> None:
+    """Print the files, the size of the paper, and how to go on."""
     folder = form.parent
     for name in sorted(written):
         click.echo(f"  {folder / name}")
@@ -333,7 +345,7 @@ def _report_paper(
 
 
 def _report_variety(paper: Paper, asked: int | None) -> None:
-    """Say how many papers there are, and whether the time that was asked for is used."""
+    """Print how many papers there are, and whether the time requested is used."""
     from quizgen.paper.blueprint import EVERYTHING
 
     if paper.variety:
@@ -345,7 +357,7 @@ def _report_variety(paper: Paper, asked: int | None) -> None:
 
 
 def _list_rebuild_options(options: ExamOptions) -> list[str]:
-    """Options without which a code does not lead to the same paper."""
+    """Return the options that a code needs to give the same paper."""
     words: list[str] = []
     if options["blueprint"] and Path(options["blueprint"]).exists():
         words += ["--blueprint", options["blueprint"]]
