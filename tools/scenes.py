@@ -1,4 +1,4 @@
-"""Take the pictures of the shipped scenes anew: ``docs/scenes.jpg``, by the order of names."""
+"""Take the pictures of the shipped scenes again: ``docs/scenes.jpg``, by the order of names."""
 
 from __future__ import annotations
 

@@ -168,6 +168,7 @@ def _draw_plot(draw: Any, lang: str, axes: tuple[str, str], caption: str, height
     words = load_words(lang, "classes")["analysis"]
 
     def draw_named(ax: Any) -> None:
+        """Draw the plot, then name its axes."""
         draw(ax)
         ax.set_xlabel(words[axes[0]] if axes[0] else "")
         ax.set_ylabel(words[axes[1]])

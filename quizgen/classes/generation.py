@@ -64,7 +64,7 @@ class GenerationJob:
     settings : Settings
     blueprint : Blueprint
     students : tuple of Student
-    beside : mapping of str to tuple of str
+    neighbours : mapping of str to tuple of str
         To whom each of them gives way, and those in turn.
     former : mapping of str to tuple of str
         Codes that each has had.
@@ -73,7 +73,7 @@ class GenerationJob:
     settings: ClassSettings
     blueprint: Blueprint
     students: tuple[RosterStudent, ...]
-    beside: Mapping[str, tuple[str, ...]]
+    neighbours: Mapping[str, tuple[str, ...]]
     former: Mapping[str, tuple[str, ...]]
 
 
@@ -172,7 +172,7 @@ def generate_papers(
     with lock_folder(folder.path):
         _check_bank_unchanged(folder, blueprint)
         heads = folder.heads()
-        todo = [one for one in students if not _is_made(folder, one, heads.get(one.id))]
+        todo = [one for one in students if not _is_up_to_date(folder, one, heads.get(one.id))]
         folder.write_roster(students)
         done: list[GeneratedPaper] = []
         former = {one: head.codes for one, head in heads.items()}
@@ -214,14 +214,14 @@ def _iter_jobs(
     settings: ClassSettings,
     blueprint: Blueprint,
     todo: Sequence[RosterStudent],
-    beside: Mapping[str, tuple[str, ...]],
+    neighbours: Mapping[str, tuple[str, ...]],
     former: Mapping[str, tuple[str, ...]],
 ) -> Iterator[GenerationJob]:
     """Yield jobs of ``CHUNK`` students, each with the neighbours its papers depend on."""
     for at in range(0, len(todo), CHUNK):
         chunk = tuple(todo[at : at + CHUNK])
         had = {one.id: former.get(one.id, ()) for one in chunk}
-        yield GenerationJob(settings, blueprint, chunk, _select_neighbours(chunk, beside), had)
+        yield GenerationJob(settings, blueprint, chunk, _select_neighbours(chunk, neighbours), had)
 
 
 def _write_papers_and_keys(folder: ClassFolder, results: Sequence[GeneratedPaper]) -> None:
@@ -245,7 +245,7 @@ def _compute_student_digest(settings: ClassSettings, one: RosterStudent) -> str:
     return hashlib.sha256(json.dumps(row).encode()).hexdigest()[:16]
 
 
-def _is_made(folder: ClassFolder, one: RosterStudent, head: PrintedHead | None) -> bool:
+def _is_up_to_date(folder: ClassFolder, one: RosterStudent, head: PrintedHead | None) -> bool:
     """Return whether a student's files exist and are up to date."""
     if head is None or head.stamp != _compute_student_digest(folder.settings, one):
         return False
@@ -278,9 +278,9 @@ def _assign_neighbours(
 
 
 def _select_neighbours(
-    students: Sequence[RosterStudent], beside: Mapping[str, tuple[str, ...]]
+    students: Sequence[RosterStudent], neighbours: Mapping[str, tuple[str, ...]]
 ) -> dict[str, tuple[str, ...]]:
-    """Return the entries of ``beside`` that the papers of some students depend on.
+    """Return the entries of ``neighbours`` that the papers of some students depend on.
 
     Those of neighbours too, and of their neighbours in turn.
     """
@@ -289,8 +289,8 @@ def _select_neighbours(
     while todo:
         one = todo.pop()
         if one not in found:
-            found[one] = beside[one]
-            todo += beside[one]
+            found[one] = neighbours[one]
+            todo += neighbours[one]
     return found
 
 
@@ -311,15 +311,15 @@ class _Drawing:
         """Return the variants of a student's questions, in order."""
         if student not in self._known:
             seed = student_seed(self.job.settings.secret, student)
-            near = [self.of(other) for other in self.job.beside[student]]
-            names = _one_of_each(self.job.settings.templates, seed)
+            near = [self.of(other) for other in self.job.neighbours[student]]
+            names = _choose_templates(self.job.settings.templates, seed)
             self._known[student] = [
                 *draw_variants(self.bank, names, seed, near, colour=self.job.blueprint.colour)
             ]
         return self._known[student]
 
 
-def _one_of_each(templates: Sequence[Sequence[str]], seed: str) -> list[str]:
+def _choose_templates(templates: Sequence[Sequence[str]], seed: str) -> list[str]:
     """Return one template of each family, chosen by the student's seed."""
     return [
         family[pick_index(f"{seed}/{place}", len(family))] for place, family in enumerate(templates)
@@ -330,7 +330,7 @@ def _make_student_files(
     job: GenerationJob, one: RosterStudent, drawing: _Drawing
 ) -> GeneratedPaper:
     """Return one student's paper with its files, key and report."""
-    drawn, beside = drawing.of(one.id), job.beside[one.id]
+    drawn, neighbours = drawing.of(one.id), job.neighbours[one.id]
     made = _compose_student_paper(job, one, drawing.bank, drawn)
     paper = _assign_student_code(job.settings, one, made)
     sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
@@ -341,7 +341,7 @@ def _make_student_files(
         paper.code,
         made.code,
         _compute_student_digest(job.settings, one),
-        beside,
+        neighbours,
         former=former,
     )
     return GeneratedPaper(
@@ -351,7 +351,7 @@ def _make_student_files(
         paper.points,
         paper.minutes,
         "".join(item.questions[0].tier for item in paper.items),
-        _find_shared_questions(drawn, [drawing.of(other) for other in beside]),
+        _find_shared_questions(drawn, [drawing.of(other) for other in neighbours]),
     )
 
 
@@ -378,7 +378,7 @@ def _assign_student_code(settings: ClassSettings, one: RosterStudent, paper: Pap
 
 
 def _find_shared_questions(
-    drawn: Sequence[Variant], beside: Sequence[Sequence[Variant]]
+    drawn: Sequence[Variant], neighbours: Sequence[Sequence[Variant]]
 ) -> tuple[int, ...]:
     """Return the numbers (from 1) of questions that share a value with a neighbour's.
 
@@ -387,7 +387,7 @@ def _find_shared_questions(
     return tuple(
         number
         for number, one in enumerate(drawn, 1)
-        if any(shared_content(one, other[number - 1]) for other in beside)
+        if any(shared_content(one, other[number - 1]) for other in neighbours)
     )
 
 

@@ -80,10 +80,10 @@ def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingR
         nothing is changed then.
     """
     with lock_folder(folder.path):
-        return _mark(folder, executor, ahead)
+        return _grade_locked_folder(folder, executor, ahead)
 
 
-def _mark(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
+def _grade_locked_folder(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
     """Grade the class while its folder is locked."""
     filled, kept = read_queue(folder.path)
     before = read_rulings(folder.path)

@@ -42,7 +42,7 @@ def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
     number = os.open(folder / FILE, os.O_RDWR | os.O_CREAT, PRIVATE)
     try:
         last = time.monotonic() + patience
-        while not _take(number):
+        while not _try_lock(number):
             if time.monotonic() > last:
                 raise ClassError(
                     f"{folder}: another command writes there; try again when it has ended"
@@ -53,7 +53,7 @@ def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
         os.close(number)
 
 
-def _take(number: int) -> bool:
+def _try_lock(number: int) -> bool:
     """Return whether the lock on a file descriptor could be taken now, without waiting."""
     try:
         if sys.platform == "win32":

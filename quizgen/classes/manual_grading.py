@@ -159,6 +159,7 @@ def decision_cases(
 
     @lru_cache(maxsize=1)
     def parts(student: str) -> dict[str, KeyPart]:
+        """Return the parts of a student's key by item; one student is read at a time."""
         return {
             item_name(one, part): part for one in key_of(student).questions for part in one.parts
         }
@@ -228,10 +229,10 @@ def _find_group_leader(words: str, leaders: Iterable[str]) -> str:
     from rapidfuzz import fuzz, process
 
     near = process.extract(words, leaders, scorer=fuzz.ratio, score_cutoff=SIMILAR, limit=5)
-    return next((other for other, *_ in near if _slips_only(words, other)), words)
+    return next((other for other, *_ in near if _is_misspelt_sentence(words, other)), words)
 
 
-def _slips_only(one: str, other: str) -> bool:
+def _is_misspelt_sentence(one: str, other: str) -> bool:
     """Return whether two sentences differ by misspellings alone, word by word."""
     pairs = list(zip(one.split(), other.split(), strict=False))
     same_length = len(one.split()) == len(other.split())

@@ -147,7 +147,9 @@ def _find_columns(head: Sequence[str], columns: Mapping[str, str], path: Path) -
         if clean_cell(theirs).casefold() not in there:
             raise ClassError(f"{path}: has no column {theirs!r} (it has {said})")
     names = {
-        ours: [clean_cell(columns[ours]).casefold()] if ours in columns else _known_as(ours)
+        ours: [clean_cell(columns[ours]).casefold()]
+        if ours in columns
+        else _list_column_names(ours)
         for ours in COLUMNS
     }
     found = {
@@ -161,7 +163,7 @@ def _find_columns(head: Sequence[str], columns: Mapping[str, str], path: Path) -
     return {ours: place for ours, place in found.items() if place is not None}
 
 
-def _known_as(column: str) -> list[str]:
+def _list_column_names(column: str) -> list[str]:
     """Return the names that a column may have in a file."""
     return [column, *ALSO_CALLED.get(column, ())]
 
@@ -192,11 +194,11 @@ def clean_cell(cell: str) -> str:
     Such as those that reverse the direction of writing and could disguise a name.
     """
     whole = unicodedata.normalize("NFC", cell)
-    seen = (c if _is_seen(c) else " " if c.isspace() else "" for c in whole)
+    seen = (c if _is_visible(c) else " " if c.isspace() else "" for c in whole)
     return " ".join("".join(seen).split())
 
 
-def _is_seen(character: str) -> bool:
+def _is_visible(character: str) -> bool:
     """Return whether a character is visible, or joins letters."""
     return character in _JOINERS or unicodedata.category(character) not in {"Cc", "Cf", "Cs", "Co"}
 

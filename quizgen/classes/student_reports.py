@@ -382,10 +382,10 @@ def write_grades_and_reports(
         If something cannot be written.
     """
     with lock_folder(folder.path):
-        return _grade(folder, formats, anonymous=anonymous)
+        return _write_locked_folder(folder, formats, anonymous=anonymous)
 
 
-def _grade(
+def _write_locked_folder(
     folder: ClassFolder, formats: Sequence[str], *, anonymous: bool
 ) -> tuple[list[GradedStudent], list[str], list[Path]]:
     """Write grades and reports while the folder is locked."""

@@ -91,7 +91,7 @@ def check(**options: Unpack[CheckOptions]) -> None:
         from quizgen.cli.banks import compare_banks
 
         compare_banks(paper.banks, options["bank"])
-    marked = list(_all_marked(paper, answers, lang, settle=not options["no_settle"]))
+    marked = list(_iter_graded_forms(paper, answers, lang, settle=not options["no_settle"]))
     if marked:
         _print_results(marked, paper, options, many=len(answers) > 1)
     missing = len(answers) - len(marked)
@@ -119,7 +119,7 @@ def _check_key_belongs(page: Path, key: AnswerKey) -> None:
         )
 
 
-def _all_marked(
+def _iter_graded_forms(
     key: AnswerKey, answers: tuple[Path, ...], lang: str | None, *, settle: bool
 ) -> Iterator[GradedForm]:
     """Yield each form graded; print why a form could not be read."""
@@ -232,15 +232,15 @@ def check_responses(
     lost: list[str] = []
     given = read_attempts(files, manifest.found, lost.append)
     found = list(grade_attempts(manifest, given, lang, settle=not flags["no_settle"]))
-    for line in (*lost, *_untold(found)):
+    for line in (*lost, *_iter_ungraded_messages(found)):
         click.echo(f"quizgen: {escape_control_characters(' '.join(line.split()))}", err=True)
     there = [one for one in found if one.attempt.responses]
     if there:
-        _print(there, lang or FIRST, flags)
+        _print_attempts(there, lang or FIRST, flags)
     return (1 if there else 2) if lost else 0
 
 
-def _untold(found: Sequence[GradedAttempt]) -> Iterator[str]:
+def _iter_ungraded_messages(found: Sequence[GradedAttempt]) -> Iterator[str]:
     """Yield what is no error, but was not graded either."""
     for one in found:
         who = one.attempt.name or one.attempt.person_key[0]
@@ -250,7 +250,7 @@ def _untold(found: Sequence[GradedAttempt]) -> Iterator[str]:
             yield f"{one.attempt.where}: {who}: question {number} is not in the keys; not marked"
 
 
-def _print(found: Sequence[GradedAttempt], lang: str, flags: Mapping[str, object]) -> None:
+def _print_attempts(found: Sequence[GradedAttempt], lang: str, flags: Mapping[str, object]) -> None:
     """Print graded attempts as JSON, CSV or a table."""
     from quizgen.lms.attempt_report import attempt_to_json, attempts_to_csv, format_attempts
 

@@ -94,7 +94,7 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     if options["one_file"]:
         write_print_file(folder, students)
     _report_papers(folder, report)
-    _say_of_names(students)
+    _report_unprintable_names(students)
     if unread:
         print_sentence(
             f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)"
@@ -206,7 +206,7 @@ def _report_papers(folder: ClassFolder, report: GenerationReport) -> None:
     )
 
 
-def _say_of_names(students: list[RosterStudent]) -> None:
+def _report_unprintable_names(students: list[RosterStudent]) -> None:
     """Print each name that the fonts of a paper cannot print."""
     from quizgen.render.typst_document import replace_unprintable
 

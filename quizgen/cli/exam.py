@@ -114,7 +114,7 @@ def exam(**options: Unpack[ExamOptions]) -> None:
     with ProgressLine("exam") as tell:
         paper = _build_requested_paper(options, tell)
         form = (options["out"] or _get_paper_folder(paper.code)) / f"answers.{options['form']}"
-        kept = _filled_in(form, paper.code)
+        kept = _has_filled_form(form, paper.code)
         contents = _build_paper_files(paper, formats, form.name, tell)
     _write_paper_files(form, contents, kept=kept)
     _report_paper(form, paper, contents, options, kept=kept)
@@ -134,7 +134,7 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
     make = partial(
         _make_numbered_paper, bank, _load_blueprint_at_level(options, bank), lang, formats, name
     )
-    first = _first_seed(options)
+    first = _choose_first_seed(options)
     if first + count - 1 > LARGEST_SEED:
         raise InvalidChoiceError(
             f"--count: the last of {count} seeds would be beyond {LARGEST_SEED}"
@@ -144,7 +144,7 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
     with ProgressLine("exam", count) as tell, open_executor(processes) as (executor, ahead):
         for code, contents in map_ordered(executor, make, range(first, first + count), ahead):
             form = (options["out"] or HOME) / _get_paper_folder(code).name / name
-            _write_paper_files(form, contents, kept=_filled_in(form, code))
+            _write_paper_files(form, contents, kept=_has_filled_form(form, code))
             codes.append(code)
             tell(code)
     click.echo(
@@ -198,7 +198,7 @@ def _write_paper_files(form: Path, contents: dict[str, bytes], *, kept: bool) ->
     write_all(form.parent, contents, private=private)
 
 
-def _filled_in(form: Path, paper: str) -> bool:
+def _has_filled_form(form: Path, paper: str) -> bool:
     """Return whether the form exists and holds answers to this paper.
 
     Raises
@@ -248,7 +248,7 @@ def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
                 "--code already fixes the questions; leave --topic and --minutes out"
             )
         given = _load_requested_blueprint(options, bank) if options["blueprint"] else None
-        with bank_difference_context(partial(_banks_of, options), bank):
+        with bank_difference_context(partial(_read_banks_of_code, options), bank):
             return rebuild_paper(bank, options["code"], given, progress=tell)
     blueprint, lang = (
         _load_blueprint_at_level(options, bank),
@@ -256,10 +256,10 @@ def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
     )
     if options["reference"]:
         return build_reference_paper(bank, blueprint, lang, progress=tell)
-    return build_paper(bank, blueprint, _first_seed(options), lang, progress=tell)
+    return build_paper(bank, blueprint, _choose_first_seed(options), lang, progress=tell)
 
 
-def _banks_of(options: ExamOptions) -> tuple[BankRecord, ...]:
+def _read_banks_of_code(options: ExamOptions) -> tuple[BankRecord, ...]:
     """Return the banks of a code's paper, from the key in its folder; none without a key."""
     from quizgen.paper.answer_key import read_answer_key
 
@@ -275,7 +275,7 @@ def _get_paper_folder(code: str) -> Path:
     return HOME / code.replace(BETWEEN, ".")
 
 
-def _first_seed(options: ExamOptions) -> int:
+def _choose_first_seed(options: ExamOptions) -> int:
     """Return the seed in the options, or a random one."""
     return secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
 

@@ -155,7 +155,7 @@ def _examine_templates(
 
     limit, seeds, debug = _compute_time_limit(options), options["seeds"], options["debug"]
     rows, heard = [], list["QuestionContent"]()
-    broken = _of_bank(bank, limit, whole=len(names) == len(bank.template_paths))
+    broken = _check_bank(bank, limit, whole=len(names) == len(bank.template_paths))
     examine = partial(_examine_template, bank, seeds=seeds, limit=limit, debug=debug)
     with (
         ProgressLine("lint", len(names)) as progress,
@@ -170,7 +170,7 @@ def _examine_templates(
     return rows, broken
 
 
-def _of_bank(bank: Bank, limit: float, *, whole: bool) -> list[Diagnostic]:
+def _check_bank(bank: Bank, limit: float, *, whole: bool) -> list[Diagnostic]:
     """Return what is wrong with the files of no template; with ``whole`` also the sheet."""
     from quizgen.cards.checks import check_cards
     from quizgen.cli.lint_outputs import check_sheet

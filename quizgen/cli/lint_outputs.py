@@ -33,7 +33,9 @@ def check_outputs(bank: Bank, template: Template) -> Iterator[Diagnostic]:
 
     drawn = draw_instance(template, SEED)
     paper: list[Paper] = []
-    made = _diagnose_failure(template.file, "question", lambda: paper.append(_paper_of(drawn)))
+    made = _diagnose_failure(
+        template.file, "question", lambda: paper.append(_build_single_paper(drawn))
+    )
     if made or not paper:
         yield from filter(None, (made,))
         return
@@ -82,7 +84,7 @@ def _diagnose_failure(file: Path, output: str, make: Callable[[], object]) -> Di
     return None
 
 
-def _paper_of(drawn: Variant) -> Paper:
+def _build_single_paper(drawn: Variant) -> Paper:
     """Return a paper of one variant, in all languages of its template."""
     from quizgen.paper.blueprint import Blueprint, SlotRule
     from quizgen.paper.paper import Paper, PaperItem

@@ -102,8 +102,8 @@ def template(place: str, kind: str | None, root: Path) -> None:
     topic, slash, name = place.partition("/")
     if not slash:
         raise BankError(f"{place!r} has no topic before it; write TOPIC/{place}")
-    _must_be_name(topic)
-    _must_be_name(name)
+    _require_name(topic)
+    _require_name(name)
     own = Bank(root)
     if own.metadata.topics and topic not in own.topics:
         file, known = own.folder / "bank.toml", ", ".join(own.topics)
@@ -118,7 +118,7 @@ def template(place: str, kind: str | None, root: Path) -> None:
     _print_next_steps(root, name)
 
 
-def _must_be_name(name: str) -> None:
+def _require_name(name: str) -> None:
     """Raise ``BankError`` unless a name is allowed in banks."""
     if not is_identifier(name):
         raise BankError(f"{name!r} is no name (allowed: {NAMES})")

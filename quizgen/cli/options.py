@@ -112,7 +112,7 @@ def _find_trusted_roots(roots: Sequence[Path], options: BankOptions) -> set[Path
 
     found = {root.resolve() for root in roots}
     if options["trust"]:
-        _tell_all(roots)
+        _print_trusted_banks(roots)
         return found
     chosen = {resolve_bank(named).resolve(): named for named in options["trust_bank"]}
     for root, named in chosen.items():
@@ -124,7 +124,7 @@ def _find_trusted_roots(roots: Sequence[Path], options: BankOptions) -> set[Path
     return {*chosen}
 
 
-def _tell_all(roots: Sequence[Path]) -> None:
+def _print_trusted_banks(roots: Sequence[Path]) -> None:
     """Print which banks ``--trust`` applies to, if there are several."""
     from quizgen.bank.bank import builtin_root
     from quizgen.bank.discovery import python_files

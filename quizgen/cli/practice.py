@@ -130,11 +130,11 @@ def _open_session(
     state = shelf.load(wish)
     if state is not None:
         click.echo(load_practice_words(wish.lang)["resumed"].format(seed=state.seed))
-    choose = None if wish.seed or learning is None else partial(_next_due, learning)
+    choose = None if wish.seed or learning is None else partial(_choose_due_question, learning)
     return Session(bank, state or new_session(wish), choose)
 
 
-def _next_due(learning: LearnerProgress, names: Sequence[str]) -> tuple[str, str]:
+def _choose_due_question(learning: LearnerProgress, names: Sequence[str]) -> tuple[str, str]:
     """Return template and seed of the question that is due."""
     which = learning.next_question(names)
     return which.template, which.seed

@@ -301,13 +301,13 @@ def summarise(shot: SimulatedShot) -> dict[str, Any]:
         "times_ms": shot.times,
     }
     if shot.taken is not None:
-        report["seen"] = [_tell_seen(one) for one in shot.taken.seen]
+        report["seen"] = [_format_visibility_json(one) for one in shot.taken.seen]
         report["readings"] = shot.taken.readings
     if shot.single is not None:
         report["float32_difference_dn"] = measure_difference(shot.single, shot.photo)
         report["float32_ms"] = shot.single.measured_ms
     if shot.race is not None and shot.whole is not None:
-        report["everything"] = _tell_everything(shot, shot.race, shot.whole)
+        report["everything"] = _format_full_run_json(shot, shot.race, shot.whole)
     return report
 
 
@@ -326,7 +326,7 @@ def _format_choice_json(choice: EffectChoice, shot: SimulatedShot) -> dict[str, 
     return told
 
 
-def _tell_seen(seen: Visibility) -> dict[str, Any]:
+def _format_visibility_json(seen: Visibility) -> dict[str, Any]:
     """Return how visible an effect is, as plain data."""
     return {
         "kind": seen.kind,
@@ -339,7 +339,7 @@ def _tell_seen(seen: Visibility) -> dict[str, Any]:
     }
 
 
-def _tell_everything(shot: SimulatedShot, race: Race, whole: Photo) -> dict[str, Any]:
+def _format_full_run_json(shot: SimulatedShot, race: Race, whole: Photo) -> dict[str, Any]:
     """Return how the picture differs from one with every effect, as plain data."""
     from quizgen.camera.simulation import is_within, measure_difference
 
@@ -408,22 +408,23 @@ def _iter_total_lines(shot: SimulatedShot, report: dict[str, Any]) -> Iterator[s
     for name, need in report["idle"].items():
         yield f"{name} does nothing without {need}"
     if shot.race is not None:
-        yield from _tell_race(shot.race, report["everything"]["difference_dn"])
+        yield from _iter_race_sentences(shot.race, report["everything"]["difference_dn"])
 
 
-def _tell_race(race: Race, difference: float) -> Iterator[str]:
+def _iter_race_sentences(race: Race, difference: float) -> Iterator[str]:
     """Yield sentences on difference (grey levels) and time of the full rendering."""
     yield f"everything: really {difference:.3g} grey levels apart"
     chosen, whole = race.medians
     yield (
-        f"what was run {_told_ms(chosen, race.first_ms)}, everything "
-        f"{_told_ms(whole, race.second_ms)}: medians of {len(race.first_ms)} turns, both warm"
+        f"what was run {_format_milliseconds(chosen, race.first_ms)}, everything "
+        f"{_format_milliseconds(whole, race.second_ms)}: "
+        f"medians of {len(race.first_ms)} turns, both warm"
     )
     if not race.saves:
         yield "leaving out saves no time here"
 
 
-def _told_ms(middle: float, times: tuple[float, ...]) -> str:
+def _format_milliseconds(middle: float, times: tuple[float, ...]) -> str:
     """Return a median and the range of times (sorted, ms) in words."""
     return f"{middle:.1f} ms ({times[0]:.1f} to {times[-1]:.1f})"
 

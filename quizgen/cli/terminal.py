@@ -76,12 +76,12 @@ def to_one_line(text: str) -> str:
 def print_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     """Print aligned columns; on a terminal the last one is wrapped, or stands below the others."""
     table = [head, *([to_one_line(cell) for cell in row] for row in rows)]
-    for number, lines in enumerate(lay_out_table(table, _room())):
+    for number, lines in enumerate(lay_out_table(table, _get_wrap_width())):
         for line in lines:
             click.echo(line if number else click.style(line, bold=True))
 
 
-def _room() -> int:
+def _get_wrap_width() -> int:
     """Return the columns to wrap at; without a terminal nothing is wrapped."""
     return terminal_width() if is_interactive() else sys.maxsize
 
@@ -93,7 +93,7 @@ def format_count(count: int, word: str) -> str:
 
 def print_sentence(text: str) -> None:
     """Print a sentence; on a terminal it is broken between words."""
-    for line in wrap_lines(escape_control_characters(text), _room()):
+    for line in wrap_lines(escape_control_characters(text), _get_wrap_width()):
         click.echo(line)
 
 
@@ -197,14 +197,14 @@ def join_words(words: list[str]) -> str:
 def _find_start_command() -> list[str]:
     """Return the words that started this program: by uv, as a module, or by name."""
     if os.environ.get("UV_RUN_RECURSION_DEPTH"):
-        return ["uv", "run", *_project(), "quizgen"]
+        return ["uv", "run", *_list_project_options(), "quizgen"]
     script = Path(sys.argv[0])
     if script.name == "__main__.py":
         return [_shorten_program(Path(sys.executable)), "-m", "quizgen"]
     return [_shorten_program(script) if script.stem == "quizgen" else "quizgen"]
 
 
-def _project() -> list[str]:
+def _list_project_options() -> list[str]:
     """Return the option that uv needs outside the project's folder; none inside."""
     home = Path(sys.prefix).parent
     inside = Path.cwd().is_relative_to(home) or not (home / "pyproject.toml").exists()

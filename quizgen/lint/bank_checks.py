@@ -51,10 +51,10 @@ def find_missing_files(bank: Bank) -> Iterator[Diagnostic]:
         file = folder / "template.toml"
         if not file.exists():
             yield diagnose("QG502", file, "there is no template.toml beside the words")
-    yield from _empty_topics(bank)
+    yield from _find_empty_topics(bank)
 
 
-def _empty_topics(bank: Bank) -> Iterator[Diagnostic]:
+def _find_empty_topics(bank: Bank) -> Iterator[Diagnostic]:
     """Yield a diagnostic for each topic of ``bank.toml`` that no template has."""
     try:
         held = {bank.rules(name).topic for name in bank.template_paths}

@@ -51,7 +51,7 @@ def check_figures(draws: Sequence[Variant]) -> Iterator[Diagnostic]:
                     return
                 numbers.update(_iter_numbers(said) if quiz else ())
     if rule.quiz:
-        yield from _given_away(shown)
+        yield from _find_given_away_answers(shown)
         yield from _find_unreadable(shown, rule.reads)
     for code, what in look_problems(_iter_figures(draws[:DRAWN])):
         yield diagnose(code, template.file, what, ("figure",))
@@ -93,7 +93,7 @@ def _iter_numbers(text: str) -> Iterator[str]:
         yield f"{float(_SPACES.sub('', found).replace(',', '.')):.4g}"
 
 
-def _given_away(shown: Sequence[tuple[Variant, set[str]]]) -> Iterator[Diagnostic]:
+def _find_given_away_answers(shown: Sequence[tuple[Variant, set[str]]]) -> Iterator[Diagnostic]:
     """Yield an answer that the figure shows in every variant, and the question never states.
 
     ``shown`` pairs each variant with the numbers in its figure.
@@ -177,7 +177,7 @@ def _find_overlaps(figure: Figure) -> Iterator[str]:
             yield f"labels {one.text!r} and {other.text!r} overlap by {min(across, down):.1f} pt"
 
 
-def _small_letters(figure: Figure) -> Iterator[str]:
+def _find_small_letters(figure: Figure) -> Iterator[str]:
     """Yield labels in letters below the smallest legible size."""
     for label in figure.labels:
         least = SMALLEST_INDEX if _has_index(label) else SMALLEST
@@ -190,7 +190,7 @@ def _has_index(label: Label) -> bool:
     return any(sign in label.text for sign in "_^") and "$" in label.text
 
 
-def _too_wide(figure: Figure) -> Iterator[str]:
+def _find_excess_width(figure: Figure) -> Iterator[str]:
     """Yield a message if a figure is wider than the column of a page."""
     if figure.width_pt > COLUMN:
         yield f"is {figure.width_pt:g} pt wide, more than the {COLUMN:g} pt of a page"
@@ -230,7 +230,7 @@ def _find_pale_colours(figure: Figure) -> Iterator[str]:
                 yield f"{what} in {colour} can hardly be seen on white (contrast {contrast:.1f})"
 
 
-def _alike_on_grey(figure: Figure) -> Iterator[str]:
+def _find_alike_greys(figure: Figure) -> Iterator[str]:
     """Yield pairs of coloured lines that cannot be told apart in a grey print."""
     strokes = {
         Stroke(p["stroke"], p.get("stroke-dasharray", ""))
@@ -248,12 +248,12 @@ def _alike_on_grey(figure: Figure) -> Iterator[str]:
 
 _LOOKS: tuple[tuple[str, Callable[[Figure], Iterator[str]]], ...] = (
     ("QG403", _find_overlaps),
-    ("QG404", _small_letters),
-    ("QG405", _too_wide),
+    ("QG404", _find_small_letters),
+    ("QG405", _find_excess_width),
     ("QG406", _find_clipped_markers),
     ("QG407", _find_unnamed_axes),
     ("QG408", _find_pale_colours),
-    ("QG409", _alike_on_grey),
+    ("QG409", _find_alike_greys),
 )
 
 

@@ -79,11 +79,11 @@ class QualityReview:
     def findings(self) -> Iterator[QualityFinding]:
         """Yield what was found over all variants added, part by part."""
         for index, label in enumerate(self.template.labels):
-            said = [*_claims_findings(self.template)] if index == 0 else []
+            said = [*_check_claims(self.template)] if index == 0 else []
             said += _check_authored_reasons(self.template, index)
             said += _check_option_letters(self.first, index) if self.first else []
             if index in self.seen:
-                said += _seen_findings(self.template, index, self.seen[index])
+                said += _check_tally(self.template, index, self.seen[index])
             for level, code, what in said:
                 if code not in self.template.rules.ignore:
                     yield QualityFinding(self.template.id, label or "1", level, code, what)
@@ -103,14 +103,14 @@ def review_template(template: Template, seeds: int = 200) -> list[QualityFinding
         one = draw_variant(template, seed)
         different.add(one.identity)
         lessons.add(one)
-    said = [*_pool_findings(template, len(different), seeds)]
+    said = [*_check_pool(template, len(different), seeds)]
     said += [("note", "QG315", what) for what in check_workload(template)]
     ignored = template.rules.ignore
     found = [QualityFinding(template.id, "", *one) for one in said if one[1] not in ignored]
     return [*found, *lessons.findings()]
 
 
-def _seen_findings(template: Template, index: int, seen: AnswerTally) -> Said:
+def _check_tally(template: Template, index: int, seen: AnswerTally) -> Said:
     """Yield what the tally of one part shows: too little entropy, a favoured position, ...
 
     Nothing with fewer than ``ENOUGH`` variants, where shares are chance.
@@ -121,7 +121,7 @@ def _seen_findings(template: Template, index: int, seen: AnswerTally) -> Said:
     wanted = WANTED_BITS.get(seen.kind, MANY if seen.most >= 4 else FEW)
     if seen.most_bits < wanted:
         yield "error", "QG301", f"its answer has {seen.bits:.2f} bits, at least {wanted} are wanted"
-    yield from _choice_findings(seen)
+    yield from _check_options(seen)
     if seen.kind == "choice" and not answer.get("in_order"):
         share = seen.draws / seen.most
         most = SPREAD * math.sqrt(share * (1 - 1 / seen.most))
@@ -131,7 +131,7 @@ def _seen_findings(template: Template, index: int, seen: AnswerTally) -> Said:
             yield "error", "QG302", what
 
 
-def _choice_findings(seen: AnswerTally) -> Said:
+def _check_options(seen: AnswerTally) -> Said:
     """Yield options that are never right, always right, or betrayed by their length."""
     never = sorted(set(seen.shown) - set(seen.right))
     if never:
@@ -151,7 +151,9 @@ def _check_authored_reasons(template: Template, index: int) -> Said:
     answer = template.rules.part[index].answer
     reasons = {name for text in template.texts.values() for name in text.named.get("reasons", ())}
     told = reasons | {name.partition(" = ")[0] for name in reasons}
-    lacking = [name for name in _to_explain(template, answer, reasons) if name not in told]
+    lacking = [
+        name for name in _list_names_to_explain(template, answer, reasons) if name not in told
+    ]
     if lacking:
         yield "error", "QG304", f"no reason for {', '.join(lacking)}"
     if answer["kind"] == "tf" and not {"from", "claim"} & answer.keys():
@@ -165,7 +167,9 @@ EXPLAINED = {"choice": ("options",), "multi": ("options",), "match": ("pairs",),
 """Kind to the keys of its answer whose names need a reason."""
 
 
-def _to_explain(template: Template, answer: Mapping[str, Any], reasons: set[str]) -> list[str]:
+def _list_names_to_explain(
+    template: Template, answer: Mapping[str, Any], reasons: set[str]
+) -> list[str]:
     """Return the names of options, claims or steps that need a sentence in ``reasons``."""
     if "from" in answer:
         return list(template.rules.claims)
@@ -181,7 +185,7 @@ def _list_drawable_phrases(template: Template, name: str, reasons: set[str]) -> 
     return rule.words if rule and name not in reasons else (name,)
 
 
-def _pool_findings(template: Template, different: int, seeds: int) -> Said:
+def _check_pool(template: Template, different: int, seeds: int) -> Said:
     """Yield too few different questions, and a pool size that differs from the declared one.
 
     ``different`` were counted among ``seeds`` variants.
@@ -196,7 +200,7 @@ def _pool_findings(template: Template, different: int, seeds: int) -> Said:
         yield "error", "QG308", f"there are {counted} different questions, not {rules.pool}"
 
 
-def _claims_findings(template: Template) -> Said:
+def _check_claims(template: Template) -> Said:
     """Yield a pool of claims that is too small, or shares names with options."""
     rules = template.rules
     asked = sum("from" in part.answer for part in rules.part)

@@ -118,7 +118,7 @@ def lint_template(
     """
     report = TemplateReport(template.id)
     ignored = template.rules.ignore
-    found = [*_language_problems(template, langs), *check_dimensions(template)]
+    found = [*_find_language_problems(template, langs), *check_dimensions(template)]
     report.problems += [problem for problem in found if problem.code not in ignored]
     if report.problems:
         return report
@@ -132,12 +132,14 @@ def lint_template(
         for worded in composed:
             report.problems += find_unfilled_placeholders(worded)
         typed = (*_select_telling_variants(first, MARKED.count(seeds)), *known)
-        report.problems += _once_a_part(answer for one in typed for answer in _typed_back(one))
+        report.problems += _select_first_diagnostics(
+            answer for one in typed for answer in _iter_misjudged_answers(one)
+        )
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
-        report.problems += _lacking_lessons(template, lessons)
+        report.problems += _diagnose_quality_errors(template, lessons)
         report.problems = [one for one in report.problems if one.code not in ignored]
     except QuizgenError as error:
         report.problems.append(error.diagnostic(template.file))
@@ -145,19 +147,19 @@ def lint_template(
     return report
 
 
-def _answer(index: int) -> Place:
+def _locate_answer(index: int) -> Place:
     """Return where a part's answer stands in ``template.toml``."""
     return ("part", index, "answer")
 
 
-def _lacking_lessons(template: Template, lessons: QualityReview) -> Iterator[Diagnostic]:
+def _diagnose_quality_errors(template: Template, lessons: QualityReview) -> Iterator[Diagnostic]:
     """Yield the errors of the quality review as diagnostics with their places."""
     labels = [label or "1" for label in template.labels]
     for one in lessons.findings():
         if one.level == "error":
-            file, place = template.file, _answer(labels.index(one.label))
+            file, place = template.file, _locate_answer(labels.index(one.label))
             if one.code == "QG304":
-                file, place = _prose_file(template, template.languages[0]), ("reasons",)
+                file, place = _get_prose_file(template, template.languages[0]), ("reasons",)
             elif one.code in {"QG309", "QG310"}:
                 place = ("claims",)
             yield diagnose(one.code, file, f"part {one.label}: {one.what}", place)
@@ -236,15 +238,15 @@ def _find_constant_answers(template: Template, report: TemplateReport) -> Iterat
             yield diagnose("QG208", template.file, what, _DRAW)
 
 
-def _prose_file(template: Template, lang: str) -> Path:
+def _get_prose_file(template: Template, lang: str) -> Path:
     """Return the file with a template's prose in a language."""
     return template.path / f"{lang}.md"
 
 
-def _language_problems(template: Template, langs: tuple[str, ...]) -> list[Diagnostic]:
+def _find_language_problems(template: Template, langs: tuple[str, ...]) -> list[Diagnostic]:
     """Return what is missing in the languages a template must have or has."""
     wanted = langs or tuple(template.texts) or (FIRST,)
-    files = {lang: _prose_file(template, lang) for lang in (*wanted, *template.texts)}
+    files = {lang: _get_prose_file(template, lang) for lang in (*wanted, *template.texts)}
     problems = [
         diagnose("QG210", files[lang], f"no {lang}.md")
         for lang in wanted
@@ -255,7 +257,7 @@ def _language_problems(template: Template, langs: tuple[str, ...]) -> list[Diagn
     for lang in template.texts:
         problems += [diagnose(code, files[lang], what, place)
                      for code, what, place in _find_missing_texts(template, lang)]  # fmt: skip
-    problems += _unequal_slots(template)
+    problems += _find_language_differences(template)
     return problems
 
 
@@ -290,9 +292,9 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
             yield "QG213", what, (section, name)
 
 
-def _unequal_slots(template: Template) -> Iterator[Diagnostic]:
+def _find_language_differences(template: Template) -> Iterator[Diagnostic]:
     """Yield values and names that one language shows and another does not."""
-    shown = {lang: set(_question_slots(text)) for lang, text in template.texts.items()}
+    shown = {lang: set(_iter_question_slots(text)) for lang, text in template.texts.items()}
     first, *others = shown
     for lang in others:
         if shown[first] != shown[lang]:
@@ -301,7 +303,7 @@ def _unequal_slots(template: Template) -> Iterator[Diagnostic]:
             # The one that shows more has the line to look at.
             more = first if odd[0] in shown[first] else lang
             place: Place = (TEXT, f"{{{{ {odd[0]} }}}}")
-            yield diagnose("QG214", _prose_file(template, more), what, place)
+            yield diagnose("QG214", _get_prose_file(template, more), what, place)
     for section in ("options", "words", "gaps", "points", "claims", "reasons", "why"):
         keys = {lang: set(text.named.get(section, {})) for lang, text in template.texts.items()}
         for lang in others:
@@ -310,10 +312,10 @@ def _unequal_slots(template: Template) -> Iterator[Diagnostic]:
                 what = f"section {section!r} differs from {first}.md by {odd}"
                 stranger = next((name for name in odd if name in keys[lang]), "")
                 place = (section, stranger) if stranger else (section,)
-                yield diagnose("QG215", _prose_file(template, lang), what, place)
+                yield diagnose("QG215", _get_prose_file(template, lang), what, place)
 
 
-def _question_slots(text: LanguageFile) -> Iterator[str]:
+def _iter_question_slots(text: LanguageFile) -> Iterator[str]:
     """Yield the placeholders of stem, parts, options and claims."""
     yield from slot_names(text.stem)
     for name, section in text.sections.items():
@@ -333,7 +335,7 @@ def find_unfilled_placeholders(worded: ComposedLanguages) -> list[Diagnostic]:
     """Return a diagnostic for each placeholder, nan or inf left in a composed question."""
     problems: list[Diagnostic] = []
     for lang, (question, key) in worded.items():
-        file = _prose_file(key.draw.template, lang)
+        file = _get_prose_file(key.draw.template, lang)
         bodies = [question.stem, *(part.body for part in question.parts)]
         shown = " ".join(line for body in bodies for line in blocks_to_plain_text(body))
         if re.search(r"\{\{|\}\}|\bnan\b|\binf\b", shown):
@@ -358,7 +360,7 @@ class _TypedAnswer:
     diagnostic: Diagnostic
 
 
-def _once_a_part(answers: Iterable[_TypedAnswer]) -> list[Diagnostic]:
+def _select_first_diagnostics(answers: Iterable[_TypedAnswer]) -> list[Diagnostic]:
     """Return the first diagnostic of each part's key and each misconception.
 
     It would come again in each draw. Where the key itself is not accepted, misconceptions prove
@@ -371,7 +373,7 @@ def _once_a_part(answers: Iterable[_TypedAnswer]) -> list[Diagnostic]:
     return [said for (part, trap), said in found.items() if not trap or part not in keys]
 
 
-def _typed_back(one: Variant) -> Iterator[_TypedAnswer]:
+def _iter_misjudged_answers(one: Variant) -> Iterator[_TypedAnswer]:
     """Yield what goes wrong when the key and each misconception of a variant are typed."""
     for index, label in enumerate(one.template.labels):
         yield from _check_printed_answers(one, ask_part(one, index), index, label)
@@ -394,7 +396,7 @@ def _check_printed_answers(
             text = typed[trap][lang]
             if (trap, text) not in seen:
                 seen.add((trap, text))
-                place = _answer(index)
+                place = _locate_answer(index)
                 for code, what in _check_typed_answer(part.spec, trap, text, lang):
                     found = diagnose(code, one.template.file, f"{where}: {what}", place)
                     yield _TypedAnswer(label, trap, found)

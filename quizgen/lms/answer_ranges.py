@@ -82,8 +82,8 @@ def _right_ranges(rule: Tolerance, key: Value, period: Value | None) -> Iterator
     """Yield the right intervals: of the key, one period apart, and what ``accept`` adds."""
     value, width = to_float(key), to_float(rule.half_width(key)) * BEYOND
     width = max(width, SAME * max(abs(value), 1))
-    turn = to_float(period) if period is not None else 0
-    for shift in (0, -turn, turn) if turn else (0,):
+    cycle = to_float(period) if period is not None else 0
+    for shift in (0, -cycle, cycle) if cycle else (0,):
         yield AnswerRange(value + shift, _move_off_edge(value + shift, width, WIDER), right=True)
     if rule.accept is not None:
         low, high = (to_float(parse_exact(bound)) for bound in rule.accept)

@@ -153,6 +153,7 @@ def format_attempts(marked: Sequence[GradedAttempt], lang: str) -> Iterator[str]
 
 
 def _attempt_line(one: GradedAttempt, lang: str) -> tuple[str, ...]:
+    """Return the cells of an attempt, for a terminal in a language."""
     result = one.result
     again = f" ({one.number})" if one.number > 1 else ""
     marks = localise_numbers(
@@ -169,10 +170,12 @@ def _attempt_line(one: GradedAttempt, lang: str) -> tuple[str, ...]:
 
 
 def _question_line(one: QuestionStatistics, lang: str) -> tuple[str, ...]:
+    """Return the cells of a question's statistics, for a terminal in a language."""
     rest = "" if one.correlation is None else localise_numbers(lang, f"{one.correlation:.2f}")
     notes = ", ".join(f"{count} {name}" for name, count in one.notes)
     return (escape_control_characters(one.number), str(one.count), f"{one.share:.0%}", rest, notes)
 
 
 def _format_table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
+    """Yield the lines of a table with aligned columns."""
     return (line for lines in lay_out_table(rows) for line in lines)

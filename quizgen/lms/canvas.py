@@ -148,8 +148,10 @@ def canvas_files(items: Iterable[ExportItem]) -> dict[str, bytes]:
     quizzes, figures = {}, dict[str, bytes]()
     for lang, found in groupby(group_by_slot(items), key=lambda item: item.lang):
         of_lang = list(found)
-        questions = sorted((one for item in of_lang for one in canvas_questions(item)), key=_group)
-        groups = [(name, list(row)) for name, row in groupby(questions, key=_group)]
+        questions = sorted(
+            (one for item in of_lang for one in canvas_questions(item)), key=_get_group
+        )
+        groups = [(name, list(row)) for name, row in groupby(questions, key=_get_group)]
         quizzes[f"quizgen-{lang}"] = groups
         for item in of_lang:
             figures |= all_images(item)
@@ -166,7 +168,7 @@ def canvas_files(items: Iterable[ExportItem]) -> dict[str, bytes]:
     return {name: text.encode() for name, text in files.items()} | figures
 
 
-def _group(question: CanvasQuestion) -> str:
+def _get_group(question: CanvasQuestion) -> str:
     """Return the group of a question: the key that questions are sorted and grouped by."""
     return question.group
 

@@ -103,9 +103,9 @@ class MoodleQuestion(CourseQuestion):
 def write_moodle(items: Iterable[ExportItem]) -> bytes:
     """Return the questions as a file to import, equal for equal questions."""
     questions = [question for item in items for question in moodle_questions(item)]
-    questions.sort(key=_category_of)
+    questions.sort(key=_get_category)
     page = _load_layouts().get_template("moodle.xml.j2")
-    return page.render(slots=groupby(questions, key=_category_of)).encode()
+    return page.render(slots=groupby(questions, key=_get_category)).encode()
 
 
 def moodle_manifest(item: ExportItem) -> Iterator[ManifestQuestion]:
@@ -114,7 +114,7 @@ def moodle_manifest(item: ExportItem) -> Iterator[ManifestQuestion]:
         yield manifest_question(question, embedded=question.type == "cloze")
 
 
-def _category_of(question: MoodleQuestion) -> str:
+def _get_category(question: MoodleQuestion) -> str:
     """Return the category of a question: the key that questions are sorted and grouped by."""
     return question.category
 

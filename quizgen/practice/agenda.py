@@ -159,6 +159,7 @@ def _choose_least_attempted(names: Sequence[str], times: Mapping[str, int], seed
     """Return the template that was begun the fewest times; ``seed`` decides between equals."""
 
     def rank(name: str) -> tuple[int, bytes]:
+        """Return how often a template was begun, then a random but repeatable key."""
         return times.get(name, 0), hashlib.sha256(f"next/{seed}/{name}".encode()).digest()
 
     return min(names, key=rank)

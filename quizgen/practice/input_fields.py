@@ -97,7 +97,7 @@ def _join_as_pairs(filled: list[str], marks: Sequence[str]) -> str:
     return ", ".join(f"{mark}:{chosen}" for mark, chosen in pairs if chosen)
 
 
-def _in_order(filled: list[str], _marks: Sequence[str]) -> str:
+def _join_as_order(filled: list[str], _marks: Sequence[str]) -> str:
     """Return marks as they are typed for an order: ``B A C``."""
     return " ".join(filter(None, filled))
 
@@ -107,6 +107,6 @@ _JOINED: dict[str, Callable[[list[str], Sequence[str]], str]] = {
     "many": _join_as_list,
     "truth": _join_as_list,
     "pairs": _join_as_pairs,
-    "order": _in_order,
+    "order": _join_as_order,
 }
 """Forms whose fields hold marks, and how these are typed."""

@@ -24,12 +24,13 @@ def template_at(bank: Bank, names: Sequence[str], seed: str, number: int) -> str
 
     In each round every template comes once, in an order that the seed decides.
     """
-    turn, place = divmod(number - 1, len(names))
+    cycle, index = divmod(number - 1, len(names))
 
     def rank(name: str) -> bytes:
-        return hashlib.sha256(f"practice/{seed}/{turn}/{bank.origin(name)}".encode()).digest()
+        """Return the key that orders templates within a round."""
+        return hashlib.sha256(f"practice/{seed}/{cycle}/{bank.origin(name)}".encode()).digest()
 
-    return sorted(names, key=rank)[place]
+    return sorted(names, key=rank)[index]
 
 
 def question_seed(seed: str, number: int) -> str:

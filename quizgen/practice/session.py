@@ -76,7 +76,7 @@ class Session:
         self, bank: Bank, state: SessionState, choose: QuestionChooser | None = None
     ) -> None:
         require_one_of("language", state.wish.lang, list_languages())
-        self.bank, self.state, self._choose = bank, state, choose or self._by_seed
+        self.bank, self.state, self._choose = bank, state, choose or self._choose_by_seed
         self.templates = matching_templates(bank, state.wish)
         """Names of the templates that fit the wish; without any the session is finished."""
 
@@ -112,7 +112,7 @@ class Session:
         tasks = (PartAttempt(question.topic, *one, marker=marker) for one in parts)
         return QuestionAttempt(number, seed, key.level, question, tuple(tasks))
 
-    def _by_seed(self, names: Sequence[str]) -> tuple[str, str]:
+    def _choose_by_seed(self, names: Sequence[str]) -> tuple[str, str]:
         """Return template and question seed that the session's seed gives: the default chooser."""
         seed, number = self.state.seed, self.state.done + 1
         return template_at(self.bank, names, seed, number), question_seed(seed, number)
@@ -128,10 +128,10 @@ class Session:
             self.state.parts = [PartState() for _ in key.specs]
         return self.state.parts
 
-    def finish(self, turn: QuestionAttempt) -> None:
+    def finish(self, attempt: QuestionAttempt) -> None:
         """Record the outcomes of a question, and advance to the next."""
-        self.state.outcomes = [*self.state.outcomes, *turn.outcomes]
-        self.state.done = turn.number
+        self.state.outcomes = [*self.state.outcomes, *attempt.outcomes]
+        self.state.done = attempt.number
         self.state.due, self.state.question, self.state.parts = None, "", []
 
     def summary(self) -> tuple[TopicResult, ...]:

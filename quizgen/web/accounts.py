@@ -56,12 +56,12 @@ def _get_accounts(request: Request) -> Accounts:
     return site.store.accounts
 
 
-def _address(request: Request) -> str:
+def _get_client_address(request: Request) -> str:
     """Return the IP address that a request came from; empty if it is unknown."""
     return request.client.host if request.client else ""
 
 
-def _proof(request: Request, learner: int, number: str) -> str:
+def _sign_browser_proof(request: Request, learner: int, number: str) -> str:
     """Return the value of the cookie that marks a browser in which this learner signed in before.
 
     An HMAC under the server's secret, so that nobody can make one; ``number`` is random.
@@ -71,10 +71,10 @@ def _proof(request: Request, learner: int, number: str) -> str:
     return f"{number}.{hmac.new(secret, text, hashlib.sha256).hexdigest()}"
 
 
-def _known_browser(request: Request, learner: int | None) -> str:
+def _read_browser_proof(request: Request, learner: int | None) -> str:
     """Return the proof cookie if it is valid for this learner; else an empty string."""
     given = request.cookies.get(BROWSER, "")
-    right = _proof(request, learner or 0, given.partition(".")[0])
+    right = _sign_browser_proof(request, learner or 0, given.partition(".")[0])
     return given if learner and secrets.compare_digest(given.encode(), right.encode()) else ""
 
 
@@ -87,14 +87,17 @@ async def _try_password(
     limited and counted by name, address and browser.
     """
     site: ServerState = request.app.state.site
-    limits, browser = site.password_limits, _known_browser(request, known[0] if known else None)
-    who = (fold_user_name(name[:LONGEST_NAME]), _address(request), browser)
+    limits, browser = (
+        site.password_limits,
+        _read_browser_proof(request, known[0] if known else None),
+    )
+    who = (fold_user_name(name[:LONGEST_NAME]), _get_client_address(request), browser)
     wait = limits.begin(*who)
     learner = known[0] if known else 0
     if wait:
         log_event("password not tried yet", learner=learner, address=who[1], seconds=wait)
         return wait, False
-    async with limits.turns.turn(browser or _address(request)):
+    async with limits.turns.turn(browser or _get_client_address(request)):
         right = await verify_password(known[1] if known else None, password)
     if right:
         limits.count_right(*who)
@@ -111,7 +114,7 @@ async def _begin_session(request: Request, learner: int, address: str) -> Respon
     await run_in_threadpool(accounts.end_session, request.state.token)
     token = await run_in_threadpool(accounts.start_session, learner)
     answer = set_session_cookie(request.scope, redirect(safe_redirect_target(address)), token)
-    proof = _proof(request, learner, secrets.token_urlsafe(12))
+    proof = _sign_browser_proof(request, learner, secrets.token_urlsafe(12))
     return set_cookie(request.scope, answer, BROWSER, proof, BROWSER_DAYS * DAY)
 
 
@@ -196,7 +199,7 @@ async def accept_invitation(request: Request) -> Response:
     form = await read_form(request)
     invitation = await _find_invitation(request)
     typed, key = field_text(form, "name"), request.query_params["key"]
-    problem, name = _wrong_password(form), normalise_user_name(typed)
+    problem, name = _find_password_problem(form), normalise_user_name(typed)
     if invitation.learner is None and name is None:
         problem = "no_name"
     if problem:
@@ -209,11 +212,11 @@ async def accept_invitation(request: Request) -> Response:
         learner = await run_in_threadpool(accounts.join, key, str(name), kept, settings)
     if learner is None:
         return _render_invitation_page(request, await _find_invitation(request), "taken", typed)
-    log_event("invitation used", learner=learner, address=_address(request))
+    log_event("invitation used", learner=learner, address=_get_client_address(request))
     return await _begin_session(request, learner, "/")
 
 
-def _wrong_password(form: FormData) -> str:
+def _find_password_problem(form: FormData) -> str:
     """Return the key of what is wrong with a new password, typed twice; empty if nothing."""
     if not is_acceptable(field_text(form, "password")):
         return "no_password"
@@ -242,7 +245,7 @@ async def set_password(request: Request) -> Response:
         raise HTTPException(429)
     if not right:
         return _render_own_account(request, 403, "wrong_old")
-    problem = _wrong_password(form)
+    problem = _find_password_problem(form)
     if problem:
         return _render_own_account(request, 400, problem)
     kept = await hash_password(field_text(form, "password"))
@@ -285,7 +288,7 @@ def _make_invitation_link(
 async def invite(request: Request) -> Response:
     """Issue an invitation link, valid once, and return the page that shows it.
 
-    Only a hash of its key is stored, so it can never be shown again.
+    The database has only a hash of its key, so the link cannot be shown again.
     """
     form = await read_form(request)
     _require_manager(request)

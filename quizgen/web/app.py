@@ -143,17 +143,17 @@ async def handle_http_error(request: Request, error: Exception) -> Response:
 
 async def handle_store_error(request: Request, error: Exception) -> Response:
     """Return the page for a database that does not answer (HTTP 503)."""
-    return _failure(request, error, 503, "error.503")
+    return _render_failure_page(request, error, 503, "error.503")
 
 
 async def handle_bank_error(request: Request, error: Exception) -> Response:
     """Return the page for a faulty template (HTTP 500); authors see the message."""
     site: ServerState = request.app.state.site
     wrong = str(error) if site.settings.examine else ""
-    return _failure(request, error, 500, "error.500", wrong)
+    return _render_failure_page(request, error, 500, "error.500", wrong)
 
 
-def _failure(
+def _render_failure_page(
     request: Request, error: Exception, status: int, text: str, wrong: str = ""
 ) -> Response:
     """Return an error page with the request's id, and record the cause for the log."""

@@ -84,7 +84,7 @@ async def show_camera(request: Request) -> Response:
         told=lambda name, value: format_setting(lang, name, value),
         shot=shot,
         pictures=_list_picture_urls(shot) if shot else [],
-        time=lambda seconds: _told_time(lang, seconds),
+        time=lambda seconds: _format_exposure_time(lang, seconds),
     )
 
 
@@ -96,7 +96,7 @@ def _list_picture_urls(shot: CameraView) -> list[tuple[str, str]]:
     return [(name, f"data:image/png;base64,{b64encode(data).decode()}") for name, data in found]
 
 
-def _told_time(lang: str, seconds: float) -> str:
+def _format_exposure_time(lang: str, seconds: float) -> str:
     """Return an exposure time as photographers write it: ``1/125 s``."""
     told = f"{seconds:.2g}" if seconds >= 0.5 else f"1/{1.0 / seconds:.3g}"
     return translate_page(lang, "camera.seconds", value=told)
@@ -198,7 +198,7 @@ class CameraJob:
             CameraView(
                 taken=_encode_picture(taken.photo.values),
                 plain=_encode_picture(taken.without.values),
-                difference=_png_of(apart),
+                difference=_encode_png(apart),
                 scale=scale if apart.any() else 0,
                 asked=list(taken.plan.asked),
                 chosen=chosen,
@@ -284,10 +284,10 @@ def _encode_picture(values: Image) -> bytes:
 
     from quizgen.camera.pixels.codes import to_8bit
 
-    return _png_of(to_8bit(values * np.float32(255)))
+    return _encode_png(to_8bit(values * np.float32(255)))
 
 
-def _png_of(codes: NDArray[np.uint8]) -> bytes:
+def _encode_png(codes: NDArray[np.uint8]) -> bytes:
     """Return 8-bit codes as PNG bytes."""
     from quizgen.camera.pixels.codecs import encode_photo
 

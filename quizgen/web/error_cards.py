@@ -57,11 +57,11 @@ async def download_exam_cards(request: Request) -> Response:
     """Return the flashcards of a submitted exam's mistakes."""
     site: ServerState = request.app.state.site
     store, learner = site.store.sittings, request.state.learner.id
-    sitting = await run_in_threadpool(store.find, learner, request.path_params["sitting"])
-    if sitting is None or sitting.handed is None:
+    exam = await run_in_threadpool(store.find, learner, request.path_params["sitting"])
+    if exam is None or exam.handed is None:
         raise HTTPException(404)
     return await _send_cards(
-        request, ErrorCardsJob(request_language(request), (_read_sitting(site, sitting),))
+        request, ErrorCardsJob(request_language(request), (_read_exam_answers(site, exam),))
     )
 
 
@@ -73,7 +73,7 @@ async def download_all_cards(request: Request) -> Response:
         site: ServerState = request.app.state.site
         learner = request.state.learner.id
         handed = [one for one in site.store.sittings.latest(learner) if one.handed is not None]
-        sat = tuple(_read_sitting(site, one) for one in handed[:SAT])
+        sat = tuple(_read_exam_answers(site, one) for one in handed[:SAT])
         latest = site.store.latest(learner, LOOKED_AT)
         return ErrorCardsJob(
             request_language(request), sat, tuple(_iter_wrong_attempts(latest))[:PRACTISED]
@@ -82,12 +82,10 @@ async def download_all_cards(request: Request) -> Response:
     return await _send_cards(request, await run_in_threadpool(collect_mistakes))
 
 
-def _read_sitting(site: ServerState, sitting: ExamRecord) -> FinishedExam:
+def _read_exam_answers(site: ServerState, exam: ExamRecord) -> FinishedExam:
     """Return an exam's code and answers."""
-    answers = site.store.sittings.answers(sitting)
-    return FinishedExam(
-        sitting.code, tuple((part, tuple(fields)) for part, fields in answers.items())
-    )
+    answers = site.store.sittings.answers(exam)
+    return FinishedExam(exam.code, tuple((part, tuple(fields)) for part, fields in answers.items()))
 
 
 def _iter_wrong_attempts(attempts: Iterable[AttemptRecord]) -> Iterator[PracticedQuestion]:
@@ -183,11 +181,11 @@ def _iter_missed_parts(
 ) -> list[MissedPart]:
     """Return the parts of an exam or a question that were not right."""
     if isinstance(one, FinishedExam):
-        return _of_exam(bank, one, lang)
-    return _of_question(bank, one, lang)
+        return _find_missed_in_exam(bank, one, lang)
+    return _find_missed_in_question(bank, one, lang)
 
 
-def _of_exam(bank: Bank, sat: FinishedExam, lang: str) -> list[MissedPart]:
+def _find_missed_in_exam(bank: Bank, sat: FinishedExam, lang: str) -> list[MissedPart]:
     """Return the parts of an exam that were not right, graded again from its code."""
     from quizgen.cards.error_deck import GradedPaper, find_missed
 
@@ -205,7 +203,9 @@ def _of_exam(bank: Bank, sat: FinishedExam, lang: str) -> list[MissedPart]:
     return list(find_missed(GradedPaper(sat.code, tuple(parts)), paper))
 
 
-def _of_question(bank: Bank, practised: PracticedQuestion, lang: str) -> list[MissedPart]:
+def _find_missed_in_question(
+    bank: Bank, practised: PracticedQuestion, lang: str
+) -> list[MissedPart]:
     """Return the parts of a practised question that were not right, graded again."""
     from quizgen.cards.error_deck import MissedPart
 

@@ -64,9 +64,9 @@ class _Plain(logging.Formatter):
 
     def format(self, record: logging.LogRecord) -> str:
         """Return the line."""
-        fields = _fields_of(record)
-        told = [f"{name}={_in_one_word(value)}" for name, value in fields.items()]
-        return " ".join([_time(record), record.levelname, record.getMessage(), *told])
+        fields = _get_event_fields(record)
+        told = [f"{name}={_quote_value(value)}" for name, value in fields.items()]
+        return " ".join([_format_time(record), record.levelname, record.getMessage(), *told])
 
 
 class _Json(logging.Formatter):
@@ -74,11 +74,15 @@ class _Json(logging.Formatter):
 
     def format(self, record: logging.LogRecord) -> str:
         """Return the line."""
-        head = {"time": _time(record), "level": record.levelname, "event": record.getMessage()}
-        return json.dumps({**head, **_fields_of(record)}, ensure_ascii=False, default=str)
+        head = {
+            "time": _format_time(record),
+            "level": record.levelname,
+            "event": record.getMessage(),
+        }
+        return json.dumps({**head, **_get_event_fields(record)}, ensure_ascii=False, default=str)
 
 
-def _fields_of(record: logging.LogRecord) -> dict[str, Any]:
+def _get_event_fields(record: logging.LogRecord) -> dict[str, Any]:
     """Return the fields of an event, with the cause of its error if it has one."""
     fields: dict[str, Any] = dict(getattr(record, _FIELDS, {}))
     if record.exc_info and record.exc_info[1] is not None:
@@ -86,12 +90,12 @@ def _fields_of(record: logging.LogRecord) -> dict[str, Any]:
     return fields
 
 
-def _time(record: logging.LogRecord) -> str:
+def _format_time(record: logging.LogRecord) -> str:
     """Return the time of a record in UTC, as ISO 8601 with milliseconds."""
     return datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds")
 
 
-def _in_one_word(value: object) -> str:
+def _quote_value(value: object) -> str:
     """Return a value as text without blanks; quoted if it has any."""
     if isinstance(value, list):
         return ",".join(map(str, value))

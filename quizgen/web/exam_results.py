@@ -148,12 +148,12 @@ class MarkPaper:
 
 def _strip_numbers(result: PartResult) -> PartResult:
     """Return a result without the values that only later parts of its question need."""
-    return replace(result, verdict=_bare(result.verdict))
+    return replace(result, verdict=_strip_values(result.verdict))
 
 
-def _bare(verdict: Verdict) -> Verdict:
+def _strip_values(verdict: Verdict) -> Verdict:
     """Return a verdict without values, and so its cells."""
-    return replace(verdict, values=(), cells=tuple(map(_bare, verdict.cells)))
+    return replace(verdict, values=(), cells=tuple(map(_strip_values, verdict.cells)))
 
 
 async def grade_exam(

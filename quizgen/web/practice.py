@@ -107,26 +107,26 @@ async def _make_question(request: Request, attempt: AttemptRecord) -> QuestionVi
     return await site.workers.get_question(wanted, request.state.learner.id)
 
 
-async def _get_turn(request: Request) -> AttemptInBrowser:
+async def _get_question_attempt(request: Request) -> AttemptInBrowser:
     """Return the attempt with its rendered question and progress."""
     attempt = await _get_attempt(request)
     return AttemptInBrowser(await _make_question(request, attempt), attempt)
 
 
-def _get_part_attempt(request: Request, turn: AttemptInBrowser) -> AttemptPart:
+def _get_part_attempt(request: Request, question: AttemptInBrowser) -> AttemptPart:
     """Return the part that the address names; HTTP 404 if there is none."""
-    place = turn.find_part(request.path_params["part"])
-    if place is None:
+    part = question.find_part(request.path_params["part"])
+    if part is None:
         raise HTTPException(404)
-    return place
+    return part
 
 
 async def show_question(request: Request) -> Response:
     """Return the page of a question with the learner's progress in it."""
-    turn = await _get_turn(request)
-    shown = page_response(request, "question.html.j2", turn=turn, made=turn.made,
-                 said_last=turn.find_part(request.query_params.get("said", "")))  # fmt: skip
-    shown.background = BackgroundTask(_prepare_likely_next, request, turn.attempt)
+    question = await _get_question_attempt(request)
+    shown = page_response(request, "question.html.j2", turn=question, made=question.made,
+                 said_last=question.find_part(request.query_params.get("said", "")))  # fmt: skip
+    shown.background = BackgroundTask(_prepare_likely_next, request, question.attempt)
     return shown
 
 
@@ -140,14 +140,18 @@ async def _prepare_likely_next(request: Request, attempt: AttemptRecord) -> None
             await site.workers.prefetch(_build_question_request(request, which))
 
 
-async def _store_turn(request: Request, turn: AttemptInBrowser, place: AttemptPart) -> Response:
+async def _store_attempt(
+    request: Request, question: AttemptInBrowser, part: AttemptPart
+) -> Response:
     """Store the progress of an attempt; redirect to the part that was answered."""
     site: ServerState = request.app.state.site
-    ended, seen = turn.attempt.ended, turn.save_state()
-    await run_in_threadpool(site.store.save_attempt, turn.attempt, seen)
-    if ended is None and turn.attempt.ended is not None:
-        await run_in_threadpool(progress_of(request).finish_attempt, turn.attempt, turn.states)
-    return redirect(f"/q/{turn.attempt.id}?said={place.name}#part-{place.name}")
+    ended, seen = question.attempt.ended, question.save_state()
+    await run_in_threadpool(site.store.save_attempt, question.attempt, seen)
+    if ended is None and question.attempt.ended is not None:
+        await run_in_threadpool(
+            progress_of(request).finish_attempt, question.attempt, question.states
+        )
+    return redirect(f"/q/{question.attempt.id}?said={part.name}#part-{part.name}")
 
 
 async def submit_answer(request: Request) -> Response:
@@ -155,26 +159,26 @@ async def submit_answer(request: Request) -> Response:
     form = await read_form(request)
     site: ServerState = request.app.state.site
     async with site.attempt_lock(request.path_params["attempt"]):
-        turn = await _get_turn(request)
-        place = _get_part_attempt(request, turn)
-        _perform_action(turn, place, field_text(form, "do"), read_answer(form, "a"))
-        return await _store_turn(request, turn, place)
+        question = await _get_question_attempt(request)
+        part = _get_part_attempt(request, question)
+        _perform_action(question, part, field_text(form, "do"), read_answer(form, "a"))
+        return await _store_attempt(request, question, part)
 
 
 def _perform_action(
-    turn: AttemptInBrowser, place: AttemptPart, action: str, values: list[str]
+    question: AttemptInBrowser, part: AttemptPart, action: str, values: list[str]
 ) -> None:
     """Apply a button to a part: hint, solution, skip, self-mark or answer."""
     if action == "hint":
-        place.task.next_hint()
-        place.progress.values = values
-    elif action in {"right", "wrong"} and place.to_judge:
-        place.task.self_mark(right=action == "right")
-    elif action == "solution" and not place.is_finished:
-        place.task.give_up()
-        place.progress.values = values
+        part.task.next_hint()
+        part.progress.values = values
+    elif action in {"right", "wrong"} and part.to_judge:
+        part.task.self_mark(right=action == "right")
+    elif action == "solution" and not part.is_finished:
+        part.task.give_up()
+        part.progress.values = values
     elif action in {"", "answer"}:
-        turn.answer(place, values)
+        question.answer(part, values)
 
 
 async def preview_practice_answer(request: Request) -> Response:

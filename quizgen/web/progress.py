@@ -183,10 +183,10 @@ async def upload_archive(request: Request) -> Response:
     site: ServerState = request.app.state.site
     data = await read_upload(request, "file")
     site.spend_quota("import", request.state.learner.id)
-    return await run_in_threadpool(_taken_in, request, data)
+    return await run_in_threadpool(_import_archive, request, data)
 
 
-def _taken_in(request: Request, data: bytes) -> Response:
+def _import_archive(request: Request, data: bytes) -> Response:
     """Import an archive and redirect; return the page with the problem if it is damaged."""
     site: ServerState = request.app.state.site
     try:

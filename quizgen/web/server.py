@@ -122,7 +122,7 @@ def run_server(
     listening = (
         _open_listening_socket(settings.host, port)
         if port
-        else _as_before(settings.host, site.store)
+        else _open_previous_port(settings.host, site.store)
     )
     address = _build_start_url(site, listening.getsockname()[1], invite=invite)
 
@@ -200,7 +200,7 @@ def _build_browser_url(site: ServerState, address: str) -> str:
     return site.keys.write_redirect(folder, address.partition("?")[0]).as_uri()
 
 
-def _as_before(host: str, store: Store) -> socket.socket:
+def _open_previous_port(host: str, store: Store) -> socket.socket:
     """Return a socket on the port of the last run if it is free, else on any.
 
     An open page, and what its browser stored, then still work.
