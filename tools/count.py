@@ -62,17 +62,17 @@ def is_wrong(drawn: Variant, system: str) -> bool:
 
     For plain doubles only the digits count: nobody marks by equality with them.
     """
-    found = faults(drawn, system)
+    found = find_faults(drawn, system)
     return bool(found - {"accepted", "rejected"} if system == "float64" else found)
 
 
-def specs(drawn: Variant) -> list[AnySpec]:
+def list_specs(drawn: Variant) -> list[AnySpec]:
     """Return the specification of each part of a question."""
     return [ask_part(drawn, index).spec for index in range(len(drawn.template.rules.part))]
 
 
-def faults(drawn: Variant, name: str) -> set[str]:
-    """Return what goes wrong with a question in an arithmetic, compared with the exact key.
+def find_faults(drawn: Variant, name: str) -> set[str]:
+    """Return what goes wrong with a question in the arithmetic ``name``, compared with the exact key.
 
     Returns
     -------
@@ -82,8 +82,8 @@ def faults(drawn: Variant, name: str) -> set[str]:
     """
     found: set[str] = set()
     try:
-        others = specs(solve_in(drawn, name))
-        for index, (right, other) in enumerate(zip(specs(drawn), others, strict=True)):
+        others = list_specs(solve_in(drawn, name))
+        for index, (right, other) in enumerate(zip(list_specs(drawn), others, strict=True)):
             if right.kind not in FREE and other != right:
                 found |= _compare_part(drawn, index, right, other)
     except FAILURES:

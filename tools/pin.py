@@ -13,7 +13,7 @@ from pathlib import Path
 FILE = Path(__file__).parent.parent / "pyproject.toml"
 
 
-def pins() -> list[str]:
+def list_pins() -> list[str]:
     """Return ``name==version`` of every installed package but this one, sorted."""
     found = {re.sub(r"[-_.]+", "-", d.metadata["Name"]).lower(): d.version for d in distributions()}
     found.pop("quizgen", None)
@@ -22,10 +22,12 @@ def pins() -> list[str]:
 
 def main() -> None:
     """Rewrite the versions in ``pyproject.toml``."""
-    block = "constraint-dependencies = [\n" + "".join(f'    "{pin}",\n' for pin in pins()) + "]"
+    block = (
+        "constraint-dependencies = [\n" + "".join(f'    "{pin}",\n' for pin in list_pins()) + "]"
+    )
     text = FILE.read_text(encoding="utf-8")
     new = re.sub(r"constraint-dependencies = \[[^\]]*\]", block, text)
-    for pin in pins():  # what a wheel is built with
+    for pin in list_pins():  # what a wheel is built with
         new = re.sub(rf'"{pin.partition("==")[0]}==[^"]*"', f'"{pin}"', new)
     FILE.write_text(new, encoding="utf-8")
 

@@ -40,7 +40,7 @@ class ClassSettings(msgspec.Struct, frozen=True):
         128 bits, from which every number follows.
     blueprint : str
         Its name or its file.
-    banks : tuple of Source
+    banks : tuple of BankSource
         What it asks.
     lang : str
         Of students whose row names none.

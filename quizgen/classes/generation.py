@@ -61,9 +61,9 @@ class GenerationJob:
 
     Parameters
     ----------
-    settings : Settings
+    settings : ClassSettings
     blueprint : Blueprint
-    students : tuple of Student
+    students : tuple of RosterStudent
     neighbours : mapping of str to tuple of str
         To whom each of them gives way, and those in turn.
     former : mapping of str to tuple of str
@@ -98,7 +98,7 @@ class GenerationReport:
 
     Parameters
     ----------
-    made : tuple of Made
+    made : tuple of GeneratedPaper
         Without files and lines.
     kept : int
         Papers that were there already.

@@ -26,7 +26,7 @@ class GradedStudent:
 
     Parameters
     ----------
-    student : Student
+    student : RosterStudent
     code : str
         That of the paper, which only this student and the examiner know.
     marks : StudentMarks or None
@@ -82,7 +82,7 @@ def write_grades(folder: Path, lines: Sequence[GradedStudent], scale: GradeScale
     folder : pathlib.Path
         That of the class.
     lines : sequence of GradedStudent
-    scale : Scale
+    scale : GradeScale
     """
     items = _list_items(lines)
     rows = [_build_table_head(items), *(_build_grade_row(line, items, scale) for line in lines)]

@@ -123,7 +123,10 @@ def item_name(question: KeyQuestion, part: KeyPart) -> str:
 
 @lru_cache(maxsize=4096)
 def item_name_from_parts(template: str, number: str, part: str) -> str:
-    """Return the item name from a question's template and number and a part's id."""
+    """Return the item name ``template/label`` that a part has in all papers of a class.
+
+    ``part`` is its id on the paper, such as ``3b`` in question ``number`` 3.
+    """
     label = part.removeprefix(number)
     return f"{template}/{label}" if label else template
 
@@ -133,9 +136,9 @@ def grade_submission(key: AnswerKey, sheet: Submission, book: RulingBook) -> Stu
 
     Parameters
     ----------
-    key : Key
+    key : AnswerKey
         Of the student's own paper.
-    sheet : Sheet
+    sheet : Submission
     book : RulingBook
         What was decided.
 

@@ -40,7 +40,7 @@ class GradingJob:
     keys : pathlib.Path
         The file of the keys.
     rulings : tuple of Ruling
-    sheets : tuple of (Sheet, int)
+    sheets : tuple of (Submission, int)
         Each with where its key begins.
     """
 
@@ -55,7 +55,7 @@ class GradingRun:
 
     Parameters
     ----------
-    outcome : Outcome
+    outcome : GradingOutcome
     decided : int
         Decisions that were read from the queue.
     groups : int

@@ -55,7 +55,7 @@ class ItemStatistics:
         Correlation with the points of all other items.
     blank, undecided : int
         Students.
-    mistakes : tuple of Mistake
+    mistakes : tuple of ClassMistake
         The most frequent first.
     options : tuple of (str, int, int)
         Option, how many had it, how many chose it; the least chosen first.
@@ -97,7 +97,7 @@ class ClassAnalysis:
     interval : tuple of float or None
         Feldt's, 95 %.
     items : tuple of ItemStatistics
-    effects : tuple of Effect
+    effects : tuple of VariantEffect
     """
 
     students: int

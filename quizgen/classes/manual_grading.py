@@ -95,7 +95,7 @@ class DecisionCase:
 
     Parameters
     ----------
-    answer : Answer
+    answer : AnswerGroupMember
     key : str
         The right answer.
     seen : str
@@ -149,7 +149,7 @@ def decision_cases(
 
     Parameters
     ----------
-    answers : iterable of Answer
+    answers : iterable of AnswerGroupMember
     key_of : callable
         The key of a student's paper.
     lang : str
@@ -276,7 +276,7 @@ def write_queue(
     ----------
     folder : pathlib.Path
         That of the class.
-    groups : iterable of list of Case
+    groups : iterable of list of DecisionCase
     kept : mapping of str to str
         Comments that stand there already, by group.
     """

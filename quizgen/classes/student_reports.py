@@ -177,7 +177,7 @@ def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False)
     ----------
     line : GradedStudent
         Somebody whose answers came back.
-    key : Key
+    key : AnswerKey
         Of the student's paper.
     anonymous : bool
         Leave name and id out.
@@ -194,7 +194,10 @@ def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False)
 
 
 def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion:
-    """Return one question of the report."""
+    """Return one question of a student's report: its parts, and its points in sum.
+
+    ``marks`` are all of the student's; title and topic come from the key.
+    """
     given = {part.id: part for part in marks.parts}
     mine = [given[part.id] for part in question.parts if part.id in given]
     rows = tuple(_iter_report_rows(question, marks))

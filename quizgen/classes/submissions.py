@@ -70,7 +70,7 @@ class Submissions:
     ----------
     folder : pathlib.Path
         That of the class.
-    keys : Keys
+    keys : KeyIndex
     """
 
     def __init__(self, folder: Path, keys: KeyIndex) -> None:

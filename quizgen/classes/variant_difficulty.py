@@ -53,7 +53,7 @@ class VariantEffect:
     Parameters
     ----------
     template, quantity : str
-    levels : tuple of Level
+    levels : tuple of ValueGroup
     chance : float
         Probability of so great a difference if the value does not matter.
     corrected : float

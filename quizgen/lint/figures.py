@@ -74,7 +74,7 @@ def figure_text(one: Variant, lang: str, *, quiz: bool, drawn: bool = True) -> s
 
     Parameters
     ----------
-    one : Draw
+    one : Variant
     lang : str
     quiz : bool
         As the question shows it, not the solution.

@@ -119,7 +119,7 @@ def _person_cells(one: GradedAttempt) -> list[str]:
 
 
 def _typed_cell(part: PartResult) -> str:
-    """Return what was typed for a part."""
+    """Return the text that was typed for a part, for a cell of the table."""
     return part.typed
 
 

@@ -209,7 +209,7 @@ def part_interactions(
 
     Parameters
     ----------
-    part : Part
+    part : QuestionPart
     spec : AnySpec
         What it is graded by.
     solution : PartSolution

@@ -127,7 +127,7 @@ class Agenda:
         ----------
         names : sequence of str
             Those that fit, at least one.
-        outcomes : sequence of Outcome
+        outcomes : sequence of PartOutcome
             How parts went, the latest last: they say which topics are weak.
         times : mapping
             Template to how often it was begun.

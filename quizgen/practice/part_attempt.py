@@ -70,7 +70,7 @@ class PartAttempt(Generic[P, S]):
     part : P
         What is shown.
     solved : S
-        Its worked solution, to be shown when the task is done.
+        Its worked solution, shown when the part has ended.
     keyed : KeyPart
         What it is marked by.
     state : PartState
@@ -78,9 +78,9 @@ class PartAttempt(Generic[P, S]):
     marker : QuestionGrader
         Of the whole question: it carries errors forward to the parts that follow.
 
-    MisconceptionNotes
+    Notes
     -----
-    Once a task has an outcome, whatever would change it raises ``AttemptFinishedError``.
+    Once a part has an outcome, whatever would change it raises ``AttemptFinishedError``.
     """
 
     @property

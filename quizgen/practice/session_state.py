@@ -54,7 +54,7 @@ class PartState(msgspec.Struct):
         The last answer that could be read.
     tries, hints : int
         How many have been used.
-    outcome : Outcome, optional
+    outcome : PartOutcome, optional
         How it went, once it is done.
     wrong, note : str
         The last answer that was not right, and which mistake it was.

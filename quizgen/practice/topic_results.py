@@ -43,7 +43,7 @@ def summarise_by_topic(
 
     Parameters
     ----------
-    outcomes : sequence of Outcome
+    outcomes : sequence of PartOutcome
         In the order in which they came.
     latest : int
         How many parts of each topic count: ``RECENT`` says how well it is known now.

@@ -177,7 +177,10 @@ async def _find_invitation(request: Request) -> Invitation:
 def _render_invitation_page(
     request: Request, invitation: Invitation, problem: str = "", name: str = ""
 ) -> Response:
-    """Return the page of an invitation; ``problem`` is the key of its message."""
+    """Return the page of an invitation; ``problem`` is the key of its message, if any.
+
+    ``name`` is what was typed before, so that nobody types it twice.
+    """
     return page_response(
         request,
         "invited.html.j2",
@@ -322,7 +325,7 @@ async def _find_person(request: Request) -> Person:
 def _render_person_page(
     request: Request, found: Person, status: int = 200, problem: str = ""
 ) -> Response:
-    """Return the page on which a manager edits an account."""
+    """Return a manager's page of an account; ``problem`` is the key of its message, if any."""
     told = problem and translate_page(request_language(request), f"account.{problem}")
     here = f"/people/{found.id}"
     return page_response(request, "person.html.j2", status, here=here, person=found, problem=told)

@@ -49,7 +49,7 @@ def create_app(settings: ServerSettings) -> Starlette:
 
     Parameters
     ----------
-    settings : Settings
+    settings : ServerSettings
 
     Raises
     ------

@@ -85,9 +85,9 @@ class AttemptInBrowser:
 
     Parameters
     ----------
-    made : Made
+    made : QuestionView
         In the language of who asks.
-    attempt : Attempt
+    attempt : AttemptRecord
     """
 
     def __init__(self, made: QuestionView, attempt: AttemptRecord) -> None:

@@ -163,7 +163,7 @@ def run_request(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes:
     Parameters
     ----------
     bank : Bank
-    wanted : QuestionRequest or Job
+    wanted : QuestionRequest or WorkerJob
 
     Raises
     ------

@@ -54,7 +54,7 @@ class SecurityMiddleware:
     Parameters
     ----------
     app : ASGI application
-    settings : Settings
+    settings : ServerSettings
     """
 
     def __init__(self, app: ASGIApp, settings: ServerSettings) -> None:

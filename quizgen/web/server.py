@@ -99,7 +99,7 @@ def run_server(
 
     Parameters
     ----------
-    settings : Settings
+    settings : ServerSettings
     port : int
         0 for the one of the first time if it is free, else any.
     show : bool

@@ -83,7 +83,7 @@ class ServerState:
 
     Parameters
     ----------
-    settings : Settings
+    settings : ServerSettings
 
     Raises
     ------

@@ -149,7 +149,7 @@ def _item_body(item: ExportItem, groups: list[list[ItemPart]], dialect: Dialect)
 def _response_processing(
     item: ExportItem, groups: list[list[ItemPart]], dialect: Dialect
 ) -> Markup:
-    """Return the rules for each given response, then the sum of marks, then the solution."""
+    """Return the rules that grade an item: for each given response, the sum, the solution."""
     rows = [row for group in groups for row in group]
     steps = [
         row.rules.if_answered(row.rendered.processing) for row in rows if row.rendered.processing
