@@ -72,7 +72,7 @@ def list_specs(drawn: Variant) -> list[AnySpec]:
 
 
 def find_faults(drawn: Variant, name: str) -> set[str]:
-    """Return what goes wrong with a question in the arithmetic ``name``, compared with the exact key.
+    """Return what goes wrong with a question in arithmetic ``name``, compared to the exact key.
 
     Returns
     -------
