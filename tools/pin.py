@@ -22,12 +22,11 @@ def list_pins() -> list[str]:
 
 def main() -> None:
     """Rewrite the versions in ``pyproject.toml``."""
-    block = (
-        "constraint-dependencies = [\n" + "".join(f'    "{pin}",\n' for pin in list_pins()) + "]"
-    )
+    pins = list_pins()
+    block = "constraint-dependencies = [\n" + "".join(f'    "{pin}",\n' for pin in pins) + "]"
     text = FILE.read_text(encoding="utf-8")
     new = re.sub(r"constraint-dependencies = \[[^\]]*\]", block, text)
-    for pin in list_pins():  # what a wheel is built with
+    for pin in pins:  # what a wheel is built with
         new = re.sub(rf'"{pin.partition("==")[0]}==[^"]*"', f'"{pin}"', new)
     FILE.write_text(new, encoding="utf-8")
 
