@@ -221,7 +221,11 @@ def fold_answer(answer: str, *, words: bool) -> str:
 
 
 def answer_group(item: str, key: str, answer: str, *, words: bool) -> str:
-    """Return the name of the group of equal answers to one item with one key."""
+    """Return the name of a group of equal answers: ``g`` and ten hexadecimal digits.
+
+    One item may have other keys on other papers, so ``key`` (the right answer as text) parts
+    groups, too. With ``words`` the answer is a sentence, compared as in ``fold_answer``.
+    """
     whole = "\0".join((item, key, fold_answer(answer, words=words)))
     return f"g{hashlib.sha256(whole.encode()).hexdigest()[:10]}"
 

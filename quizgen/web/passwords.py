@@ -153,6 +153,9 @@ class PasswordLimits:
         return wait
 
     def count_right(self, name: str, address: str, browser: str) -> None:
-        """Take a try back that turned out right."""
+        """Take back a try that ``begin`` counted as failed and that turned out right.
+
+        The arguments are those of ``begin``.
+        """
         for allowance, asker in self._list_allowances(name, address, browser):
             allowance.give_back(asker)
