@@ -301,6 +301,8 @@ def _format_table_row(case: DecisionCase, number: int, kept: Mapping[str, str]) 
 def read_queue(folder: Path) -> tuple[list[Ruling], dict[str, str]]:
     """Return the decisions filled in as rulings, and the comments on open groups, by group.
 
+    Points in the first row of what stands together hold for its rows that are empty.
+
     Raises
     ------
     ClassError

@@ -139,6 +139,8 @@ def _print_trusted_banks(roots: Sequence[Path]) -> None:
 def is_trusted(root: Path, allowed: Collection[Path]) -> bool:
     """Return whether a bank's Python may run: by option, remembered, or confirmed now.
 
+    Where nobody can be asked it is said at once that it does not run.
+
     Parameters
     ----------
     root : Path

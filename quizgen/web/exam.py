@@ -204,7 +204,12 @@ async def show_exam(request: Request) -> Response:
 
 
 def _read_changed_fields(form: FormData) -> dict[str, list[str]]:
-    """Return the fields of each part that was changed on this page."""
+    """Return the fields of each part that was changed on this page.
+
+    Parts that were not on the form are left as they are, and so are those that still hold what the
+    page was made with: another page of the same exam may have changed them since. The store knows
+    which parts the paper has, so that nobody waits until it is read.
+    """
     names = {name.removeprefix(SHOWN) for name, _ in form.multi_items() if name.startswith(SHOWN)}
     return {
         name: values

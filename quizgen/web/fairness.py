@@ -23,6 +23,8 @@ REMEMBERED = 10_000
 class FairQueue:
     """Limits concurrent work and serves askers in turn, however many requests each has.
 
+    A hundred requests of one asker hold up another's by one of them, not by a hundred.
+
     Parameters
     ----------
     slots : int

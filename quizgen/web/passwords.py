@@ -108,6 +108,10 @@ def _make_hashing_threads() -> ThreadPoolExecutor:
 class PasswordLimits:
     """Limits the tries of passwords by browser, name and address.
 
+    A browser in which somebody has signed in before is told by a cookie: its tries count for it
+    alone, so that wrong ones of others never keep its owner out. Any other try counts for the name
+    at the address, for the name, and for the address.
+
     Parameters
     ----------
     clock : callable

@@ -120,7 +120,10 @@ class AttemptInBrowser:
         return all(place.is_finished for place in self.places)
 
     def answer(self, place: AttemptPart, values: list[str]) -> None:
-        """Grade the fields of a part; nothing happens if they are blank or it has ended."""
+        """Grade the fields of a part; nothing happens if they are blank or it has ended.
+
+        A field that was left out costs no try: Enter sends all of them from any of them.
+        """
         typed = join_fields(place.part.field.control, values, place.part.field.marks)
         place.progress.values = values
         if not typed or place.is_finished:

@@ -30,7 +30,12 @@ FILES = 65_536
 
 
 class TimedProtocol(H11Protocol):
-    """HTTP/1.1 that closes connections whose request does not arrive in time."""
+    """HTTP/1.1 that closes connections whose request does not arrive in time.
+
+    uvicorn waits without end for the rest of a request, so that some hundred half-sent ones would
+    hold every connection that there is. Each of them has its time as a whole: sending a byte now
+    and then does not make it longer.
+    """
 
     _ends: asyncio.TimerHandle | None = None
     _kind: object = None

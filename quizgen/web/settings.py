@@ -60,7 +60,11 @@ class ServerSettings:
         return self.behind_proxy or not (self.host in LOCAL or _is_loopback(self.host))
 
     def is_own_name(self, name: str) -> bool:
-        """Return whether the server may be addressed by a host name."""
+        """Return whether the server may be addressed by a host name.
+
+        Another site can make its own name lead here, but no number: where people sign in, any
+        number does.
+        """
         if name in {*LOCAL, self.host, *self.names}:
             return True
         return self.accounts and (name in _own_names() or _is_number(name))
