@@ -32,15 +32,15 @@ MATHS_RANGE = [
 """Every character that the formula printer can put into a page."""
 
 
-def maths_file() -> Path:
-    """STIX Two Math, whole, as a package of the dev group brings it."""
+def find_maths_font() -> Path:
+    """Return the full STIX Two Math font, as a package of the dev group brings it."""
     return next(fonts.package_folder("ziamath").rglob("STIXTwoMath-Regular.ttf"))
 
 
-def sources() -> dict[Path, tuple[Path, list[int]]]:
-    """Packed file to the font that it is made from, and the characters in it."""
+def list_sources() -> dict[Path, tuple[Path, list[int]]]:
+    """Return for each packed file the font it is made from, and its characters (code points)."""
     return {
-        fonts.packed_font_path(fonts.MATHS): (maths_file(), MATHS_RANGE),
+        fonts.packed_font_path(fonts.MATHS): (find_maths_font(), MATHS_RANGE),
         **{
             fonts.packed_font_path(fonts.BANGLA[weight]): (fonts.bangla_file(weight), BANGLA_RANGE)
             for weight in fonts.BANGLA
@@ -48,8 +48,11 @@ def sources() -> dict[Path, tuple[Path, list[int]]]:
     }
 
 
-def pack(source: Path, characters: list[int]) -> bytes:
-    """A font as WOFF2, with some of its characters and all that shapes them."""
+def pack_font(source: Path, characters: list[int]) -> bytes:
+    """Return a font as WOFF2 with only these characters and the rules that shape them.
+
+    ``characters`` are code points. A whole font would make each page megabytes larger.
+    """
     options = subset.Options()
     options.flavor = "woff2"
     options.layout_features = ["*"]
@@ -66,8 +69,8 @@ def pack(source: Path, characters: list[int]) -> bytes:
 
 def main() -> None:
     """Write every packed font."""
-    for target, (source, characters) in sources().items():
-        target.write_bytes(pack(source, characters))
+    for target, (source, characters) in list_sources().items():
+        target.write_bytes(pack_font(source, characters))
         print(f"{target.name}: {target.stat().st_size} bytes")
 
 

@@ -93,6 +93,7 @@ def _iter_unit_errors(template: Template) -> Iterator[BankError]:
 def _check_step(
     units: UnitRegistry, step: ChainStep, known: Mapping[str, Dimension]
 ) -> Iterator[str]:
+    """Yield what is wrong with the dimension of one step; ``known`` are the names before it."""
     written = f"step {step.name!r} = {format_tree(step.expr)}"
     try:
         found = _infer_dimension(step.expr, known)
@@ -132,17 +133,22 @@ def _without_angles(dimension: Dimension) -> Dimension:
 
 
 def _parse_unit_dimension(units: UnitRegistry, text: str) -> Dimension:
+    """Return base units and exponents of a unit, without those that are counts."""
     powers = units.unit(text).dimension
     return {base: Fraction(power) for base, power in powers if base not in COUNTED}
 
 
 def _format_dimension(dimension: Dimension) -> str:
+    """Return a dimension in plain text, such as ``m*s^-1``."""
     powers = (base if power == 1 else f"{base}^{power}" for base, power in dimension.items())
     return "*".join(powers) or "plain numbers"
 
 
 def _infer_dimension(expr: Expr, known: Mapping[str, Dimension]) -> Dimension | None:
-    """Dimension of a formula; None where anything may stand."""
+    """Return the dimension of a formula; None if it fits any (as zero does).
+
+    Raises ``_ClashError`` where two kinds of quantities are combined.
+    """
     if isinstance(expr, Num):
         return None if expr.value == 0 else {}
     if isinstance(expr, Sym):
@@ -151,6 +157,7 @@ def _infer_dimension(expr: Expr, known: Mapping[str, Dimension]) -> Dimension | 
 
 
 def _infer_call_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:
+    """Return the dimension of a call from those of its arguments, as ``_infer_dimension``."""
     if call.op == "piecewise":
         return _require_common_dimension(call, args[::2])
     if call.op in _ALIKE:
@@ -174,7 +181,10 @@ def _infer_call_dimension(call: Call, args: list[Dimension | None]) -> Dimension
 
 
 def _require_common_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:
-    """The one dimension that all arguments have."""
+    """Return the one dimension of all arguments; None if they fit any.
+
+    Raises ``_ClashError`` if two differ.
+    """
     found = [arg for arg in args if arg is not None]
     for other in found[1:]:
         if other != found[0] and _without_angles(other) != _without_angles(found[0]):
@@ -184,6 +194,7 @@ def _require_common_dimension(call: Call, args: list[Dimension | None]) -> Dimen
 
 
 def _infer_product_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:
+    """Return the dimension of a power, root, product or quotient; None if it fits any."""
     if any(arg is None for arg in args):
         return None
     known = [arg for arg in args if arg is not None]
@@ -232,10 +243,12 @@ def _constant_factor(expr: Expr) -> tuple[Fraction, int]:
 
 
 def _scale_dimension(dimension: Dimension, power: Fraction) -> Dimension:
+    """Return a dimension with each exponent multiplied by ``power``."""
     return {base: size * power for base, size in dimension.items() if power}
 
 
 def _multiply_dimensions(factors: list[Dimension], sign: int) -> Dimension:
+    """Return the dimension of a product (``sign`` 1) or quotient (``sign`` -1)."""
     total = dict(factors[0])
     for other in factors[1:]:
         for base, size in other.items():
