@@ -25,9 +25,10 @@ def wrong(row: Row) -> str:
     verdict = grade_answer(row.spec, row.typed, decimal=row.decimal)
     credit = float(verdict.credit)
     fits = {"correct": credit == 1, "partial": 0 < credit <= 1}.get(row.verdict, credit == 0)
-    asks = row.verdict in {"unreadable", "ambiguous"}
+    asks = row.verdict in {"asked", "unreadable", "ambiguous"}
+    given = "asked" if row.verdict == "asked" and not verdict.is_graded else verdict.verdict
     right = (
-        verdict.verdict == row.verdict
+        given == row.verdict
         and row.note in {None, verdict.note}
         and row.credit in {None, credit}
         and fits
