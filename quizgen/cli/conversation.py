@@ -221,7 +221,9 @@ class Conversation:
                 return
         lang = self.session.state.wish.lang
         self._print_sentence("read", read_as=format_read_back(task.kind, verdict.read_as, lang))
-        said = f"{self.words[verdict.verdict]} {verdict.message}".strip()
+        word = self.words[verdict.verdict]
+        repeated = verdict.message.startswith(word.rstrip(".।"))  # "Not right: gap 1."
+        said = verdict.message if repeated else f"{word} {verdict.message}".strip()
         print_wrapped(said, fg=COLOURS[verdict.verdict])
         if feedback.then is NextStep.AGAIN:
             self._print_sentence("again", left=feedback.left)

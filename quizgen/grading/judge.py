@@ -8,23 +8,85 @@ from __future__ import annotations
 from quizgen.grading.diagnosis.numeric_slips import find_common_slip
 from quizgen.grading.feedback import feedback_sentence
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import (
+    AnswerForm,
+    drop_bullets,
+    drop_markup,
+    has_second_meaning,
+    is_cut_short,
+    list_plainer_texts,
+    list_readings,
+    prove_groups,
+)
 from quizgen.grading.spec import AnySpec, WordSpec
-from quizgen.grading.verdict import Verdict, ambiguous, attach_message, unreadable
+from quizgen.grading.verdict import WRONG, Verdict, ambiguous, attach_message, unreadable
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.precision import working_precision
 
 TWO_READINGS = frozenset({"comma-twice", "two-readings"})
 """Reasons for asking back that are not the learner's slip: the text can be read in two ways."""
 
+MEASURED = frozenset({"number", "quantity"})
+"""Forms of answers that are one number."""
+
+DECIDED = frozenset(
+    {"unit-not-asked", "unit-other", "percent-not-asked", "unknown-unit-case", "two-readings",
+     "used-twice", "no-answer", "too-long", "which-term", "another-word"}
+)  # fmt: skip
+"""Notes on what was read well enough: nothing around it makes it unreadable."""
+
 NAMING = frozenset({"cells", "coordinate"})
 """Notes that only name what is wrong."""
 
 
 def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
-    """Return the language-free verdict of one answer."""
+    """Return the language-free verdict of one answer.
+
+    What cannot be read as it stands is tried again without what people write around an answer;
+    what it was read as stands in ``read_as``. If that does not help either, it is the answer as
+    typed that is asked back, since columns count in it.
+    """
+    with spec.known_units().activate():
+        return _judge_as_written(spec, typed, options)
+
+
+def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
+    form = spec.written_as
+    verdict = _judge_text(spec, _prepare(typed, form), options)
+    if verdict.is_graded:
+        doubtful = verdict.verdict == WRONG and form in MEASURED and has_second_meaning(typed)
+        if doubtful:
+            return ambiguous("bullet-or-range", verdict.read_as)
+        if verdict.note != "unknown-term":
+            return verdict
+    if verdict.note in DECIDED or not typed.strip():
+        return verdict
+    for text in list_plainer_texts(typed, form, spec.value_names()):
+        plainer = _judge_text(spec, text, options)
+        if plainer.verdict == WRONG and is_cut_short(typed):
+            break
+        if plainer.note != "unknown-term" and (plainer.is_graded or plainer.note in DECIDED):
+            return plainer
+    readings = list_readings(typed) if form in MEASURED and not verdict.is_graded else []
+    if readings:
+        return ambiguous(
+            "several-answers", " | ".join(readings), readings=tuple(f"“{one}”" for one in readings)
+        )
+    return verdict
+
+
+def _prepare(typed: str, form: AnswerForm) -> str:
+    """The text that is judged first: without what would make a wrong answer of a right one."""
+    if form == "values":
+        return prove_groups(typed)
+    if form == "word":
+        return drop_bullets(drop_markup(typed))
+    return drop_markup(typed) if form == "option" else typed
+
+
+def _judge_text(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
     try:
-        with spec.known_units().activate():
-            return spec.judge(typed, options)
+        return spec.judge(typed, options)
     except FormulaReadError as error:
         return read_error_verdict(error)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import TypeVar
+from typing import ClassVar, TypeVar
 
 import msgspec
 from flint import fmpq
@@ -13,6 +13,7 @@ from quizgen.core.decoding import convert
 from quizgen.core.errors import FormulaError, KeyFileError
 from quizgen.grading.diagnosis.numeric_slips import CLOSE
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.units import listed_unit
 from quizgen.grading.verdict import Verdict
@@ -42,10 +43,16 @@ class SpecBase:
 
     __slots__ = ()
     of: list[str] | dict[str, str]
+    written_as: ClassVar[AnswerForm] = "verbatim"
+    """What an answer is made of, which says what may be dropped around it."""
 
     def quantities(self) -> list[str]:
         """Names of the chain's quantities, in the order of the values."""
         return list(self.of.values()) if isinstance(self.of, dict) else self.of
+
+    def value_names(self) -> list[str]:
+        """Names that values may be labelled with, in the order of the values."""
+        return []
 
     def value_units(self) -> list[str]:
         """The unit of each value: the one that the chain shows."""
@@ -132,6 +139,12 @@ class ScalarSpec(NumericSpec, kw_only=True, frozen=True):
         super().validate()
         parse_exact(self.value)
         self.trap_values()
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether exactly a whole number is asked: no decimal can be meant."""
+        key = parse_exact(self.value) if self.exact else None
+        return isinstance(key, fmpq) and key.q == 1
 
     def value_unit(self) -> str:
         """The unit that the value is judged in; empty for the one that the chain shows."""

@@ -10,6 +10,7 @@ from quizgen.grading.diagnosis.carry_forward import diagnosis_for
 from quizgen.grading.diagnosis.numeric_slips import agrees_within_half_percent, is_in_radians
 from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity
@@ -38,6 +39,8 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
 
     Without a tolerance half a degree is accepted. A bare number counts as degrees.
     """
+
+    written_as: ClassVar[AnswerForm] = "number"
 
     period: Scalar = 360
 

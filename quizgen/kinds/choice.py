@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from fractions import Fraction
+from typing import ClassVar
 
 import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, partial, wrong
@@ -29,11 +31,13 @@ from quizgen.maths.notation import FormulaReadError
 
 _TRUE = frozenset(
     {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r", "stimmt"}
+    | {"holds", "trifft zu", "zutreffend", "yep", "yeah"}
     | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
 _FALSE = frozenset(
-    {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein"}
-    | {"মিথ্যা", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
+    {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein", "untrue", "unwahr", "nope"}
+    | {"doesn't hold", "does not hold", "trifft nicht zu", "unzutreffend", "nö"}
+    | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
 _SHORTEST = 4
 """Letters that a part of an option's words must have to be recognised."""
@@ -46,9 +50,15 @@ _LABELLED = re.compile(
 _BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
 _FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
 _IT_IS = re.compile(
-    r"^(?:(?:it|this|that)(?: is|'s)|the statement is|বিবৃতিটি|es ist|das ist|এটা|এটি) ",
+    r"^(?:(?:it|this|that)(?: is|'s)|(?:it|this|that)(?= isn't)|the (?:statement|claim) is|বিবৃতিটি"
+    r"|(?:es|das|die (?:aussage|behauptung))(?: ist)?|ist|এটা|এটি) ",
     re.IGNORECASE,
 )
+_DENIED = re.compile(
+    r"(?:(?:is )?not|isn't|(?:ist )?nicht) (?P<word>.+)|(?P<before>.+?) (?:nicht|নয়|নয়)",
+    re.IGNORECASE,
+)
+"""A word that is denied: what is not true is false, and what is not false nobody can tell."""
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
 _BENGALI = re.compile(r"[\u0980-\u09ff]")
 _SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
@@ -82,6 +92,8 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
     ``multi`` gives credit for right minus wrong crosses when ``negative``, else all or nothing
     wrong crosses take right ones away down to zero. ``tf`` needs no options; 1 is true, 2 false.
     """
+
+    written_as: ClassVar[AnswerForm] = "option"
 
     correct: list[int]
     options: list[str] = msgspec.field(default_factory=list)
@@ -138,15 +150,24 @@ def _truth(spec: ChoiceSpec, typed: str) -> int:
             raise FormulaReadError("two-readings", 1, safe_echo(typed))
         text = labelled["words"] if second else text
     word = _IT_IS.sub("", text.strip(_AROUND)).casefold()
-    found = _word(word) or _by_text(spec, typed)
+    found = _word(word) or _denied(word) or _by_text(spec, typed)
     if found or word in {"a", "b"}:
         return found or "ab".index(word) + 1
     raise FormulaReadError("true-or-false", 1, safe_echo(typed))
 
 
+def _denied(text: str) -> int:
+    """2 for *not true*; 0 for what is not denied, or denies what is false."""
+    match = _DENIED.fullmatch(text)
+    return 2 if match and _word(match["word"] or match["before"]) == 1 else 0
+
+
 def _word(text: str) -> int:
-    """1 for a word that says true, 2 for one that says false."""
+    """1 for a word that says true, 2 for one that says false, maybe behind *yes* or *no*."""
     word = text.strip(_AROUND).casefold()
+    first, comma, second = word.partition(", ")
+    if comma:
+        return _word(first) if _word(first) == _word(second) else 0
     return 1 if word in _TRUE else 2 if word in _FALSE else 0
 
 

@@ -53,6 +53,11 @@ class CodeSpec(WordSpec, kw_only=True, frozen=True):
         for output in (self.output, *self.also):
             if unify_quotes(given) == unify_quotes(fold_blanks(output)):
                 return correct(safe_echo(given))
+        given = _drop_surroundings(given)
+        if any(
+            unify_quotes(given) == unify_quotes(fold_blanks(o)) for o in (self.output, *self.also)
+        ):
+            return correct(safe_echo(given))
         note = _note(self, given)
         if note in SET_OTHERWISE:
             return partial(HALF, safe_echo(given), note)
@@ -67,7 +72,12 @@ SET_OTHERWISE = frozenset({"output-brackets", "output-separators"})
 """Notes on output whose values are right: it earns half."""
 
 _BRACKETS = re.compile(r"[\[\](){}]")
-_SEPARATORS = re.compile(r"[\[\](){},\s]+")
+_SEPARATORS = re.compile(r"[\[\](){},;\s]+")
+_PROMPT = re.compile(
+    r"^(?:>>> ?|out(?:put)?(?: ?\[\d+\])? ?:|ausgabe ?:|আউটপুট ?:|(?:it )?prints?\b)\s*",
+    re.IGNORECASE,
+)
+"""What stands before an output that is copied or told."""
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
 """Quotation marks that an editor puts in place of those of a program."""
 _QUOTES = re.compile(f"[{''.join(_STRAIGHT)}]")
@@ -79,6 +89,12 @@ def fold_blanks(text: str) -> str:
     lines = [" ".join(line.split()) for line in text.replace("\r", "").split("\n")]
     joined = "\n".join(line for line in lines if line)
     return "\n".join(_INSIDE.sub(r"\1", line) for line in joined.split("\n"))
+
+
+def _drop_surroundings(given: str) -> str:
+    """Without a prompt or ``Output:`` before it, and the full stop of a sentence behind it."""
+    folded = re.sub("[！-～]", lambda m: chr(ord(m[0]) - 0xFEE0), given)
+    return fold_blanks(re.sub(r"(?<=[\])}\w'\"]) ?[.!,]$", "", _PROMPT.sub("", folded)))
 
 
 def unify_quotes(text: str) -> str:

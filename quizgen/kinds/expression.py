@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import msgspec
 from flint import arb, fmpq
@@ -19,6 +19,7 @@ from quizgen.grading.judging.sampled_equality import (
 )
 from quizgen.grading.judging.sympy_equality import decide_by_sympy
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.formulas import TypedFormula, parse_authored, read_formula
 from quizgen.grading.rounding import format_exact_or_figures
 from quizgen.grading.spec import WordSpec
@@ -47,6 +48,8 @@ class AuthoredExpression(AuthoredAnswer, kw_only=True, tag="expression", frozen=
 
 class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
     """Expression: ``value``; ``symbols`` = {name: "real", "positive" or [low, high]}."""
+
+    written_as: ClassVar[AnswerForm] = "formula"
 
     value: str
     symbols: dict[str, Domain]

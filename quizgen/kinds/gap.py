@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import chain
+from typing import ClassVar
 
 import msgspec
 from msgspec import structs
@@ -18,6 +19,7 @@ from quizgen.grading.judging.spelling import (
     nearest_terms,
 )
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, refuse_invisible
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.spec import WordSpec
@@ -49,6 +51,8 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
     ``terms`` are further words of the subject, which are nobody's slip in spelling. The first
     synonym of a gap is the one shown. A single gap may be given as a plain list.
     """
+
+    written_as: ClassVar[AnswerForm] = "word"
 
     accept: list[list[str] | str]
     among: list[str] = msgspec.field(default_factory=list)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
+from typing import ClassVar
 
 import msgspec
 
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.labels import NAME
 from quizgen.grading.reading.literals import with_decimal_points
 from quizgen.grading.reading.normalise import normalise_typed
@@ -32,6 +34,8 @@ class AuthoredInterval(AuthoredMeasured, kw_only=True, tag="interval", frozen=Tr
 
 class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
     """Interval: ``value`` such as ``]0,1]`` or ``(0, inf)``."""
+
+    written_as: ClassVar[AnswerForm] = "formula"
 
     value: str
 

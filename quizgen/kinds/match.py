@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from fractions import Fraction
+from typing import ClassVar
 
 import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share
@@ -56,6 +58,8 @@ class AuthoredMatch(AuthoredPooled, kw_only=True, tag="match", frozen=True):
 
 class MatchSpec(WordSpec, kw_only=True, frozen=True):
     """Match: ``pairs`` = {left label: right label}; ``reuse`` allows a right label twice."""
+
+    written_as: ClassVar[AnswerForm] = "option"
 
     pairs: dict[str, str]
     reuse: bool = False

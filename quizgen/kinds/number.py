@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Literal
+from typing import ClassVar, Literal
 
 import msgspec
 from flint import fmpq
@@ -13,6 +13,7 @@ from quizgen.grading.diagnosis.carry_forward import diagnosis_for
 from quizgen.grading.judge import show_spec
 from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.count_nouns import (
     check_count_nouns,
     count_noun_name,
@@ -67,6 +68,8 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
     are a unit or words for what is counted, which may be typed, too.
     """
 
+    written_as: ClassVar[AnswerForm] = "number"
+
     form: Literal["", "fraction", "lowest", "decimal"] = ""
     percent: bool = False
     unit: str = ""
@@ -89,7 +92,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
             return _with_unit(self, typed, options)
         plain = read_plain_number(typed, options.decimal)
         if plain is not None:
-            return judge_readings(plain, lambda n: _judge(self, n, options), self.decimals)
+            return _judge_all_readings(self, plain, options)
         source = _read_source(self, typed)
         return best_verdict(
             _judge_side(self, side, source, options) for side in _read(self, source, options)
@@ -109,7 +112,9 @@ def _with_unit(spec: NumberSpec, typed: str, options: GradingOptions) -> Verdict
 
 
 def _judge_all_readings(spec: NumberSpec, readings: Readings, options: GradingOptions) -> Verdict:
-    return judge_readings(readings, lambda n: _judge(spec, n, options), spec.decimals)
+    return judge_readings(
+        readings, lambda n: _judge(spec, n, options), spec.decimals, whole=spec.is_whole
+    )
 
 
 def _judge(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Verdict:

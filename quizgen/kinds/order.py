@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
+from typing import ClassVar
 
 import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, normalise_typed
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share
@@ -68,6 +70,8 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
 
     Without ``before`` the listed order is the only one. Steps are typed by their labels.
     """
+
+    written_as: ClassVar[AnswerForm] = "option"
 
     steps: list[str]
     before: list[tuple[str, str]] | None = None

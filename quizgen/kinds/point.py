@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import ClassVar
 
 import msgspec
 from flint import fmpq
@@ -11,6 +12,7 @@ from quizgen.grading.diagnosis.carry_forward import CARRIED, diagnosis_for
 from quizgen.grading.diagnosis.numeric_slips import agrees_within_half_percent, find_common_slip
 from quizgen.grading.judging.numeric import NumberTarget, choose_reading, judge_value
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.count_nouns import check_count_nouns, count_noun_unit, drop_count_noun
 from quizgen.grading.reading.equalities import read_items
 from quizgen.grading.reading.labels import reorder_by_name
@@ -62,6 +64,8 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
     ``counts`` are a unit or words for what each coordinate counts, which may be typed.
     """
 
+    written_as: ClassVar[AnswerForm] = "values"
+
     names: list[str] = msgspec.field(default_factory=list)
     counts: list[str] = msgspec.field(default_factory=list)
     up_to_scale: bool = False
@@ -78,8 +82,7 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge typed coordinates."""
         items, tail = read_list(typed, len(self.values), options.decimal)
-        # The chain's names of the coordinates stand in every key; others only if authored.
-        items = reorder_by_name(items, self.names or list(self.quantities()))
+        items = reorder_by_name(items, self.value_names())
         items = [drop_count_noun(item, self.counts) for item in items]
         unit, asked = _unit(tail), self.unit or count_noun_unit(self.counts)
         first, second, doubt = read_items(items, asked, unit, options.decimal)
@@ -90,9 +93,15 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
         twofold = [i for i, (a, b) in enumerate(zip(first, second, strict=True)) if a != b]
         if doubt.native and all(_right(verdict, place) for place in twofold):
             return verdict
+        if self.exact and all(isinstance(k, fmpq) and k.q == 1 for k in self.keys()):
+            return other
         if not (doubt.group_wins or any(_right(other, place) for place in twofold)):
             return verdict
         return choose_reading(verdict, other, doubt, (_echo(self, first), _echo(self, second)))
+
+    def value_names(self) -> list[str]:
+        """The authored names, else those that the chain has for the coordinates."""
+        return self.names or list(self.quantities())
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import ClassVar
 
 from flint import fmpq
 
@@ -14,6 +15,7 @@ from quizgen.grading.diagnosis.numeric_slips import (
 )
 from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_readings, judge_value
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity
@@ -50,6 +52,8 @@ class AuthoredQuantity(AuthoredNumeric, tag="quantity", frozen=True):
 class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
     """Quantity: ``value`` in ``unit``; with ``bare`` the unit is printed beside the field."""
 
+    written_as: ClassVar[AnswerForm] = "quantity"
+
     unit: str
     bare: bool = False
 
@@ -75,7 +79,10 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
 
 def _judge_side(spec: QuantitySpec, side: EqualitySide, options: GradingOptions) -> Verdict:
     return judge_readings(
-        side.readings, lambda n: _judge_reading(spec, n, side.quantity, options), spec.decimals
+        side.readings,
+        lambda n: _judge_reading(spec, n, side.quantity, options),
+        spec.decimals,
+        whole=spec.is_whole,
     )
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
+from typing import ClassVar
 
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import read_items
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.reading.numbers import ReadNumber
@@ -29,6 +31,8 @@ class AuthoredSet(AuthoredNumeric, tag="set", frozen=True):
 
 class SetSpec(VectorSpec, kw_only=True, frozen=True):
     """Set: ``values``; ``unit`` of all."""
+
+    written_as: ClassVar[AnswerForm] = "values"
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge a typed set."""

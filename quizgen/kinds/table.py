@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import msgspec
 from msgspec.structs import replace
@@ -13,6 +14,7 @@ from quizgen.core.decoding import convert
 from quizgen.grading.diagnosis.numeric_slips import find_common_slip
 from quizgen.grading.judge import show_spec
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm, list_plainer_texts
 from quizgen.grading.reading.labels import place_by_name
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.reading.numbers import relocate_error
@@ -76,6 +78,8 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
     ``cells = {H = {kind = "angle", abs = "0.5"}}``.
     """
 
+    written_as: ClassVar[AnswerForm] = "values"
+
     values: dict[str, Scalar]
     units: dict[str, str] = msgspec.field(default_factory=dict)
     counts: dict[str, list[str]] = msgspec.field(default_factory=dict)
@@ -115,6 +119,10 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
         return "; ".join(
             f"{pretty.format_name(n)} = {cell_spec(self, n).show()}" for n in self.values
         )
+
+    def value_names(self) -> list[str]:
+        """The labels of the cells."""
+        return list(self.values)
 
     def value_units(self) -> list[str]:
         """The unit of each cell."""
@@ -167,12 +175,23 @@ def _one(asked: Cell, name: str, item: SourceText | None, options: GradingOption
     if item is None:
         return wrong("", "missing", names=(name,))
     try:
-        verdict = asked.judge(item.text, options)
+        verdict = _judge_cell(asked, item.text, options)
     except FormulaReadError as error:
         raise relocate_error(error, item) from None
     if verdict.verdict == "unreadable":
         raise FormulaReadError(verdict.note, item.column(0), verdict.read_as)
     return verdict
+
+
+def _judge_cell(asked: Cell, typed: str, options: GradingOptions) -> Verdict:
+    """Judge one cell as an answer of its own, with what people write around it."""
+    try:
+        return asked.judge(typed, options)
+    except FormulaReadError:
+        for text in list_plainer_texts(typed, "values"):
+            with suppress(FormulaReadError):
+                return asked.judge(text, options)
+        raise
 
 
 def _together(names: list[str], cells: list[Verdict], read_as: str, trap: str) -> Verdict:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import msgspec
 
@@ -14,6 +14,7 @@ from quizgen.core.errors import FormulaError
 from quizgen.grading.judge import show_spec
 from quizgen.grading.judging.sampled_equality import BITS, Domain, compile_exact
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import most_precise_side, read_sides
 from quizgen.grading.reading.formulas import parse_authored
 from quizgen.grading.reading.labels import NAME, find_name, name_key, split_name
@@ -71,6 +72,8 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
     ``let`` = names with formulas over the symbols, to be used in ``predicate`` and ``where``.
     ``example`` is one right answer to show; typed answers are never compared with it.
     """
+
+    written_as: ClassVar[AnswerForm] = "formula"
 
     predicate: str
     symbols: dict[str, Domain] | list[str]

@@ -12,8 +12,10 @@ from quizgen.grading.diagnosis.carry_forward import NumberDiagnosis
 from quizgen.grading.diagnosis.numeric_slips import agrees_within_half_percent, find_generic_slip
 from quizgen.grading.reading.literals import Ambiguity
 from quizgen.grading.reading.numbers import Readings, ReadNumber
+from quizgen.grading.rounding import round_ball_half_away
 from quizgen.grading.spec import matches_misconception
 from quizgen.grading.verdict import HALF, Verdict, ambiguous, correct, partial, wrong
+from quizgen.maths.numbers import decimal_exponent
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.values import Value
 
@@ -21,12 +23,17 @@ NumberJudge = Callable[[ReadNumber], Verdict]
 
 
 def judge_readings(
-    readings: Readings, judge: NumberJudge, places_asked: int | None = None
+    readings: Readings,
+    judge: NumberJudge,
+    places_asked: int | None = None,
+    *,
+    whole: bool = False,
 ) -> Verdict:
     """Judge a number that may have two readings; ask back when they would be marked differently.
 
     The decimal reading of the learner's own decimal sign may count when it is right; a reading
-    with thousands groups counts only when the learner declared the other sign.
+    with thousands groups counts only when the learner declared the other sign,
+    or where what is asked is ``whole`` (bytes, pixels), so that no decimal can be meant.
     """
     verdict = judge(readings.main)
     if readings.other is None or readings.doubt is None:
@@ -34,6 +41,8 @@ def judge_readings(
     if readings.doubt.native and (places_asked == 3 or verdict.credit):
         return verdict
     other = judge(readings.other)
+    if whole:
+        return other
     return choose_reading(
         verdict, other, readings.doubt, (readings.main.read_as, readings.other.read_as)
     )
@@ -90,19 +99,32 @@ def judge_value(
 ) -> Verdict:
     """Judge a value that stands in the key's unit; ``number`` says how it was written."""
     read_as = read_as or number.read_as
-    if asked.spec.accepts(value, asked.key):
+    if asked.spec.accepts(value, asked.key) or _is_near_printed(
+        asked.spec, number, value, asked.key
+    ):
         return _judge_number_form(asked.spec, number, asked.form, read_as)
     if is_integer_written_as_decimal(asked.spec, number, value, asked.key):
         return correct(read_as, "whole-number")
     carried = asked.hints.carried_forward(value) if asked.hints else None
     if carried is not None:
         return replace(carried, read_as=read_as)
-    trap = matching_misconception(asked.spec, number, value, asked.traps)
+    trap = matching_misconception(asked.spec, number, value, asked.traps, asked.key)
     if trap:
         return wrong(read_as, f"trap:{trap}")
     return _judge_coarse_rounding(
         asked.spec, number, value, asked.key, read_as
     ) or _diagnose_wrong_value(asked, number, value, read_as)
+
+
+def _is_near_printed(spec: Tolerance, number: ReadNumber, value: Value, key: Value) -> bool:
+    """Whether a value is one unit of the last asked decimal from the key as it is printed.
+
+    22.6199 is printed as 22.6: then 22.5 is as near to it as 22.7.
+    """
+    if spec.decimals is None or spec.within != 1 or number.places > spec.decimals:
+        return False
+    printed = round_ball_half_away(key, spec.decimals)
+    return bool(abs(value - printed) * 10**spec.decimals <= 1)
 
 
 def _diagnose_wrong_value(
@@ -127,13 +149,20 @@ def is_integer_written_as_decimal(
 
 
 def matching_misconception(
-    spec: Tolerance, number: ReadNumber, value: Value, traps: Iterable[tuple[str, Value]]
+    spec: Tolerance,
+    number: ReadNumber,
+    value: Value,
+    traps: Iterable[tuple[str, Value]],
+    key: Value,
 ) -> str:
-    """Name of the nearest known mistake that gives the value, or an empty text."""
+    """Name of the nearest known mistake that gives the value, or an empty text.
+
+    A mistake that leaves the key as it is (in one cell of a table) explains nothing.
+    """
     hits = [
         (abs(value - trap), name)
         for name, trap in traps
-        if matches_misconception(spec, number, value, trap)
+        if matches_misconception(spec, number, value, trap) and not spec.is_within(trap, key)
     ]
     if not hits:
         return ""
@@ -177,15 +206,37 @@ def _judge_significant_figures(
 def _judge_coarse_rounding(
     spec: Tolerance, number: ReadNumber, value: Value, key: Value, read_as: str
 ) -> Verdict | None:
-    """Right value with too few digits: rounded correctly, but not as far as asked."""
-    if not number.places or number.figures[1] < 2 or number.form != "decimal":
+    """Right value with too few digits: rounded correctly, but not as far as asked.
+
+    Two figures are at least half; one says too little, and is no mistake of method.
+    """
+    if number.form not in {"decimal", "integer", "scientific"} or value == 0 or key == 0:
         return None
-    if abs(value - key) * 2 * 10**number.places > 1:
-        return None
+    figures = _count_right_figures(number, value, key)
+    if figures < LEAST_FIGURES:
+        one = figures and not spec.exact
+        return wrong(read_as, "rounded-to-one") if one else None
     if spec.exact:
-        return wrong(read_as, "exact-wanted")
-    if spec.decimals is not None and number.places < spec.decimals:
+        rounded = number.form == "decimal" and not (isinstance(key, fmpq) and key.q == 1)
+        return partial(HALF, read_as, "exact-wanted") if rounded else None
+    if spec.decimals and number.places < spec.decimals:
         return partial(HALF, read_as, "decimals-asked", asked=spec.decimals)
     if spec.sigfigs is not None and number.figures[1] < spec.sigfigs:
         return partial(HALF, read_as, "figures-asked", asked=spec.sigfigs, given=number.figures[1])
-    return None
+    return partial(HALF, read_as, "rounded-far")
+
+
+LEAST_FIGURES = 2
+"""Significant figures that show a value to be the key, rounded."""
+
+
+def _count_right_figures(number: ReadNumber, value: Value, key: Value) -> int:
+    """Most figures, of those that the spelling can mean, to which the key is rounded."""
+    least, most = number.figures
+    leading = decimal_exponent(number.value)
+    scale = abs(value / number.value)
+    for figures in range(most, least - 1, -1):
+        place = scale * fmpq(10) ** (leading - figures + 1)
+        if abs(value - key) * 2 <= place:
+            return figures
+    return 0

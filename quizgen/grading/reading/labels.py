@@ -43,17 +43,30 @@ NAMED_BY_WORD = {
     "cyan": "c", "zyan": "c", "সায়ান": "c",
     "magenta": "m", "ম্যাজেন্টা": "m",
     "yellow": "y", "gelb": "y", "হলুদ": "y",
-    "black": "kb", "schwarz": "ks", "কালো": "kb",
+    "black": "kb", "schwarz": "kbs", "কালো": "kb",
     "white": "w", "weiß": "w", "weiss": "w", "সাদা": "w",
     "hue": "h", "farbton": "h", "হিউ": "h",
     "saturation": "s", "sättigung": "s", "স্যাচুরেশন": "s",
     "brightness": "v", "value": "v", "hellwert": "v", "ভ্যালু": "v",
     "column": "u", "spalte": "u", "কলাম": "u",
     "row": "v", "zeile": "v", "সারি": "v",
+    "untouched": "0", "unchanged": "0", "unverändert": "0", "অপরিবর্তিত": "0",
     "horizontal": "x", "vertical": "y", "vertikal": "y", "অনুভূমিক": "x", "উল্লম্ব": "y",
     "long": "l", "medium": "m", "short": "s", "lang": "l", "mittel": "m", "kurz": "s",
 }  # fmt: skip
 """Word for a coordinate or a colour to the letters that it may stand for."""
+
+SAME_WORDS = (
+    {"before", "vorher", "davor", "আগে", "আগের"},
+    {"after", "afterwards", "nachher", "danach", "পরে", "পরের"},
+    {"width", "breite", "প্রস্থ"},
+    {"height", "höhe", "উচ্চতা"},
+    {"left", "links", "বাম", "বামে"},
+    {"right", "rechts", "ডান", "ডানে"},
+    {"near", "nah", "কাছে"},
+    {"far", "fern", "দূরে"},
+)
+"""Words that are one label in several languages."""
 
 _SHORTENED = re.compile(r"([^\W_]+)('*)(?:_(.+))?")
 _BEFORE_NUMBER = re.compile(rf"((?:[^\W\d_]|[{SIGNS}])+'*(?:_[^\W_]+'*)*) ?(?=[-+]?[\d.(])")
@@ -72,6 +85,9 @@ def find_name(typed: str, names: list[str]) -> str:
         if len(found) == 1:
             return found[0]
     short = typed.strip().lower()
+    for words in SAME_WORDS:
+        if short in words:
+            return _find_unique(name for name in names if name.lower() in words)
     return _find_short_name(short, names) or _find_unique(
         _find_short_name(letter, names) for letter in NAMED_BY_WORD.get(short, "")
     )
@@ -80,6 +96,8 @@ def find_name(typed: str, names: list[str]) -> str:
 def _find_short_name(typed: str, names: list[str]) -> str:
     """Return the one name whose letter, or whose index, is ``typed``, where all differ in it."""
     split = [_SHORTENED.fullmatch(name.lower()) for name in names]
+    if typed.endswith("'") and all(match and typed.endswith(match[2]) for match in split):
+        typed = typed.rstrip("'")  # x' for the index of p'_x, where all have the prime
     found = []
     for group in (1, 3):
         parts = [match[group] if match else None for match in split]

@@ -85,7 +85,7 @@ def _several_marks(compact: str, column: int) -> str:
     raise FormulaReadError("bad-number", column, compact)
 
 
-_ODD = re.compile(r"(?<![\d.,])\d+[.,](?:10 ?(?:\^|\*\*)|\(\d)")
+_ODD = re.compile(r"(?<![\d.,])\d+[.,](?:10 ?(?:\^|\*\*)|\(\d|\d+\(\d+\)(?! ?[*/^]))")
 _GROUPS_BEHIND = re.compile(r"(?<![\d.,])\d+[.,]\d{3}(?:[ ']\d{3})*[ ']\d{1,2}(?![\d.,'/]| [\d/])")
 
 

@@ -112,6 +112,10 @@ REWRITES: dict[str, Rewrite] = {
     "about": (_ABOUT, lambda _m: ""),
     "x between numbers": (_X, lambda _m: "*"),
     "ties": (re.compile(r"(?<=\d)~(?=[^\W\d_]|[%°])"), lambda _m: " "),
+    "blank before a power of ten": (
+        re.compile(r"(?<![\d.,])(\d[.,]\d+) +(?=10 ?(?:\^|\*\*))"),
+        lambda m: f"{m[1]}*",
+    ),
     "powers of ten in words": (
         re.compile(rf"(?<=\d) ?({'|'.join(_EXPONENTS)})(?![^\W\d_])\.?", re.IGNORECASE),
         lambda m: f"*10^{_EXPONENTS[m[1].lower()]}",
@@ -119,7 +123,15 @@ REWRITES: dict[str, Rewrite] = {
 }
 """Name to pattern and replacement, in the order they are applied."""
 
-_ALWAYS = ("answer", "about", "classifiers", "x between numbers", "ties", "powers of ten in words")
+_ALWAYS = (
+    "answer",
+    "about",
+    "classifiers",
+    "x between numbers",
+    "ties",
+    "powers of ten in words",
+    "blank before a power of ten",
+)
 _RAISED = re.compile(r"[-+−–]?\d+·(?!10)\d{2,}")
 _STOPS = ".;।॥"
 _UNFINISHED = re.compile(r"[-+]?(?:\d+;|\d{1,3}(?:\.\d{3}){2,}\.)")
@@ -171,6 +183,7 @@ def normalise_typed(typed: str, *, keep_x: bool = False, longest: int = LONGEST)
         source = source.substitute(*REWRITES["ties"]).substitute(
             *REWRITES["powers of ten in words"]
         )
+        source = source.substitute(*REWRITES["blank before a power of ten"])
     source = source.strip()
     if not source.text:
         raise FormulaReadError("no-answer", 1)

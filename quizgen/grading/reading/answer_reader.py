@@ -1,0 +1,331 @@
+"""Answers as people write them: what cannot matter is dropped, and what is left is found.
+
+A kind reads the answer itself. What it would ask back for a word or a mark around the answer is
+tried again here, plainer: without invisible characters, marks of Markdown, quotation marks,
+bullets, ``I get``, ``(rounded)``, ``because ...``; at last the one number with its unit among
+other words. Negation, ranges and alternatives never become a number: they stay asked back.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import Literal, TypeAlias
+
+from quizgen.core.errors import FormulaError
+from quizgen.grading.reading.labels import NAME, find_name
+from quizgen.grading.reading.literals import LITERAL
+from quizgen.grading.reading.normalise import LONGEST_PROSE, REWRITES
+from quizgen.grading.reading.number_words import (
+    NUMBER_WORDS,
+    add_large_words,
+    add_mixed_units,
+    replace_number_word,
+)
+from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.units import read_unit
+
+AnswerForm: TypeAlias = Literal[
+    "number", "quantity", "values", "formula", "word", "option", "verbatim"
+]
+"""What an answer is made of: one number, one with a unit, several, a formula, words, marks of
+options, or text in which every character counts."""
+
+_INVISIBLE = re.compile("[\u00ad\u061c\u200b-\u200f\u202a-\u202e\u2060-\u2069\ufe0e\ufe0f\ufeff]")
+_EMOJI = re.compile("[\u2600-\u2712\u2719-\u2753\u2757-\u27bf\u2b00-\u2bff\U0001f000-\U0001faff]")
+_MARKDOWN = re.compile(
+    r"(?<![\w*])(\*\*|__|~~)(?=\S)(.+?)(?<=\S)\1(?![\w*])|(?<![\w*)])\*(?=\S)([^*]+)(?<=\S)\*(?!\S)"
+)
+_QUOTES = '“”„‟«»"‹›'
+_PAIRED = re.compile(r"^(['‘’‚`´]+)(.+?)['‘’`´]+$")
+_BULLET = re.compile(r"^(?:[•◦▪‣∙*+–—-] +(?=\S)|#{1,6} +)", re.MULTILINE)
+_DASH = re.compile(r"^[–—−-] +(?=[.,]?\d)")
+_LIST_MARK = re.compile(r"^\(?[a-h]\) *(?=\S)")
+_ARROW = re.compile(r"^(?:∴|⇒|=>|→|->|>>>|≈|=) *(?=\S)")
+_BEFORE = re.compile(
+    r"^(?:so|thus|hence|therefore|then|ok|okay|(?:i|we) (?:get|got|have)|i (?:think|believe|guess)"
+    r"|it(?: is|['’]s)|(?:this|that)(?: is|['’]s)|(?:this|that|it) (?:gives|makes|yields)|gives"
+    r"|equals|(?:the |my )?(?:answer|result|value|number|output|point|angle|word|solution|total)"
+    r"(?: is|['’]s)?|(?:a |the )?factor(?: of)?|option|prints|in total|exactly|around|roughly|about"
+    r"|approx(?:\.|imately)?|nearly|almost"
+    r"|also|somit|daher|folglich|dann|ich (?:erhalte|bekomme|habe|denke|glaube)|es ist"
+    r"|das (?:ist|ergibt|gibt|macht)|ergibt|(?:der|die|das|meine?) (?:wert|ergebnis|antwort|zahl|"
+    r"ausgabe|winkel|punkt|lösung)(?: ist)?|ergebnis|wert|faktor|antwort|ausgabe|insgesamt|rund"
+    r"|etwa|ungefähr|genau|fast"
+    r"|তাই|সুতরাং|অতএব|আমি|পাই|আমি পাই|উত্তর|ফল|ফলাফল|মান|মোট|প্রায়|প্রায়|এটি|এটা|হলো|হল)"
+    r"(?![\w\u0980-\u09ff'’]) *[:,=]? *(?=\S)",
+    re.IGNORECASE,
+)
+_AFTER = re.compile(
+    r"(?:[,;]? *\(?(?:rounded|gerundet|exact(?:ly)?|genau|approx(?:\.|imately)?|about|ca\.|roughly"
+    r"|i (?:think|guess|believe)|(?:denke|glaube) ich|in total|altogether|insgesamt|হবে|হয়"
+    r"|আসন্ন মান|প্রায়)\)?|[!,…?]+|\.{2,})$",
+    re.IGNORECASE,
+)
+_REASON = re.compile(
+    r"(?<=\S)[,;.:]? *(?<![\w\u0980-\u09ff])(?:because|since|weil|denn|da|কারণ|যেহেতু)"
+    r"(?![\w\u0980-\u09ff]).*$",
+    re.IGNORECASE | re.DOTALL,
+)
+_SIGNED = re.compile(r"^(?:minus|negative|মাইনাস|ঋণাত্মক) +(?=\S)", re.IGNORECASE)
+_PER_CENT = re.compile(r"(?<=\d) *(?:per cent|percent|prozent|শতাংশ)(?!\w)", re.IGNORECASE)
+_ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|stel|tel)(?![^\W\d_])")
+_OF_A = re.compile(r"(?<=\d) (?:of|von) (?:an?|one|the|einer|einem|der)? ?(?=[^\W\d_])")
+_LETTERS = r"(?:[^\W\d_]|[\u0981-\u0983\u09bc\u09be-\u09cd\u09d7])"
+_WORD = re.compile(rf"{_LETTERS}+(?:['’-]{_LETTERS}+)*")
+_DIGITS = LITERAL.pattern.removesuffix(r"\.?")
+_FOUND = re.compile(
+    rf"(?<![\w.,^/*])[-+]?(?:{_DIGITS})(?:[eE][-+]?\d+)?"
+    r"(?: ?[*·×] ?10 ?\^ ?\(?[-+]?\d+\)?)?(?: ?/ ?\d+)?(?![\w^(])|"
+    rf"(?<![\w.,^/*])[-+]?(?:{_DIGITS})(?=[^\W\d_])"
+)
+_GROUPED = re.compile(r"(?<![\d.,])\d{1,3}([.,])\d{3}(?:\1\d{3})+(?![\d.,]?\d)")
+_LABEL = re.compile(rf"(?<![^\W\d_])((?:{_LETTERS})+'*(?:_[^\W_]+'*)?) ?[:=]? ?(?=[-+−]?[.,]?\d)")
+_LABELLED = re.compile(rf"(.*\d.*?)[ (]+((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)\)?")
+_PARTED = re.compile(r"[;\n]|,(?!\d)| (?:and|und|ও|এবং) ")
+_JOINED = re.compile(r"[ ,;]*(?:(?<![\w\u0980-\u09ff])(?:and|und|ও|এবং))?[ ,;]*$")
+_FEWEST = 2
+"""Labelled values that are no slip."""
+_MOST_WORDS = 14
+_MOST_READINGS = 3
+_LONGEST_UNIT = 4
+_NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to", "so", "is"})
+_ALTERING = """
+not no never none neither nor isn't don't doesn't cannot or either between to from until till
+through up than least most more less over under above below greater smaller larger maybe
+perhaps unless except without plus times twice thrice double triple half third quarter square
+squared cube cubed root roots inverse reciprocal power log ln lg sin cos tan sqrt exp dozen
+hundred thousand million billion per percent by and but minus negative versus vs if
+nicht kein keine keiner nie weder noch oder entweder zwischen bis von ab mehr weniger als
+über unter größer kleiner höchstens mindestens vielleicht ohne außer plus mal doppelt halb
+hälfte viertel quadrat wurzel hundert tausend million pro prozent und aber wenn gegen
+না নয় নয় নেই বা অথবা কিংবা থেকে পর্যন্ত মধ্যে বেশি কম অন্তত সর্বোচ্চ হয়তো ছাড়া গুণ দ্বিগুণ
+অর্ধেক বর্গ বর্গমূল মূল শত হাজার লাখ কোটি ভাগ শতাংশ এবং ও কিন্তু যদি
+"""
+_MEANS_MORE = frozenset(_ALTERING.split())
+"""Words that deny a number, offer another one or change it."""
+_LEADED = """
+in of as for behind before after on at when where because since i we which so hence thus total
+altogether exactly here there hinter vor nach im als für insgesamt also somit wenn weil hier
+হয় হবে পেছনে পিছনে সামনে কারণ
+"""
+_LEADS_ON = frozenset(_LEADED.split())
+"""Words behind a number that are not what it counts."""
+_CALLED = re.compile(r"[\w-]\(?$|-\s*$")
+"""A call of a function, or a dash, right before a number."""
+_BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
+_NAMED = re.compile(rf"^{NAME} ?[=≈:] ?(?=[-+]?[.,]?\d)")
+_LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
+
+
+def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) -> Iterator[str]:
+    """What may have been meant by an answer that was not read, plainest change first.
+
+    Parameters
+    ----------
+    typed : str
+        The answer as it was typed.
+    form : str
+        What an answer of this kind is made of.
+    names : sequence of str
+        Names that its values may carry.
+
+    Yields
+    ------
+    str
+        Texts to try in turn; none where every character counts.
+    """
+    if form == "verbatim" or len(typed) > LONGEST_PROSE:
+        return
+    plain = drop_decoration(typed, form)
+    if plain != typed:
+        yield plain
+    if form in {"number", "quantity", "values"}:
+        spelt = _write_words_as_numbers(plain)
+        if spelt != plain:
+            yield spelt
+        if form == "values":
+            yield from separate_labelled_values(spelt, list(names))
+        else:
+            yield from _single_answer(spelt, form)
+
+
+def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
+    """The one number among words; a quantity needs its unit if words follow."""
+    text = _NAMED.sub("", text)
+    found, around = scan_numbers(text)
+    if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
+        return
+    behind = _WORD.match(around[1].lstrip(" ,.)"))
+    named = behind is not None and behind[0].lower() not in _LEADS_ON
+    if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
+        yield found[0]
+
+
+def drop_decoration(typed: str, form: AnswerForm) -> str:
+    """The answer without characters, marks and words around it that cannot matter."""
+    text = drop_markup(_INVISIBLE.sub("", typed)).strip()
+    text = drop_bullets(text) if not _DASH.match(text) or "\n" in text else text
+    if form == "values":
+        text = text.translate(dict.fromkeys(map(ord, _QUOTES)))
+    before = ""
+    while text and text != before:
+        before = text
+        text = _drop_once(text, form)
+    return text or typed
+
+
+def drop_bullets(typed: str) -> str:
+    """The answer without bullets at the beginning of its lines."""
+    return _BULLET.sub("", typed)
+
+
+def drop_markup(typed: str) -> str:
+    """The answer without marks of Markdown and emoji."""
+    return _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed))
+
+
+def _drop_once(text: str, form: AnswerForm) -> str:
+    text = text.strip(_QUOTES + " ")
+    text = _PAIRED.sub(r"\2", text)
+    if form != "option":
+        text = _LIST_MARK.sub("", text)
+    text = _BEFORE.sub("", _ARROW.sub("", text))
+    if form == "formula" and text.endswith("!"):
+        return text
+    return _AFTER.sub("", _REASON.sub("", text)).strip()
+
+
+def _write_words_as_numbers(text: str) -> str:
+    """``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
+    for name in ("digits", "blanks"):
+        text = SourceText.of(text).substitute(*REWRITES[name]).text
+    signed = _SIGNED.sub("", text)
+    sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
+    spelt = signed if sign else text
+    if not any(map(str.isdigit, spelt)):
+        spelt = replace_number_word(spelt)
+    spelt = _OF_A.sub(" ", _ORDINAL.sub("", _PER_CENT.sub(" %", spelt)))
+    return sign + add_mixed_units(add_large_words(spelt))
+
+
+def separate_labelled_values(text: str, names: list[str]) -> Iterator[str]:
+    """``G111 R171`` and ``6.25 mm before, 50 mm after`` as ``G = 111; R = 171``, if it is so.
+
+    Every label must mean a name of its own, and every value must be one number.
+    """
+    ahead = [(m[1], m.start(), m.end()) for m in _LABEL.finditer(text)]
+    if ahead and not ahead[0][1]:
+        ends = [*(start for _, start, _ in ahead[1:]), len(text)]
+        yield from _write_assigned(
+            [(name, text[e:end]) for (name, _, e), end in zip(ahead, ends, strict=True)], names
+        )
+    pieces = [_LABELLED.fullmatch(piece.strip()) for piece in _PARTED.split(text)]
+    yield from _write_assigned([(m[2], m[1]) for m in pieces if m], names, len(pieces))
+
+
+def _write_assigned(
+    pairs: list[tuple[str, str]], names: list[str], count: int = 0
+) -> Iterator[str]:
+    meant = [find_name(label, names) for label, _ in pairs]
+    values = [_JOINED.sub("", value).strip(" ,;") for _, value in pairs]
+    once = all(meant) and len(set(meant)) == len(pairs) >= max(count, _FEWEST)
+    if once and all(len(_FOUND.findall(value)) == 1 for value in values):
+        yield "; ".join(f"{name} = {value}" for name, value in zip(meant, values, strict=True))
+
+
+def prove_groups(typed: str) -> str:
+    """Without marks of groups, where one number proves what they are: ``64,000; 1,152,000``."""
+    proof = _GROUPED.search(typed)
+    if proof is None:
+        return typed
+    mark = re.escape(proof[1])
+    group = re.compile(rf"(?<![\d.,])\d{{1,3}}(?:{mark}\d{{3}})+(?![\d.,]?\d)")
+    return group.sub(lambda m: m[0].replace(proof[1], ""), typed)
+
+
+def scan_numbers(text: str) -> tuple[list[str], list[str]]:
+    """The numbers in a text, each with its unit, and the pieces of text around them."""
+    found: list[str] = []
+    around, last = [], 0
+    for match in _FOUND.finditer(text):
+        unit, end = _find_unit(text, match.end())
+        if not unit and text[end : end + 1].isalpha():
+            continue
+        found.append(f"{match[0]} {unit}".strip())
+        around.append(text[last : match.start()])
+        last = end
+    return found, [*around, text[last:]]
+
+
+def list_readings(typed: str) -> list[str]:
+    """The numbers that an answer names, if there are several to choose from; else none."""
+    found, around = scan_numbers(_write_words_as_numbers(drop_decoration(typed, "number")))
+    named = list(dict.fromkeys(found))
+    if not 1 < len(named) <= _MOST_READINGS or any(map(str.isdigit, " ".join(around))):
+        return []
+    between = " ".join(around[1:-1])
+    return named if _WORD.search(between) and _BETWEEN.fullmatch(between) else []
+
+
+def _find_unit(text: str, start: int) -> tuple[str, int]:
+    """The unit behind a number and where it ends; an empty one if there is none."""
+    tokens = list(re.finditer(r" ?[^\s,;:!?()]+", text[start:]))[:_LONGEST_UNIT]
+    for count in range(len(tokens), 0, -1):
+        end = start + tokens[count - 1].end()
+        unit = text[start:end].strip().rstrip(".")
+        more = len(tokens) > count
+        if unit.lower() in _NO_UNIT_BEFORE_A_WORD and more:
+            continue
+        if any(map(str.isdigit, unit.replace("^2", "").replace("^3", ""))):
+            continue
+        try:
+            read_unit(unit)
+        except FormulaError:
+            continue
+        return unit, end
+    return "", start
+
+
+def _can_be_dropped(pieces: list[str]) -> bool:
+    """Whether what stands around numbers is only words that say nothing more about them."""
+    around = " ".join(pieces)
+    balanced = around.count("(") == around.count(")")
+    if not (balanced and _LOOKS_SAFE.fullmatch(around)) or any(map(str.isdigit, around)):
+        return False
+    if any(_CALLED.search(piece) for piece in pieces[:-1]):
+        return False
+    words = [word[0] for word in _WORD.finditer(around)]
+    return len(words) <= _MOST_WORDS and all(map(_is_idle_word, words))
+
+
+def _is_idle_word(word: str) -> bool:
+    """Whether a word beside a number neither denies, doubles nor multiplies it."""
+    small = word.lower().replace("’", "'")
+    if len(small) == 1:
+        return small in {"a", "i"}
+    return small not in _MEANS_MORE and (small not in NUMBER_WORDS or small in {"ein", "eine"})
+
+
+_CUT_SHORT = re.compile(r"\d *(?:\.{2,}|…)")
+_RANGE = re.compile(r"[-+−]?\d+(?:[.,]\d+)? *[-–—] *\d+(?:[.,]\d+)?(?: *[^\W\d][^\d]*)?")
+_NUMBERED = re.compile(r"\d{1,2}[.)] +[-+−–]?[.,]?\d.*")
+_RAISED_DOT = re.compile(r"[-+−]?\d+·\d+(?: *[^\W\d][^\d]*)?")
+
+
+def is_cut_short(typed: str) -> bool:
+    """Whether dots behind a number may stand for more of its digits: ``6.6...``."""
+    return _CUT_SHORT.search(typed) is not None
+
+
+def has_second_meaning(typed: str) -> bool:
+    """Whether a wrong number may be a list item, a range or a decimal instead.
+
+    ``- 16`` (a bullet), ``1. 16`` (the first item), ``15-17`` (a range) and ``102·5``: what they
+    are read as is a guess, which must cost nobody marks.
+    """
+    text = typed.strip()
+    return bool(
+        _DASH.match(text)
+        or any(shape.fullmatch(text) for shape in (_RANGE, _NUMBERED, _RAISED_DOT))
+    )
