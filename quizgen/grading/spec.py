@@ -142,9 +142,8 @@ class ScalarSpec(NumericSpec, kw_only=True, frozen=True):
 
     @property
     def is_whole(self) -> bool:
-        """Whether exactly a whole number is asked: no decimal can be meant."""
-        key = parse_exact(self.value) if self.exact else None
-        return isinstance(key, fmpq) and key.q == 1
+        """Whether things are counted that have no fractions, so that no decimal can be meant."""
+        return False
 
     def value_unit(self) -> str:
         """The unit that the value is judged in; empty for the one that the chain shows."""
@@ -187,6 +186,14 @@ class VectorSpec(NumericSpec, kw_only=True, frozen=True):
 
 
 AnySpec = WordSpec | NumericSpec
+
+COUNTED = frozenset({"B", "bit", "px"})
+"""Units of what is counted one by one."""
+
+
+def is_whole_number(value: Value) -> bool:
+    """Whether a value is exactly a whole number."""
+    return isinstance(value, fmpq) and value.q == 1
 
 
 def matches_target(spec: Tolerance, number: ReadNumber, value: Value, target: Value) -> bool:

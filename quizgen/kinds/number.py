@@ -37,7 +37,7 @@ from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import ScalarSpec
+from quizgen.grading.spec import ScalarSpec, is_whole_number
 from quizgen.grading.verdict import Verdict, attach_values, unreadable, wrong
 from quizgen.kinds import quantity
 from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first, unit_hint
@@ -81,6 +81,11 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         super().validate()
         get_unit(self.unit)
         check_count_nouns(self.counts)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether a whole number of things is counted."""
+        return bool(self.counts) and is_whole_number(parse_exact(self.value))
 
     def value_unit(self) -> str:
         """The unit printed beside the field; a percentage stands for a plain fraction."""

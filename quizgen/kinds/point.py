@@ -22,7 +22,13 @@ from quizgen.grading.reading.quantities import split_quantity
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import TypedUnit
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import VectorSpec, all_match_misconception, all_match_target
+from quizgen.grading.spec import (
+    COUNTED,
+    VectorSpec,
+    all_match_misconception,
+    all_match_target,
+    is_whole_number,
+)
 from quizgen.grading.verdict import (
     Verdict,
     attach_values,
@@ -93,7 +99,7 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
         twofold = [i for i, (a, b) in enumerate(zip(first, second, strict=True)) if a != b]
         if doubt.native and all(_right(verdict, place) for place in twofold):
             return verdict
-        if self.exact and all(isinstance(k, fmpq) and k.q == 1 for k in self.keys()):
+        if (self.counts or self.unit in COUNTED) and all(map(is_whole_number, self.keys())):
             return other
         if not (doubt.group_wins or any(_right(other, place) for place in twofold)):
             return verdict

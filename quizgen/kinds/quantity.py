@@ -21,7 +21,7 @@ from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
-from quizgen.grading.spec import ScalarSpec
+from quizgen.grading.spec import COUNTED, ScalarSpec, is_whole_number
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
 from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first
 from quizgen.kinds.contract import (
@@ -61,6 +61,11 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         """Check tolerance, value, unit and traps."""
         super().validate()
         listed_unit(self.unit)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether a whole number of bytes, bits or pixels is asked."""
+        return self.unit in COUNTED and is_whole_number(parse_exact(self.value))
 
     def value_unit(self) -> str:
         """The unit of the key."""

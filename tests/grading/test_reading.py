@@ -41,6 +41,8 @@ ONE_BY_ONE = [
     ("powers of ten in words", "9,6 Mio. Byte", "9,6*10^6 Byte"),
     ("powers of ten in words", "৬২ লাখ", "৬২*10^5"),
     ("powers of ten in words", "5 lacquers", "5 lacquers"),
+    ("blank before a power of ten", "1.085 10^-2", "1.085*10^-2"),
+    ("blank before a power of ten", "12.5 10^-2", "12.5 10^-2"),
     ("ties", "12~mm", "12 mm"),
     ("ties", "20/3 ~ 6.67", "20/3 ~ 6.67"),
     ("answer", "Answer: 5", "5"),
@@ -114,8 +116,8 @@ def test_literals_that_are_none(typed):
 @pytest.mark.parametrize(
     ("typed", "column"),
     [
-        ("1\u200b2", 2),
-        ("  1\u200b2", 4),
+        ("1\u00072", 2),
+        ("  1\u00072", 4),
         ("২ + ৩ $", 7),
         ("½ + $", 5),
         ("x² + y", 6),

@@ -219,11 +219,22 @@ def _judge_coarse_rounding(
     if spec.exact:
         rounded = number.form == "decimal" and not (isinstance(key, fmpq) and key.q == 1)
         return partial(HALF, read_as, "exact-wanted") if rounded else None
-    if spec.decimals and number.places < spec.decimals:
-        return partial(HALF, read_as, "decimals-asked", asked=spec.decimals)
-    if spec.sigfigs is not None and number.figures[1] < spec.sigfigs:
-        return partial(HALF, read_as, "figures-asked", asked=spec.sigfigs, given=number.figures[1])
-    return partial(HALF, read_as, "rounded-far")
+    place = abs(value / number.value) * fmpq(10) ** (decimal_exponent(number.value) - figures + 1)
+    return _ask_for_more_digits(spec, figures, place, read_as)
+
+
+def _ask_for_more_digits(
+    spec: Tolerance, figures: int, place: Value, read_as: str
+) -> Verdict | None:
+    """Half for a rounding that is coarser than what was asked; none if it is not."""
+    if spec.decimals is not None:
+        note = "decimals-asked" if spec.decimals else "rounded-far"
+        coarser = place * 10**spec.decimals > 1
+        return partial(HALF, read_as, note, asked=spec.decimals) if coarser else None
+    if spec.sigfigs is None:
+        return partial(HALF, read_as, "rounded-far")
+    fields = {"asked": spec.sigfigs, "given": figures}
+    return partial(HALF, read_as, "figures-asked", **fields) if figures < spec.sigfigs else None
 
 
 LEAST_FIGURES = 2
