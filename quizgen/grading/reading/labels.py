@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import cache
 
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.locale import list_languages, load_words
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.names import fold_name
 
@@ -36,24 +38,18 @@ def name_key(name: str) -> str:
     return _INSIDE.sub("", fold_name(name))
 
 
-NAMED_BY_WORD = {
-    "red": "r", "rot": "r", "লাল": "r",
-    "green": "g", "grün": "g", "gruen": "g", "সবুজ": "g",
-    "blue": "b", "blau": "b", "নীল": "b",
-    "cyan": "c", "zyan": "c", "সায়ান": "c",
-    "magenta": "m", "ম্যাজেন্টা": "m",
-    "yellow": "y", "gelb": "y", "হলুদ": "y",
-    "black": "kb", "schwarz": "ks", "কালো": "kb",
-    "white": "w", "weiß": "w", "weiss": "w", "সাদা": "w",
-    "hue": "h", "farbton": "h", "হিউ": "h",
-    "saturation": "s", "sättigung": "s", "স্যাচুরেশন": "s",
-    "brightness": "v", "value": "v", "hellwert": "v", "ভ্যালু": "v",
-    "column": "u", "spalte": "u", "কলাম": "u",
-    "row": "v", "zeile": "v", "সারি": "v",
-    "horizontal": "x", "vertical": "y", "vertikal": "y", "অনুভূমিক": "x", "উল্লম্ব": "y",
-    "long": "l", "medium": "m", "short": "s", "lang": "l", "mittel": "m", "kurz": "s",
-}  # fmt: skip
-"""Word for a coordinate or a colour to the letters that it may stand for."""
+@cache
+def _letters_of_words() -> dict[str, str]:
+    """Return the letters that a word may stand for, from every language.
+
+    A learner at a German university writes any of them in an English paper.
+    """
+    found: dict[str, str] = {}
+    for lang in list_languages():
+        for word, letters in load_words(lang, "answers")["letters"].items():
+            found[word] = "".join(sorted({*found.get(word, ""), *letters}))
+    return found
+
 
 _SHORTENED = re.compile(r"([^\W_]+)('*)(?:_(.+))?")
 _BEFORE_NUMBER = re.compile(rf"((?:[^\W\d_]|[{SIGNS}])+'*(?:_[^\W_]+'*)*) ?(?=[-+]?[\d.(])")
@@ -73,7 +69,7 @@ def find_name(typed: str, names: list[str]) -> str:
             return found[0]
     short = typed.strip().lower()
     return _find_short_name(short, names) or _find_unique(
-        _find_short_name(letter, names) for letter in NAMED_BY_WORD.get(short, "")
+        _find_short_name(letter, names) for letter in _letters_of_words().get(short, "")
     )
 
 
