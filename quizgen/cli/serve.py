@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
-from typing import Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import click
 
@@ -18,6 +19,32 @@ from quizgen.cli.options import (
 )
 from quizgen.core.errors import require_extra
 
+if TYPE_CHECKING:
+    from quizgen.bank.bank import Bank
+
+
+MOST_AHEAD = 5000
+"""Papers of a blueprint that are made ahead: each takes a third of a megabyte of the database."""
+
+
+class PapersAheadParam(click.ParamType):
+    """A blueprint or a topic, and how many papers of it: ``mock=300``."""
+
+    name = "blueprint=number"
+
+    def convert(
+        self, value: str | tuple[str, int], param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, int]:
+        """The name and the number; which blueprints there are, the bank says."""
+        if isinstance(value, tuple):
+            return value
+        name, _, number = value.rpartition("=")
+        if not name or not re.fullmatch("[0-9]{1,4}", number, re.ASCII):
+            self.fail(f"{value!r} is not like mock=300", param, ctx)
+        if not 1 <= int(number) <= MOST_AHEAD:
+            self.fail(f"{value!r}: 1 to {MOST_AHEAD} papers", param, ctx)
+        return name, int(number)
+
 
 class ServeOptions(BankOptions):
     """Where to listen, and where to keep what is done."""
@@ -30,6 +57,7 @@ class ServeOptions(BankOptions):
     invite: bool
     database: str
     workers: int
+    papers_ahead: tuple[tuple[str, int], ...]
     log_form: str
     backup: Path | None
     author: bool
@@ -69,6 +97,12 @@ class ServeOptions(BankOptions):
     type=IntRangeParam(1, MOST_JOBS),
     default=2,
     help="Processes that make questions and mark exams. [default: 2]",
+)
+@click.option(
+    "--papers-ahead",
+    type=PapersAheadParam(),
+    multiple=True,
+    help="Papers to make ahead, such as mock=300: who begins waits for none; may be repeated.",
 )
 @click.option(
     "--log",
@@ -115,7 +149,9 @@ def serve(**options: Unpack[ServeOptions]) -> None:
         examine=lint_while_writing if options["author"] else None,
         classroom=options["classroom"],
         workers=options["workers"],
+        papers_ahead=options["papers_ahead"],
     )
+    _check_blueprints(settings.bank, options["papers_ahead"])
     if settings.accounts and options["author"]:
         raise click.UsageError("--author shows every solution: on this machine alone")
     if settings.accounts and options["classroom"]:
@@ -128,3 +164,18 @@ def serve(**options: Unpack[ServeOptions]) -> None:
         settings, options["port"], show=options["show"], tell=click.echo,
         invite=options["invite"], log_form=options["log_form"],
     )  # fmt: skip
+
+
+def _check_blueprints(bank: Bank, wanted: tuple[tuple[str, int], ...]) -> None:
+    """Refuse papers of what the bank has not, and two numbers for one blueprint."""
+    if not wanted:
+        return
+    from quizgen.paper.blueprint import find_blueprint
+
+    names = [name for name, _ in wanted]
+    for name in names:
+        if find_blueprint(name, bank) is None:
+            known = ", ".join((*bank.blueprints, *bank.topics))
+            raise click.UsageError(f"--papers-ahead: no blueprint {name!r} ({known})")
+        if names.count(name) > 1:
+            raise click.UsageError(f"--papers-ahead: {name} stands there twice")

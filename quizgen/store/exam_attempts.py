@@ -71,14 +71,14 @@ class ExamStore:
         name, now = paper.id if paper else None, self.clock.now()
 
         def work(connection: Connection) -> ExamRecord | None:
-            known = _twins(connection, learner, code)
+            known = find_twins(connection, learner, code)
             for one in known:
                 if one.handed is None:
                     return one
             if known and not practice:
                 return None
             if paper:
-                _put_paper(connection, paper)
+                put_paper(connection, paper)
             made = ExamRecord(secrets.token_urlsafe(12), learner, code, now, limit, pauses,
                            paper=name, practice=bool(known))  # fmt: skip
             connection.execute(insert(SITTING).values(msgspec.to_builtins(made)))
@@ -96,7 +96,7 @@ class ExamStore:
         """Keep the paper of an exam that was begun before papers were kept."""
 
         def work(connection: Connection) -> None:
-            _put_paper(connection, paper)
+            put_paper(connection, paper)
             _update_sitting(connection, sitting, paper=paper.id)
 
         self.database.write(sitting.learner, work)
@@ -220,7 +220,8 @@ def _find_sitting(connection: Connection, learner: int, name: str) -> ExamRecord
     return row_to_record(row, ExamRecord) if row else None
 
 
-def _put_paper(connection: Connection, paper: Packed) -> None:
+def put_paper(connection: Connection, paper: Packed) -> None:
+    """Keep a paper, once for all who sit it."""
     row = {"id": paper.id, "code": paper.code, "parts": paper.parts, "data": paper.data}
     upsert(connection, PAPER, row, ["id"])
 
@@ -242,7 +243,7 @@ def _update_sitting(connection: Connection, sitting: ExamRecord, **values: objec
     connection.execute(update(SITTING).where(SITTING.c.id == sitting.id).values(values))
 
 
-def _twins(connection: Connection, learner: int, code: str) -> list[ExamRecord]:
+def find_twins(connection: Connection, learner: int, code: str) -> list[ExamRecord]:
     """A learner's exams with the same numbers, in whatever language."""
     start = numbers_of(code)
     query = select(SITTING).where(

@@ -21,11 +21,15 @@ from quizgen.bank.bank import Bank
 from quizgen.core.decoding import convert, decode_json
 from quizgen.core.errors import QuizgenError
 from quizgen.store import ExamRecord, Packed, Store
-from quizgen.web.job_cache import ROOM, ResultCache, WorkerPool
+from quizgen.web.job_cache import ResultCache, WorkerPool
 from quizgen.web.question_view import PaperView, make_papers
 
 FORMAT = 1
 """Rises with what cannot be read as before; new members of what is kept have defaults instead."""
+ROOM = 60_000_000
+"""Bytes of papers that stay in memory: any other is read in some milliseconds."""
+UNPACKED = 4
+"""Bytes in memory for each that is kept."""
 PICTURES = frozenset({"figure", "solved_figure", "board"})
 MARK = "sha256:"
 _LOG = logging.getLogger("quizgen.papers")
@@ -132,7 +136,9 @@ class Papers:
         QuizgenError
             If there is no such paper, or a template is wrong.
         """
-        return msgspec.msgpack.decode(await self.workers.get_result(wanted, asker), type=Packed)
+        # Nobody asks for a drawn seed again; a code may be entered by everybody in a room.
+        data = await self.workers.get_result(wanted, asker, is_kept=bool(wanted.code))
+        return msgspec.msgpack.decode(data, type=Packed)
 
     async def of(self, sitting: ExamRecord, lang: str) -> PaperView:
         """What an exam shows; one of before papers were kept is made from its code, for good.
@@ -147,7 +153,7 @@ class Papers:
         if found is None:
             data = await run_in_threadpool(self.store.sittings.paper, name)
             found = await run_in_threadpool(unpack, data, lang)
-            self._kept.store_result((name, lang), found, len(data) * 8)
+            self._kept.store_result((name, lang), found, len(data) * UNPACKED)
         return found
 
     async def _attach(self, sitting: ExamRecord) -> str:
