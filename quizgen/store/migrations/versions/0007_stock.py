@@ -11,7 +11,7 @@ def upgrade() -> None:
     """Make its table."""
     op.create_table(
         "stock",
-        sa.Column("paper", sa.ForeignKey("paper.id"), primary_key=True),
+        sa.Column("paper", sa.String(64), sa.ForeignKey("paper.id"), primary_key=True),
         sa.Column("blueprint", sa.String(200), nullable=False),
         sa.Column("version", sa.String(64), nullable=False),
         sa.Column("minutes", sa.Integer, nullable=False),
