@@ -6,6 +6,7 @@ keeps its paper: in every language, with keys, versions, and each figure once, b
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import logging
 import zlib
@@ -26,8 +27,10 @@ from quizgen.web.question_view import PaperView, make_papers
 
 FORMAT = 1
 """Rises with what cannot be read as before; new members of what is kept have defaults instead."""
-ROOM = 60_000_000
+ROOM = 30_000_000
 """Bytes of papers that stay in memory: any other is read in some milliseconds."""
+READERS = 2
+"""Papers that are unpacked at the same time: more take memory and no less time."""
 UNPACKED = 4
 """Bytes in memory for each that is kept."""
 PICTURES = frozenset({"figure", "solved_figure", "board"})
@@ -121,6 +124,7 @@ class Papers:
     def __init__(self, store: Store, workers: WorkerPool) -> None:
         self.store, self.workers = store, workers
         self._kept: ResultCache[tuple[str, str], PaperView] = ResultCache(ROOM)
+        self._reading = asyncio.Semaphore(READERS)
 
     async def make(self, wanted: MakePaper, asker: Hashable = None) -> Packed:
         """A paper, ready to be kept.
@@ -151,8 +155,9 @@ class Papers:
         name = sitting.paper or await self._attach(sitting)
         found = self._kept.get((name, lang))
         if found is None:
-            data = await run_in_threadpool(self.store.sittings.paper, name)
-            found = await run_in_threadpool(unpack, data, lang)
+            async with self._reading:
+                data = await run_in_threadpool(self.store.sittings.paper, name)
+                found = await run_in_threadpool(unpack, data, lang)
             self._kept.store_result((name, lang), found, len(data) * UNPACKED)
         return found
 

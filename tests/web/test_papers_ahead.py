@@ -7,11 +7,13 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from click.testing import CliRunner
 from own_bank import NAME, own_bank
 from sqlalchemy import func, insert, select
 from starlette.testclient import TestClient
 
 from quizgen.bank.bank import Bank
+from quizgen.cli.serve import serve as serve_command
 from quizgen.store import Packed, Store
 from quizgen.store.schema import LEARNER, PAPER, STOCK
 from quizgen.web import papers_ahead
@@ -255,3 +257,23 @@ class TestServer:
         seeds = sorted(int(code.split("-")[1]) for code in codes)
         assert all(seed > 1000 for seed in seeds)
         assert seeds[1] - seeds[0] > 1000
+
+
+@pytest.mark.parametrize(
+    ("given", "complaint"),
+    [
+        (["mock"], "'mock' is not like mock=300"),
+        (["mock=many"], "'mock=many' is not like mock=300"),
+        (["mock=0"], "1 to 5000 papers"),
+        (["mock=5001"], "1 to 5000 papers"),
+        (["nowhere=3"], "no blueprint 'nowhere' (mock"),
+        (["../mock=3"], "no blueprint '../mock'"),
+        (["mock=3", "mock=4"], "mock stands there twice"),
+    ],
+)
+def test_what_cannot_be_made_ahead_is_refused(given, complaint, tmp_path):
+    options = [part for one in given for part in ("--papers-ahead", one)]
+    database = f"sqlite:///{tmp_path / 'x.sqlite3'}"
+    done = CliRunner().invoke(serve_command, [*options, "--database", database])
+    assert done.exit_code == 2
+    assert complaint in " ".join(done.output.replace("│", " ").split())
