@@ -27,23 +27,20 @@ MOST_AHEAD = 5000
 """Papers of a blueprint that are made ahead: each takes a third of a megabyte of the database."""
 
 
-class PapersAheadParam(click.ParamType):
-    """A blueprint or a topic, and how many papers of it: ``mock=300``."""
+def _parse_papers_ahead(
+    _context: click.Context, _option: click.Parameter, given: tuple[str, ...]
+) -> tuple[tuple[str, int], ...]:
+    """Blueprints or topics, and how many papers of each; which there are, the bank says."""
+    return tuple(map(_parse_one_ahead, given))
 
-    name = "blueprint=number"
 
-    def convert(
-        self, value: str | tuple[str, int], param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, int]:
-        """The name and the number; which blueprints there are, the bank says."""
-        if isinstance(value, tuple):
-            return value
-        name, _, number = value.rpartition("=")
-        if not name or not re.fullmatch("[0-9]{1,4}", number, re.ASCII):
-            self.fail(f"{value!r} is not like mock=300", param, ctx)
-        if not 1 <= int(number) <= MOST_AHEAD:
-            self.fail(f"{value!r}: 1 to {MOST_AHEAD} papers", param, ctx)
-        return name, int(number)
+def _parse_one_ahead(text: str) -> tuple[str, int]:
+    name, _, number = text.rpartition("=")
+    if not name or not re.fullmatch("[0-9]{1,4}", number, re.ASCII):
+        raise click.BadParameter(f"{text!r} is not like mock=300")
+    if not 1 <= int(number) <= MOST_AHEAD:
+        raise click.BadParameter(f"{text!r}: 1 to {MOST_AHEAD} papers")
+    return name, int(number)
 
 
 class ServeOptions(BankOptions):
@@ -100,8 +97,9 @@ class ServeOptions(BankOptions):
 )
 @click.option(
     "--papers-ahead",
-    type=PapersAheadParam(),
+    metavar="NAME=NUMBER",
     multiple=True,
+    callback=_parse_papers_ahead,
     help="Papers to make ahead, such as mock=300: who begins waits for none; may be repeated.",
 )
 @click.option(

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import secrets
+from typing import Any
 
 import msgspec
-from sqlalchemy import Connection, Row, delete, func, insert, select
+from sqlalchemy import ColumnElement, Connection, Row, delete, func, insert, select
 
 from quizgen.store.clock import Clock
 from quizgen.store.database import Database
@@ -131,7 +132,7 @@ def delete_unused_papers(connection: Connection) -> None:
     connection.execute(delete(PAPER).where(PAPER.c.id.not_in(sat), PAPER.c.id.not_in(waiting)))
 
 
-def _is_of(blueprint: str, version: str) -> tuple[object, ...]:
+def _is_of(blueprint: str, version: str) -> tuple[ColumnElement[bool], ...]:
     return STOCK.c.blueprint == blueprint, STOCK.c.version == version
 
 
@@ -144,7 +145,9 @@ def _began_since(connection: Connection, learner: int, blueprint: str, since: fl
     return connection.execute(query.limit(1)).first() is not None
 
 
-def _find_paper(connection: Connection, blueprint: str, version: str) -> Row | None:
+def _find_paper(
+    connection: Connection, blueprint: str, version: str
+) -> Row[Any, Any, Any, Any] | None:
     """A paper that no other server is about to give away: PostgreSQL has several writers."""
     query = select(STOCK.c.paper, STOCK.c.minutes, STOCK.c.pauses, PAPER.c.code).join(
         PAPER, PAPER.c.id == STOCK.c.paper

@@ -142,7 +142,7 @@ class Papers:
         """
         # Nobody asks for a drawn seed again; a code may be entered by everybody in a room.
         data = await self.workers.get_result(wanted, asker, is_kept=bool(wanted.code))
-        return msgspec.msgpack.decode(data, type=Packed)
+        return convert(msgspec.msgpack.decode(data), Packed)
 
     async def of(self, sitting: ExamRecord, lang: str) -> PaperView:
         """What an exam shows; one of before papers were kept is made from its code, for good.
