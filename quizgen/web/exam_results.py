@@ -126,14 +126,10 @@ class ExamResults:
 
 @dataclass(frozen=True)
 class MarkPaper:
-<<<<<<< HEAD
-    """Grades a paper in a worker: keys of its questions as JSON, typed answers by part."""
-=======
-    """A paper to mark: the keys of its questions, packed, and what was typed at each part.
+    """Grades a paper in a worker: packed keys of its questions, and what was typed at each part.
 
     It stays in memory as long as its results do, hence packed: a tenth of its JSON.
     """
->>>>>>> crowd
 
     lang: str
     keys: bytes

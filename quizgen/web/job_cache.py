@@ -103,15 +103,10 @@ class WorkerPool:
         assert isinstance(found, QuestionView)  # noqa: S101 - what was asked for
         return found
 
-<<<<<<< HEAD
-    async def get_result(self, job: WorkerJob, asker: Hashable = None) -> bytes:
-        """Return the bytes of a job, from the cache or a worker; concurrent requests share one run.
-=======
     async def get_result(
         self, job: WorkerJob, asker: Hashable = None, *, is_kept: bool = True
     ) -> bytes:
-        """What a job gives, from what is kept if it is among it; asked twice, it is done once.
->>>>>>> crowd
+        """Return the bytes of a job, from the cache or a worker; concurrent requests share one run.
 
         Parameters
         ----------
@@ -151,14 +146,10 @@ class WorkerPool:
             with contextlib.suppress(QuizgenError):  # said to the next who asks
                 await self._get_or_make(wanted, self)
 
-<<<<<<< HEAD
-    async def _get_or_make(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
-        """Return a cached result, or wait for the one run that makes it."""
-=======
     async def _get_or_make(
         self, wanted: PoolRequest, asker: Hashable, *, is_kept: bool = True
     ) -> PoolResult:
->>>>>>> crowd
+        """Return a cached result, or wait for the one run that makes it."""
         found = self._kept.get(wanted)
         if found is not None:
             return found
@@ -169,14 +160,10 @@ class WorkerPool:
             due.add_done_callback(_forget_error)
         return await asyncio.shield(self._due[wanted])
 
-<<<<<<< HEAD
-    async def _make_result(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
-        """Run a job in a worker when it is the asker's turn; return and cache its result."""
-=======
     async def _make_result(
         self, wanted: PoolRequest, asker: Hashable, *, is_kept: bool
     ) -> PoolResult:
->>>>>>> crowd
+        """Run a job in a worker when it is the asker's turn; return and cache its result."""
         try:
             async with self._turns.turn(asker):
                 data = await asyncio.wrap_future(self._submit(wanted))
