@@ -22,6 +22,7 @@ from quizgen.bank.rules import get_claim
 from quizgen.bank.sampler import pick_index
 from quizgen.bank.template import Template
 from quizgen.core.errors import BankError
+from quizgen.kinds.choice import has_value_options
 from quizgen.maths.numbers import format_for_key
 from quizgen.maths.values import Value
 
@@ -89,6 +90,8 @@ def select_from_pool(drawn: PoolVariant, index: int) -> PoolSelection:
         If the pool cannot give what is asked of it.
     """
     answer = drawn.template.rules.part[index].answer
+    if has_value_options(answer):
+        return PoolSelection(())  # its options are values, not names of a list
     if "options" in answer:
         return PoolSelection(_select_options(drawn, index, answer["options"]))
     if "pairs" in answer:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import msgspec
 
@@ -18,6 +18,8 @@ from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, partial, wrong
 from quizgen.kinds.asking import LETTERS, assign_letters, hint, make_spec
 from quizgen.kinds.contract import (
+    MOST_OPTIONS,
+    VALUE_OPTION,
     AnswerKind,
     AskedPart,
     AuthoredPooled,
@@ -39,6 +41,8 @@ _FALSE = frozenset(
     | {"doesn't hold", "does not hold", "trifft nicht zu", "unzutreffend", "nö"}
     | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
+_FEWEST_VALUES = 2
+"""Values that there are to choose from, at least."""
 _SHORTEST = 4
 """Letters that a part of an option's words must have to be recognised."""
 
@@ -72,16 +76,25 @@ _FILLERS = re.compile(
 
 
 class AuthoredChoice(AuthoredPooled, kw_only=True, tag="choice", frozen=True):
-    """One of several options."""
+    """One of several options: written ones, or the values of the key and of known mistakes."""
 
     listed = "options"
-    options: dict[str, Condition]
+    options: dict[str, Condition] = msgspec.field(default_factory=dict)
     right: tuple[int, int] | None = None
     in_order: bool = False
+    unit: str | None = None
 
     def find_problems(self) -> Iterator[FieldProblem]:
         """``right`` needs ``take``, and is [least, most] with 1 <= least <= most."""
+        if self.of and not self.options:
+            if self.right or not isinstance(self.of, str):
+                yield ("of",), "QG115", "names one quantity, whose values are the options"
+            if self.take and not _FEWEST_VALUES <= self.take <= MOST_OPTIONS:
+                yield ("take",), "QG115", f"must be {_FEWEST_VALUES} to {MOST_OPTIONS}"
+            return
         yield from super().find_problems()
+        if self.unit is not None:
+            yield ("unit",), "QG115", "is of values: written options hold their unit"
         if self.right and not (self.take and 1 <= self.right[0] <= self.right[1]):
             yield ("right",), "QG115", "is [least, most] right options among those that take names"
 
@@ -282,12 +295,65 @@ def _echo(spec: ChoiceSpec, chosen: list[int]) -> str:
     return ", ".join(LETTERS[i - 1] for i in sorted(chosen))
 
 
+def has_value_options(answer: Mapping[str, Any]) -> bool:
+    """Whether an authored choice is between values of a quantity, and not between sentences."""
+    return bool(answer["kind"] == "choice" and answer.get("of") and not answer.get("options"))
+
+
 def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
     """The options in a drawn order; the part's error unless exactly one is right."""
+    if has_value_options(part.answer):
+        return _ask_values(part)
     asked = ask_options(part, InputControl("one", lines=0))
     if len(asked.right) != 1:
         raise part.error(f"{len(asked.right)} options are right")
     return asked
+
+
+def _ask_values(part: PartContext) -> AskedPart[ChoiceSpec]:
+    """The value of a quantity among those that known mistakes give, from the least up.
+
+    A mistake that shows the same number as the key or as another mistake is left out. ``take``
+    is the number of options; of more mistakes so many are drawn.
+
+    Raises
+    ------
+    BankError
+        If no mistake gives another value.
+    """
+    (key,), unit = part.answer_values(), part.answer.get("unit", part.units.get(part.answer["of"]))
+    wrong = part.misconception_answers()
+    values = {part.format_option(key, unit or ""): ("", key)}
+    for trap in part.shuffle([*wrong], "/values"):
+        (value,) = wrong[trap]
+        if len(values) < int(part.answer.get("take") or MOST_OPTIONS):
+            values.setdefault(part.format_option(value, unit or ""), (trap, value))
+    if len(values) < _FEWEST_VALUES:
+        raise part.error("no trap of the solver gives another value to choose")
+    rows = sorted(values.items(), key=lambda row: float(row[1][1]))
+    places = {trap: place for place, (_, (trap, _)) in enumerate(rows, 1)}
+    names = [f"{VALUE_OPTION}{text}" for text, _ in rows]
+    right = places.pop("")
+    spec = make_spec(
+        ChoiceSpec,
+        part,
+        of=[part.answer["of"]],
+        options=[text for text, _ in rows],
+        correct=[right],
+        traps=places,
+        notes=part.misconception_notes(places),
+    )
+    mistakes = {
+        trap: msgspec.structs.replace(spec, correct=[place], traps={}, notes={})
+        for trap, place in places.items()
+    }
+    return AskedPart(
+        spec,
+        InputControl("one", lines=0),
+        options=assign_letters(names),
+        right=(("options", names[right - 1]),),
+        mistakes=mistakes,
+    )
 
 
 def option_order(part: PartContext) -> tuple[list[str], list[str]]:

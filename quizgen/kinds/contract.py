@@ -316,6 +316,10 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     mistakes: Mapping[str, S] = msgspec.field(default_factory=dict)
 
 
+VALUE_OPTION = "="
+"""Begins the name of an option that is no sentence of the template but the text after this sign."""
+
+
 class PartContext(Protocol):
     """What a kind may ask of the part of a variant that it makes.
 
@@ -375,6 +379,9 @@ class PartContext(Protocol):
 
     def has_gap(self, name: str) -> bool:
         """Whether a language file has words for a gap of this name."""
+
+    def format_option(self, value: Value, unit: str) -> str:
+        """A value with its unit as an option shows it: exact if that is short, else 4 figures."""
 
     def option_texts(self, names: Iterable[str]) -> list[str]:
         """The wording of options in the first language, as it would be typed."""

@@ -43,11 +43,12 @@ class KeyGiven(msgspec.Struct):
     unit: str = ""
 
 
-class KeyChain(msgspec.Struct):
-    """The chain of a question as plain formulas."""
+class KeyChain(msgspec.Struct, omit_defaults=True):
+    """The chain of a question as plain formulas; ``define`` holds units of the bank's own."""
 
     given: dict[str, KeyGiven]
     steps: list[tuple[str, str, str]]
+    define: list[str] = []
 
     def units(self) -> dict[str, str]:
         """Step name to the unit it is shown in."""
@@ -152,10 +153,8 @@ class KeyQuestion(msgspec.Struct):
     chain: KeyChain | None = None
 
     def known_units(self) -> UnitRegistry:
-        """The units of its chain: those listed, and those that its parts define."""
-        return build_unit_registry(
-            next((tuple(p.spec["define"]) for p in self.parts if "define" in p.spec), ())
-        )
+        """The units of its chain: those listed, and those that its bank defines."""
+        return build_unit_registry(tuple(self.chain.define) if self.chain else ())
 
 
 class AnswerKey(msgspec.Struct):

@@ -260,8 +260,9 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     chain = drawn.template.chain
     if not chain.steps:
         return None
-    units = drawn.template.units
+    units, own = drawn.template.units, drawn.template.about.units
     return {
+        **({"define": list(own)} if own else {}),
         "given": {
             name: {
                 "value": format_for_key(

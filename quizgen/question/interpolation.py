@@ -26,7 +26,7 @@ from quizgen.bank.markdown import (
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
-from quizgen.kinds.contract import LabelledName
+from quizgen.kinds.contract import VALUE_OPTION, LabelledName
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.numbers import format_exact, format_rounded
 from quizgen.maths.tree import Expr
@@ -80,6 +80,8 @@ class Interpolator:
         BankError
             If the language file lacks it, or a slot names nothing that may stand there.
         """
+        if section == "options" and name.startswith(VALUE_OPTION):
+            return to_inlines(name.removeprefix(VALUE_OPTION))
         place = section, name
         if place in self.text.unslotted_sentences:
             return self.text.unslotted_sentences[place]

@@ -20,13 +20,18 @@ from quizgen.kinds.contract import (
     asked_quantities,
 )
 from quizgen.locale import localise_numbers
+from quizgen.maths.numbers import format_exact, format_rounded, is_readable_exactly
 from quizgen.maths.values import Value
 from quizgen.question.interpolation import (
     Interpolator,
     fill_program,
     inlines_as_typed,
     inlines_to_text,
+    join_unit,
 )
+
+OPTION_FIGURES = 4
+"""Significant figures of a value to choose that has no short exact form."""
 
 
 class VariantPart(PartContext):
@@ -123,6 +128,10 @@ class VariantPart(PartContext):
 
     def has_gap(self, name: str) -> bool:
         return any(text.sentence("gaps", name) for text in self.drawn.template.texts.values())
+
+    def format_option(self, value: Value, unit: str) -> str:
+        exactly = format_exact(value) if is_readable_exactly(value) else None
+        return join_unit(exactly or format_rounded(value, figures=OPTION_FIGURES), unit)
 
     def option_texts(self, names: Iterable[str]) -> list[str]:
         filler = Interpolator(self.drawn, self.drawn.template.languages[0])

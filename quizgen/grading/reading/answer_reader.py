@@ -10,20 +10,22 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from typing import Literal, TypeAlias
+from functools import cache
+from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.reading.labels import NAME, find_name
 from quizgen.grading.reading.literals import LITERAL
 from quizgen.grading.reading.normalise import LONGEST_PROSE, REWRITES
 from quizgen.grading.reading.number_words import (
-    NUMBER_WORDS,
     add_large_words,
     add_mixed_units,
+    list_number_words,
     replace_number_word,
 )
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import read_unit
+from quizgen.locale import list_languages, load_words
 
 AnswerForm: TypeAlias = Literal[
     "number", "quantity", "values", "formula", "word", "option", "verbatim"
@@ -42,31 +44,6 @@ _BULLET = re.compile(r"^(?:[•◦▪‣∙*+–—-] +(?=\S)|#{1,6} +)", re.MUL
 _DASH = re.compile(r"^[–—−-] +(?=[.,]?\d)")
 _LIST_MARK = re.compile(r"^\(?[a-h]\) *(?=\S)")
 _ARROW = re.compile(r"^(?:∴|⇒|=>|→|->|>>>|≈|=) *(?=\S)")
-_BEFORE = re.compile(
-    r"^(?:so|thus|hence|therefore|then|ok|okay|(?:i|we) (?:get|got|have)|i (?:think|believe|guess)"
-    r"|it(?: is|['’]s)|(?:this|that)(?: is|['’]s)|(?:this|that|it) (?:gives|makes|yields)|gives"
-    r"|equals|(?:the |my )?(?:answer|result|value|number|output|point|angle|word|solution|total)"
-    r"(?: is|['’]s)?|(?:a |the )?factor(?: of)?|option|prints|in total|exactly|around|roughly|about"
-    r"|approx(?:\.|imately)?|nearly|almost"
-    r"|also|somit|daher|folglich|dann|ich (?:erhalte|bekomme|habe|denke|glaube)|es ist"
-    r"|das (?:ist|ergibt|gibt|macht)|ergibt|(?:der|die|das|meine?) (?:wert|ergebnis|antwort|zahl|"
-    r"ausgabe|winkel|punkt|lösung)(?: ist)?|ergebnis|wert|faktor|antwort|ausgabe|insgesamt|rund"
-    r"|etwa|ungefähr|genau|fast"
-    r"|তাই|সুতরাং|অতএব|আমি|পাই|আমি পাই|উত্তর|ফল|ফলাফল|মান|মোট|প্রায়|প্রায়|এটি|এটা|হলো|হল)"
-    r"(?![\w\u0980-\u09ff'’]) *[:,=]? *(?=\S)",
-    re.IGNORECASE,
-)
-_AFTER = re.compile(
-    r"(?:[,;]? *\(?(?:rounded|gerundet|exact(?:ly)?|genau|approx(?:\.|imately)?|about|ca\.|roughly"
-    r"|i (?:think|guess|believe)|(?:denke|glaube) ich|in total|altogether|insgesamt|হবে|হয়"
-    r"|আসন্ন মান|প্রায়)\)?|[!,…?]+|\.{2,})$",
-    re.IGNORECASE,
-)
-_REASON = re.compile(
-    r"(?<=\S)[,;.:]? *(?<![\w\u0980-\u09ff])(?:because|since|weil|denn|da|কারণ|যেহেতু)"
-    r"(?![\w\u0980-\u09ff]).*$",
-    re.IGNORECASE | re.DOTALL,
-)
 _SIGNED = re.compile(r"^(?:minus|negative|মাইনাস|ঋণাত্মক) +(?=\S)", re.IGNORECASE)
 _PER_CENT = re.compile(r"(?<=\d) *(?:per cent|percent|prozent|শতাংশ)(?!\w)", re.IGNORECASE)
 _ORDINAL = re.compile(r"(?<=\d)(?:st|nd|rd|th|stel|tel)(?![^\W\d_])")
@@ -89,28 +66,48 @@ _FEWEST = 2
 _MOST_WORDS = 14
 _MOST_READINGS = 3
 _LONGEST_UNIT = 4
+_END = r"(?![\w\u0980-\u09ff'’])"
+
+
+class _AroundWords(NamedTuple):
+    """What may stand around an answer, in every language."""
+
+    before: re.Pattern[str]
+    behind: re.Pattern[str]
+    reason: re.Pattern[str]
+    leading_on: frozenset[str]
+    """Words behind a number that are not what it counts."""
+    altering: frozenset[str]
+    """Words that deny a number, offer another one or change it."""
+
+
+@cache
+def _load_around_words() -> _AroundWords:
+    found: dict[str, list[str]] = {}
+    for lang in list_languages():
+        for name, words in load_words(lang, "answers")["around"].items():
+            found.setdefault(name, []).extend(words)
+    listed = {
+        name: "|".join(re.escape(word) for word in sorted(set(words), key=len, reverse=True))
+        for name, words in found.items()
+    }
+    return _AroundWords(
+        re.compile(rf"^(?:{listed['before']}){_END} *[:,=]? *(?=\S)", re.IGNORECASE),
+        re.compile(
+            rf"(?:[,;]? *\((?:{listed['behind']})\)|[,;]? +(?:{listed['behind']})"
+            r"|[!,…?]+|\.{2,})$",
+            re.IGNORECASE,
+        ),
+        re.compile(
+            rf"(?<=\S)[,;.:]? *(?<![\w\u0980-\u09ff])(?:{listed['reasons']}){_END}.*$",
+            re.IGNORECASE | re.DOTALL,
+        ),
+        frozenset(found["leading-on"]),
+        frozenset(found["altering"]),
+    )
+
+
 _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to", "so", "is"})
-_ALTERING = """
-not no never none neither nor isn't don't doesn't cannot or either between to from until till
-through up than least most more less over under above below greater smaller larger maybe
-perhaps unless except without plus times twice thrice double triple half third quarter square
-squared cube cubed root roots inverse reciprocal power log ln lg sin cos tan sqrt exp dozen
-hundred thousand million billion per percent by and but minus negative versus vs if
-nicht kein keine keiner nie weder noch oder entweder zwischen bis von ab mehr weniger als
-über unter größer kleiner höchstens mindestens vielleicht ohne außer plus mal doppelt halb
-hälfte viertel quadrat wurzel hundert tausend million pro prozent und aber wenn gegen
-না নয় নয় নেই বা অথবা কিংবা থেকে পর্যন্ত মধ্যে বেশি কম অন্তত সর্বোচ্চ হয়তো ছাড়া গুণ দ্বিগুণ
-অর্ধেক বর্গ বর্গমূল মূল শত হাজার লাখ কোটি ভাগ শতাংশ এবং ও কিন্তু যদি
-"""
-_MEANS_MORE = frozenset(_ALTERING.split())
-"""Words that deny a number, offer another one or change it."""
-_LEADED = """
-in of as for behind before after on at when where because since i we which so hence thus total
-altogether exactly here there hinter vor nach im als für insgesamt also somit wenn weil hier
-হয় হবে পেছনে পিছনে সামনে কারণ
-"""
-_LEADS_ON = frozenset(_LEADED.split())
-"""Words behind a number that are not what it counts."""
 _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
@@ -157,7 +154,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
         return
     behind = _WORD.match(around[1].lstrip(" ,.)"))
-    named = behind is not None and behind[0].lower() not in _LEADS_ON
+    named = behind is not None and behind[0].lower() not in _load_around_words().leading_on
     if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
         yield found[0]
 
@@ -190,10 +187,11 @@ def _drop_once(text: str, form: AnswerForm) -> str:
     text = _PAIRED.sub(r"\2", text)
     if form != "option":
         text = _LIST_MARK.sub("", text)
-    text = _BEFORE.sub("", _ARROW.sub("", text))
+    around = _load_around_words()
+    text = around.before.sub("", _ARROW.sub("", text))
     if form == "formula" and text.endswith("!"):
         return text
-    return _AFTER.sub("", _REASON.sub("", text)).strip()
+    return around.behind.sub("", around.reason.sub("", text)).strip()
 
 
 def _write_words_as_numbers(text: str) -> str:
@@ -304,7 +302,9 @@ def _is_idle_word(word: str) -> bool:
     small = word.lower().replace("’", "'")
     if len(small) == 1:
         return small in {"a", "i"}
-    return small not in _MEANS_MORE and (small not in NUMBER_WORDS or small in {"ein", "eine"})
+    return small not in _load_around_words().altering and (
+        small not in list_number_words() or small in {"ein", "eine"}
+    )
 
 
 _CUT_SHORT = re.compile(r"\d *(?:\.{2,}|…)")

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import cache
 
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.locale import list_languages, load_words
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.names import fold_name
 
@@ -36,37 +38,28 @@ def name_key(name: str) -> str:
     return _INSIDE.sub("", fold_name(name))
 
 
-NAMED_BY_WORD = {
-    "red": "r", "rot": "r", "লাল": "r",
-    "green": "g", "grün": "g", "gruen": "g", "সবুজ": "g",
-    "blue": "b", "blau": "b", "নীল": "b",
-    "cyan": "c", "zyan": "c", "সায়ান": "c",
-    "magenta": "m", "ম্যাজেন্টা": "m",
-    "yellow": "y", "gelb": "y", "হলুদ": "y",
-    "black": "kb", "schwarz": "kbs", "কালো": "kb",
-    "white": "w", "weiß": "w", "weiss": "w", "সাদা": "w",
-    "hue": "h", "farbton": "h", "হিউ": "h",
-    "saturation": "s", "sättigung": "s", "স্যাচুরেশন": "s",
-    "brightness": "v", "value": "v", "hellwert": "v", "ভ্যালু": "v",
-    "column": "u", "spalte": "u", "কলাম": "u",
-    "row": "v", "zeile": "v", "সারি": "v",
-    "untouched": "0", "unchanged": "0", "unverändert": "0", "অপরিবর্তিত": "0",
-    "horizontal": "x", "vertical": "y", "vertikal": "y", "অনুভূমিক": "x", "উল্লম্ব": "y",
-    "long": "l", "medium": "m", "short": "s", "lang": "l", "mittel": "m", "kurz": "s",
-}  # fmt: skip
-"""Word for a coordinate or a colour to the letters that it may stand for."""
+@cache
+def _letters_of_words() -> dict[str, str]:
+    """Return the letters that a word may stand for, from every language.
 
-SAME_WORDS = (
-    {"before", "vorher", "davor", "আগে", "আগের"},
-    {"after", "afterwards", "nachher", "danach", "পরে", "পরের"},
-    {"width", "breite", "প্রস্থ"},
-    {"height", "höhe", "উচ্চতা"},
-    {"left", "links", "বাম", "বামে"},
-    {"right", "rechts", "ডান", "ডানে"},
-    {"near", "nah", "কাছে"},
-    {"far", "fern", "দূরে"},
-)
-"""Words that are one label in several languages."""
+    A learner at a German university writes any of them in an English paper.
+    """
+    found: dict[str, str] = {}
+    for lang in list_languages():
+        for word, letters in load_words(lang, "answers")["letters"].items():
+            found[word] = "".join(sorted({*found.get(word, ""), *letters}))
+    return found
+
+
+@cache
+def _same_labels() -> tuple[frozenset[str], ...]:
+    """Return the words that are one label in several languages: before, vorher, আগে."""
+    found: dict[str, set[str]] = {}
+    for lang in list_languages():
+        for label, words in load_words(lang, "answers")["labels"].items():
+            found.setdefault(label, set()).update(words)
+    return tuple(map(frozenset, found.values()))
+
 
 _SHORTENED = re.compile(r"([^\W_]+)('*)(?:_(.+))?")
 _BEFORE_NUMBER = re.compile(rf"((?:[^\W\d_]|[{SIGNS}])+'*(?:_[^\W_]+'*)*) ?(?=[-+]?[\d.(])")
@@ -85,11 +78,11 @@ def find_name(typed: str, names: list[str]) -> str:
         if len(found) == 1:
             return found[0]
     short = typed.strip().lower()
-    for words in SAME_WORDS:
+    for words in _same_labels():
         if short in words:
             return _find_unique(name for name in names if name.lower() in words)
     return _find_short_name(short, names) or _find_unique(
-        _find_short_name(letter, names) for letter in NAMED_BY_WORD.get(short, "")
+        _find_short_name(letter, names) for letter in _letters_of_words().get(short, "")
     )
 
 

@@ -4,36 +4,24 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
+from functools import cache
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.reading.units import TypedUnit, read_unit
+from quizgen.locale import list_languages, load_words
 from quizgen.maths.numbers import to_fraction
 
-_COUNTED = """
-zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen \
-sixteen seventeen eighteen nineteen twenty
-null eins zwei drei vier fünf sechs sieben acht neun zehn elf zwölf dreizehn vierzehn fünfzehn \
-sechzehn siebzehn achtzehn neunzehn zwanzig
-শূন্য এক দুই তিন চার পাঁচ ছয় সাত আট নয় দশ এগারো বারো তেরো চৌদ্দ পনেরো ষোলো সতেরো আঠারো উনিশ বিশ
-"""
-"""A line for each language, counting from zero."""
-_TENS = {
-    "twenty": 20, "thirty": 30, "forty": 40, "fifty": 50, "sixty": 60, "seventy": 70,
-    "eighty": 80, "ninety": 90, "hundred": 100, "a hundred": 100, "one hundred": 100,
-    "zwanzig": 20, "dreißig": 30, "vierzig": 40, "fünfzig": 50, "sechzig": 60, "siebzig": 70,
-    "achtzig": 80, "neunzig": 90, "hundert": 100, "einhundert": 100, "ein": 1, "eine": 1,
-    "ষোল": 16, "কুড়ি": 20, "ত্রিশ": 30, "চল্লিশ": 40, "পঞ্চাশ": 50, "ষাট": 60, "সত্তর": 70,
-    "আশি": 80, "নব্বই": 90, "একশ": 100, "একশো": 100,
-}  # fmt: skip
 
+@cache
+def list_number_words() -> dict[str, int]:
+    """The words for whole numbers in every language, in small letters, to the number.
 
-def _build_number_words() -> dict[str, int]:
-    """The words for whole numbers in every language, in small letters."""
-    words = {
-        word: place
-        for listed in _COUNTED.strip().splitlines()
-        for place, word in enumerate(listed.split())
-    } | _TENS
+    Bangla ``নয়`` is nine and *not*: it counts only where nothing else stands before it.
+    """
+    words: dict[str, int] = {}
+    for lang in list_languages():
+        table = load_words(lang, "answers")["numbers"]
+        words |= {word: place for place, word in enumerate(table["counted"])} | table["larger"]
     ones = list(words.items())
     for tens, value in ones:
         if value not in range(20, 100, 10):
@@ -44,15 +32,13 @@ def _build_number_words() -> dict[str, int]:
     return words
 
 
-NUMBER_WORDS = _build_number_words()
-"""Word for a whole number to the number; ``নয়`` is also *not* and stands only alone."""
+@cache
+def _number_word_pattern() -> re.Pattern[str]:
+    longest_first = sorted(list_number_words(), key=len, reverse=True)
+    listed = "|".join(map(re.escape, longest_first))
+    return re.compile(rf"^(?:{listed})(?![\w\u0980-\u09ff])", re.IGNORECASE)
 
-_NUMBER_WORD = re.compile(
-    r"^(?:{})(?![\w\u0980-\u09ff])".format(
-        "|".join(re.escape(word) for word in sorted(NUMBER_WORDS, key=len, reverse=True))
-    ),
-    re.IGNORECASE,
-)
+
 _LARGE = (
     ("crores?|কোটি", 10**7),
     ("millions?|millionen|mio|মিলিয়ন", 10**6),
@@ -72,10 +58,10 @@ _PIECE = re.compile(rf"{_NUMBER} ?((?:[^\W\d]|[\u0980-\u09ff])+)(?:,? (?:and|und
 
 def replace_number_word(text: str) -> str:
     """``ten bits`` as ``10 bits``; the text itself if it begins with no word for a number."""
-    match = _NUMBER_WORD.match(text)
+    match = _number_word_pattern().match(text)
     if match is None:
         return text
-    return f"{NUMBER_WORDS[match[0].lower()]}{text[match.end() :]}"
+    return f"{list_number_words()[match[0].lower()]}{text[match.end() :]}"
 
 
 def add_large_words(text: str) -> str:
