@@ -48,6 +48,9 @@ def feedback_sentence(lang: str, note: str, fields: Mapping[str, object]) -> str
     if "{" not in sentence:
         return sentence
     shown = _Blanks({key: _format_message_field(lang, key, value) for key, value in fields.items()})
+    for key in ECHOED & shown.keys():
+        if f"{{{key}}}(" not in sentence and _is_quotable(fields[key]):
+            shown[key] = f"“{shown[key]}”"
     if "⟨" in sentence:
         sentence = _CLAUSE.sub(lambda clause: _keep_filled_clause(clause[1], shown), sentence)
     return sentence.format_map(shown)
@@ -60,6 +63,15 @@ AS_TYPED = frozenset({"code", "gap", "text"})
 def format_read_back(kind: str, read_as: str, lang: str) -> str:
     """What was read of an answer of a kind, with the decimal sign of a language."""
     return read_as if kind in AS_TYPED else localise_numbers(lang, read_as)
+
+
+ECHOED = frozenset({"found", "typed"})
+"""Fields that hold what the learner typed: it stands in quotation marks."""
+
+
+def _is_quotable(value: object) -> bool:
+    """Whether a field is a text of its own; a bare number is a count of something."""
+    return isinstance(value, str) and bool(value) and not value.isdigit()
 
 
 _NAMES = frozenset({"names", "detail"})

@@ -100,21 +100,29 @@ def read_error_verdict(error: FormulaReadError) -> Verdict:
     return asked(note, column=error.column or 1, found=error.found, expected=error.expected)
 
 
-def explain_verdict(spec: AnySpec, verdict: Verdict, lang: str) -> Verdict:
-    """Put the verdict's note into words of a language."""
+def explain_verdict(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool = True) -> Verdict:
+    """Put the verdict's note into words of a language.
+
+    Parameters
+    ----------
+    spec : Spec
+    verdict : Verdict
+    lang : str
+    reveal : bool
+        Whether the reasons may be said that tell the right answer: not while there are tries left.
+    """
     if not (verdict.note or verdict.cells or verdict.fields):
         return verdict
-    cells = tuple(explain_verdict(spec, cell, lang) for cell in verdict.cells)
-    return attach_message(verdict, _sentence(spec, verdict, lang), cells)
+    cells = tuple(explain_verdict(spec, cell, lang, reveal=reveal) for cell in verdict.cells)
+    return attach_message(verdict, _sentence(spec, verdict, lang, reveal=reveal), cells)
 
 
-def _sentence(spec: AnySpec, verdict: Verdict, lang: str) -> str:
+def _sentence(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool) -> str:
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
         said = feedback_sentence(lang, verdict.note, verdict.fields) if name else ""
-        return " ".join(
-            filter(None, (said, _common_reason(verdict, lang), _reasons(spec, verdict, lang)))
-        )
+        reasons = _reasons(spec, verdict, lang) if reveal or not spec.reasons_tell else ""
+        return " ".join(filter(None, (said, _common_reason(verdict, lang), reasons)))
     return spec.notes.get(lang, {}).get(name) or feedback_sentence(lang, "trap", verdict.fields)
 
 

@@ -45,6 +45,8 @@ class SpecBase:
     of: list[str] | dict[str, str]
     written_as: ClassVar[AnswerForm] = "verbatim"
     """What an answer is made of, which says what may be dropped around it."""
+    reasons_tell: ClassVar[bool] = False
+    """Whether the reasons for a wrong answer hold the right one."""
 
     def quantities(self) -> list[str]:
         """Names of the chain's quantities, in the order of the values."""

@@ -53,6 +53,7 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
     """
 
     written_as: ClassVar[AnswerForm] = "word"
+    reasons_tell: ClassVar[bool] = True
 
     accept: list[list[str] | str]
     among: list[str] = msgspec.field(default_factory=list)
@@ -281,7 +282,8 @@ def _together(cells: list[Verdict], read_as: str, because: tuple[str, ...]) -> V
     missed = tuple(str(i + 1) for i, cell in enumerate(cells) if cell.credit < 1)
     verdict = verdict_by_share(credit, read_as, "gaps", names=missed, because=because)
     if credit == 1 and any(cell.note == "spelling" for cell in cells):
-        return correct(read_as, "spelling", typed="")
+        slips = [str(cell.fields["typed"]) for cell in cells if cell.note == "spelling"]
+        return correct(read_as, "spelling", typed=", ".join(slips))
     return verdict
 
 

@@ -182,9 +182,13 @@ class QuestionGrader:
         verdict = self._judge_in_question(part, spec, typed)
         return _build_part_result(self.question, part, typed, verdict)
 
-    def explain_part(self, part: KeyPart, verdict: Verdict) -> Verdict:
-        """The verdict on a part with its sentences, for the person who is shown it."""
-        return explain_verdict(part.parse_spec(proven=self.proven), verdict, self.options.lang)
+    def explain_part(self, part: KeyPart, verdict: Verdict, *, reveal: bool = True) -> Verdict:
+        """The verdict on a part with its sentences, for the person who is shown it.
+
+        Without ``reveal`` no reason is said that tells the right answer.
+        """
+        spec = part.parse_spec(proven=self.proven)
+        return explain_verdict(spec, verdict, self.options.lang, reveal=reveal)
 
     def grade_part(self, part: KeyPart, typed: str) -> PartResult:
         """Mark one part and explain the verdict."""

@@ -159,8 +159,11 @@ class PartAttempt(Generic[P, S]):
         return AnswerFeedback(verdict, then, TRIES - self.state.tries)
 
     def explain_verdict(self, verdict: Verdict) -> Verdict:
-        """Return the verdict with its sentence, in the language of the learner."""
-        return self._marker.explain_part(self._keyed, verdict)
+        """Return the verdict with its sentence, in the language of the learner.
+
+        While there are tries left, reasons that tell the right answer are held back.
+        """
+        return self._marker.explain_part(self._keyed, verdict, reveal=self.outcome is not None)
 
     def _decide_next_step(self, verdict: Verdict) -> NextStep:
         """Return what follows a verdict; count a try unless it could not be read."""

@@ -21,7 +21,10 @@ def list_number_words() -> dict[str, int]:
     words: dict[str, int] = {}
     for lang in list_languages():
         table = load_words(lang, "answers")["numbers"]
-        words |= {word: place for place, word in enumerate(table["counted"])} | table["larger"]
+        words |= {word: place for place, word in enumerate(table["counted"])}
+        words |= {
+            word: int(value) for value, word in (one.split(" ", 1) for one in table["larger"])
+        }
     ones = list(words.items())
     for tens, value in ones:
         if value not in range(20, 100, 10):
