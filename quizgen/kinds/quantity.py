@@ -33,7 +33,7 @@ from quizgen.kinds.contract import (
 )
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
-from quizgen.maths.notation import pretty
+from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
@@ -73,7 +73,12 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge a typed quantity."""
-        sides = read_typed_sides(typed, options.decimal)
+        try:
+            sides = read_typed_sides(typed, options.decimal)
+        except FormulaReadError as error:
+            if error.expected and error.found.lower() == self.unit.lower():
+                error.expected = [self.unit]  # ev is eV where that is asked, not EV
+            raise
         return best_verdict(_judge_side(self, side, options) for side in sides)
 
     def show(self) -> str:

@@ -16,7 +16,7 @@ from quizgen.grading.spec import NumericSpec, matches_target
 from quizgen.grading.verdict import HALF, Verdict, partial, wrong
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.numbers import to_fraction
-from quizgen.maths.tree import Num
+from quizgen.maths.tree import Num, operators_in
 from quizgen.maths.units import unit_factor
 from quizgen.maths.values import Value
 
@@ -41,6 +41,12 @@ class NumberDiagnosis(msgspec.Struct, frozen=True):
         ):
             return None
         return partial(Fraction(1), self.number.read_as, CARRIED)
+
+    def operators(self) -> frozenset[str]:
+        """Functions and constants that stand in the steps towards the quantity."""
+        chain = self.context.chain
+        steps = chain.required_steps(self.target) & chain.by_name.keys()
+        return frozenset().union(*(operators_in(chain.by_name[name].expr) for name in steps))
 
     def find_slip(self, value: Value) -> Verdict | None:
         """Name the single slip that explains a value."""

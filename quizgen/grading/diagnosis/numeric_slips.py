@@ -35,6 +35,9 @@ with working_precision():
     }
 """Constant factors worth naming."""
 
+SOURCES = {"π": "pi", "√": "sqrt"}
+"""Sign in the name of a factor to the operator that it comes from."""
+
 _ABOUT = {name: to_float(factor) for name, factor in FACTORS.items()}
 NEAR = 0.01
 """Relative distance of floats beyond which exact arithmetic need not be asked: twice ``CLOSE``."""
@@ -68,7 +71,12 @@ def is_in_radians(value: Value, key: Value) -> bool:
 
 
 def find_generic_slip(
-    number: ReadNumber, value: Value, key: Value, *, ratio: bool
+    number: ReadNumber,
+    value: Value,
+    key: Value,
+    *,
+    ratio: bool,
+    operators: frozenset[str] = frozenset(),
 ) -> tuple[str, dict[str, object]]:
     """Explain a wrong number by one generic slip; a sign alone was looked for before.
 
@@ -80,6 +88,9 @@ def find_generic_slip(
         The wrong number and the right one, in one unit.
     ratio : bool
         Whether the key is a plain ratio: only one of these can be upside down.
+    operators : frozenset of str
+        Functions and constants in the steps towards the key: a factor of √2 or π is named only
+        where it can come from, since chance explains any number within half a percent as well.
 
     Returns
     -------
@@ -93,7 +104,7 @@ def find_generic_slip(
         return "reciprocal", {}
     if power_of_ten_off(-value, key):
         return "sign-and-power", {}
-    return _find_common_factor(value, key)
+    return _find_common_factor(value, key, operators)
 
 
 def find_common_slip(cells: Sequence[Verdict]) -> tuple[str, dict[str, object]]:
@@ -117,9 +128,14 @@ def _power_note(number: ReadNumber, key: Value, power: int) -> tuple[str, dict[s
     return "power-of-ten", {"power": power}
 
 
-def _find_common_factor(value: Value, key: Value) -> tuple[str, dict[str, object]]:
+def _find_common_factor(
+    value: Value, key: Value, operators: frozenset[str]
+) -> tuple[str, dict[str, object]]:
     ratio = _compute_ratio_to_key(value, key)
     for name, factor in FACTORS.items():
+        source = next((op for sign, op in SOURCES.items() if sign in name), "")
+        if source and source not in operators:
+            continue
         if abs(ratio / _ABOUT[name] - 1) < NEAR and agrees_within_half_percent(value, key * factor):
             return "factor", {"factor": name}
     return "", {}

@@ -135,7 +135,10 @@ def _diagnose_wrong_value(
     diagnosed = asked.hints.find_slip(value) if asked.hints else None
     if diagnosed is not None:
         return replace(diagnosed, read_as=read_as)
-    note, fields = find_generic_slip(number, value, asked.key, ratio=asked.ratio)
+    operators = asked.hints.operators() if asked.hints else frozenset[str]()
+    note, fields = find_generic_slip(
+        number, value, asked.key, ratio=asked.ratio, operators=operators
+    )
     return wrong(read_as, note, **fields)
 
 

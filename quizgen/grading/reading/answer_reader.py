@@ -53,7 +53,7 @@ _WORD = re.compile(rf"{_LETTERS}+(?:['’-]{_LETTERS}+)*")
 _DIGITS = LITERAL.pattern.removesuffix(r"\.?")
 _FOUND = re.compile(
     rf"(?<![\w.,^/*])[-+]?(?:{_DIGITS})(?:[eE][-+]?\d+)?"
-    r"(?: ?[*·×] ?10 ?\^ ?\(?[-+]?\d+\)?)?(?: ?/ ?\d+)?(?![\w^(])|"
+    r"(?: ?[*·×] ?10)?(?: ?\^ ?\(?[-+]?\d+\)?)?(?: ?/ ?\d+)?(?![\w^(])|"
     rf"(?<![\w.,^/*])[-+]?(?:{_DIGITS})(?=[^\W\d_])"
 )
 _GROUPED = re.compile(r"(?<![\d.,])\d{1,3}([.,])\d{3}(?:\1\d{3})+(?![\d.,]?\d)")

@@ -313,5 +313,13 @@ def relocate_error(error: FormulaReadError, source: SourceText) -> FormulaReadEr
     """Point a reading error at the column in the typed text."""
     if error.code == "unknown-name" and not error.expected:
         error.code = "number-expected"
-    column = source.column((error.column or 1) - 1)
-    return FormulaReadError(error.code, column, error.found, error.expected)
+    position = (error.column or 1) - 1
+    found = error.found
+    if error.code == "number-expected" and source.text.startswith(found, position):
+        # A Bangla vowel sign is no letter: the word is quoted whole, not up to its first sign.
+        word = _WORD.match(source.text, position)
+        found = word[0] if word else found
+    return FormulaReadError(error.code, source.column(position), found, error.expected)
+
+
+_WORD = re.compile(r"(?:[^\W\d_]|[\u0981-\u0983\u09bc\u09be-\u09cd\u09d7])+")
