@@ -14,6 +14,7 @@ from quizgen.grading.reading.answer_reader import (
     drop_markup,
     has_second_meaning,
     is_cut_short,
+    is_denied,
     list_plainer_texts,
     list_readings,
     prove_groups,
@@ -29,9 +30,13 @@ TWO_READINGS = frozenset({"comma-twice", "two-readings"})
 MEASURED = frozenset({"number", "quantity"})
 """Forms of answers that are one number."""
 
+WITHOUT_WORDS = MEASURED | {"values"}
+"""Forms of answers in which a word can only be a name or a unit, or deny what follows."""
+
 DECIDED = frozenset(
     {"unit-not-asked", "unit-other", "percent-not-asked", "unknown-unit-case", "two-readings",
-     "used-twice", "no-answer", "too-long", "which-term", "another-word"}
+     "used-twice", "no-answer", "too-long", "which-term", "another-word",
+     "denied"}
 )  # fmt: skip
 """Notes on what was read well enough: nothing around it makes it unreadable."""
 
@@ -86,9 +91,12 @@ def _prepare(typed: str, form: AnswerForm) -> str:
 
 def _judge_text(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
     try:
-        return spec.judge(typed, options)
+        verdict = spec.judge(typed, options)
     except FormulaReadError as error:
         return read_error_verdict(error)
+    if verdict.is_graded and spec.written_as in WITHOUT_WORDS and is_denied(typed):
+        return ambiguous("denied")
+    return verdict
 
 
 def read_error_verdict(error: FormulaReadError) -> Verdict:

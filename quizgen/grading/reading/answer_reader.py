@@ -79,6 +79,7 @@ class _AroundWords(NamedTuple):
     """Words behind a number that are not what it counts."""
     altering: frozenset[str]
     """Words that deny a number, offer another one or change it."""
+    denying: re.Pattern[str]
 
 
 @cache
@@ -104,6 +105,7 @@ def _load_around_words() -> _AroundWords:
         ),
         frozenset(found["leading-on"]),
         frozenset(found["altering"]),
+        re.compile(rf"(?<![\w\u0980-\u09ff])(?:{listed['denying']}){_END}", re.IGNORECASE),
     )
 
 
@@ -153,7 +155,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     found, around = scan_numbers(text)
     if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
         return
-    behind = _WORD.match(around[1].lstrip(" ,.)"))
+    behind = _WORD.search(around[1])
     named = behind is not None and behind[0].lower() not in _load_around_words().leading_on
     if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
         yield found[0]
@@ -311,6 +313,11 @@ _CUT_SHORT = re.compile(r"\d *(?:\.{2,}|…)")
 _RANGE = re.compile(r"[-+−]?\d+(?:[.,]\d+)? *[-–—] *\d+(?:[.,]\d+)?(?: *[^\W\d][^\d]*)?")
 _NUMBERED = re.compile(r"\d{1,2}[.)] +[-+−–]?[.,]?\d.*")
 _RAISED_DOT = re.compile(r"[-+−]?\d+·\d+(?: *[^\W\d][^\d]*)?")
+
+
+def is_denied(text: str) -> bool:
+    """Whether a word says that something is not the answer."""
+    return _load_around_words().denying.search(text) is not None
 
 
 def is_cut_short(typed: str) -> bool:

@@ -1,0 +1,57 @@
+"""No message tells the answer while there are tries left: nonsense typed into every part."""
+
+from __future__ import annotations
+
+import pytest
+from sweep import spread
+
+from quizgen.bank.bank import builtin_bank
+from quizgen.grading.judge import explain_verdict, judge_answer
+from quizgen.grading.options import PLAIN
+from quizgen.grading.spec import NumericSpec
+from quizgen.kinds.code import CodeSpec
+from quizgen.kinds.gap import GapSpec
+from quizgen.question.compose import compose_question
+
+NONSENSE = ("zzzzzzz", "987654321", "জজজজজজজ", "qqqq; zzzz; wwww; vvvv")
+NAMES = sorted(template.id for template in builtin_bank())
+WITH_GAPS = [
+    name
+    for name in NAMES
+    if any(part.answer["kind"] == "gap" for part in builtin_bank().rules(name).part)
+]
+OTHERS = [name for name in NAMES if name not in WITH_GAPS]
+SHORTEST = 3
+
+
+def wanted_words(spec) -> set[str]:
+    """What a message must not hold: accepted words, or the key as it is printed."""
+    if isinstance(spec, GapSpec):
+        return {word.lower() for gap in spec.gaps() for word in gap if len(word) >= SHORTEST}
+    shown = spec.show().lower() if isinstance(spec, (NumericSpec, CodeSpec)) else ""
+    return {shown} if len(shown) >= SHORTEST else set()
+
+
+@pytest.mark.parametrize("name", [*WITH_GAPS, *spread(OTHERS, 24)])
+def test_nonsense_is_answered_without_the_answer(name):
+    template = builtin_bank().template(name)
+    for spec in compose_question(template, "1", "en")[1].specs:
+        for typed in NONSENSE:
+            verdict = judge_answer(spec, typed, PLAIN)
+            for lang in ("en", "bn", "de"):
+                message = explain_verdict(spec, verdict, lang, reveal=False).message.lower()
+                assert [word for word in wanted_words(spec) if word in message] == [], typed
+
+
+def test_the_reasons_are_said_in_the_end():
+    template = builtin_bank().template("rods-cones-and-peaks")
+    specs = [s for s in compose_question(template, "1", "en")[1].specs if isinstance(s, GapSpec)]
+    assert specs
+    for spec in specs:
+        typed = "; ".join(["zzzzzzz"] * len(spec.gaps()))
+        verdict = judge_answer(spec, typed, PLAIN)
+        early, late = (
+            explain_verdict(spec, verdict, "en", reveal=reveal).message for reveal in (False, True)
+        )
+        assert early
+        assert late.startswith(early)
