@@ -160,7 +160,7 @@ EXPECTED = "# and six hexadecimal digits are expected, such as #ff8000."
     [
         ("#FF8000", 1.0, ""),
         ("ff8001", pytest.approx(2 / 3), "2 of 3 channels are right."),
-        ("orange", 0.0, f"orange is no colour: {EXPECTED}"),
+        ("orange", 0.0, f"“orange” is no colour: {EXPECTED}"),
     ],
 )
 def test_what_is_typed_on_the_form_gets_its_marks(walked, typed, credit, message):
