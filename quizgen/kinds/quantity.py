@@ -134,7 +134,8 @@ def _judge_without_unit(
     verdict = judge_in_unit(spec, number, number.value, options, number.read_as)
     if spec.unit == "%" and not verdict.credit:
         fraction = judge_in_unit(spec, number, number.value * 100, options, number.read_as)
-        verdict = fraction if fraction.credit else verdict
+        if fraction.credit:
+            return fraction  # 0.571 is the share itself, and needs no sign
     if not wanted.dimension and wanted.factor == 1:
         return verdict
     if spec.bare:

@@ -146,10 +146,10 @@ TWICE, THRICE = {"factor": "2"}, {"factor": "3"}
     ("said", "shared"),
     [
         ([(0, "factor", TWICE), (0, "factor", TWICE)], ("factor", TWICE)),
-        ([(0, "factor", TWICE), (0, "factor", THRICE)], ("factor", {})),
+        ([(0, "factor", TWICE), (0, "factor", THRICE)], ("", {})),
         ([(0, "x", {"power": 1, "asked": "m"}), (0, "x", {"power": 2, "asked": "m"})],
          ("x", {"asked": "m"})),
-        ([(0, "factor", TWICE), (0, "factor", {})], ("factor", {})),
+        ([(0, "factor", TWICE), (0, "factor", {})], ("", {})),
         ([(HALF, "factor", TWICE), (0, "factor", TWICE)], ("factor", TWICE)),
         ([(0, "factor", TWICE), (0, "sign", {})], ("", {})),
         ([(0, "factor", TWICE), (1, "", {})], ("", {})),

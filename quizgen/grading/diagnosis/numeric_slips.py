@@ -117,6 +117,8 @@ def find_common_slip(cells: Sequence[Verdict]) -> tuple[str, dict[str, object]]:
         return "", {}
     first = cells[0].fields
     same = {k: v for k, v in first.items() if all(c.fields.get(k) == v for c in cells)}
+    if notes == {"factor"} and not same:
+        return "", {}  # a factor each is no slip in common
     return notes.pop(), same
 
 
