@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from quizgen.paper.answer_key import make_answer_key
     from quizgen.paper.blueprint import Blueprint, load_blueprint
     from quizgen.paper.grading import PaperResult, grade_paper
+    from quizgen.paper.one_part import mark_part
     from quizgen.paper.paper import Paper, build_paper, rebuild_paper
     from quizgen.question.compose import Question, QuestionKey, compose_question
     from quizgen.render import render_paper
@@ -65,6 +66,7 @@ HOMES = {
     "show_key": "kinds.grade",
     "PaperResult": "paper.grading",
     "grade_paper": "paper.grading",
+    "mark_part": "paper.one_part",
     "lint_template": "lint.template_checks",
     "QuizgenError": "core.errors",
 }
@@ -92,6 +94,7 @@ __all__ = [  # noqa: RUF022 - in the order of the line
     "show_key",
     "PaperResult",
     "grade_paper",
+    "mark_part",
     "lint_template",
     "QuizgenError",
     "__version__",

@@ -4,19 +4,28 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from typing import TypedDict, Unpack
+from typing import Unpack
 
 import click
 
-from quizgen.cli.options import language_option
+from quizgen.cli.options import (
+    SEED,
+    BankOptions,
+    bank_options,
+    language_option,
+    open_bank,
+)
 from quizgen.core.errors import KeyFileError
 from quizgen.grading.options import DECIMALS
+from quizgen.grading.verdict import Verdict
 from quizgen.locale import FIRST
 
 
-class MarkOptions(TypedDict):
+class MarkOptions(BankOptions):
     """Options of ``quizgen mark``."""
 
+    part: str
+    seed: int
     lang: str | None
     decimal: str
     settle: bool
@@ -29,14 +38,20 @@ class MarkOptions(TypedDict):
 @click.argument("spec", required=False)
 @click.argument("typed", required=False)
 @click.option("--batch", is_flag=True, help="Read JSON Lines from standard input.")
+@click.option("--part", default="a", show_default=True, help="The part of the template.")
+@click.option("--seed", type=SEED, default=1, show_default=True, help="Number that fixes the draw.")
 @language_option
 @click.option("--decimal", type=click.Choice(DECIMALS), default=DECIMALS[0], show_default=True,
               help="The decimal sign.")  # fmt: skip
 @click.option("--settle", is_flag=True, help="Allow SymPy to settle an undecided formula.")
+@bank_options
 def mark(
     spec: str | None, typed: str | None, *, batch: bool, **options: Unpack[MarkOptions]
 ) -> None:
     """Mark TYPED against SPEC, an inline TOML table: '{kind="number", value="20/3", decimals=3}'.
+
+    SPEC may also be the name of a template: then a part of it is marked, with the question around,
+    as a paper is. The numbers are those of ``quizgen preview`` with the same seed.
 
     With --batch each line of standard input is {"spec": {...}, "typed": "...", "lang": "en",
     "decimal": "auto|point|comma"} and each line of output
@@ -49,13 +64,27 @@ def mark(
         raise click.UsageError("give SPEC and TYPED, or --batch")
     import json
 
+    inline = spec.lstrip().startswith("{")
+    verdict = _mark_spec(spec, typed, options) if inline else _mark_template(spec, typed, options)
+    click.echo(json.dumps(verdict.as_json(), ensure_ascii=False))
+
+
+def _mark_spec(spec: str, typed: str, options: MarkOptions) -> Verdict:
     from quizgen.kinds.grade import grade_answer
 
-    verdict = grade_answer(
+    return grade_answer(
         _parse_inline_spec(spec), typed, lang=options["lang"] or FIRST, decimal=options["decimal"],
         settle=options["settle"],
     )  # fmt: skip
-    click.echo(json.dumps(verdict.as_json(), ensure_ascii=False))
+
+
+def _mark_template(name: str, typed: str, options: MarkOptions) -> Verdict:
+    from quizgen.paper.one_part import mark_part
+
+    return mark_part(
+        open_bank(options).template(name), typed, part=options["part"], seed=options["seed"],
+        lang=options["lang"] or FIRST, decimal=options["decimal"],
+    )  # fmt: skip
 
 
 def _parse_inline_spec(text: str) -> Mapping[str, object]:

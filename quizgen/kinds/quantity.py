@@ -77,7 +77,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
             sides = read_typed_sides(typed, options.decimal)
         except FormulaReadError as error:
             if error.expected and error.found.lower() == self.unit.lower():
-                error.expected = [self.unit]  # ev is eV where that is asked, not EV
+                error.expected = (self.unit,)  # ev is eV where that is asked, not EV
             raise
         return best_verdict(_judge_side(self, side, options) for side in sides)
 

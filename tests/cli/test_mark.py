@@ -7,7 +7,9 @@ import json
 import pytest
 from click.testing import CliRunner
 
+import quizgen
 from quizgen.cli.mark import mark
+from quizgen.core.errors import InvalidChoiceError
 
 
 @pytest.mark.parametrize("typed", ["-0.3", "-3/10", "-.3", "-0,3", "- 0.3", "−0.3"])
@@ -26,3 +28,34 @@ def test_options_still_stand_anywhere():
 def test_an_unknown_option_is_an_error():
     result = CliRunner().invoke(mark, ["--lng", '{kind="number", value="-0.3"}', "-0.3"])
     assert result.exit_code == 2
+
+
+def mark_lens(*arguments):
+    result = CliRunner().invoke(mark, ["thin-lens-image-distance", "--seed", "1", *arguments])
+    assert result.exit_code == 0, result.output
+    return json.loads(result.output)
+
+
+@pytest.mark.parametrize(
+    ("typed", "verdict", "note"),
+    [("102.5 mm behind the lens", "correct", ""), ("not 102.5 mm", "ambiguous", "denied"),
+     ("102.5", "partial", "unit-missing")],
+)  # fmt: skip
+def test_a_part_of_a_template_is_marked(typed, verdict, note):
+    """f = 100 mm and an object at 4100 mm: 1/(1/100 - 1/4100) mm is 102.5 mm."""
+    found = mark_lens("--part", "a", typed)
+    assert (found["verdict"], found["note"]) == (verdict, note)
+
+
+def test_a_part_that_is_not_there_is_refused():
+    result = CliRunner().invoke(mark, ["point-to-image-plane", "--part", "z", "5"])
+    assert isinstance(result.exception, InvalidChoiceError)
+
+
+def test_an_earlier_error_is_carried_forward():
+    """f = 75 mm: with an own m = 0.2 the image lies at 75 mm (1 + 0.2) = 90 mm."""
+    template = quizgen.builtin_bank().template("magnification-and-object-distance")
+    alone = quizgen.mark_part(template, "90 mm", part="b")
+    carried = quizgen.mark_part(template, "90 mm", part="b", earlier={"a": "0.2"})
+    assert (alone.verdict, alone.credit) == ("wrong", 0)
+    assert (carried.note, carried.credit) == ("carried-forward", 1)
