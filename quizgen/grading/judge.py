@@ -58,26 +58,35 @@ def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
 def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
     form = spec.written_as
     verdict = _judge_text(spec, _prepare(typed, form), options)
-    if verdict.is_graded:
-        doubtful = verdict.verdict == WRONG and form in MEASURED and has_second_meaning(typed)
-        if doubtful:
-            return ambiguous("bullet-or-range", verdict.read_as)
-        if verdict.note != "unknown-term":
-            return verdict
-    if verdict.note in DECIDED or not typed.strip():
+    if verdict.verdict == WRONG and form in MEASURED and has_second_meaning(typed):
+        return ambiguous("bullet-or-range", verdict.read_as)
+    decided = verdict.is_graded or verdict.note in DECIDED or not typed.strip()
+    if decided and verdict.note != "unknown-term":
         return verdict
-    for text in list_plainer_texts(typed, form, spec.value_names()):
+    plainer = _judge_plainer(spec, typed, options)
+    return plainer or (verdict if verdict.is_graded else _ask_what_is_meant(form, typed, verdict))
+
+
+def _judge_plainer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict | None:
+    """The verdict on the answer without what stands around it; none if that does not help."""
+    for text in list_plainer_texts(typed, spec.written_as, spec.value_names()):
         plainer = _judge_text(spec, text, options)
         if plainer.verdict == WRONG and is_cut_short(typed):
-            break
+            return None
         if plainer.note != "unknown-term" and (plainer.is_graded or plainer.note in DECIDED):
             return plainer
-    readings = list_readings(typed) if form in MEASURED and not verdict.is_graded else []
-    if readings:
-        return ambiguous(
-            "several-answers", " | ".join(readings), readings=tuple(f"“{one}”" for one in readings)
-        )
-    return verdict
+    return None
+
+
+def _ask_what_is_meant(form: AnswerForm, typed: str, verdict: Verdict) -> Verdict:
+    """Ask back by what is denied or what there is to choose from; else as the kind asks."""
+    if form in WITHOUT_WORDS and is_denied(typed):
+        return ambiguous("denied")
+    readings = list_readings(typed) if form in MEASURED else []
+    if not readings:
+        return verdict
+    quoted = tuple(f"“{one}”" for one in readings)
+    return ambiguous("several-answers", " | ".join(readings), readings=quoted)
 
 
 def _prepare(typed: str, form: AnswerForm) -> str:
