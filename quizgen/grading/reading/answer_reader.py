@@ -38,9 +38,10 @@ _EMOJI = re.compile("[\u2600-\u2712\u2719-\u2753\u2757-\u27bf\u2b00-\u2bff\U0001
 _MARKDOWN = re.compile(
     r"(?<![\w*])(\*\*|__|~~)(?=\S)(.+?)(?<=\S)\1(?![\w*])|(?<![\w*)])\*(?=\S)([^*]+)(?<=\S)\*(?!\S)"
 )
+_CODE = re.compile(r"\s*`{1,3}([^`]+)`{1,3}\s*")
 _QUOTES = '“”„‟«»"‹›'
 _PAIRED = re.compile(r"^(['‘’‚`´]+)(.+?)['‘’`´]+$")
-_BULLET = re.compile(r"^(?:[•◦▪‣∙*+–—-] +(?=\S)|#{1,6} +)", re.MULTILINE)
+_BULLET = re.compile(r"^(?:[•◦▪‣∙∴⇒→*+–—-] +(?=\S)|#{1,6} +)", re.MULTILINE)
 _DASH = re.compile(r"^[–—−-] +(?=[.,]?\d)")
 _LIST_MARK = re.compile(r"^\(?[a-h]\) *(?=\S)")
 _ARROW = re.compile(r"^(?:∴|⇒|=>|→|->|>>>|≈|=) *(?=\S)")
@@ -181,7 +182,9 @@ def drop_bullets(typed: str) -> str:
 
 def drop_markup(typed: str) -> str:
     """The answer without marks of Markdown and emoji."""
-    return _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed))
+    text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed))
+    code = _CODE.fullmatch(text) if "`" in text else None
+    return code[1] if code else text
 
 
 def _drop_once(text: str, form: AnswerForm) -> str:
