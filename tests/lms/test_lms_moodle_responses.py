@@ -88,8 +88,8 @@ def test_what_cannot_be_told_apart_is_asked_back(found):
     """Two steps at one place, and a number that reads like another field."""
     parts = {part.id: part for part in found[3].result.parts}
     assert found[3].result.asked_back == 2
-    assert parts["5a"].verdict.message == "Two steps were given the same place: 1, 1, 2, 3"
-    assert parts["10"].status == "unreadable"
+    assert parts["5a"].verdict.message == "Two steps were given the same place: “1, 1, 2, 3”"
+    assert parts["10"].status == "ambiguous"
     assert {parts[name].status for name in ("1", "4b", "6", "11b")} == {"blank"}
 
 
@@ -163,7 +163,7 @@ def test_options_that_are_not_there_are_not_wrong(keys, tmp_path):
     part = next(part for part in found[1].result.parts if part.id == "4b")
     assert (part.status, part.verdict.message) == (
         "unreadable",
-        "None of the options says this: A. sideways",
+        "None of the options says this: “A. sideways”",
     )
 
 

@@ -57,7 +57,7 @@ def test_right_wrong_and_unreadable_answers(client, token, begin, bank):
     [
         (["0.5", "0.2", " 0.4 +"], "S : Column 7: something is missing.", 2),
         (["0.5", "1/0", "0.4"], "Δ : Division by zero.", 1),
-        (["0.2 0.3", "0.2", "0.4"], "V : Column 5: 0.3 does not fit here.", 0),
+        (["0.2 0.3", "0.2", "0.4"], "V : Column 5: “0.3” does not fit here.", 0),
         (["", "0.2", "0.4"], "Fill in every field.", 0),
     ],
 )
