@@ -1,7 +1,8 @@
 """The prose of a template: a small Markdown subset with slots and mathematics.
 
 ``{{ name }}`` fills in a drawn value with its unit and nothing else; ``$...$`` is mathematics in
-the grammar that students type. Loops, calls, attributes and arithmetic do not exist here.
+the grammar that students type, else in LaTeX. Loops, calls, attributes and arithmetic do not exist
+here.
 """
 
 from __future__ import annotations
@@ -14,8 +15,13 @@ from typing import TYPE_CHECKING, Any, Protocol
 import msgspec
 
 from quizgen.core.errors import BankError, FormulaError
-from quizgen.maths.notation import parse_formula, pretty
+from quizgen.core.positions import TEXT
+from quizgen.maths.notation import FormulaReadError, parse_formula, pretty
 from quizgen.maths.tree import Expr
+from quizgen.typeset import lay_out
+from quizgen.typeset.from_latex import SLOT, LatexError, lay_out_latex, spell_as_latex
+from quizgen.typeset.leaves import names_of_leaves
+from quizgen.typeset.nodes import Leaf, Node
 
 
 class PlainText(msgspec.Struct, frozen=True, array_like=True, tag="w"):
@@ -34,6 +40,16 @@ class InlineFormula(msgspec.Struct, frozen=True, array_like=True, tag="f"):
     """Mathematics in a sentence, as a formula tree."""
 
     expr: Expr
+
+
+class LaidOutFormula(msgspec.Struct, frozen=True, array_like=True, tag="x"):
+    """Mathematics in a sentence that is laid out already, with leaves for drawn values.
+
+    ``source`` is how it stands in the file.
+    """
+
+    node: Node
+    source: str
 
 
 class InlineCode(msgspec.Struct, frozen=True, array_like=True, tag="c"):
@@ -57,7 +73,7 @@ class PictureLink(msgspec.Struct, frozen=True, array_like=True, tag="l"):
 
 
 class TypesetFormula(Protocol):
-    """What stands in the place of a ``Formula`` or a ``PictureLink`` once filled."""
+    """What stands in the place of a formula or a ``PictureLink`` once filled."""
 
     @property
     def typed(self) -> str:
@@ -77,6 +93,7 @@ if TYPE_CHECKING:
         PlainText
         | Slot
         | InlineFormula
+        | LaidOutFormula
         | InlineCode
         | Emphasis
         | PictureLink
@@ -84,9 +101,9 @@ if TYPE_CHECKING:
         | TypesetFormula
     )
 else:  # what a file gives, and what is kept of it
-    Inline = PlainText | Slot | InlineFormula | InlineCode | Emphasis | PictureLink
+    Inline = PlainText | Slot | InlineFormula | LaidOutFormula | InlineCode | Emphasis | PictureLink
 """A piece of a sentence; once filled, without ``Slot``, ``Formula``, ``PictureLink``, ``About``."""
-Unfilled = Slot | InlineFormula | PictureLink
+Unfilled = Slot | InlineFormula | LaidOutFormula | PictureLink
 SlotValue = Callable[[Unfilled], tuple[Inline, ...]]
 """What a slot, a formula or a picture is replaced by."""
 Program = Callable[[str], str]
@@ -156,8 +173,9 @@ follows it where an output could break between them.
 """
 _POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
 _EQUALS = re.compile(r"=(?=\s*$)")
-_SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*)\s*\}\}")
-_MATH = re.compile(r"\$([^$\n]+)\$")
+_SLOT = SLOT
+_MATH = re.compile(r"\$([^$\n]+|[^$]*\\[^$]*)\$")
+"""Mathematics; LaTeX may go over several lines."""
 _BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")
 
 
@@ -332,14 +350,41 @@ def _iter_words_and_numbers(text: str) -> Iterator[Inline]:
             yield PlainText(pretty.format_numbers_in_prose(piece).replace(" = ", TIED))
 
 
-def _parse_prose_formula(text: str) -> InlineFormula:
-    if text.lstrip().startswith("+"):
-        what = f"mathematics ${text}$: a sign + in front is not printed: set it as words"
-        raise BankError(what, rule="QG155")
+def _parse_prose_formula(text: str) -> InlineFormula | LaidOutFormula:
+    """A formula in the grammar that students type; in LaTeX where it is not of that grammar."""
+    if "\\" not in text:
+        if text.lstrip().startswith("+"):
+            what = f"mathematics ${text}$: a sign + in front is not printed: set it as words"
+            raise BankError(what, rule="QG155")
+        try:
+            return _parse_typed_formula(text)
+        except FormulaError as error:
+            if isinstance(error, FormulaReadError) and error.code in _UNFINISHED:
+                raise BankError(f"mathematics ${text}$: {error}", rule="QG155") from error
     try:
+        return LaidOutFormula(lay_out_latex(spell_as_latex(text)), text)
+    except LatexError as error:
+        place = (TEXT, f"${text}$", (error.column or 1) + len("$"))
+        what = f"mathematics ${text}$: column {error.column}: {error.message}"
+        raise BankError(what, rule="QG159", place=place) from error
+
+
+_UNFINISHED = frozenset({"unfinished", "empty", "too-long", "too-deep", "two-readings"})
+"""Faults of a formula that LaTeX would print without a word."""
+_HELD = "\ua4d0"
+"""A letter that nobody types; with a number it names a leaf while a formula is read."""
+
+
+def _parse_typed_formula(text: str) -> InlineFormula | LaidOutFormula:
+    if not _SLOT.search(text):
         return InlineFormula(parse_formula(text))
-    except FormulaError as error:
-        raise BankError(f"mathematics ${text}$: {error}", rule="QG155") from error
+    if _HELD in text:
+        raise FormulaReadError("bad-character", text.index(_HELD) + 1, _HELD)
+    names = _SLOT.findall(text)
+    counts = iter(range(len(names)))
+    expr = parse_formula(_SLOT.sub(lambda _found: f" {_HELD}{next(counts)} ", text))
+    places = {f"{_HELD}{count}": Leaf(name) for count, name in enumerate(names)}
+    return LaidOutFormula(lay_out(expr, leaves=places, inline=True), text)
 
 
 def leaves(parts: Iterable[Block | Inline]) -> Iterator[Block | Inline]:
@@ -379,6 +424,8 @@ def slot_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
         match part:
             case Slot(name):
                 yield name
+            case LaidOutFormula(node):
+                yield from sorted(names_of_leaves(node))
             case CodeBlock(text) | InlineCode(text):
                 yield from _SLOT.findall(text)
             case PictureLink(_, alt):

@@ -32,6 +32,7 @@ GREEK = {
     "zeta": "ζ",
     "eta": "η",
     "theta": "θ",
+    "iota": "ι",
     "kappa": "κ",
     "lambda": "λ",
     "lamda": "λ",
@@ -42,6 +43,7 @@ GREEK = {
     "rho": "ρ",
     "sigma": "σ",
     "tau": "τ",
+    "upsilon": "υ",
     "phi": "φ",
     "chi": "χ",
     "psi": "ψ",
@@ -50,7 +52,10 @@ GREEK = {
     "Delta": "Δ",
     "Theta": "Θ",
     "Lambda": "Λ",
+    "Xi": "Ξ",
+    "Pi": "Π",
     "Sigma": "Σ",
+    "Upsilon": "Υ",
     "Phi": "Φ",
     "Psi": "Ψ",
     "Omega": "Ω",
@@ -61,6 +66,8 @@ KNOWN = frozenset(
     {
         *("sin", "cos", "tan", "arcsin", "arccos", "arctan"),
         *("ln", "log", "exp", "min", "max", "lim", "det"),
+        *("cot", "sec", "csc", "sinh", "cosh", "tanh", "lg", "sup", "inf", "arg", "gcd", "dim"),
+        *("ker", "deg", "Pr", "hom"),
     }
 )
 """Functions that LaTeX and Typst know by name."""

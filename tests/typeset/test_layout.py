@@ -278,9 +278,9 @@ class Stranger:
         Stranger(),
         n.OperatorSign("§"),
         n.ReaderWord("unless"),
-        n.Accent("dot", n.Ident("x")),
+        n.Accent("wave", n.Ident("x")),
         n.Fenced("<>", n.Ident("x")),
-        n.LargeOperator("⋃"),
+        n.LargeOperator("⨌"),
     ],
 )
 def test_unknown_nodes_raise(write, node):
@@ -304,4 +304,4 @@ def test_bold_letters():
     assert unicodedata.name(bold_letter("μ")) == "MATHEMATICAL BOLD SMALL MU"
     assert unicodedata.name(bold_letter("Σ")) == "MATHEMATICAL BOLD CAPITAL SIGMA"
     with pytest.raises(RenderError):
-        bold_letter("1")
+        bold_letter("ж")
