@@ -16,12 +16,12 @@ import msgspec
 
 from quizgen.core.errors import BankError, FormulaError
 from quizgen.core.positions import TEXT
-from quizgen.maths.notation import FormulaReadError, parse_formula, pretty
+from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula, pretty
 from quizgen.maths.tree import Expr
 from quizgen.typeset import lay_out
 from quizgen.typeset.from_latex import SLOT, LatexError, lay_out_latex, spell_as_latex
 from quizgen.typeset.leaves import names_of_leaves
-from quizgen.typeset.nodes import Leaf, Node
+from quizgen.typeset.nodes import Display, Leaf, Node
 
 
 class PlainText(msgspec.Struct, frozen=True, array_like=True, tag="w"):
@@ -176,6 +176,10 @@ _EQUALS = re.compile(r"=(?=\s*$)")
 _SLOT = SLOT
 _MATH = re.compile(r"\$([^$\n]+|[^$]*\\[^$]*)\$")
 """Mathematics; LaTeX may go over several lines."""
+_DISPLAY = re.compile(r"\$\$([^$]+)\$\$")
+_IN_CELL = re.compile(r"\$(?! )[^$\n]*(?<! )\$")
+_BAR = "\uf8fe"
+"""Holds a bar of a formula in a table, where Markdown would end a cell at it."""
 _BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")
 
 
@@ -186,6 +190,7 @@ def _build_markdown_parser() -> Any:
     parser = MarkdownIt("zero", {"html": False})
     parser.enable(["emphasis", "backticks", "list", "table", "fence", "escape", "newline", "image"])
     parser.inline.ruler.before("escape", "slot", _make_inline_rule(_SLOT, "slot"))
+    parser.inline.ruler.before("escape", "display", _make_inline_rule(_DISPLAY, "display"))
     parser.inline.ruler.before("escape", "math", _make_inline_rule(_MATH, "math"))
     parser.inline.add_terminator_char("{")
     parser.inline.add_terminator_char("$")
@@ -220,10 +225,22 @@ def parse_blocks(source: str, line: int = 0) -> tuple[Block, ...]:
         If it holds anything but the subset.
     """
     try:
-        return tuple(_iter_blocks(iter(_build_markdown_parser().parse(source)), None))
+        held = _hold_bars(source)
+        return tuple(_iter_blocks(iter(_build_markdown_parser().parse(held)), None))
     except BankError as error:
         error.line = error.line + line - 1 if line else 0
         raise
+
+
+def _hold_bars(source: str) -> str:
+    """The source with other characters for bars inside formulas, which end no cell of a table."""
+    if "|" not in source or "$" not in source:
+        return source
+    return _IN_CELL.sub(lambda found: found[0].replace("|", _BAR), source)
+
+
+def _release_bars(text: str) -> str:
+    return text.replace(_BAR, "|")
 
 
 def parse_inlines(source: str, line: int = 0) -> tuple[Inline, ...]:
@@ -287,7 +304,7 @@ def _iter_blocks(tokens: Iterator[Any], until: str | None) -> Iterator[Block]:
                 tuple(_iter_list_items(tokens, close)), token.type.startswith("ordered")
             )
         elif token.type == "fence":
-            yield CodeBlock(token.content.rstrip("\n"))
+            yield CodeBlock(_release_bars(token.content.rstrip("\n")))
         elif token.type == "table_open":
             yield _parse_table(tokens)
         else:
@@ -324,7 +341,7 @@ def _iter_inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
             return
         if token.type == "text":
             if token.content:
-                yield from _iter_words_and_numbers(token.content)
+                yield from _iter_words_and_numbers(_release_bars(token.content))
         elif token.type in _ALONE:
             yield _ALONE[token.type](token)
         elif token.type in {"em_open", "strong_open"}:
@@ -369,6 +386,13 @@ def _parse_prose_formula(text: str) -> InlineFormula | LaidOutFormula:
         raise BankError(what, rule="QG159", place=place) from error
 
 
+def _set_large(formula: InlineFormula | LaidOutFormula) -> LaidOutFormula:
+    """A formula between two dollar signs each is as large as one in a line of its own."""
+    if isinstance(formula, InlineFormula):
+        return LaidOutFormula(Display(lay_out(formula.expr)), format_tree(formula.expr))
+    return LaidOutFormula(Display(formula.node), formula.source)
+
+
 _UNFINISHED = frozenset({"unfinished", "empty", "too-long", "too-deep", "two-readings"})
 """Faults of a formula that LaTeX would print without a word."""
 _HELD = "\ua4d0"
@@ -411,8 +435,9 @@ _ALONE: dict[str, Callable[[Any], Inline]] = {
     "softbreak": lambda _token: PlainText(" "),
     "hardbreak": lambda _token: PlainText(" "),
     "slot": lambda token: Slot(token.content),
-    "math": lambda token: _parse_prose_formula(token.content),
-    "code_inline": lambda token: InlineCode(token.content),
+    "math": lambda token: _parse_prose_formula(_release_bars(token.content)),
+    "display": lambda token: _set_large(_parse_prose_formula(_release_bars(token.content))),
+    "code_inline": lambda token: InlineCode(_release_bars(token.content)),
     "image": _parse_picture_link,
 }
 """Tokens that are one piece of a sentence."""

@@ -349,6 +349,7 @@ class _Reader:
         text = element.text or ""
         if text == "\u00a0":
             return [Gap("medium")]
+        text = text.replace("\u00a0", " ")
         found: list[_Piece] = []
         for part in re.split("([\ue000-\uf8ff])", text):
             if _PRIVATE.fullmatch(part):
@@ -589,10 +590,10 @@ def _read_letter(text: str, *, upright: bool) -> Node:
 def _join_signs(pieces: list[_Piece]) -> list[_Piece]:
     """Signs that LaTeX sets as several: three points, a colon with an equals sign."""
     found: list[_Piece] = []
-    dot, equals = OperatorSign("."), OperatorSign("=")
+    dots, equals = (OperatorSign("."), OperatorSign("·")), OperatorSign("=")
     for piece in pieces:
-        if piece == dot and found[-2:] == [dot, dot]:
-            found[-2:] = [OperatorSign("…")]
+        if piece in dots and found[-2:] == [piece, piece]:
+            found[-2:] = [OperatorSign("…" if piece == dots[0] else "⋯")]
         elif piece == equals and found[-1:] in ([OperatorSign(":")], [OperatorSign("colon")]):
             found[-1] = OperatorSign("≔")
         elif isinstance(piece, OperatorSign) and piece.name in {"⟹", "⟸", "⟺"}:

@@ -132,11 +132,17 @@ def _has_blank_between(before: n.Node, after: n.Node) -> bool:
     """Whether two neighbours would run into each other."""
     if isinstance(before, _BESIDE) or isinstance(after, _BESIDE):
         return False
-    if isinstance(before, n.Word) and len(before.text) == 1:  # the d of a differential
-        return False
-    wide = (n.Word, n.FunctionName, n.LargeOperator, n.Under, n.Frac, n.Display, n.Binomial, n.Func)
-    slash = (n.Word, n.FunctionName, n.LargeOperator, n.Under, n.Display, n.Func, n.Frac)
-    return isinstance(_last_of(before), wide) or isinstance(_first_of(after), slash)
+    last, first = _last_of(before), _first_of(after)
+    return isinstance(last, (*_WIDE, n.Binomial)) or isinstance(first, _WIDE) or (
+        _is_long_word(last) or _is_long_word(first)
+    )
+
+
+_WIDE = (n.FunctionName, n.LargeOperator, n.Under, n.Frac, n.Display, n.Func)
+
+
+def _is_long_word(node: n.Node) -> bool:
+    return isinstance(node, n.Word) and len(node.text) > 1
 
 
 def _first_of(node: n.Node) -> n.Node:
@@ -161,7 +167,7 @@ def _is_one(node: n.Node) -> bool:
     match node:
         case n.MathRow(items=items):
             return len(items) == 1 and _is_one(items[0])
-        case n.Frac() | n.LargeOperator() | n.Cases() | n.AlignedRows() | n.Brace() | n.Phrase():
+        case n.Frac() | n.NumberWithUnit() | n.LargeOperator() | n.Cases() | n.AlignedRows() | n.Brace() | n.Phrase():
             return False
         case n.Display(body=body):
             return _is_one(body)
@@ -221,10 +227,13 @@ def _raise(node: n.Node, lang: str) -> str:
 def _write_accent(node: n.Accent, lang: str) -> str:
     mark = _known(ACCENTS, node.kind, "accent").combining
     text = _write(node.base, lang)
-    if node.kind not in {"overline", "underline"} and len(text) > 1:
+    letters = [char for char in text if not unicodedata.combining(char)]
+    if node.kind not in {"overline", "underline"} and len(letters) > 1:
         return f"{node.kind.removeprefix('wide')}({text})"
     if node.kind == "overline" and len(text) == 1:
         mark = ACCENTS["bar"].combining
+    if len(letters) == 1:
+        return text + mark
     return "".join([char + mark if char != " " else char for char in text])
 
 

@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from functools import lru_cache, singledispatch
 
+from msgspec.structs import replace
+
 from quizgen.core.errors import RenderError
 from quizgen.locale import localise_numbers
 from quizgen.typeset import nodes as n
@@ -20,13 +22,16 @@ from quizgen.typeset.printer import (
     split_unit,
     strict_lookup,
 )
-from quizgen.typeset.signs import find_styled_letter
+from quizgen.typeset.builders import RELATIONS
+from quizgen.typeset.signs import ARROWS, find_styled_letter
+from quizgen.typeset.signs import RELATIONS as SIGNED_RELATIONS
 
 _known = strict_lookup("reading")
 
 _BINDING = tuple(map(n.OperatorSign, ("", "·", "×", "mod")))
 _MINUS_ONE = n.MathRow((n.OperatorSign("neg"), n.Digits("1")), n.NEGATIVE)
 _BOUNDS = tuple(map(n.OperatorSign, "<≤"))
+_RELATING = tuple(map(n.OperatorSign, (*RELATIONS, *ARROWS, *SIGNED_RELATIONS, ",", ";", "|")))
 _COMMAS = re.compile(r"[ ,]+([,;:])")
 _SPACES = re.compile(r"  +")
 _GREEK_NAMES = {char: word for word, char in GREEK.items() if word != "lamda"}
@@ -139,7 +144,7 @@ def _say_function_name(node: n.FunctionName, lang: str) -> str:
 @_say_node.register
 def _say_word(node: n.Word, lang: str) -> str:
     words = load_speech_words(lang)
-    if node.text.isupper() and words.letters:
+    if words.letters and (node.text.isupper() or len(node.text) == 1):
         return "".join([words.letters.get(char.lower(), char) for char in node.text])
     return words.names.get(node.text, node.text)
 
@@ -202,8 +207,9 @@ def _say_row(node: n.MathRow, lang: str) -> str:
     items = tuple([item for item in node.items if not _is_silent_gap(item)])
     if node.level == n.ATOM:
         items = tuple([item for item in items if item != n.OperatorSign(",")])
-    if _two_bounds(items):
-        both = (*items[:3], n.ReaderWord("and"), *items[2:])
+    if bounds := _find_two_bounds(items):
+        between = items[bounds[0] + 1 : bounds[1]]
+        both = (*items[: bounds[1]], n.ReaderWord("and"), *between, *items[bounds[1] :])
         return " ".join([_say_node(item, lang) for item in both])
     following = (*items[1:], None)
     return " ".join(
@@ -215,9 +221,11 @@ def _is_silent_gap(item: n.Node) -> bool:
     return isinstance(item, n.Gap) and item.width not in {"quad", "qquad"}
 
 
-def _two_bounds(items: tuple[n.Node, ...]) -> bool:
-    """0 ≤ x < 1 is read as two statements about x."""
-    return len(items) == 5 and all(item in _BOUNDS for item in items[1::2])
+def _find_two_bounds(items: tuple[n.Node, ...]) -> tuple[int, ...]:
+    """The signs of 0 ≤ x < 1, which is read as two statements about x."""
+    relations = [place for place, item in enumerate(items) if item in _RELATING]
+    both = len(relations) == 2 and all(items[place] in _BOUNDS for place in relations)
+    return tuple(relations) if both else ()
 
 
 def _say_with_fraction_end(node: n.Node, following: n.Node | None, lang: str) -> str:
@@ -270,6 +278,8 @@ def _say_scripts(node: n.Scripts, lang: str) -> str:
         return _say_indices_before(node, lang)
     if isinstance(node.base, n.Fenced) and "." in node.base.kind and node.sub and not node.sup:
         return short["evaluated"].format(_say_node(node.base.body, lang), _say_node(node.sub, lang))
+    if isinstance(node.base, n.FunctionName):
+        return _say_function_head(replace(node, base=n.Word(node.base.text)), lang)
     said = _say_node(node.base, lang)
     for _ in range(node.primes):
         said = short["prime"].format(said)
