@@ -79,6 +79,7 @@ DEEPEST = 60
 
 _FIRST_SLOT, _LAST_SLOT = 0xE000, 0xF8FF  # Unicode's private area
 _PRIVATE = re.compile("[\ue000-\uf8ff]")
+_DECIMAL_COMMA = re.compile(r"\d\{,\}\d")
 _AT = re.compile(r"(\d+): (.*)", re.DOTALL)
 _COMMAND = re.compile(r"\\([A-Za-z]+\*?|.)")
 _LETTER_COMMAND = re.compile(r"\\([A-Za-z]+)")
@@ -168,14 +169,20 @@ def lay_out_latex(source: str) -> Node:
         raise LatexError(f"is longer than {LONGEST} characters", LONGEST + 1)
     if found := _PRIVATE.search(source):
         raise LatexError("has a character that no font has", found.start() + 1)
+    if found := _DECIMAL_COMMA.search(source):
+        what = "{,}: write a decimal point, it is printed as the language has it"
+        raise LatexError(what, found.start() + 2)
     _check_depth(source)
     held, names, starts = _hold_slots(source)
     try:
-        return _Reader(names).read(_parse_mathml(held, starts))
+        made = _Reader(names).read(_parse_mathml(held, starts))
     except _RefusalError as error:
         raise _locate_refusal(source, error) from None
     except RecursionError:
         raise LatexError("has too many levels in each other", 1) from None
+    if made == MathRow(()):
+        raise LatexError("is empty", 1)
+    return made
 
 
 def _check_depth(source: str) -> None:
@@ -226,6 +233,9 @@ def _parse_mathml(held: str, starts: Sequence[tuple[int, int]]) -> ET.Element:
             there = ", ".join(ENVIRONMENTS)
             what = f"\\begin{{{found[1]}}} is no environment there is (there are {there})"
             raise LatexError(what, _find_column(found.start(), starts))
+    if "\\\\" in held and "\\begin" not in held:
+        what = r"\\ ends a line in an environment alone, such as aligned"
+        raise LatexError(what, _find_column(held.index("\\\\"), starts))
     for found in _LETTER_COMMAND.finditer(held):
         if found[1] in ADVICE:
             what = f"\\{found[1]}: {ADVICE[found[1]]}"
@@ -335,8 +345,6 @@ class _Reader:
             return [OperatorSign("′")] * _PRIMES[text]
         if text not in _SIGNS and text != "ᵀ":
             raise _RefusalError(f"the sign {text!r} cannot be said in every output")
-        if text == "," and element.get("rspace") == "0":
-            raise _RefusalError("{,}: write a decimal point, it is printed as the language has it")
         return [OperatorSign(text)]
 
     def text(self, element: ET.Element) -> Sequence[_Piece]:
@@ -557,7 +565,8 @@ def _take_primes(sup: Node | None) -> tuple[int, Node | None]:
 
 def _read_name(text: str, *, upright: bool) -> Node:
     """One letter in its alphabet, a letter-like sign, or an upright word."""
-    if text in _SIGNS or text in {"%", "°"}:
+    text = _SAME_SIGN.get(text, text)
+    if text in _SIGNS:
         return OperatorSign("colon" if text == ":" else text)
     if text == "⊤":
         return OperatorSign("ᵀ")
@@ -632,7 +641,7 @@ class _RowBuilder:
     """
 
     def __init__(self, pieces: list[_Piece], opening: str, *, root: bool = False) -> None:
-        self.pieces, self.root = pieces, root
+        self.pieces, self.root = _join_double_bars(pieces), root
         self.frames = [_Frame(opening, [])]
 
     def build(self) -> Node:
@@ -663,8 +672,17 @@ class _RowBuilder:
             self.close(piece)
         elif _waits(top.items) or self.count_bars(index) % 2 == 0:
             self.open(piece)
+        elif piece.sub or piece.sup:
+            self.evaluate(piece)
         else:
             top.items.append(self.separator())
+
+    def evaluate(self, piece: _Bracket) -> None:
+        """End what is evaluated: all behind the last relation."""
+        items = self.frames[-1].items
+        begin = max((at + 1 for at, item in enumerate(items) if _is_relation(item)), default=0)
+        body = _make_row(items[begin:])
+        items[begin:] = [Scripts(Fenced(f".{piece.sign}", body), piece.sub, piece.sup)]
 
     def count_bars(self, index: int) -> int:
         """Bars from a place on to the end of the brackets around it."""
@@ -699,6 +717,35 @@ class _RowBuilder:
         if piece.sub or piece.sup or piece.primes:
             made = Scripts(made, piece.sub, piece.sup, piece.primes)
         self.frames[-1].items.append(made)
+
+
+def _join_double_bars(pieces: list[_Piece]) -> list[_Piece]:
+    """Bars in pairs, where a pair can open and another one close, as bars of a norm."""
+    found = list(pieces)
+    at = 0
+    while at + 1 < len(found):
+        if _is_double_bar(found, at) and _waits([one for one in found[:at][-1:] if _is_node(one)]):
+            later = (end for end in range(at + 3, len(found) - 1) if _is_double_bar(found, end))
+            end = next(later, None)
+            if end is not None:
+                found[end : end + 2] = [replace(found[end + 1], sign="‖")]
+                found[at : at + 2] = [_Bracket("‖")]
+        at += 1
+    return found
+
+
+def _is_double_bar(pieces: list[_Piece], at: int) -> bool:
+    plain = _Bracket("|")
+    following = pieces[at + 1]
+    return pieces[at] == plain and isinstance(following, _Bracket) and following.sign == "|"
+
+
+def _is_node(piece: _Piece) -> TypeGuard[Node]:
+    return not isinstance(piece, _Bracket)
+
+
+def _is_relation(item: Node) -> bool:
+    return isinstance(item, OperatorSign) and item.name in _RELATIONS
 
 
 def _waits(items: list[Node]) -> bool:

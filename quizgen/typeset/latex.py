@@ -223,7 +223,7 @@ def _format_accent(node: n.Accent, lang: str) -> str:
 def _format_fence(node: n.Fenced, lang: str) -> str:
     body = _format_node(node.body, lang)
     left, right = (_known(FENCES, bracket, "bracket") for bracket in node.kind)
-    if _TALL.search(body):
+    if _TALL.search(body) or "." in node.kind:
         return rf"\left{left} {body} \right{right}"
     return f"{left}{' ' * left[1:].isalpha()}{body}{' ' * right[1:].isalpha()}{right}"
 

@@ -32,6 +32,8 @@ ADVICE = {
     "textcolor": "colour is lost on paper and in speech",
     "colorbox": "colour is lost on paper and in speech",
     "widetilde": r"write \tilde{x}",
+    "textrm": r"write \text{words}",
+    "textbf": r"write \text{words}",
     "mbox": r"write \text{words}",
     "bm": r"write \boldsymbol{x}",
     "html": "pages are written by quizgen alone",
@@ -84,7 +86,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     ),
     "alphabets": (
         r"\mathbb{R}", r"\mathcal{L}", r"\mathfrak{g}", r"\mathsf{A}", r"\mathtt{x}",
-        r"\mathbf{x}", r"\boldsymbol{\beta}", r"\mathrm{d}x", r"\text{if } x", r"\textrm{if } x",
+        r"\mathbf{x}", r"\boldsymbol{\beta}", r"\mathrm{d}x", r"\text{if } x",
     ),
     "relations": (
         *(rf"a \{name} b" for name in ("ne", "neq", "le", "leq", "ge", "geq", "approx", "propto",

@@ -111,6 +111,8 @@ def _join_items(items: tuple[n.Node, ...], lang: str) -> str:
             _widen_before_function(written, index)
         elif index and _is_function_name(item) and not isinstance(items[index - 1], _NO_FACTORS):
             written[index] = THIN + written[index]
+        if index and _needs_gap_behind(items[index - 1]) and not isinstance(item, _NO_FACTORS):
+            written[index] = THIN + written[index]
     return "".join(written)
 
 
@@ -121,6 +123,11 @@ def _widen_before_function(written: list[str], index: int) -> None:
 
 
 _NO_FACTORS = (n.OperatorSign, n.Gap, n.Phrase, n.LargeOperator, n.FunctionName)
+
+
+def _needs_gap_behind(node: n.Node) -> bool:
+    """Whether a node is a name with something below it, which no application sign follows."""
+    return isinstance(node, n.Under) and isinstance(node.base, n.FunctionName)
 
 
 def _is_function_name(node: n.Node) -> bool:
@@ -263,7 +270,8 @@ def _format_accent(node: n.Accent, lang: str) -> str:
     if accent.stretches:
         return f'<mover accent="true">{base}<mo stretchy="true">{accent.mark}</mo></mover>'
     # the padding keeps Chromium from lowering the mark into the letter
-    sign = f'<mo stretchy="false" style="padding-bottom:.07em">{accent.mark}</mo>'
+    small = ";font-size:.65em" if accent.mark == "→" else ""
+    sign = f'<mo stretchy="false" style="padding-bottom:.07em{small}">{accent.mark}</mo>'
     return f'<mover accent="true">{base}{sign}</mover>'
 
 

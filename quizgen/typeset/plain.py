@@ -133,8 +133,10 @@ def _has_blank_between(before: n.Node, after: n.Node) -> bool:
     if isinstance(before, _BESIDE) or isinstance(after, _BESIDE):
         return False
     last, first = _last_of(before), _first_of(after)
-    return isinstance(last, (*_WIDE, n.Binomial)) or isinstance(first, _WIDE) or (
-        _is_long_word(last) or _is_long_word(first)
+    return (
+        isinstance(last, (*_WIDE, n.Binomial))
+        or isinstance(first, _WIDE)
+        or (_is_long_word(last) or _is_long_word(first))
     )
 
 
@@ -167,7 +169,15 @@ def _is_one(node: n.Node) -> bool:
     match node:
         case n.MathRow(items=items):
             return len(items) == 1 and _is_one(items[0])
-        case n.Frac() | n.NumberWithUnit() | n.LargeOperator() | n.Cases() | n.AlignedRows() | n.Brace() | n.Phrase():
+        case (
+            n.Frac()
+            | n.NumberWithUnit()
+            | n.LargeOperator()
+            | n.Cases()
+            | n.AlignedRows()
+            | n.Brace()
+            | n.Phrase()
+        ):
             return False
         case n.Display(body=body):
             return _is_one(body)

@@ -7,7 +7,9 @@ language, under the same character. The list in docs/formulas.md is made of thes
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Iterator
 from functools import lru_cache
+from string import ascii_letters, digits
 
 from msgspec import Struct
 
@@ -145,3 +147,24 @@ def find_styled_letter(letter: str, style: str) -> str:
             except KeyError:
                 continue
     raise RenderError(f"no letter {letter!r} in the alphabet {style!r}")
+
+
+def list_formula_characters() -> frozenset[str]:
+    """Characters that formulas can hold: signs, brackets, marks, and letters of every alphabet."""
+    tables = (SIGN_COMMANDS, LARGE, FENCES, LETTERLIKE)
+    signs = {sign for table in tables for sign in table}
+    marks = {accent.mark for accent in ACCENTS.values()}
+    return frozenset({*signs, *marks, *_OTHER_SIGNS, *_iter_styled_letters()})
+
+
+_OTHER_SIGNS = "⏞⏟∣°%!?≔"
+
+
+def _iter_styled_letters() -> Iterator[str]:
+    """Letters and digits in every alphabet that has them."""
+    for style in ALPHABETS:
+        for letter in ascii_letters + digits:
+            try:
+                yield find_styled_letter(letter, style)
+            except RenderError:
+                continue

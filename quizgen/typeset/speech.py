@@ -204,6 +204,8 @@ def _say_operator(node: n.OperatorSign, lang: str) -> str:
 
 @_say_node.register
 def _say_row(node: n.MathRow, lang: str) -> str:
+    if not node.items:
+        return ""
     items = tuple([item for item in node.items if not _is_silent_gap(item)])
     if node.level == n.ATOM:
         items = tuple([item for item in items if item != n.OperatorSign(",")])
@@ -276,16 +278,24 @@ def _say_scripts(node: n.Scripts, lang: str) -> str:
     short = load_speech_words(lang).short
     if node.base == n.Phrase(""):
         return _say_indices_before(node, lang)
-    if isinstance(node.base, n.Fenced) and "." in node.base.kind and node.sub and not node.sup:
-        return short["evaluated"].format(_say_node(node.base.body, lang), _say_node(node.sub, lang))
+    if isinstance(node.base, n.Fenced) and "." in node.base.kind:
+        ends = [_say_node(end, lang) for end in (node.sub, node.sup) if end is not None]
+        key = "evaluated" if len(ends) == 1 else "evaluated to"
+        return short[key].format(_say_node(node.base.body, lang), *ends)
     if isinstance(node.base, n.FunctionName):
         return _say_function_head(replace(node, base=n.Word(node.base.text)), lang)
     said = _say_node(node.base, lang)
     for _ in range(node.primes):
         said = short["prime"].format(said)
     if node.sub is not None:
-        said = short["sub"].format(said, _say_node(node.sub, lang))
+        table = load_speech_words(lang).long if _is_long_index(node.sub) else short
+        said = table["sub"].format(said, _say_node(node.sub, lang))
     return said if node.sup is None else _say_power(node, said, lang)
+
+
+def _is_long_index(sub: n.Node) -> bool:
+    """Whether a listener must be told where a subscript ends."""
+    return isinstance(sub, n.MathRow) and sub.level in {n.SUM, n.RELATION}
 
 
 def _say_indices_before(node: n.Scripts, lang: str) -> str:

@@ -297,7 +297,8 @@ def _format_case_condition(condition: str, lang: str) -> str:
 @_format_node.register
 def _format_matrix(node: n.Matrix, lang: str) -> str:
     rows = [", ".join([_format_node(cell, lang) for cell in row]) for row in node.rows]
-    return f"mat({_known(_DELIMITERS, node.kind, 'matrix')}" + "; ".join(rows) + ")"
+    # in a line of text Typst would set the cells as small as in a fraction
+    return f"display(mat({_known(_DELIMITERS, node.kind, 'matrix')}" + "; ".join(rows) + "))"
 
 
 _DELIMITERS = {
@@ -310,5 +311,6 @@ _DELIMITERS = {
 def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
     cells = [[_format_node(cell, lang) for cell in row] for row in node.rows]
     if node.brace:
-        return "cases(" + ", ".join([" quad & ".join(row) for row in cells]) + ")"
-    return r"display(" + r" \ ".join([" & ".join(row) for row in cells]) + ")"
+        return "display(cases(" + ", ".join([" quad & ".join(row) for row in cells]) + "))"
+    rows = [" & ".join(row) for row in cells]
+    return "display(mat(delim: #none, row-gap: #0.5em, " + "; ".join(rows) + "))"

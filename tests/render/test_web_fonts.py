@@ -21,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 
 from pack_fonts import pack, sources
 
-NAMES = [fonts.MATHS, *fonts.BANGLA.values()]
+NAMES = [fonts.MATHS, fonts.ALL_MATHS, *fonts.BANGLA.values()]
 
 
 def characters(name: str) -> set[str]:
