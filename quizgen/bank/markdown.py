@@ -180,6 +180,7 @@ _DISPLAY = re.compile(r"\$\$([^$]+)\$\$")
 _IN_CELL = re.compile(r"\$(?! )[^$\n]*(?<! )\$")
 _BAR = "\uf8fe"
 """Holds a bar of a formula in a table, where Markdown would end a cell at it."""
+_LINK = re.compile(r"\[[^\]\n]+\]\((?:[a-z]+:|www\.|[\w-]*[/#.])[^\s)]*\)")
 _BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")
 
 
@@ -356,6 +357,9 @@ def _iter_words_and_numbers(text: str) -> Iterator[Inline]:
     if "![" in text:
         what = f"a picture is not like ![words](file.png), without blanks, in {text!r}"
         raise BankError(what, rule="QG156")
+    if found := _LINK.search(text):
+        what = f"a link is not part of the subset: {found[0]!r}; a paper cannot follow it"
+        raise BankError(what, rule="QG153", place=(TEXT, found[0]))
     if _BANNED.search(text):
         what = f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}"
         raise BankError(what, rule="QG154")
@@ -393,7 +397,7 @@ def _set_large(formula: InlineFormula | LaidOutFormula) -> LaidOutFormula:
     return LaidOutFormula(Display(formula.node), formula.source)
 
 
-_UNFINISHED = frozenset({"unfinished", "empty", "too-long", "too-deep", "two-readings"})
+_UNFINISHED = frozenset({"unfinished", "empty", "too-long", "too-deep", "number-too-large"})
 """Faults of a formula that LaTeX would print without a word."""
 _HELD = "\ua4d0"
 """A letter that nobody types; with a number it names a leaf while a formula is read."""

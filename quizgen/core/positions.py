@@ -238,7 +238,7 @@ def _find_quoted_text(text: str, quoted: str, column: int) -> Span | None:
     found = re.search(_match_any_blanks(quoted), text) if quoted.strip() else None
     if found is None:
         return None
-    before = re.match(_match_any_blanks(quoted[: column - 1]), text[found.start() :])
+    before = re.match(_match_any_blanks(quoted[: column - 1]) + r"\s*", text[found.start() :])
     return _span_at(text, found.start() + (before.end() if before and column > 1 else 0))
 
 

@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
 from functools import cache
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeGuard
 from unicodedata import name as unicode_name
 from unicodedata import normalize
@@ -79,6 +80,7 @@ DEEPEST = 60
 
 _FIRST_SLOT, _LAST_SLOT = 0xE000, 0xF8FF  # Unicode's private area
 _PRIVATE = re.compile("[\ue000-\uf8ff]")
+_NUMBER = re.compile(r"\d+(?:\.\d+)?|\.\d+")
 _DECIMAL_COMMA = re.compile(r"\d\{,\}\d")
 _AT = re.compile(r"(\d+): (.*)", re.DOTALL)
 _COMMAND = re.compile(r"\\([A-Za-z]+\*?|.)")
@@ -101,8 +103,8 @@ _NAMES = _TAKES_LIMITS | {
 }  # fmt: skip
 _SIGNS = frozenset(
     {*SIGN_COMMANDS, *KNOWN_RELATIONS, "+", "-", "·", "×", "/", ",", ";", ":", "!", "?", ".", "…",
-     "′", "°", "%", "∣", "&", "@", "$", "#"}
-) - {"&", "@", "$", "#"}  # fmt: skip
+     "′", "°", "%", "ᵀ"}
+)  # fmt: skip
 _SAME_SIGN = {"−": "-", "⋅": "·", "∼": "~", "∣": "|", "⊤": "ᵀ", "*": "∗"}
 _RELATIONS = frozenset(
     {*KNOWN_RELATIONS, *MORE_RELATIONS, *ARROWS, ",", ";", ":", "colon", "|", "such that",
@@ -326,6 +328,8 @@ class _Reader:
     def number(self, element: ET.Element) -> Sequence[_Piece]:
         """Digits, grouped as everywhere; zeros in front are kept."""
         text = element.text or ""
+        if not _NUMBER.fullmatch(text):
+            raise _RefusalError(f"{text!r} is no number")
         return [Digits(text if text.startswith("0") else pretty.group_digits(text))]
 
     def operator(self, element: ET.Element) -> Sequence[_Piece]:
@@ -758,6 +762,8 @@ def _waits(items: list[Node]) -> bool:
 def _make_row(items: list[Node], *, root: bool = False) -> Node:
     """One node of a row whose brackets are paired."""
     _check_decimal_comma(items, root=root)
+    if any(isinstance(one, Digits) and isinstance(two, Digits) for one, two in pairwise(items)):
+        raise _RefusalError("two numbers stand beside each other: write a sign between them")
     items = _apply_functions(_find_signs(items))
     if len(items) == 1:
         return items[0]
@@ -873,14 +879,27 @@ def find_level(items: Sequence[Node]) -> int:
 _ARGUMENT = re.compile(r"(?<![A-Za-z])(sqrt|bar|hat|tilde|vec)\(([^()]*)\)")
 _WORDS = sorted({*GREEK, *(name for name in _NAMES if " " not in name)}, reverse=True)
 _WORD = re.compile(rf"(?<![A-Za-z])(?:{'|'.join(_WORDS)})(?![A-Za-z])")
+_LONG_WORD = re.compile(r"(?<![A-Za-z])(?!(?:sqrt|bar|hat|tilde|vec)\()[A-Za-z]{3,}(?![A-Za-z])")
+_SCRIPT = re.compile(r"([_^])(?:(-?\w{2,}|-\w)|\(([^()]*)\))")
+_APART = re.compile(r"\d +\d")
 _SPELLED = {
     "<=": r"\le ", ">=": r"\ge ", "->": r"\to ", "=>": r"\Rightarrow ", "||": r"\parallel ",
     "~": r"\sim ", "*": r"\cdot ", "...": r"\dots ",
 }  # fmt: skip
 
 
+def _spell_word(found: re.Match[str]) -> str:
+    """A name of several letters is an upright word; one with a command of its own stays."""
+    return found[0] if _WORD.fullmatch(found[0]) else f"\\mathrm{{{found[0]}}}"
+
+
 def spell_as_latex(text: str) -> str:
     r"""A formula as people type it to LaTeX; one that has commands stays as it is.
+
+    Raises
+    ------
+    LatexError
+        If LaTeX would run two numbers together.
 
     Examples
     --------
@@ -889,10 +908,14 @@ def spell_as_latex(text: str) -> str:
     """
     if "\\" in text:
         return text
-    text = _ARGUMENT.sub(r"\\\1{\2}", text)
+    if found := _APART.search(text):
+        raise LatexError("two numbers stand beside each other: write a sign between them",
+                         found.start() + 1)  # fmt: skip
     parts = SLOT.split(text)
     for at in range(0, len(parts), 2):  # names of slots stand between
-        part = _WORD.sub(lambda found: f"\\{found[0]} ", parts[at])
+        part = _SCRIPT.sub(lambda found: f"{found[1]}{{{found[2] or found[3]}}}", parts[at])
+        part = _LONG_WORD.sub(_spell_word, part)
+        part = _ARGUMENT.sub(r"\\\1{\2}", _WORD.sub(lambda found: f"\\{found[0]} ", part))
         for typed, command in _SPELLED.items():
             part = part.replace(typed, command)
         parts[at] = part

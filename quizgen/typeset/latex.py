@@ -73,7 +73,9 @@ _OPERATORS |= {sign: text for sign, text in SIGN_COMMANDS.items() if sign not in
 _GAPS = {"thin": r"\,", "medium": r"\:", "thick": r"\;", "quad": r"\quad", "qquad": r"\qquad"}
 _TALL = re.compile(rf"\\(?:[dt]?frac|binom|begin|{'|'.join(LARGE.values())})\b")
 _TOUCHING = re.compile(r"\}(?=\})")
-_SPECIAL = re.compile(r"([%#&_$])")
+_SPECIAL = re.compile(r"([%#&_${}])")
+_NO_TEXT = re.compile(r"([\\^~])")
+_AS_SIGN = {"\\": r"\backslash", "^": r"{\wedge}", "~": r"{\sim}"}
 
 
 def to_latex(node: n.Node, lang: str = "en") -> str:
@@ -128,7 +130,13 @@ def _format_word(node: n.Word, _lang: str) -> str:
 
 @_format_node.register
 def _format_phrase(node: n.Phrase, _lang: str) -> str:
-    return rf"\text{{{_escape_latex(node.text)}}}" if node.text else "{}"
+    parts = _NO_TEXT.split(node.text)  # every other one is a sign that text cannot hold
+    written = [
+        _AS_SIGN[part] if at % 2 else rf"\text{{{_escape_latex(part)}}}"
+        for at, part in enumerate(parts)
+        if part
+    ]
+    return " ".join(written) or "{}"
 
 
 @_format_node.register

@@ -163,7 +163,8 @@ class _Filling:
             items.append(_DROPPED)
             return
         needed = _needed_level(sign, following, factor=factor)
-        if node.level < needed and not _fits(node, sign, factor=factor):
+        fits = needed < ATOM and _fits(node, sign, factor=factor)
+        if node.level < needed and not fits:
             node = Fenced("()", node)
         if _needs_dot(sign, node):
             items.append(_DOT)

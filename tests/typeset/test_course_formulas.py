@@ -6,6 +6,7 @@ Each was looked at in print (Typst) and on a page (Chromium) when it was added.
 from __future__ import annotations
 
 import re
+import sys
 import tomllib
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -18,6 +19,7 @@ from quizgen.typeset import to_latex, to_mathml, to_speech, to_text, to_typst
 from quizgen.typeset.from_latex import lay_out_latex
 from quizgen.typeset.latex_commands import GROUPS
 
+ROOT = Path(__file__).parents[2]
 TABLE = tomllib.loads(Path(__file__).with_name("course_formulas.toml").read_text(encoding="utf-8"))[
     "formula"
 ]
@@ -83,3 +85,11 @@ def test_bangla_says_signs_in_bangla():
         said = to_speech(lay_out_latex(latex), "bn")
         # functions that have no Bangla name, and words of the author, stay as they are written
         assert set(re.findall(r"[A-Za-z]+", said)) <= {"Var", "hom", "if"}, latex
+
+
+def test_the_manual_lists_what_there_is():
+    sys.path.insert(0, str(ROOT / "tools"))
+    from list_formulas import PAGE, write_list
+
+    page = PAGE.read_text(encoding="utf-8")
+    assert page == write_list(page), "run `uv run python tools/do.py formulas`"
