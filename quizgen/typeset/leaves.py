@@ -16,6 +16,7 @@ from quizgen.core.errors import RenderError
 from quizgen.typeset.nodes import (
     ATOM,
     NEGATIVE,
+    POWER,
     PRODUCT,
     RELATION,
     SUM,
@@ -40,7 +41,8 @@ class LeafValue(Struct, frozen=True):
     is_rounded: bool = False
 
 
-_NEG, _MINUS, _PLUS, _DOT = map(OperatorSign, ("neg", "-", "+", "·"))
+_NEG, _MINUS, _PLUS, _DOT, _TIMES = map(OperatorSign, ("neg", "-", "+", "·", ""))
+_SIGNS = (_PLUS, _MINUS, _NEG)
 _ADDING = frozenset({"+", "-", "±", "∓"})
 _MULTIPLYING = frozenset({"", "·", "×", "/", "÷", "mod", "∘", "⊗", "apply", "apply tight"})
 _BEHIND = frozenset({"!", "°", "%"})
@@ -97,6 +99,8 @@ class _Filling:
             return self.fill_row(node)
         if isinstance(node, Scripts):
             return self.fill_scripts(node)
+        if isinstance(node, Frac):
+            return self.fill_fraction(node)
         return self.rebuild(node)
 
     def get(self, leaf: Leaf) -> LeafValue:
@@ -129,20 +133,43 @@ class _Filling:
         sub, sup = (part and self.fill(part) for part in (node.sub, node.sup))
         return replace(node, base=base, sub=sub, sup=sup and _allow_slash(sup))
 
+    def fill_fraction(self, node: Frac) -> Node:
+        """A fraction; before and behind a slash values need what a bar would say."""
+        top, bottom = self.fill(node.top), self.fill(node.bottom)
+        if node.inline and isinstance(node.top, Leaf) and top.level < NEGATIVE:
+            top = Fenced("()", top)
+        if node.inline and isinstance(node.bottom, Leaf) and bottom.level < POWER:
+            bottom = Fenced("()", bottom)
+        return replace(node, top=top, bottom=bottom)
+
     def fill_row(self, row: MathRow) -> Node:
         """A row, whose leaves see what stands beside them."""
         items: list[Node] = []
         for at, item in enumerate(row.items):
+            before = row.items[at - 1] if at else None
             following = row.items[at + 1] if at + 1 < len(row.items) else None
             if isinstance(item, Leaf):
                 self.place(items, item, following)
-            else:
-                filled = self.fill(item)
-                if _touches_value(items, filled, row.items[at - 1] if at else None):
-                    items.append(_DOT)
-                items.append(filled)
+            elif item != _TIMES:
+                self.append(items, item, before)
+            elif items[-1] is not _DROPPED:
+                items.append(_DOT if _ends_in_unit(items[-1]) else item)
         items = [item for item in items if item is not _DROPPED]
-        return items[0] if len(items) == 1 else replace(row, items=tuple(items))
+        negative = row.level == PRODUCT and _starts_with_minus(MathRow(tuple(items)))
+        level = NEGATIVE if negative else row.level
+        return items[0] if len(items) == 1 else MathRow(tuple(items), level)
+
+    def append(self, items: list[Node], item: Node, before: Node | None) -> None:
+        """Put what is no leaf behind what a row has so far."""
+        filled = self.fill(item)
+        if filled != item and _last(items) in _SIGNS:
+            flipped = _take_minus(filled)
+            if flipped is not None:
+                filled = flipped
+                _turn_sign(items)
+        if _touches_value(items, filled, before):
+            items.append(_DOT)
+        items.append(filled)
 
     def place(self, items: list[Node], leaf: Leaf, following: Node | None) -> None:
         """Put a value behind what a row has so far."""
@@ -151,11 +178,9 @@ class _Filling:
         before = _last(items)
         if value.is_rounded and before == OperatorSign("="):
             items[-1] = OperatorSign("≈")
-        if isinstance(before, OperatorSign) and before.name in {"+", "-", "neg"}:
-            flipped = _take_minus(node)
-            if flipped is not None:
-                node = flipped
-                _turn_sign(items)
+        if before in _SIGNS and (flipped := _take_minus(node)) is not None:
+            node = flipped
+            _turn_sign(items)
         sign = _last(items)
         factor = _is_factor(sign, following)
         if factor and _is_unit_factor(node, following) and not _is_multiplied(sign):
@@ -166,7 +191,9 @@ class _Filling:
         fits = needed < ATOM and _fits(node, sign, factor=factor)
         if node.level < needed and not fits:
             node = Fenced("()", node)
-        if _needs_dot(sign, node):
+        if sign == _TIMES and _looks_like_number(node):
+            items[-1] = _DOT
+        elif _is_operand(sign) and _looks_like_number(node):
             items.append(_DOT)
         items.append(node)
 
@@ -266,10 +293,8 @@ def _starts_with_minus(node: Node) -> bool:
     return node == _NEG
 
 
-def _needs_dot(before: Node | None, node: Node) -> bool:
+def _looks_like_number(node: Node) -> bool:
     """Whether a value right behind a factor would be read as part of it."""
-    if not _is_operand(before):
-        return False
     while isinstance(node, Fenced) and node.kind == "()":
         node = node.body
     if isinstance(node, MathRow) and node.items:
@@ -279,15 +304,20 @@ def _needs_dot(before: Node | None, node: Node) -> bool:
     return isinstance(node, Digits | NumberWithUnit | Frac)
 
 
+def _ends_in_unit(node: Node) -> bool:
+    """Whether a factor right behind a value would be read as part of its unit, or of a fraction."""
+    while isinstance(node, MathRow) and node.items:
+        node = node.items[-1]
+    return isinstance(node, NumberWithUnit) or (isinstance(node, Frac) and node.inline)
+
+
 def _touches_value(items: list[Node], node: Node, before: Node | None) -> bool:
-    """Whether what comes right behind a value would be read as part of it: digits, or a unit."""
+    """Whether what comes right behind a value would be read as part of it."""
     last = _last(items)
-    if not isinstance(before, Leaf) or not _is_operand(last) or last is _DROPPED:
+    if not isinstance(before, Leaf) or last is None or not _is_operand(last) or last is _DROPPED:
         return False
-    if isinstance(last, MathRow) and last.items:
-        last = last.items[-1] if last.items[0] == _NEG else MathRow((), PRODUCT)
-    beside = isinstance(last, NumberWithUnit | MathRow) and _is_operand(node)
-    return beside or isinstance(node, Digits)
+    product = isinstance(last, MathRow) and last.level == PRODUCT
+    return isinstance(node, Digits) or (_is_operand(node) and (product or _ends_in_unit(last)))
 
 
 def _allow_slash(node: Node) -> Node:

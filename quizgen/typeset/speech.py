@@ -14,6 +14,7 @@ from msgspec.structs import replace
 from quizgen.core.errors import RenderError
 from quizgen.locale import localise_numbers
 from quizgen.typeset import nodes as n
+from quizgen.typeset.builders import RELATIONS
 from quizgen.typeset.names import GREEK
 from quizgen.typeset.printer import (
     SpeechWords,
@@ -22,7 +23,6 @@ from quizgen.typeset.printer import (
     split_unit,
     strict_lookup,
 )
-from quizgen.typeset.builders import RELATIONS
 from quizgen.typeset.signs import ARROWS, find_styled_letter
 from quizgen.typeset.signs import RELATIONS as SIGNED_RELATIONS
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
+from quizgen.bank.markdown import parse_inlines
 from quizgen.core.errors import RenderError
 from quizgen.maths.notation import parse_formula
-from quizgen.typeset import lay_out, number, quantity, to_latex, to_text, to_typst
+from quizgen.typeset import lay_out, number, quantity, to_latex, to_mathml, to_text, to_typst
 from quizgen.typeset.from_latex import lay_out_latex
 from quizgen.typeset.leaves import LeafValue, fill_leaves, names_of_leaves
 
@@ -79,6 +82,35 @@ def filled(latex: str, *values: str) -> str:
 )
 def test_a_value_gets_the_sign_and_brackets_of_its_place(latex, a, wanted):
     assert filled(latex, a).replace("\u00a0", " ") == wanted
+
+
+@pytest.mark.parametrize(
+    ("typed", "a", "wanted"),
+    [
+        ("{{ a }}*x", "1", "x"),
+        ("{{ a }}*x", "-1", "−x"),
+        ("y = {{ a }}*x + 2", "-1", "y = −x + 2"),
+        ("x + {{ a }}*y", "-1", "x − y"),
+        ("x - {{ a }}*y", "-2", "x + 2y"),
+        ("2*{{ a }}", "-3", "2 · (−3)"),
+        ("2*{{ a }}", "3", "2 · 3"),
+        ("{{ a }}*x", "3 m", "3 m · x"),
+        ("x^{{ a }}", "-3", "x⁻³"),
+        ("x/{{ a }}", "-3", "x/(−3)"),
+        ("{{ a }}/x", "-3", "−3/x"),
+        ("({{ a }} + x)/2", "-3", "(−3 + x)/2"),
+        ("sqrt({{ a }}^2 + 1)", "-3", "√((−3)² + 1)"),
+        ("s/{{ a }}", "5 m/s", "s/(5 m/s)"),
+    ],
+)
+def test_values_in_typed_formulas_are_the_same(typed, a, wanted):
+    (formula,) = parse_inlines(f"${typed}$")
+    node = fill_leaves(formula.node, {"a": value(a)})
+    shown = re.sub("<mo>\u2062</mo>", "", to_mathml(node)).replace("<mo>⋅</mo>", " · ")
+    assert f"{to_text(node)}".replace("\u00a0", " ").replace("·", " · ") in {
+        wanted, wanted.replace("2y", "2 · y"),
+    }  # fmt: skip
+    assert (" · " in shown) == (" · " in wanted)
 
 
 @pytest.mark.parametrize(
