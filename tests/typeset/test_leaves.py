@@ -12,6 +12,7 @@ from quizgen.maths.notation import parse_formula
 from quizgen.typeset import lay_out, number, quantity, to_latex, to_mathml, to_text, to_typst
 from quizgen.typeset.from_latex import lay_out_latex
 from quizgen.typeset.leaves import LeafValue, fill_leaves, names_of_leaves
+from quizgen.typeset.names import iter_names_written
 
 
 def value(text: str) -> LeafValue:
@@ -146,3 +147,8 @@ def test_the_names_are_those_of_the_places():
     assert names_of_leaves(lay_out_latex(r"x^{{ a }} + \sqrt{{{ b }}}")) == {"a", "b"}
     with pytest.raises(RenderError, match="'b'"):
         filled(r"x^{{ a }} + \sqrt{{{ b }}}", "1")
+
+
+def test_the_letters_of_a_formula_are_spelled_as_solvers_do():
+    node = lay_out_latex(r"\bar x = \frac{\mu_1 x_i'}{\sigma^a} + x_{\max} \sin b")
+    assert set(iter_names_written(node)) == {"xbar", "mu_1", "x'_i", "sigma", "a", "x_max", "b"}
