@@ -380,7 +380,8 @@ def _parse_prose_formula(text: str) -> InlineFormula | LaidOutFormula:
         try:
             return _parse_typed_formula(text)
         except FormulaError as error:
-            if isinstance(error, FormulaReadError) and error.code in _UNFINISHED:
+            unfinished = isinstance(error, FormulaReadError) and error.code in _UNFINISHED
+            if unfinished or _TWO_SIGNS.search(text):
                 raise BankError(f"mathematics ${text}$: {error}", rule="QG155") from error
     try:
         return LaidOutFormula(lay_out_latex(spell_as_latex(text)), text)
@@ -397,6 +398,7 @@ def _set_large(formula: InlineFormula | LaidOutFormula) -> LaidOutFormula:
     return LaidOutFormula(Display(formula.node), formula.source)
 
 
+_TWO_SIGNS = re.compile(r"[-+*/^] *[*/^]|[*/^] *[+=<>]|\+ *[-+=]")
 _UNFINISHED = frozenset({"unfinished", "empty", "too-long", "too-deep", "number-too-large"})
 """Faults of a formula that LaTeX would print without a word."""
 _HELD = "\ua4d0"

@@ -260,8 +260,7 @@ def _explain_converter(held: str, message: str, starts: Sequence[tuple[int, int]
         like = ", ".join(f"\\{name}" for name in near)
         what = f"\\{command[1]} is not among the commands there are"
         what += f" (near it: {like})" if like else ""
-        what += "; docs/formulas.md has the list"
-    return LatexError(what[:1].lower() + what[1:], _find_column(at, starts))
+    return LatexError(what[:1].lower() + what[1:].rstrip("."), _find_column(at, starts))
 
 
 def _locate_refusal(source: str, error: _RefusalError) -> LatexError:
