@@ -40,7 +40,10 @@ DIGEST = re.compile(rb'"digest": ?"[0-9a-f]+"')
 
 
 def make_outputs(code: Path, folder: Path) -> dict[str, bytes]:
-    """Run every command with the code of a folder; file name to its bytes, and what was said."""
+    """Run every command with the code in a folder; return the bytes of each file by name.
+
+    Exit code and messages of each command are a file, too.
+    """
     (folder / "roster.csv").write_text(ROSTER, "utf-8")
     environment = {**os.environ, "PYTHONPATH": str(code), "XDG_CACHE_HOME": str(folder / "cache")}
     for number, command in enumerate(COMMANDS):

@@ -58,21 +58,21 @@ def count_wrong(bank: Bank, drawn: int = ROUND) -> Counted:
 
 
 def is_wrong(drawn: Variant, system: str) -> bool:
-    """Whether an arithmetic would print or mark a question wrongly, or have no key for it.
+    """Return whether an arithmetic prints or marks a question wrongly, or has no key for it.
 
-    Of doubles as they are only the digits count: nobody marks by equality with them.
+    For plain doubles only the digits count: nobody marks by equality with them.
     """
-    found = faults(drawn, system)
+    found = find_faults(drawn, system)
     return bool(found - {"accepted", "rejected"} if system == "float64" else found)
 
 
-def specs(drawn: Variant) -> list[AnySpec]:
-    """What each part of a question is marked by."""
+def list_specs(drawn: Variant) -> list[AnySpec]:
+    """Return the specification of each part of a question."""
     return [ask_part(drawn, index).spec for index in range(len(drawn.template.rules.part))]
 
 
-def faults(drawn: Variant, name: str) -> set[str]:
-    """What goes wrong with one question in an arithmetic, by comparing its key with the exact one.
+def find_faults(drawn: Variant, name: str) -> set[str]:
+    """Return what goes wrong with a question in arithmetic ``name``, compared to the exact key.
 
     Returns
     -------
@@ -82,39 +82,43 @@ def faults(drawn: Variant, name: str) -> set[str]:
     """
     found: set[str] = set()
     try:
-        others = specs(solve_in(drawn, name))
-        for index, (right, other) in enumerate(zip(specs(drawn), others, strict=True)):
+        others = list_specs(solve_in(drawn, name))
+        for index, (right, other) in enumerate(zip(list_specs(drawn), others, strict=True)):
             if right.kind not in FREE and other != right:
-                found |= _compared(drawn, index, right, other)
+                found |= _compare_part(drawn, index, right, other)
     except FAILURES:
         return {"unanswered"}
     return found
 
 
-def _compared(drawn: Variant, index: int, right: AnySpec, other: AnySpec) -> set[str]:
+def _compare_part(drawn: Variant, index: int, right: AnySpec, other: AnySpec) -> set[str]:
+    """Return the faults of one part: ``digit``, ``accepted``, ``rejected``."""
     printed, made = show_key(right), show_key(other)
-    tried = dict.fromkeys([printed, made, *_neighbours(printed), *_mistaken(drawn, index)])
-    verdicts = {(_correct(right, typed), _correct(other, typed)) for typed in tried}
+    tried = dict.fromkeys(
+        [printed, made, *_iter_neighbours(printed), *_iter_mistaken_answers(drawn, index)]
+    )
+    verdicts = {(_is_accepted(right, typed), _is_accepted(other, typed)) for typed in tried}
     found = {
-        "digit": printed != made and not _right_digits(drawn, index, printed, made),
+        "digit": printed != made and not _has_right_digits(drawn, index, printed, made),
         "accepted": (False, True) in verdicts,
         "rejected": (True, False) in verdicts,
     }
     return {fault for fault, true in found.items() if true}
 
 
-def _correct(spec: AnySpec, typed: str) -> bool:
+def _is_accepted(spec: AnySpec, typed: str) -> bool:
+    """Return whether a specification accepts what was typed."""
     return grade_answer(spec, typed, decimal="point").verdict == "correct"
 
 
-def _mistaken(drawn: Variant, index: int) -> Iterator[str]:
-    """What those type who make a known mistake."""
+def _iter_mistaken_answers(drawn: Variant, index: int) -> Iterator[str]:
+    """Yield the answers of those who make a known mistake."""
     for spec in ask_part(drawn, index).mistakes.values():
         yield show_key(spec)
 
 
-def _neighbours(printed: str) -> Iterator[str]:
-    """The printed answer with its first number one higher or lower in the last place."""
+def _iter_neighbours(printed: str) -> Iterator[str]:
+    """Yield the printed answer with its first number one higher or lower in the last place."""
     found = _NUMBER.search(printed)
     if found is None or "/" in found[0] or "·" in found[0]:
         return
@@ -124,21 +128,23 @@ def _neighbours(printed: str) -> Iterator[str]:
         yield f"{printed[: found.start()]}{near:f}{printed[found.end() :]}"
 
 
-def _right_digits(drawn: Variant, index: int, printed: str, made: str) -> bool:
-    """Whether every number of a key is its value rounded to as many places as it has."""
+def _has_right_digits(drawn: Variant, index: int, printed: str, made: str) -> bool:
+    """Return whether every number of a key is its value rounded to the places it shows."""
     numbers = [found[0].translate(_PLAIN) for found in _NUMBER.finditer(made)]
     percent = 100 if drawn.sampler.parts[index].answer.get("percent") else 1
     values = [value * percent for value in drawn.answer_of_part(index)]
-    if len(numbers) != len(values) or _words(printed) != _words(made):
+    if len(numbers) != len(values) or _remove_numbers(printed) != _remove_numbers(made):
         return False
     return all(map(_rounds_to, values, numbers))
 
 
-def _words(text: str) -> str:
+def _remove_numbers(text: str) -> str:
+    """Return a printed key without its numbers."""
     return _NUMBER.sub("", text)
 
 
 def _rounds_to(value: Value, number: str) -> bool:
+    """Return whether a value rounded to the places of a printed number is that number."""
     if "/" in number:
         return isinstance(value, fmpq) and value == to_rational(number)
     mantissa, _, power = number.partition("·10")
@@ -149,7 +155,7 @@ def _rounds_to(value: Value, number: str) -> bool:
 
 
 def main() -> int:
-    """Count and write."""
+    """Count, and write ``counted.json``."""
     found = msgspec.json.format(msgspec.json.encode(count_wrong(builtin_bank())))
     COUNTED.write_bytes(found + b"\n")
     print(COUNTED)

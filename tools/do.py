@@ -37,7 +37,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
 
 
 def main(names: list[str]) -> int:
-    """Run the commands of each name; the first that fails ends it."""
+    """Run the commands of each name, up to the first that fails; return its exit code."""
     unknown = [name for name in names if name not in COMMANDS]
     if unknown or not names:
         print(f"usage: tools/do.py {'|'.join(COMMANDS)}", file=sys.stderr)

@@ -31,7 +31,7 @@ Named = Sequence[tuple[str, Figure]]
 
 
 def write_sheet(figures: Named, file: Path) -> None:
-    """Put figures on one picture, each below its name."""
+    """Write one PNG with all figures, each below its name."""
     cells = []
     with tempfile.TemporaryDirectory() as folder:
         for name, figure in figures:

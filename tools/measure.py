@@ -20,24 +20,24 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 def functions(tree: ast.AST) -> Iterator[Function]:
-    """Every function and method of a module."""
+    """Yield every function and method of a module."""
     return (n for n in ast.walk(tree) if isinstance(n, Function))
 
 
 def length(function: Function) -> int:
-    """Lines of a function from ``def`` to its end."""
+    """Return the lines of a function from ``def`` to its end."""
     return int(function.end_lineno or function.lineno) - function.lineno + 1
 
 
 def parameters(function: Function) -> list[ast.arg]:
-    """All parameters but ``self`` and ``cls``."""
+    """Return all parameters but ``self`` and ``cls``."""
     a = function.args
     every = [*a.posonlyargs, *a.args, *a.kwonlyargs, *filter(None, (a.vararg, a.kwarg))]
     return [one for one in every if one.arg not in {"self", "cls"}]
 
 
 def is_any(parameter: ast.arg) -> bool:
-    """Whether a parameter is annotated with ``Any`` itself."""
+    """Return whether a parameter is annotated with ``Any`` itself."""
     note = parameter.annotation
     return isinstance(note, ast.Name) and note.id == "Any"
 
@@ -57,12 +57,12 @@ CONTRACTS = "effects", "kinds", "levels", "cli"
 
 
 def is_participle(word: str) -> bool:
-    """Whether a word is a past participle, by its form."""
+    """Return whether a word is a past participle, by its form."""
     return word in IRREGULAR or (word.endswith("ed") and len(word) > 4)
 
 
 def find_faults_of_names(trees: dict[Path, ast.Module]) -> list[str]:
-    """Print the shares of names, and give what is beyond the limits."""
+    """Print the shares of names, and return what is beyond the limits."""
     names = [f.name.strip("_") for tree in trees.values() for f in functions(tree)
              if not f.name.startswith("__")]  # fmt: skip
     single = [name for name in names if "_" not in name]
@@ -84,7 +84,7 @@ def find_faults_of_names(trees: dict[Path, ast.Module]) -> list[str]:
 
 
 def main(folders: list[str]) -> int:
-    """Print the figures of all modules below the folders; 1 if names are beyond the limits."""
+    """Print the figures of all modules below the folders; return 1 if names exceed the limits."""
     paths = sorted(p for folder in folders for p in Path(folder).rglob("*.py"))
     trees = {p: ast.parse(p.read_text(encoding="utf-8")) for p in paths}
     lengths = [length(f) for tree in trees.values() for f in functions(tree)]

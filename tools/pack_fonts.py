@@ -18,16 +18,16 @@ from quizgen.render import fonts
 BANGLA_RANGE = [*range(0x0964, 0x0966), *range(0x0980, 0x0A00), 0x200C, 0x200D, 0x25CC]
 
 
-def maths_file() -> Path:
-    """STIX Two Math, whole, as a package of the dev group brings it."""
+def find_maths_font() -> Path:
+    """Return the full STIX Two Math font, as a package of the dev group brings it."""
     return next(fonts.package_folder("ziamath").rglob("STIXTwoMath-Regular.ttf"))
 
 
-def sources() -> dict[Path, tuple[Path, list[int]]]:
-    """Packed file to the font that it is made from, and the characters in it."""
+def list_sources() -> dict[Path, tuple[Path, list[int]]]:
+    """Return for each packed file the font it is made from, and its characters (code points)."""
     return {
-        fonts.packed_font_path(fonts.MATHS): (maths_file(), fonts.MATHS_RANGE),
-        fonts.packed_font_path(fonts.ALL_MATHS): (maths_file(), fonts.ALL_MATHS_RANGE),
+        fonts.packed_font_path(fonts.MATHS): (find_maths_font(), fonts.MATHS_RANGE),
+        fonts.packed_font_path(fonts.ALL_MATHS): (find_maths_font(), fonts.ALL_MATHS_RANGE),
         **{
             fonts.packed_font_path(fonts.BANGLA[weight]): (fonts.bangla_file(weight), BANGLA_RANGE)
             for weight in fonts.BANGLA
@@ -35,8 +35,11 @@ def sources() -> dict[Path, tuple[Path, list[int]]]:
     }
 
 
-def pack(source: Path, characters: list[int]) -> bytes:
-    """A font as WOFF2, with some of its characters and all that shapes them."""
+def pack_font(source: Path, characters: list[int]) -> bytes:
+    """Return a font as WOFF2 with only these characters and the rules that shape them.
+
+    ``characters`` are code points. A whole font would make each page megabytes larger.
+    """
     options = subset.Options()
     options.flavor = "woff2"
     options.layout_features = ["*"]
@@ -53,8 +56,8 @@ def pack(source: Path, characters: list[int]) -> bytes:
 
 def main() -> None:
     """Write every packed font."""
-    for target, (source, characters) in sources().items():
-        target.write_bytes(pack(source, characters))
+    for target, (source, characters) in list_sources().items():
+        target.write_bytes(pack_font(source, characters))
         print(f"{target.name}: {target.stat().st_size} bytes")
 
 

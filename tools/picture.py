@@ -19,7 +19,7 @@ TYPED = ("20", "16")
 
 
 def main() -> None:
-    """Begin a question in a new database, serve it, answer it, take the picture."""
+    """Serve a question from a new database, answer it and take its picture."""
     with tempfile.TemporaryDirectory() as folder:
         database = f"sqlite:///{Path(folder) / 'learning.sqlite3'}"
         store = Store(database)
@@ -39,7 +39,10 @@ def main() -> None:
 
 
 def photograph(entrance: str, question: str) -> None:
-    """Answer the question as its page asks it, and keep what is then seen."""
+    """Answer the question as its page asks it, and save a screenshot.
+
+    ``entrance`` is the address that signs in, ``question`` the path of the question.
+    """
     with sync_playwright() as driver:
         browser = driver.chromium.launch(
             executable_path=shutil.which("chromium"), args=["--no-sandbox"]

@@ -1,4 +1,4 @@
-"""Take the pictures of the shipped scenes anew: ``docs/scenes.jpg``, by the order of names."""
+"""Take the pictures of the shipped scenes again: ``docs/scenes.jpg``, by the order of names."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COLUMNS = 4
 
 
 def main() -> None:
-    """Photograph each scene with every effect, small, four in a row."""
+    """Render each scene with every effect, small, four in a row, into ``docs/scenes.jpg``."""
     taken = [
         Image.fromarray(run_plan(PreparedScene(*load_scene(path))).pixels()).resize(
             SIZE, Image.Resampling.BOX

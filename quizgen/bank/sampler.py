@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 import msgspec
 from flint import fmpq
 
+from quizgen.bank.dimensions import find_unit_errors
 from quizgen.bank.misconceptions import PartChecker
 from quizgen.bank.rules import KeepRule, Scalar
 from quizgen.bank.template import Template
@@ -94,6 +95,9 @@ class Sampler:
         self.late = [c for c in conditions if not c.needs <= drawn]
         with error_context(template.file):  # a unit of the file may be none, and knows no file
             self.parts = [PartChecker(template, index) for index in range(len(template.rules.part))]
+        # A key in a wrong unit looks as well as a right one, so no paper is made of it.
+        for error in find_unit_errors(template):
+            raise error
 
     def _check_order(self) -> None:
         known: set[str] = set()

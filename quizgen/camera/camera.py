@@ -10,7 +10,7 @@ from quizgen.camera.setup.settings import CameraSettings, suggest_setting
 
 
 class Camera(CameraSettings):
-    """A camera; every default is absent, not multiplied by one.
+    """A camera, by the settings that were given; a setting that was not given has no effect at all.
 
     Parameters
     ----------
@@ -53,5 +53,5 @@ class Camera(CameraSettings):
                 raise SettingError(setting.name, fault)
 
     def replace(self, **changes: object) -> Camera:
-        """The same camera with other values of some settings."""
+        """Return the same camera with other values of some settings."""
         return Camera(**{**self.given, **changes})  # type: ignore[arg-type]

@@ -22,9 +22,10 @@ _SCALES = 1000, 500, 200, 100, 50, 20, 10, 5, 2, 1
 
 
 def amplify_difference(one: Image, other: Image) -> tuple[int, Codes]:
-    """How far two pictures lie apart, times 1, 2, 5, 10 ... so that it is seen.
+    """Return the absolute difference of two pictures, amplified so that it can be seen.
 
-    Of the values that differ by a grey level (or of all, where none does) 98 % are not clipped.
+    The factor is 1, 2, 5, 10, ...: of the values that differ by a grey level (or of all, where none
+    does) 98 % are not clipped.
 
     Returns
     -------
@@ -41,16 +42,16 @@ def amplify_difference(one: Image, other: Image) -> tuple[int, Codes]:
 
 
 def concatenate_pictures(*pictures: Codes) -> Codes:
-    """Pictures of one height in a row, white between them."""
+    """Return pictures of one height in a row, with white between them."""
     gap = np.full((pictures[0].shape[0], _GAP, 3), 255, np.uint8)
     parts = [part for picture in pictures for part in (picture, gap)]
     return np.concatenate(parts[:-1], axis=1)
 
 
 def measure_effects(
-    prepared: PreparedScene, photo: Photo, names: Collection[str], told: Callable[[str], None]
+    prepared: PreparedScene, photo: Photo, names: Collection[str], on_effect: Callable[[str], None]
 ) -> dict[str, float]:
-    """What each present effect really changes, in grey levels: with it against without it.
+    """Return the largest change, in grey levels, that each present effect makes to the picture.
 
     Parameters
     ----------
@@ -58,13 +59,13 @@ def measure_effects(
     photo : Photo
         Taken with the effects of these names.
     names : collection of str
-    told : callable
+    on_effect : callable
         Gets the name of each effect before it is tried.
     """
     units = (prepared.find_unit(one) for one in prepared.present if one.prepare is None)
     found: dict[str, float] = {}
     for members in dict.fromkeys(units):
-        told(min(members))
+        on_effect(min(members))
         other = run_plan(prepared, set(names) ^ set(members))
         found.update(dict.fromkeys(members, measure_difference(photo, other)))
     return found
@@ -72,7 +73,7 @@ def measure_effects(
 
 @dataclass(frozen=True)
 class Race:
-    """Times of two ways to photograph, taken in turns, both warm.
+    """Times of two sets of effects on one scene, measured in turns, both warm.
 
     Parameters
     ----------
@@ -85,12 +86,12 @@ class Race:
 
     @property
     def medians(self) -> tuple[float, float]:
-        """The time of each, ms."""
+        """The median time of each, ms."""
         return median(self.first_ms), median(self.second_ms)
 
     @property
     def saves(self) -> bool:
-        """Whether the first takes 5 % less time, and less in most turns than most of the second."""
+        """Whether the first takes 5 % less time, and in most turns less than most of the second."""
         first, second = self.medians
         few = len(self.second_ms) // 4
         return first < 0.95 * second and self.first_ms[-1 - few] < self.second_ms[few]
@@ -102,7 +103,7 @@ _LONGEST = 6.0
 
 
 def time_in_turns(prepared: PreparedScene, first: Collection[str], second: Collection[str]) -> Race:
-    """Run two sets of effects one after the other, `TURNS` times after a turn that is not counted.
+    """Return the times of two sets of effects, run in turns `TURNS` times after a warm-up.
 
     Parameters
     ----------

@@ -17,16 +17,17 @@ EffectRun = Callable[[LayerStack, View], LayerStack]
 
 
 def on_composite(work: Callable[[Image, View], Image]) -> EffectRun:
-    """Work on one picture: the layers are laid over each other first."""
+    """Return an effect's run that composites the layers and hands one picture to ``work``."""
 
     def run(stack: LayerStack, view: View) -> LayerStack:
+        """Return a stack of one layer: what ``work`` makes of the composited picture."""
         return (Layer(work(composite_layers(stack), view)),)
 
     return run
 
 
 class LayerByLayer(msgspec.Struct, frozen=True):
-    """A run that takes averages of each layer's values, and looks at no other layer.
+    """A run of an effect that averages values within each layer and looks at no other layer.
 
     Such effects in a row are finished for one layer before the next is looked at, and an even
     layer, whose averages are all the same, is left as it is.
@@ -40,12 +41,12 @@ class LayerByLayer(msgspec.Struct, frozen=True):
     operation: Callable[[Layer, View], Layer]
 
     def __call__(self, stack: LayerStack, view: View) -> LayerStack:
-        """Run it alone."""
+        """Return the layers after this effect alone."""
         return tuple(self.operation(layer, view) for layer in stack)
 
 
 class PointByPoint(msgspec.Struct, frozen=True):
-    """A run in which every value depends on its own pixel alone.
+    """A run of an effect in which every value depends on its own pixel alone.
 
     Such effects in a row share one pass over the picture.
 
@@ -58,12 +59,12 @@ class PointByPoint(msgspec.Struct, frozen=True):
     operation: Callable[[View], TileOperation]
 
     def __call__(self, stack: LayerStack, view: View) -> LayerStack:
-        """Run it alone."""
+        """Return the composited picture after this effect alone."""
         return (Layer(apply_tilewise(composite_layers(stack), [self.operation(view)])[0]),)
 
 
 class EffectSize(msgspec.Struct, frozen=True):
-    """What an effect does to a picture, in its own terms, and from where on a person sees it.
+    """What an effect does to a picture in its own terms, and from what size a person sees it.
 
     Parameters
     ----------
@@ -81,7 +82,9 @@ class EffectSize(msgspec.Struct, frozen=True):
 
 
 class Effect(msgspec.Struct, frozen=True, kw_only=True):
-    """All that the camera knows of an effect.
+    """All that the camera knows of one effect.
+
+    Its settings, how it runs, what leaving it out costs.
 
     Parameters
     ----------
@@ -104,7 +107,7 @@ class Effect(msgspec.Struct, frozen=True, kw_only=True):
     range_after : callable
         ``range_after(signal, view)``: the `Signal` of what comes out, by default of what comes in.
     size : EffectSize, optional
-        What it does, in its own terms; without one only differences in grey levels are told.
+        What it does, in its own terms; without one only differences in grey levels are reported.
     speckles : bool
         Whether it is seen by the spread of single pixels, as noise is.
     needs_effects : tuple of str

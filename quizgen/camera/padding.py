@@ -16,7 +16,7 @@ WIDEST = 4
 
 
 def padded_views(present: tuple[Effect, ...], frame: View) -> tuple[View, ...]:
-    """What each effect works on: the frame, and what it and the later effects need around it.
+    """Return the view that each effect works on: the frame plus what later effects read around it.
 
     Parameters
     ----------
@@ -35,6 +35,7 @@ def padded_views(present: tuple[Effect, ...], frame: View) -> tuple[View, ...]:
 
 
 def _with_margin(view: View, reach: tuple[float, float]) -> View:
+    """Return a view with whole px more on each side: across and down of ``reach``, rounded up."""
     sides = view.scene.width, view.scene.height
     wanted = (had + far for had, far in zip(view.margin, reach, strict=True))
     across, down = (
@@ -44,7 +45,7 @@ def _with_margin(view: View, reach: tuple[float, float]) -> View:
 
 
 def crop_layer(layer: Layer, view: View) -> Layer:
-    """The middle of a layer that was drawn or computed with a wider margin: nothing is copied."""
+    """Return the middle of a layer with a wider margin, as large as a view; nothing is copied."""
     height, width = layer.colour.shape[:2]
     down, across = (height - view.height) // 2, (width - view.width) // 2
     if not down and not across:
@@ -57,9 +58,9 @@ def crop_layer(layer: Layer, view: View) -> Layer:
 
 
 def crop_in_place(picture: Image, view: View) -> Image:
-    """The middle of a picture nobody else needs, row after row in the memory of the whole.
+    """Return the middle of a picture, moved row by row within its own memory.
 
-    New memory for a large picture takes longer than copying it.
+    Nobody else may need the picture. New memory for a large one takes longer than copying it.
     """
     down, across = (picture.shape[0] - view.height) // 2, (picture.shape[1] - view.width) // 2
     if not down and not across:

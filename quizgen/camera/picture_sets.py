@@ -34,12 +34,12 @@ Codes = NDArray[np.uint8]
 
 
 def to_codes(image: Image) -> Codes:
-    """8-bit codes of a finished picture in [0, 1], halves rounded upward."""
+    """Return the 8-bit codes of a finished picture in [0, 1], halves rounded upward."""
     return to_8bit(image * 255.0)
 
 
 def make_hsv_edits(image: Image, value: float, saturation: float, hue: float) -> tuple[Image, ...]:
-    """The original, V times a factor, S times a factor, and H plus degrees, in this order."""
+    """Return four pictures: the original, value scaled, saturation scaled, hue turned (degrees)."""
     return (
         image,
         edit_hsv(image, value=value),
@@ -49,7 +49,10 @@ def make_hsv_edits(image: Image, value: float, saturation: float, hue: float) ->
 
 
 def make_noisy(image: Image, sigma: float, share: float, seed: int) -> tuple[Image, Image, Image]:
-    """Clean, with Gaussian noise, with salt and pepper; each noise has its own stream."""
+    """Return three pictures: clean, with Gaussian noise, with salt and pepper noise.
+
+    Each noise has a stream of its own.
+    """
     height, width = image.shape[:2]
     view = View(Scene(width, height, image=image, seed=seed), Camera())
     grainy = add_gaussian(sigma, effect_random(view, "gaussian noise"))
@@ -60,13 +63,13 @@ def make_noisy(image: Image, sigma: float, share: float, seed: int) -> tuple[Ima
 def make_normalised(
     image: Image, low: float, high: float, bins: int = 64
 ) -> tuple[Image, NDArray[np.int64], NDArray[np.int64]]:
-    """A picture stretched from [low, high] to [0, 1], and the histograms before and after."""
+    """Return a picture stretched from [low, high] to [0, 1], and histograms before and after."""
     after = stretch_range(image, low, high)
     return after, count_histogram(image, bins), count_histogram(after, bins)
 
 
 def make_focused(scene: Scene, depths: Sequence[float], *cameras: Camera) -> tuple[Codes, ...]:
-    """Photographs of the things of a scene, each at a depth, by lenses of any focus and opening.
+    """Return one photograph for each camera, of the things of a scene at these depths.
 
     What `photographs` takes of them, in less time: of what is drawn nothing depends on the depth,
     so it is kept, and of a camera only its lens and its tone curve are asked.
@@ -89,15 +92,19 @@ def make_focused(scene: Scene, depths: Sequence[float], *cameras: Camera) -> tup
 def _focus_on_depth(
     scene: Scene, groups: Sequence[tuple[float, tuple[int, ...]]], camera: Camera
 ) -> Codes:
+    """Return the photograph of one camera; groups of things are given far ones first.
+
+    A group is a depth in m, and the indices of the things there.
+    """
     view = View(scene, camera)
     encode = gamma.operation(view)
-    behind, even = _behind(scene, camera[gamma.GAMMA])
+    behind, even = _encode_background(scene, camera[gamma.GAMMA])
     light, seen = behind.copy(), even.copy()
     top, bottom = scene.height, 0
     for depth, some in groups:
         kernel = disc_kernel(view.blur_diameter(depth))
         part, keep, colour = (
-            _blur_things(scene, some, kernel) if kernel.size > 1 else _sharp(scene, some)
+            _blur_things(scene, some, kernel) if kernel.size > 1 else _rasterize_sharp(scene, some)
         )
         blend_into(light[part], keep, colour)
         top, bottom = min(top, part[0].start), max(bottom, part[0].stop)
@@ -108,8 +115,8 @@ def _focus_on_depth(
 
 
 @lru_cache(maxsize=16)
-def _behind(scene: Scene, tone: str | float) -> tuple[Image, Codes]:
-    """The even background of a scene: its light, and its codes."""
+def _encode_background(scene: Scene, tone: str | float) -> tuple[Image, Codes]:
+    """Return the even background of a scene, as linear light and as 8-bit codes."""
     light = np.empty((scene.height, scene.width, 3), scene.precision)
     light[...] = scene.background
     encoded = apply_tilewise(light, [gamma.operation(View(scene, Camera(gamma=tone)))])[0]
@@ -120,25 +127,28 @@ LaidLight = tuple[PixelBox, Image, Image]
 """Where the light of things gets, the share kept there of what is behind, and their colour."""
 
 
-def _laid(part: PixelBox, light: Image) -> LaidLight:
+def _split_coverage(part: PixelBox, light: Image) -> LaidLight:
+    """Return box, share of the background kept there, and colour, from colour with coverage."""
     return part, np.repeat(1.0 - light[..., 3:], 3, axis=2), light[..., :3]
 
 
 @lru_cache(maxsize=16)
-def _sharp(scene: Scene, some: tuple[int, ...]) -> LaidLight:
+def _rasterize_sharp(scene: Scene, some: tuple[int, ...]) -> LaidLight:
+    """Return what `_split_coverage` does for some things, unblurred and cached."""
     image, box = _rasterize_things(scene, some)
-    return _laid(box, image[box])
+    return _split_coverage(box, image[box])
 
 
 def _blur_things(scene: Scene, some: tuple[int, ...], kernel: BlurKernel) -> LaidLight:
+    """Return what `_split_coverage` does for some things, blurred by a kernel."""
     image, box = _rasterize_things(scene, some)
     part = grow_box(box, (kernel.shape[0] // 2, kernel.shape[1] // 2), image.shape)
-    return _laid(part, convolve(np.ascontiguousarray(image[part]), kernel))
+    return _split_coverage(part, convolve(np.ascontiguousarray(image[part]), kernel))
 
 
 @lru_cache(maxsize=16)
 def _rasterize_things(scene: Scene, some: tuple[int, ...]) -> tuple[Image, PixelBox]:
-    """Colour and cover of some things that share a depth, shape (H, W, 4), and where they are."""
+    """Return colour and coverage of some things, shape (H, W, 4), and the box that they cover."""
     things = tuple(replace(scene.things[place], depth=1.0) for place in some)
     blurring = Camera(focal_length=0.05, pixel_pitch=1e-4, f_number=2.0)
     _, layer = rasterize(View(replace(scene, things=things), blurring))

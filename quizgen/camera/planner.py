@@ -40,7 +40,7 @@ _ROUNDING = 2e-6
 
 
 class PreparedScene:
-    """A scene in pixels, drawn when first needed.
+    """A scene in pixels with the effects of a camera, drawn when first needed.
 
     Parameters
     ----------
@@ -58,18 +58,18 @@ class PreparedScene:
 
     @cached_property
     def present(self) -> tuple[Effect, ...]:
-        """Effects that the camera has, in physical order."""
+        """The effects that the camera has, in physical order."""
         there = effects.present_effects(self.given)
         return tuple(one for one in there if self.names is None or one.name in self.names)
 
     @cached_property
     def absent(self) -> tuple[str, ...]:
-        """Names of the effects that the camera has not."""
+        """The names of the effects that the camera does not have."""
         return tuple(one.name for one in effects.EFFECTS if one not in self.present)
 
     @cached_property
     def view(self) -> View:
-        """Everything in px."""
+        """The camera and the scene with all lengths in px, after the effects that prepare it."""
         view = self.given
         for effect in self.present:
             effect.check_camera(view)
@@ -81,7 +81,7 @@ class PreparedScene:
 
     @cached_property
     def views(self) -> tuple[View, ...]:
-        """What each present effect works on, with its margin outside the frame."""
+        """The view that each present effect works on, with its margin outside the frame."""
         return padded_views(self.present, self.view)
 
     @cached_property
@@ -94,29 +94,29 @@ class PreparedScene:
 
     @cached_property
     def signals(self) -> tuple[Signal, ...]:
-        """Between which values the picture lies before each present effect, if all run.
+        """The range of the picture's values before each present effect, if all run.
 
         Raises
         ------
         SceneError
             If an effect makes signals of more than `LARGEST_SIGNAL`.
         """
-        found, signal = [], _round(Signal(*self.view.scene.radiance_range))
+        found, signal = [], _widen_for_rounding(Signal(*self.view.scene.radiance_range))
         for effect, view in zip(self.present, self.views, strict=True):
             found.append(signal)
-            signal = _round(effect.range_after(signal, view))
+            signal = _widen_for_rounding(effect.range_after(signal, view))
             if not signal.size < LARGEST_SIGNAL:
                 raise SceneError(f"{effect.name} makes signals of more than {LARGEST_SIGNAL:g}")
         return tuple(found)
 
     def find_unit(self, effect: Effect) -> tuple[str, ...]:
-        """Names of the effects that run together with one or not at all, its own included."""
+        """Return the names of the effects that run only together with this one, its own too."""
         return tuple(
             one.name for one in self.present if one is effect or one.pair == effect.pair != ""
         )
 
     def bound_omission(self, names: Collection[str]) -> float:
-        """Grey levels by which no value changes when these effects are left out and others run.
+        """Return by how many grey levels leaving these effects out changes any value at most.
 
         Parameters
         ----------
@@ -133,14 +133,15 @@ class PreparedScene:
         return GREY_LEVELS * error
 
 
-def _round(signal: Signal) -> Signal:
+def _widen_for_rounding(signal: Signal) -> Signal:
+    """Return a range with room for the rounding errors of the values in it."""
     slack = _ROUNDING * signal.size
     return signal.with_margins(slack, slack)
 
 
 @dataclass(frozen=True)
 class EffectChoice:
-    """What is made of an effect.
+    """Why one effect runs or is left out, and what leaving it out would change.
 
     Parameters
     ----------
@@ -161,7 +162,7 @@ class EffectChoice:
 
 @dataclass(frozen=True)
 class Plan:
-    """What runs and what does not.
+    """Which effects run and which are left out, each with the reason.
 
     Parameters
     ----------
@@ -188,13 +189,13 @@ class Plan:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The effects that run, in physical order."""
+        """The names of the effects that run, in physical order."""
         return tuple(step.effect for step in self.steps)
 
 
 @dataclass(frozen=True)
 class EffectSelection:
-    """Effects that are chosen by name.
+    """Effects that a user chose by name, on top of what a question or a budget decides.
 
     Parameters
     ----------
@@ -213,7 +214,7 @@ NO_SELECTION = EffectSelection()
 
 
 def parse_budget(text: str | float) -> float:
-    """Grey levels of a number or of a name in `BUDGETS`.
+    """Return the grey levels that a text means: a number or a name in `BUDGETS`.
 
     Raises
     ------
@@ -230,7 +231,7 @@ def parse_budget(text: str | float) -> float:
 
 
 def parse_effect(text: str) -> str:
-    """The name of an effect, which may be written with hyphens.
+    """Return the name of an effect, which may be typed with hyphens.
 
     Raises
     ------
@@ -249,7 +250,9 @@ def parse_effect(text: str) -> str:
 def plan_budget(
     prepared: PreparedScene, budget: str | float = 0.5, chosen: EffectSelection = NO_SELECTION
 ) -> Plan:
-    """Leave out what no value of the picture shows by more than the budget, least change first.
+    """Return the plan that leaves out what no value shows by more than the budget.
+
+    The effects with the least change are left out first; their bounds add up.
 
     Parameters
     ----------
@@ -274,13 +277,13 @@ def plan_budget(
         runs = {
             one.name: one.always or "may be seen" for one in prepared.present if one.name not in why
         }
-        return _report(prepared, runs, why, budget=limit)
+        return _build_plan(prepared, runs, why, budget=limit)
 
 
 def plan_question(
     prepared: PreparedScene, kinds: Iterable[str] = (), chosen: EffectSelection = NO_SELECTION
 ) -> Plan:
-    """Run what a question asks about and what its picture would be wrong without.
+    """Return the plan that runs what a question asks about and what its picture is wrong without.
 
     Parameters
     ----------
@@ -298,8 +301,10 @@ def plan_question(
     with error_context(prepared.given.scene.file):
         for name in (*chosen.only, *chosen.plus):
             if name not in there:
-                raise SceneError(f"this camera has no {name}{_hint(effects.get_effect(name))}")
-        asked = chosen.only or _answering(there.values(), kinds)
+                raise SceneError(
+                    f"this camera has no {name}{_suggest_setting_of(effects.get_effect(name))}"
+                )
+        asked = chosen.only or _find_answering(there.values(), kinds)
         runs = {one.name: one.always for one in there.values() if one.always}
         runs |= dict.fromkeys(chosen.plus, "wanted") | dict.fromkeys(asked, "asked")
         for name in list(runs):
@@ -312,11 +317,11 @@ def plan_question(
         out = {name: "not asked" for name in there if name not in runs}
         out |= {name: "not wanted" for name in chosen.minus if name in there}
         runs = {name: why for name, why in runs.items() if name not in out}
-        return _report(prepared, runs, out, asked=tuple(name for name in runs if name in asked))
+        return _build_plan(prepared, runs, out, asked=tuple(name for name in runs if name in asked))
 
 
-def _answering(there: Iterable[Effect], kinds: Iterable[str]) -> tuple[str, ...]:
-    """Present effects that answer a question; every kind has one."""
+def _find_answering(there: Iterable[Effect], kinds: Iterable[str]) -> tuple[str, ...]:
+    """Return the names of the present effects that answer a question; every kind must have one."""
     found: list[str] = []
     for kind in kinds:
         known = [effect for effect in effects.EFFECTS if kind in effect.answers]
@@ -325,19 +330,21 @@ def _answering(there: Iterable[Effect], kinds: Iterable[str]) -> tuple[str, ...]
             raise SceneError(f"unknown question {kind!r}; one of {kinds}")
         names = [effect.name for effect in there if effect in known]
         if not names:
-            raise SceneError(f"nothing in this camera answers {kind!r}{_hint(known[0])}")
+            raise SceneError(
+                f"nothing in this camera answers {kind!r}{_suggest_setting_of(known[0])}"
+            )
         found.extend(names)
     return tuple(dict.fromkeys(found))
 
 
-def _hint(effect: Effect) -> str:
-    """What would bring an effect into a camera."""
+def _suggest_setting_of(effect: Effect) -> str:
+    """Return the part of a message that says which setting would bring an effect into a camera."""
     names = " or ".join(setting.name for setting in effect.settings) or effect.needs
     return f": it needs {names}" if names else ""
 
 
 def describe_size(effect: Effect, view: View) -> str:
-    """What an effect does in its own terms, its verb first; empty where that says nothing.
+    """Return what an effect does in its own terms, verb first; "" where that says nothing.
 
     Hot pixels alone, for one, are a dark current of 0 electrons.
     """
@@ -346,13 +353,14 @@ def describe_size(effect: Effect, view: View) -> str:
     return size.says.format(value) if size and (value or size.least) else ""
 
 
-def _report(
+def _build_plan(
     prepared: PreparedScene,
     runs: Mapping[str, str],
     out: Mapping[str, str],
     budget: float | None = None,
     asked: tuple[str, ...] = (),
 ) -> Plan:
+    """Return the plan of the effects that run and are left out, each given with its reason."""
     steps: list[EffectChoice] = []
     left_out: list[EffectChoice] = []
     for effect in prepared.present:

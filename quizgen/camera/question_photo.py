@@ -49,11 +49,11 @@ _LUMA = np.array([0.3, 0.59, 0.11], np.float32)
 
 
 class InvisibleEffectError(SceneError):
-    """What a picture is asked about cannot be seen in it."""
+    """Raised if what a picture is asked about cannot be seen in it."""
 
 
 class MovedReadingError(SceneError):
-    """What is read off a picture is not what the key says, or something else decides about it."""
+    """Raised if a value read off a picture is not the key's, or another effect moves it."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class Visibility:
 
     @property
     def is_visible(self) -> bool:
-        """Whether somebody who looks at both pictures sees it."""
+        """Whether somebody who looks at both pictures sees the difference."""
         if self.too_small:
             return False
         if self.speckles and (self.spread >= LEAST_SPREAD or self.specks >= LEAST_SPECKS[0]):
@@ -106,11 +106,11 @@ class Visibility:
 
     @property
     def needs_colour(self) -> bool:
-        """Whether it is seen in colour and not in a greyscale print."""
+        """Whether it is seen in colour but not in a greyscale print."""
         return self.is_visible and self.grey is not None and not self.grey.is_visible
 
     def explain(self) -> str:
-        """One sentence: what the effects do, then how far the picture differs from one without."""
+        """Return one sentence: what the effects do, then how far the two pictures differ."""
         does = " and ".join(says.replace(" ", "s ", 1) for says in self.says)  # blur: it blurs
         does += "; " if does else ""
         if self.too_small:
@@ -148,7 +148,7 @@ class QuestionPhoto:
 
     @cached_property
     def without(self) -> Photo:
-        """The same photograph without what is asked."""
+        """The same photograph without the effects that are asked about."""
         return self.take_without()
 
     @property
@@ -161,7 +161,7 @@ def measure_visibility(
     shown: Image | NDArray[np.uint8], plain: Image | NDArray[np.uint8], kind: str = "", *,
     speckles: bool = False,
 ) -> Visibility:  # fmt: skip
-    """How two pictures differ, in colour and in grey.
+    """Return how two pictures differ, in colour and in grey.
 
     Parameters
     ----------
@@ -174,7 +174,7 @@ def measure_visibility(
     """
     found, gray = _Differences(), _Differences()
     for start, stop in split_range(len(shown), _ROWS):
-        apart = _codes(shown[start:stop]) - _codes(plain[start:stop])
+        apart = _to_grey_levels(shown[start:stop]) - _to_grey_levels(plain[start:stop])
         found.add(np.abs(apart))
         if apart.shape[2] > 1:
             gray.add(np.abs(apart @ _LUMA)[..., None])
@@ -186,21 +186,22 @@ _ROWS, _MEGAPIXEL = 64, 1e6
 """Rows looked at at once, so that large pictures are not held twice."""
 
 
-def _codes(image: Image | NDArray[np.uint8]) -> NDArray[np.floating]:
-    """Grey levels, shape (H, W, 1) or (H, W, 3)."""
+def _to_grey_levels(image: Image | NDArray[np.uint8]) -> NDArray[np.floating]:
+    """Return a picture in grey levels, shape (H, W, 1) or (H, W, 3), from values or 8-bit codes."""
     levels = np.asarray(image, np.float32)
     levels = levels if image.dtype == np.uint8 else np.clip(levels * GREY_LEVELS, 0.0, GREY_LEVELS)
     return levels.reshape(*levels.shape[:2], -1)
 
 
 class _Differences:
-    """Sums over the differences of two pictures."""
+    """Running sums over the differences of two pictures, added band by band."""
 
     def __init__(self) -> None:
         self.count = self.there = self.specks = 0
         self.most = self.sum = self.squares = 0.0
 
     def add(self, apart: NDArray[np.float64]) -> None:
+        """Add the differences of some pixels, in grey levels."""
         most = np.maximum.reduce([apart[..., place] for place in range(apart.shape[2])])
         there = most[most >= LEAST_LEVELS]
         self.count += most.size
@@ -211,6 +212,7 @@ class _Differences:
         self.squares += float(np.square(apart).mean()) * most.size
 
     def summarise(self, kind: str, speckles: bool) -> Visibility:
+        """Return the measured visibility of all pixels added."""
         mean, spread = self.sum / max(self.there, 1), math.sqrt(self.squares / self.count)
         share = self.there / self.count
         return Visibility(
@@ -219,7 +221,7 @@ class _Differences:
 
 
 def check_visible(seen: Visibility, *, grey: bool = False) -> None:
-    """Refuse what cannot be seen.
+    """Raise an error if a measured effect cannot be seen.
 
     Parameters
     ----------
@@ -248,9 +250,9 @@ def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some
     *,
     grey: bool = False,
     chosen: EffectSelection = NO_SELECTION,
-    told: Callable[[str], None] = ignore_progress,
+    on_effect: Callable[[str], None] = ignore_progress,
 ) -> QuestionPhoto:
-    """Photograph a scene for a question and measure that it shows what is asked.
+    """Return a photograph for a question, measured to show what is asked.
 
     Pictures of scenes that are drawn are kept, the last 64 of them.
 
@@ -266,7 +268,7 @@ def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some
         Whether what is asked must also be seen in a greyscale print.
     chosen : EffectSelection
         Effects that are chosen by name.
-    told : callable
+    on_effect : callable
         Gets the names of effects before they run.
 
     Raises
@@ -278,7 +280,7 @@ def photograph_question(  # noqa: PLR0913 - figures, page and terminal need some
         that it should have.
     """
     with error_context(scene.file):
-        taken = take_question_photo(scene, camera, asks, reads, chosen=chosen, told=told)
+        taken = take_question_photo(scene, camera, asks, reads, chosen=chosen, on_effect=on_effect)
         for seen in taken.seen:
             check_visible(seen, grey=grey)
     return taken
@@ -291,13 +293,13 @@ def take_question_photo(
     reads: Mapping[str, Reading] | None = None,
     *,
     chosen: EffectSelection = NO_SELECTION,
-    told: Callable[[str], None] = ignore_progress,
+    on_effect: Callable[[str], None] = ignore_progress,
 ) -> QuestionPhoto:
-    """What `photograph_question` gives, whether or not it can be seen what is asked.
+    """Return what `photograph_question` does, but do not refuse what cannot be seen.
 
     Parameters
     ----------
-    scene, camera, asks, reads, chosen, told
+    scene, camera, asks, reads, chosen, on_effect
         As for `photograph_question`.
     """
     own = scene.question or PictureQuestion(())
@@ -305,9 +307,9 @@ def take_question_photo(
     asked = PictureQuestion(kinds or own.asks, own.reads if reads is None else reads)
     key = _find_key(scene, camera, asked, chosen)
     if key is None:
-        return _take(scene, camera, asked, chosen, told)
+        return _take_photo(scene, camera, asked, chosen, on_effect)
     if key not in _KEPT:
-        _KEPT[key] = _take(scene, camera, asked, chosen, told)
+        _KEPT[key] = _take_photo(scene, camera, asked, chosen, on_effect)
         while len(_KEPT) > _MOST_KEPT:
             _KEPT.popitem(last=False)
     return _KEPT[key]
@@ -320,7 +322,7 @@ _MOST_KEPT, _MOST_PIXELS = 64, 1 << 16
 def _find_key(
     scene: Scene, camera: Camera, asked: PictureQuestion, chosen: EffectSelection
 ) -> Hashable | None:
-    """What a picture depends on; None where it is large, or a photograph, and not kept."""
+    """Return what a picture is cached under; None if it is large or from a file."""
     if scene.image is not None or scene.width * scene.height > _MOST_PIXELS:
         return None
     drawn = scene.things, scene.background, scene.background_depth, scene.width, scene.height
@@ -328,44 +330,48 @@ def _find_key(
     return drawn, rest, camera, asked.asks, tuple(asked.reads.items()), chosen
 
 
-def _take(
+def _take_photo(
     scene: Scene,
     camera: Camera,
     asked: PictureQuestion,
     chosen: EffectSelection,
-    told: Callable[[str], None],
+    on_effect: Callable[[str], None],
 ) -> QuestionPhoto:
+    """Return the photograph of a question, measured against the one without what is asked."""
     whole = PreparedScene(scene, camera)
     plan = plan_question(whole, asked.asks, chosen)
     prepared = PreparedScene(scene, camera, plan.names)
     large = scene.width * scene.height > 2 * _MEGAPIXEL  # layers are let go and drawn again
 
     def run_without(names: Collection[str]) -> Photo:
+        """Return the photograph without some effects."""
         rest = [name for name in plan.names if name not in names]
         again = PreparedScene(scene, camera, plan.names) if large else prepared
-        return run_plan(again, rest, told, last=large)
+        return run_plan(again, rest, on_effect, last=large)
 
     groups = _group_asked(plan, asked.asks, chosen)
     plain = {kind: run_without(names) for kind, names in groups.items()} if not large else {}
-    thin = {kind: _thin(run_without(names).values) for kind, names in groups.items() if large}
-    photo = run_plan(prepared, told=told, last=large and not asked.reads)
+    thin = {kind: _subsample(run_without(names).values) for kind, names in groups.items() if large}
+    photo = run_plan(prepared, on_effect=on_effect, last=large and not asked.reads)
     readings = {}
     for name, reading in asked.reads.items():
         if added := _find_needed(whole, plan, photo, reading):
-            return _take(scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)), told)
+            return _take_photo(
+                scene, camera, asked, replace(chosen, plus=(*chosen.plus, added)), on_effect
+            )
         readings[name] = _check_reading(prepared, plan, photo, name, reading)
-    shown, seen = _thin(photo.values), []
+    shown, seen = _subsample(photo.values), []
     for kind, names in groups.items():
-        other = thin[kind] if large else _thin(plain[kind].values)
-        seen.append(_measure(kind, names, prepared.view, shown, other))
+        other = thin[kind] if large else _subsample(plain[kind].values)
+        seen.append(_measure_kind(kind, names, prepared.view, shown, other))
     alone = plain[next(iter(plain))] if len(plain) == 1 else None
     return QuestionPhoto(
         photo, plan, tuple(seen), readings, lambda: alone or run_without(plan.asked)
     )
 
 
-def _thin(values: Image) -> Image:
-    """A megapixel of a picture, which tells as much as all of a large one."""
+def _subsample(values: Image) -> Image:
+    """Return about a megapixel of a picture, which tells as much as all of a large one."""
     every = max(1, round(math.sqrt(values.shape[0] * values.shape[1] / _MEGAPIXEL)))
     return values[::every, ::every].copy() if every > 1 else values
 
@@ -373,16 +379,17 @@ def _thin(values: Image) -> Image:
 def _group_asked(
     plan: Plan, kinds: tuple[str, ...], chosen: EffectSelection
 ) -> dict[str, tuple[str, ...]]:
-    """Effects of every kind of question; those chosen by name each for itself."""
+    """Return the effects that answer each kind of question; one chosen by name is its own kind."""
     if chosen.only:
         return {name: (name,) for name in plan.asked}
     answers = {name: effects.get_effect(name).answers for name in plan.asked}
     return {kind: tuple(name for name in answers if kind in answers[name]) for kind in kinds}
 
 
-def _measure(
+def _measure_kind(
     kind: str, names: Collection[str], view: View, shown: Image, plain: Image
 ) -> Visibility:
+    """Return the visibility of one kind of question: shown with, plain without its effects."""
     asked = [effects.get_effect(name) for name in names]
     says = tuple(filter(None, (describe_size(one, view) for one in asked)))
     small = [one.size for one in asked if one.size and one.size.of(view) < one.size.least]
@@ -397,8 +404,8 @@ def _measure(
 
 
 def read_value(image: Image, reading: Reading) -> float:
-    """What is read off a finished picture."""
-    levels, measure = _codes(image), reading.measure
+    """Return the value that a measure reads off a finished picture."""
+    levels, measure = _to_grey_levels(image), reading.measure
     levels = np.broadcast_to(levels, (*levels.shape[:2], 3))
     if isinstance(measure, str):
         return MEASURES[measure](levels)
@@ -406,7 +413,7 @@ def read_value(image: Image, reading: Reading) -> float:
 
 
 def _find_needed(whole: PreparedScene, plan: Plan, photo: Photo, reading: Reading) -> str:
-    """An effect left out without which what is read is wrong, and with which it is right."""
+    """Return the name of an effect left out without which a reading is wrong, or ""."""
     if _is_right(photo, reading):
         return ""
     others = (choice.effect for choice in plan.left_out if choice.why == "not asked")
@@ -415,6 +422,7 @@ def _find_needed(whole: PreparedScene, plan: Plan, photo: Photo, reading: Readin
 
 
 def _is_right(photo: Photo, reading: Reading) -> bool:
+    """Return whether what is read off a photograph is within the tolerance of its value."""
     value = reading.value
     return value is None or abs(read_value(photo.values, reading) - value) <= reading.tolerance
 
@@ -422,7 +430,10 @@ def _is_right(photo: Photo, reading: Reading) -> bool:
 def _check_reading(
     prepared: PreparedScene, plan: Plan, photo: Photo, name: str, reading: Reading
 ) -> float:
-    """What is read off, if that is right and nothing else moves it."""
+    """Return what is read off a photograph.
+
+    Raises `MovedReadingError` if it is wrong, or moved by an effect that is not asked about.
+    """
     value = read_value(photo.values, reading)
     if not _is_right(photo, reading):
         raise MovedReadingError(
@@ -444,7 +455,7 @@ def _check_reading(
 
 
 def simulate_question(scene: Scene, camera: Camera, budget: str | float = 0.5) -> Photo:
-    """Photograph a scene without what no value shows by more than a budget.
+    """Return a photograph without the effects that no value shows by more than a budget.
 
     Parameters
     ----------

@@ -54,17 +54,19 @@ TableParsers = Mapping[str, ValueParser[Any]]
 """Readers of the keys of one table; each gives the type of its own field."""
 
 
-def _depth(value: object) -> float:
+def _parse_depth(value: object) -> float:
+    """Return a depth > 0 in m; raise ``ValueError`` for anything else."""
     depth = quantity_parser("m")(value)
     if depth <= 0.0:
         raise ValueError("a depth must be positive")
     return depth
 
 
-def _between(least: int, most: int) -> ValueParser[int]:
-    """Reader of a whole number in a range."""
+def _integer_parser(least: int, most: int) -> ValueParser[int]:
+    """Return a parser of whole numbers from least to most."""
 
     def read(value: object) -> int:
+        """Return the number, or raise ``ValueError``."""
         if not least <= parse_integer(value) <= most:
             raise ValueError(f"expected {least} to {most}")
         return parse_integer(value)
@@ -72,14 +74,16 @@ def _between(least: int, most: int) -> ValueParser[int]:
     return read
 
 
-def _corners(value: object) -> tuple[tuple[float, float], ...]:
+def _parse_corners(value: object) -> tuple[tuple[float, float], ...]:
+    """Return the corners of a polygon in px."""
     corners = list_parser(pair_parser(parse_plain_number))(value)
     if len(corners) > MOST_THINGS:
         raise ValueError(f"expected at most {MOST_THINGS} corners")
     return corners
 
 
-def _asks(value: object) -> tuple[str, ...]:
+def _parse_asks(value: object) -> tuple[str, ...]:
+    """Return the kinds of question of ``asks``: one text or a list of them."""
     kinds = list_parser(choice_parser(*effects.question_kinds()))(
         [value] if isinstance(value, str) else value
     )
@@ -88,14 +92,18 @@ def _asks(value: object) -> tuple[str, ...]:
     return kinds
 
 
-def _reads(value: object) -> dict[str, Reading]:
+def _parse_reads(value: object) -> dict[str, Reading]:
+    """Return the readings of ``reads``, by the measure that each names.
+
+    A value there is a tolerance, or a table with the key as well.
+    """
     table = value if isinstance(value, dict) else {}
     if not table:
         raise ValueError("expected a table such as { corner = 3 }")
     found = {}
-    for name, told in table.items():  # a tolerance, or a table with the key as well
+    for name, given in table.items():  # a tolerance, or a table with the key as well
         measure = choice_parser(*MEASURES)(name)
-        fields = told if isinstance(told, dict) else {"tolerance": told}
+        fields = given if isinstance(given, dict) else {"tolerance": given}
         if "tolerance" not in fields or fields.keys() - {"tolerance", "value"}:
             raise ValueError(f"{name}: expected a tolerance, and maybe a value")
         values = {key: parse_plain_number(part) for key, part in fields.items()}
@@ -110,21 +118,23 @@ SIDES = 2, 2**15
 
 _KEYS: Mapping[str, TableParsers] = {"scene": {
     **dict.fromkeys(("title", "image", "depth_map"), parse_text),
-    **dict.fromkeys(("width", "height"), _between(*SIDES)),
-    **dict.fromkeys(("background_depth", "depth", "depth_near", "depth_far"), _depth),
-    "background": parse_colour, "seed": _between(0, 2**63), "precision": choice_parser(*PRECISIONS),
-}, "question": {"asks": _asks, "reads": _reads}, "thing": {
+    **dict.fromkeys(("width", "height"), _integer_parser(*SIDES)),
+    **dict.fromkeys(("background_depth", "depth", "depth_near", "depth_far"), _parse_depth),
+    "background": parse_colour, "seed": _integer_parser(0, 2**63),
+    "precision": choice_parser(*PRECISIONS),
+}, "question": {"asks": _parse_asks, "reads": _parse_reads}, "thing": {
     **dict.fromkeys(length_fields(), length_parser()),
-    "shape": choice_parser(*SHAPES), "depth": _depth, "colour": parse_colour, "other": parse_colour,
+    "shape": choice_parser(*SHAPES), "depth": _parse_depth,
+    "colour": parse_colour, "other": parse_colour,
     "texture": choice_parser(*TEXTURES), "angle": quantity_parser("deg"),
     "velocity": pair_parser(length_parser("/s")), "spin": quantity_parser("deg/s"),
-    "count": _between(1, MOST_THINGS), "points": _corners,
+    "count": _integer_parser(1, MOST_THINGS), "points": _parse_corners,
 }}  # fmt: skip
 TABLES = (*_KEYS, "camera")
 
 
-def _table_keys(table: str) -> TableParsers:
-    """Parsers of one table; those of the camera come from the effects."""
+def _table_parsers(table: str) -> TableParsers:
+    """Return the parser of every key of one table; those of the camera come from the effects."""
     if table != "camera":
         return _KEYS[table]
     named = {name: setting.read for name, setting in effects.all_settings().items()}
@@ -135,8 +145,8 @@ _HEADER = re.compile(r"\s*\[\[?\s*([\w-]+)\s*\]\]?")
 _KEY = re.compile(r"\s*([\w-]+)\s*=")
 
 
-def _lines(text: str) -> dict[tuple[str, int, str], int]:
-    """Line of every key: (table, which of its kind, key) to a line from 1."""
+def _find_key_lines(text: str) -> dict[tuple[str, int, str], int]:
+    """Return the line (from 1) of every (table, which of its kind, key)."""
     found: dict[tuple[str, int, str], int] = {}
     table, counts = "", dict[str, int]()
     for line, content in enumerate(text.splitlines(), start=1):
@@ -149,21 +159,23 @@ def _lines(text: str) -> dict[tuple[str, int, str], int]:
     return found
 
 
-class _File:
-    """A scene file: its tables, and where each key stands."""
+class _SceneFile:
+    """A scene file: its tables, and the line where each key stands."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
         text = read_text(path, SceneError)
         self.tables: dict[str, Any] = parse_toml(text, path, SceneError)
-        self.lines = _lines(text)
+        self.lines = _find_key_lines(text)
 
     def fail(self, table: str, which: int, key: str, message: str) -> SceneError:
+        """Return an error that names the file and the line of a key."""
         line = self.lines.get((table, which, key)) or self.lines.get((table, which, ""), 1)
         return SceneError(f"{self.path}:{line}: {message}")
 
     def read(self, table: str, which: int, values: Mapping[str, object]) -> dict[str, Any]:
-        known, found = _table_keys(table), {}
+        """Return the parsed values of one table; raise `SceneError` at the first wrong one."""
+        known, found = _table_parsers(table), {}
         for key, value in values.items():
             if key not in known:
                 hint = suggest_setting(key, known)
@@ -175,6 +187,7 @@ class _File:
         return found
 
     def check_tables(self) -> None:
+        """Raise `SceneError` for unknown tables, those of the wrong kind, and too many things."""
         for name in self.tables:
             if name not in TABLES:
                 line = self.lines.get((name, 0, "")) or self.lines.get(("", 0, name), 1)
@@ -191,7 +204,7 @@ class _File:
 
 
 def load_scene(path: str | Path, precision: Precision | None = None) -> tuple[Scene, Camera]:
-    """Read a scene and its camera.
+    """Return the scene and the camera of a TOML file.
 
     Parameters
     ----------
@@ -205,21 +218,22 @@ def load_scene(path: str | Path, precision: Precision | None = None) -> tuple[Sc
     SceneError
         With file and line.
     """
-    file = _File(Path(path))
+    file = _SceneFile(Path(path))
     file.check_tables()
     things = [
-        _thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))
+        _read_thing(file, which, table) for which, table in enumerate(file.tables.get("thing", []))
     ]
-    scene = replace(_scene(file, tuple(things), precision), question=_question(file))
+    scene = replace(_read_scene(file, tuple(things), precision), question=_read_question(file))
     values = file.read("camera", 0, file.tables.get("camera", {}))
     if values.pop("exif", False):
-        scene = replace(scene, exif=_shot_with(file, values))
-    camera = _camera(file, {**scene.exif, **values}, scene.width)
+        scene = replace(scene, exif=_read_exif(file, values))
+    camera = _read_camera(file, {**scene.exif, **values}, scene.width)
     _check_effects(file, View(scene, camera))
     return scene, camera
 
 
-def _question(file: _File) -> PictureQuestion | None:
+def _read_question(file: _SceneFile) -> PictureQuestion | None:
+    """Return what the file asks about the picture, or None."""
     if "question" not in file.tables:
         return None
     values = file.read("question", 0, file.tables["question"])
@@ -228,8 +242,8 @@ def _question(file: _File) -> PictureQuestion | None:
     return PictureQuestion(**values)
 
 
-def _shot_with(file: _File, given: Mapping[str, object]) -> dict[str, float]:
-    """What a photograph's file says of its camera and the scene does not.
+def _read_exif(file: _SceneFile, given: Mapping[str, object]) -> dict[str, float]:
+    """Return the settings that the photograph's EXIF gives and the scene does not.
 
     An f-number needs to know the size of a pixel, and the ISO value of a metered picture has been
     made up for by its aperture and time.
@@ -248,7 +262,8 @@ def _shot_with(file: _File, given: Mapping[str, object]) -> dict[str, float]:
     return taken
 
 
-def _camera(file: _File, values: dict[str, Any], columns: int) -> Camera:
+def _read_camera(file: _SceneFile, values: dict[str, Any], columns: int) -> Camera:
+    """Return the camera; ``columns`` turn a sensor's width into the pitch of its pixels."""
     if (width := values.pop("sensor_width", None)) is not None:
         if "pixel_pitch" in values:
             raise file.fail("camera", 0, "sensor_width", "give sensor_width or pixel_pitch")
@@ -259,8 +274,8 @@ def _camera(file: _File, values: dict[str, Any], columns: int) -> Camera:
         raise file.fail("camera", 0, error.setting, str(error)) from error
 
 
-def _check_effects(file: _File, view: View) -> None:
-    """Name the line of what cannot be computed."""
+def _check_effects(file: _SceneFile, view: View) -> None:
+    """Raise `SceneError` with the line of a setting that an effect cannot be computed for."""
     for effect in effects.present_effects(view):
         try:
             effect.check_camera(view)
@@ -269,7 +284,8 @@ def _check_effects(file: _File, view: View) -> None:
             raise file.fail("camera", 0, next(given, ""), str(error)) from error
 
 
-def _thing(file: _File, which: int, table: Mapping[str, object]) -> SceneObject:
+def _read_thing(file: _SceneFile, which: int, table: Mapping[str, object]) -> SceneObject:
+    """Return one thing to be drawn, with all sizes that its shape needs."""
     values = file.read("thing", which, table)
     thing = SceneObject(**values)
     for size in SIZES[thing.shape]:
@@ -281,7 +297,10 @@ def _thing(file: _File, which: int, table: Mapping[str, object]) -> SceneObject:
     return thing
 
 
-def _scene(file: _File, things: tuple[SceneObject, ...], precision: Precision | None) -> Scene:
+def _read_scene(
+    file: _SceneFile, things: tuple[SceneObject, ...], precision: Precision | None
+) -> Scene:
+    """Return the scene with its pictures loaded, but without its question."""
     values = file.read("scene", 0, file.tables.get("scene", {}))
     kind = values["precision"] = precision or values.get("precision", Scene.precision)
     pixels = values.get("width", Scene.width) * values.get("height", Scene.height)
@@ -290,15 +309,15 @@ def _scene(file: _File, things: tuple[SceneObject, ...], precision: Precision | 
     near, far = values.pop("depth_near", 1.0), values.pop("depth_far", math.inf)
     for key in ("image", "depth_map"):
         if key in values:
-            values[key] = _picture(file, key, values[key])
+            values[key] = _read_picture(file, key, values[key])
     if "image" in values:
-        values["image"] = _look_up(srgb_decode, values["image"], kind)  # linear radiance
+        values["image"] = _map_codes(srgb_decode, values["image"], kind)  # linear radiance
         values["height"], values["width"] = values["image"].shape[:2]
     if (nearness := values.pop("depth_map", None)) is not None:
         shape = (values.get("height"), values.get("width"))
         if nearness.shape[:2] != shape:
             raise file.fail("scene", 0, "depth_map", "a depth map needs an image of its size")
-        values["depth"] = _look_up(
+        values["depth"] = _map_codes(
             # white is near, black is far, linear in 1/z
             lambda share: 1.0 / np.maximum(share / near + (1.0 - share) / far, 1e-9),
             nearness[..., 0], kind,
@@ -309,10 +328,10 @@ def _scene(file: _File, things: tuple[SceneObject, ...], precision: Precision | 
 _ROWS = 64
 
 
-def _look_up(value: Callable[[Any], Any], codes: codecs.Codes, precision: Precision) -> Image:
-    """A value for the share of white of every code, from a table of all codes.
+def _map_codes(value: Callable[[Any], Any], codes: codecs.Codes, precision: Precision) -> Image:
+    """Return ``value`` of the share of white (0 to 1) of every code, from a table of all codes.
 
-    Some rows at once, as codes become larger numbers for it.
+    A few rows at once: indexing makes larger numbers of the codes.
     """
     top = int(np.iinfo(codes.dtype).max)
     table = np.asarray(value(np.arange(top + 1) / top), precision)
@@ -322,8 +341,8 @@ def _look_up(value: Callable[[Any], Any], codes: codecs.Codes, precision: Precis
     return found
 
 
-def _picture(file: _File, key: str, name: str) -> codecs.Codes:
-    """Codes, shape (H, W, 3)."""
+def _read_picture(file: _SceneFile, key: str, name: str) -> codecs.Codes:
+    """Return the codes of a picture file, shape (H, W, 3)."""
     path = file.path.parent / name
     try:
         pixels = codecs.decode_photo(read_bytes(path, SceneError, LARGEST_PICTURE))

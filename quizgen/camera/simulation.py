@@ -28,7 +28,7 @@ from quizgen.core.untrusted import error_context
 
 
 class Photo(msgspec.Struct, frozen=True):
-    """A simulated picture.
+    """A simulated picture, with the time that each effect took.
 
     Parameters
     ----------
@@ -47,11 +47,11 @@ class Photo(msgspec.Struct, frozen=True):
 
     @property
     def measured_ms(self) -> float:
-        """Time of all effects."""
+        """The time of all effects, ms."""
         return sum(self.times.values())
 
     def pixels(self) -> NDArray[np.uint8]:
-        """8-bit codes, halves rounded upward."""
+        """Return 8-bit codes, shape (H, W, 3), halves rounded upward."""
         flat = self.values.reshape(-1)
         codes = np.empty(flat.shape, np.uint8)
         for start, stop in split_range(flat.size, TILE_VALUES):
@@ -60,40 +60,42 @@ class Photo(msgspec.Struct, frozen=True):
 
 
 def ignore_progress(name: str) -> None:
-    """Nobody wants to know what is done now."""
+    """Do nothing: for callers who do not follow the progress."""
 
 
 def run_plan(
     prepared: PreparedScene,
     names: Collection[str] | None = None,
-    told: Callable[[str], None] = ignore_progress,
+    on_effect: Callable[[str], None] = ignore_progress,
     *,
     last: bool = False,
 ) -> Photo:
-    """Run effects on a scene.
+    """Return the photograph that some or all effects make of a scene.
 
     Parameters
     ----------
     prepared : PreparedScene
     names : collection of str, optional
         Of present effects; by default all of them.
-    told : callable
+    on_effect : callable
         Gets the names of effects before they run.
     last : bool
         Whether the drawn layers are not needed afterwards: each is let go once it is photographed.
     """
     with error_context(prepared.given.scene.file):
-        return _Run(prepared, told, last=last).photograph(names)
+        return _Run(prepared, on_effect, last=last).photograph(names)
 
 
 _Step = tuple[Effect, View]
 
 
 class _Run:
-    """One run: the layers, whether the picture may be written over, and the times."""
+    """One run of effects: the layers, whether they may be overwritten, and the times."""
 
-    def __init__(self, prepared: PreparedScene, told: Callable[[str], None], *, last: bool) -> None:
-        self.frame, self.told = prepared.view, told
+    def __init__(
+        self, prepared: PreparedScene, on_effect: Callable[[str], None], *, last: bool
+    ) -> None:
+        self.frame, self.on_effect = prepared.view, on_effect
         self.present = list(zip(prepared.present, prepared.views, strict=True))
         self.times = dict(prepared.prepared_ms)
         self.stack = list(prepared.stack)
@@ -103,6 +105,7 @@ class _Run:
             del prepared.stack
 
     def photograph(self, names: Collection[str] | None) -> Photo:
+        """Return the photograph after the effects of these names, None for all present ones."""
         steps = [one for one in self.present if names is None or one[0].name in names]
         if steps:
             warm_up()
@@ -114,7 +117,7 @@ class _Run:
                 then = steps[done][1] if done < len(steps) else self.frame
                 self._run_layers(some, then)
             elif kind is PointByPoint:
-                self._run_points(some)
+                self._run_pointwise(some)
             else:
                 for step in some:
                     self._run_one(step)
@@ -122,60 +125,65 @@ class _Run:
         times = {effect.name: self.times.get(effect.name, 0.0) for effect, _ in steps}
         return Photo(composite_layers(tuple(self.stack)), times, self.drawn_ms)
 
-    def _count(self, effect: Effect, started: float) -> None:
+    def _add_time(self, effect: Effect, started: float) -> None:
+        """Add the ms since ``started`` (``perf_counter``) to an effect's time."""
         spent = (perf_counter() - started) * 1e3
         self.times[effect.name] = self.times.get(effect.name, 0.0) + spent
 
     def _crop(self, view: View) -> None:
+        """Crop all layers to a view."""
         self.stack = [crop_layer(layer, view) for layer in self.stack]
 
     def _run_one(self, step: _Step) -> None:
+        """Run one effect on the whole stack."""
         effect, view = step
-        self.told(effect.name)
+        self.on_effect(effect.name)
         started = perf_counter()
         self._crop(view)
         self.stack = list(effect.run(tuple(self.stack), view))
-        self._count(effect, started)
+        self._add_time(effect, started)
 
     def _run_layers(self, steps: list[_Step], then: View) -> None:
-        """Finish each layer and lay it over those behind, so that few are there at a time.
+        """Run effects that work layer by layer, and composite each layer as soon as it is done.
 
         Each effect gets no more than it and the later ones need, the last leaves what comes then.
         """
-        self.told(", ".join(effect.name for effect, _ in steps))
+        self.on_effect(", ".join(effect.name for effect, _ in steps))
         picture: Image | None = None
         while self.stack:
             drawn = self.stack.pop(0)
-            layer, even = replace(drawn, own=self._is_ours(drawn.colour)), drawn.is_uniform
+            layer, even = replace(drawn, own=self._is_writable(drawn.colour)), drawn.is_uniform
             for effect, view in steps:
                 started = perf_counter()
                 layer = crop_layer(layer, view)
                 if not even:
                     (layer,) = effect.run((layer,), view)
-                self._count(effect, started)
-            picture = self._lay(layer, picture, then)
+                self._add_time(effect, started)
+            picture = self._composite_layer(layer, picture, then)
         self.stack = [Layer(picture)] if picture is not None else []
 
-    def _lay(self, layer: Layer, behind: Image | None, view: View) -> Image:
-        if behind is None and self._is_ours(layer.colour):
+    def _composite_layer(self, layer: Layer, behind: Image | None, view: View) -> Image:
+        """Return the picture with a layer over it, in place where nobody else needs the memory."""
+        if behind is None and self._is_writable(layer.colour):
             return crop_in_place(layer.colour, view)
         layer = crop_layer(layer, view)
         if behind is None:
             return layer.colour
-        return composite_over(layer, behind if self._is_ours(behind) else behind.copy())
+        return composite_over(layer, behind if self._is_writable(behind) else behind.copy())
 
-    def _is_ours(self, picture: Image) -> bool:
+    def _is_writable(self, picture: Image) -> bool:
+        """Return whether a picture shares no memory with what others still need."""
         others = (other for other in self.kept if other is not None)
         return not any(np.may_share_memory(picture, other) for other in others)
 
-    def _run_points(self, steps: list[_Step]) -> None:
-        """Effects that look at one pixel only, while a tile of the picture is at hand."""
-        self.told(", ".join(effect.name for effect, _ in steps))
+    def _run_pointwise(self, steps: list[_Step]) -> None:
+        """Run effects that look at one pixel only, together on each tile of the picture."""
+        self.on_effect(", ".join(effect.name for effect, _ in steps))
         started, view = perf_counter(), steps[-1][1]
         self._crop(view)
         picture = composite_layers(tuple(self.stack))
         self.stack = []
-        own = picture.flags.c_contiguous and self._is_ours(picture)
+        own = picture.flags.c_contiguous and self._is_writable(picture)
         works = [one.run.operation(view) for one, _ in steps if isinstance(one.run, PointByPoint)]
         result, clock = apply_tilewise(
             picture, works, into=picture if own else np.empty_like(picture)
@@ -187,7 +195,7 @@ class _Run:
 
 
 def measure_difference(one: Photo, other: Photo) -> float:
-    """Largest difference of two pictures in 8-bit grey levels, before rounding."""
+    """Return the largest difference of two pictures in 8-bit grey levels, before rounding."""
     if one.values is other.values:
         return 0.0
     return float(np.abs(one.values - other.values).max()) * GREY_LEVELS
@@ -198,5 +206,5 @@ _SLACK = 1e-4
 
 
 def is_within(bound_dn: float, one: Photo, other: Photo) -> bool:
-    """Whether two pictures are no farther apart than a bound on every value says."""
+    """Return whether two pictures are no farther apart than a bound in grey levels."""
     return measure_difference(one, other) <= bound_dn + _SLACK

@@ -57,7 +57,7 @@ CREATE INDEX ix_notes_csum ON notes (csum);
 
 
 def write_apkg(deck: Deck) -> bytes:
-    """Write a deck as an ``.apkg`` file.
+    """Return a deck as an ``.apkg`` file for Anki.
 
     Parameters
     ----------
@@ -77,13 +77,14 @@ def write_apkg(deck: Deck) -> bytes:
 
 
 def _read_bangla_font() -> bytes:
+    """Return the font file of the Bangla letters on cards."""
     from quizgen.render import fonts
 
     return fonts.read_web_font(fonts.BANGLA["Regular"])
 
 
 def build_collection(deck: Deck) -> bytes:
-    """The collection as an SQLite file."""
+    """Return Anki's collection, an SQLite file with all notes and cards of a deck."""
     connection = sqlite3.connect(":memory:")
     try:
         connection.execute("PRAGMA page_size = 4096")
@@ -98,6 +99,7 @@ def build_collection(deck: Deck) -> bytes:
 
 
 def _fill_collection(connection: sqlite3.Connection, deck: Deck) -> None:
+    """Insert settings, notes and cards of a deck into the tables of a collection."""
     latest = max((modification_time(note, deck.wish.seed) for note in deck.notes), default=BASE)
     connection.execute(
         "INSERT INTO col VALUES (1,?,?,?,11,0,0,0,?,?,?,?,'{}')",
@@ -106,35 +108,41 @@ def _fill_collection(connection: sqlite3.Connection, deck: Deck) -> None:
     notes, cards = _number_notes_and_cards(deck)
     connection.executemany(
         "INSERT INTO notes VALUES (?,?,?,?,-1,?,?,?,?,0,'')",
-        (_note_row(notes[note.key], note, deck.wish.seed) for note in deck.notes),
+        (_build_note_row(notes[note.key], note, deck.wish.seed) for note in deck.notes),
     )
     connection.executemany(
         "INSERT INTO cards VALUES (?,?,?,?,?,-1,0,0,?,0,0,0,0,0,0,0,0,'')",
-        _card_rows(deck, notes, cards),
+        _iter_card_rows(deck, notes, cards),
     )
 
 
 def _format_json(table: object) -> str:
+    """Return JSON with sorted keys, so that its bytes depend on nothing else."""
     return json.dumps(table, ensure_ascii=False, sort_keys=True)
 
 
 def _number_notes_and_cards(deck: Deck) -> tuple[dict[str, int], dict[tuple[str, int], int]]:
-    """Ids of notes and cards: from the key, and different for every deck that holds them."""
+    """Return the ids of notes (by key) and cards (by key and number).
+
+    They follow from the keys: a note has the same id in every deck, unless another one took it.
+    """
     taken: set[int] = set()
-    notes = {note.key: _take_free_number(f"note/{note.key}", taken) for note in _by_key(deck)}
+    notes = {note.key: _take_free_number(f"note/{note.key}", taken) for note in _sort_notes(deck)}
     cards = {
         (note.key, number): _take_free_number(f"card/{note.key}/{number}", taken)
-        for note in _by_key(deck)
+        for note in _sort_notes(deck)
         for number in note.cards()
     }
     return notes, cards
 
 
-def _by_key(deck: Deck) -> list[Note]:
+def _sort_notes(deck: Deck) -> list[Note]:
+    """Return the notes of a deck sorted by their keys."""
     return sorted(deck.notes, key=lambda note: note.key)
 
 
 def _take_free_number(name: str, taken: set[int]) -> int:
+    """Return the stable id of a name, or the next number that is not taken, and take it."""
     number = stable_id(name)
     while number in taken:
         number += 1
@@ -142,7 +150,8 @@ def _take_free_number(name: str, taken: set[int]) -> int:
     return number
 
 
-def _note_row(number: int, note: Note, seed: int) -> tuple[Any, ...]:
+def _build_note_row(number: int, note: Note, seed: int) -> tuple[Any, ...]:
+    """Return the row of a note in Anki's table ``notes``."""
     fields = note.fields()
     tags = f" {' '.join(note.tags)} "
     checksum = int(hashlib.sha1(fields[0].encode(), usedforsecurity=False).hexdigest()[:8], 16)
@@ -152,9 +161,10 @@ def _note_row(number: int, note: Note, seed: int) -> tuple[Any, ...]:
             sorted_by, checksum)  # fmt: skip
 
 
-def _card_rows(
+def _iter_card_rows(
     deck: Deck, notes: dict[str, int], cards: dict[tuple[str, int], int]
 ) -> Iterator[tuple[Any, ...]]:
+    """Yield the rows of Anki's table ``cards``, in the order of learning."""
     for place, note in enumerate(deck.notes, 1):
         for number in note.cards():
             home = stable_id(deck_name(deck.wish.bank, note.topic))
@@ -163,11 +173,12 @@ def _card_rows(
 
 
 def deck_name(bank: Bank, topic: str) -> str:
-    """Name of a topic's sub-deck: English in every language, so that decks meet in one place."""
+    """Return the name of a topic's sub-deck, English in every language so that decks merge."""
     return f"{ROOT}::{bank.topic_title(topic, FIRST)}"
 
 
 def _build_collection_settings(deck: Deck) -> tuple[dict[str, Any], ...]:
+    """Return the JSON columns of Anki's table ``col``: settings, note types, decks, options."""
     names = [ROOT, *sorted({deck_name(deck.wish.bank, note.topic) for note in deck.notes})]
     decks = {str(stable_id(name)): _build_deck_settings(stable_id(name), name) for name in names}
     decks["1"] = _build_deck_settings(1, "Default")
@@ -181,6 +192,7 @@ def _build_collection_settings(deck: Deck) -> tuple[dict[str, Any], ...]:
 
 
 def _build_deck_settings(number: int, name: str) -> dict[str, Any]:
+    """Return the JSON of one deck as Anki stores it."""
     today = {f"{kind}Today": [0, 0] for kind in ("new", "rev", "lrn", "time")}
     return {"id": number, "name": name, "mod": BASE, "usn": -1, "desc": "", "dyn": 0, "conf": 1,
             "extendNew": 0, "extendRev": 0, "collapsed": False, "browserCollapsed": True,
@@ -188,6 +200,7 @@ def _build_deck_settings(number: int, name: str) -> dict[str, Any]:
 
 
 def _build_deck_options() -> dict[str, Any]:
+    """Return the JSON of the scheduling options that all decks share."""
     return {
         "id": 1, "name": "Default", "mod": 0, "usn": 0, "maxTaken": 60, "autoplay": True,
         "timer": 0, "replayq": True, "dyn": False,

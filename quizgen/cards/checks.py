@@ -21,17 +21,17 @@ DRAWN = "question"
 
 
 def check_cards(bank: Bank) -> Iterator[Diagnostic]:
-    """What is wrong with the files of ``templates/cards``."""
+    """Yield what is wrong with the files of ``templates/cards`` in a bank."""
     if not bank.cards:
         return
     for name, file in bank.cards.items():
         if name not in {*FILES, FILE}:
             what = f"no cards are made of this file; there are {', '.join(FILES)}"
             yield diagnose("QG504", file, what)
-    read = [problem for kind in FILES.values() for problem in _misread(bank, kind)]
-    yield from read or _unmade(bank)
+    read = [problem for kind in FILES.values() for problem in _check_entries(bank, kind)]
+    yield from read or _check_notes(bank)
     try:
-        stale = [key for key in read_versions(bank) if _stale(bank, key)]
+        stale = [key for key in read_versions(bank) if _has_missing_note(bank, key)]
     except QuizgenError as error:
         yield error.diagnostic(bank.folder)
         return
@@ -39,8 +39,8 @@ def check_cards(bank: Bank) -> Iterator[Diagnostic]:
         yield diagnose("QG506", bank.cards[FILE], f"{key!r} is of no template", (key,))
 
 
-def _misread(bank: Bank, kind: type[Entry]) -> Iterator[Diagnostic]:
-    """Why a file cannot be read, or which of its topics there are not."""
+def _check_entries(bank: Bank, kind: type[Entry]) -> Iterator[Diagnostic]:
+    """Yield why the entries of a kind cannot be read, and which of their topics do not exist."""
     try:
         found = read_card_entries(bank, kind)
     except QuizgenError as error:
@@ -53,8 +53,8 @@ def _misread(bank: Bank, kind: type[Entry]) -> Iterator[Diagnostic]:
             yield entry.fault(what, "QG129", "topic").diagnostic(bank.folder)
 
 
-def _unmade(bank: Bank) -> Iterator[Diagnostic]:
-    """Why the notes of a kind cannot be made, or the sketch of a formula cannot be drawn."""
+def _check_notes(bank: Bank) -> Iterator[Diagnostic]:
+    """Yield why the notes of a kind, or the sketch of a formula, cannot be made."""
     wish = DeckRequest(bank.languages, bank=bank)
     for name, notes in KINDS.items():
         try:
@@ -69,6 +69,7 @@ def _unmade(bank: Bank) -> Iterator[Diagnostic]:
             yield error.diagnostic(bank.folder)
 
 
-def _stale(bank: Bank, key: str) -> bool:
+def _has_missing_note(bank: Bank, key: str) -> bool:
+    """Return whether a listed version is of a worked question that no template makes."""
     kind, _, name = key.partition("/")
     return kind == DRAWN and name not in {bank.origin(one) for one in bank.template_paths}

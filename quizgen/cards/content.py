@@ -17,7 +17,7 @@ from quizgen.locale import load_words
 
 
 class VocabularyEntry(Entry, frozen=True, kw_only=True):
-    """A word to know."""
+    """A term to know, with its meaning."""
 
     number: int
     group: str
@@ -26,21 +26,21 @@ class VocabularyEntry(Entry, frozen=True, kw_only=True):
 
 
 class TrapEntry(Entry, frozen=True, kw_only=True):
-    """A wrong claim or calculation, and the right one."""
+    """A wrong claim or calculation, with the right one."""
 
     claim: Passage
     right: Passage
 
 
 class CheatSheetEntry(Entry, frozen=True, kw_only=True):
-    """One entry of the cheat sheet."""
+    """One question and answer of the cheat sheet."""
 
     ask: Passage
     answer: Passage
 
 
 class StatementEntry(Entry, frozen=True, kw_only=True):
-    """A true or a false statement, and why."""
+    """A true or a false statement, with the reason."""
 
     text: Passage
     true: bool
@@ -48,7 +48,7 @@ class StatementEntry(Entry, frozen=True, kw_only=True):
 
 
 class FigureEntry(Entry, frozen=True, kw_only=True):
-    """A picture to name."""
+    """A figure to name, with its question and answer."""
 
     figure: str
     values: dict[str, float] = msgspec.field(default_factory=dict)
@@ -71,7 +71,7 @@ E = TypeVar("E", bound=Entry)
 
 
 def read_card_entries(bank: Bank, kind: type[E]) -> tuple[E, ...]:
-    """Entries of one kind, read once; none if the bank has no such file.
+    """Return a bank's entries of one kind; none if the bank has no such file.
 
     Raises
     ------
@@ -83,5 +83,5 @@ def read_card_entries(bank: Bank, kind: type[E]) -> tuple[E, ...]:
 
 
 def load_card_words(lang: str) -> dict[str, str]:
-    """Short words on the cards, such as *What is wrong here?*, in one language."""
+    """Return the short words on cards, such as *What is wrong here?*, by key, in one language."""
     return load_words(lang, "cards")

@@ -18,7 +18,7 @@ from quizgen.core.executor import map_ordered, open_executor
 
 @dataclass(frozen=True)
 class Deck:
-    """Notes in the order in which they are to be learnt.
+    """A deck: its notes in the order in which they are to be learnt.
 
     Parameters
     ----------
@@ -32,12 +32,12 @@ class Deck:
 
     @property
     def card_count(self) -> int:
-        """How many cards the notes give."""
+        """The number of cards that the notes give."""
         return sum(len(note.cards()) for note in self.notes)
 
     @cached_property
     def media(self) -> Mapping[str, bytes]:
-        """Media file name to content, each once."""
+        """The content of each media file by its name, each once."""
         return {name: data for note in self.notes for name, data in note.media().items()}
 
 
@@ -50,7 +50,7 @@ def build_deck(
     bank: Bank | None = None,
     jobs: int = 1,
 ) -> Deck:
-    """Make a deck.
+    """Return the deck of a bank in a language.
 
     Parameters
     ----------
@@ -78,12 +78,14 @@ def build_deck(
 
 
 def _check_names(names: tuple[str, ...], allowed: tuple[str, ...], what: str) -> None:
+    """Raise ``BankError`` for the first name that is not allowed; ``what`` is a topic or a kind."""
     for name in names:
         if name not in allowed:
             raise BankError(f"unknown {what} {name!r} (there are {', '.join(allowed)})")
 
 
 def _make_all_notes(wish: DeckRequest, kinds: tuple[str, ...], jobs: int) -> Iterator[Note]:
+    """Yield the notes of the kinds in order, made in ``jobs`` processes."""
     banks = {part: replace(wish, bank=part) for part in wish.bank.members}
     pieces = [
         (kind, piece)
@@ -111,7 +113,7 @@ def _make_all_notes(wish: DeckRequest, kinds: tuple[str, ...], jobs: int) -> Ite
 
 
 def _split_request(kind: str, wish: DeckRequest) -> Iterator[DeckRequest]:
-    """What can be made apart: worked questions, the dear ones, template by template."""
+    """Yield requests that can be worked on apart: worked questions template by template."""
     if kind != QUESTION:
         yield wish
         return
@@ -120,5 +122,6 @@ def _split_request(kind: str, wish: DeckRequest) -> Iterator[DeckRequest]:
 
 
 def _make_notes(piece: tuple[str, DeckRequest]) -> list[Note]:
+    """Return the notes of one kind for one request; runs in a worker process."""
     kind, wish = piece
     return [*KINDS[kind](wish)]

@@ -24,7 +24,7 @@ HEADER = (
 
 
 def card_rows(deck: Deck, *, rich: bool) -> Iterator[tuple[str, ...]]:
-    """One row per card.
+    """Yield one row of cells for each card.
 
     Parameters
     ----------
@@ -51,19 +51,19 @@ def card_rows(deck: Deck, *, rich: bool) -> Iterator[tuple[str, ...]]:
 
 
 def write_tsv(deck: Deck) -> bytes:
-    """Write a deck as tab-separated values with HTML."""
+    """Return a deck as tab-separated values with HTML."""
     lines = [*HEADER, *("\t".join(map(_quote_cell, row)) for row in card_rows(deck, rich=True))]
     return ("\n".join(lines) + "\n").encode()
 
 
 def _quote_cell(text: str) -> str:
-    """A cell in quotes where it needs them; a tab or a line break cannot stand in HTML anyway."""
+    """Return a cell in quotes where it needs them; HTML can do without tabs and line breaks."""
     flat = escape_csv_formula(text).replace("\t", " ").replace("\r", "").replace("\n", "<br>")
     return '"' + flat.replace('"', '""') + '"' if '"' in flat or flat.startswith("#") else flat
 
 
 def write_csv(deck: Deck) -> bytes:
-    """Write a deck as comma-separated values in plain text (UTF-8 with a byte order mark)."""
+    """Return a deck as comma-separated values in plain text (UTF-8 with a byte order mark)."""
     out = io.StringIO(newline="")
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerow(COLUMNS)

@@ -46,7 +46,7 @@ LOOKED_AT = frozenset({"wrong", "partial", "blank"})
 
 
 class GradedPart(msgspec.Struct, frozen=True):
-    """One part of a marked paper, as ``quizgen check --json`` prints it."""
+    """One part of a graded paper, as ``quizgen check --json`` prints it."""
 
     id: str
     question: str
@@ -59,7 +59,7 @@ class GradedPart(msgspec.Struct, frozen=True):
 
 
 class GradedPaper(msgspec.Struct, frozen=True):
-    """A marked paper."""
+    """One graded paper, as ``quizgen check --json`` prints it."""
 
     code: str
     parts: tuple[GradedPart, ...]
@@ -67,7 +67,7 @@ class GradedPaper(msgspec.Struct, frozen=True):
 
 
 def read_graded_papers(path: Path) -> tuple[GradedPaper, ...]:
-    """Read the output of ``quizgen check --json``, of one paper or of several.
+    """Return the papers in the output of ``quizgen check --json``, one or several.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def read_graded_papers(path: Path) -> tuple[GradedPaper, ...]:
 
 @dataclass(frozen=True)
 class MissedPart:
-    """A part that was not right, and the question that it belongs to.
+    """A part that was not right, with the variant that it belongs to.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ class MissedPart:
 
 
 def deck_from_grades(path: Path, lang: str, *, bank: Bank, blueprint: str | None = None) -> Deck:
-    """Make a deck of what went wrong.
+    """Return a deck of the parts that were not right in graded papers.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def deck_from_grades(path: Path, lang: str, *, bank: Bank, blueprint: str | None
 
 
 def find_missed(marked: GradedPaper, paper: Paper) -> Iterator[MissedPart]:
-    """Parts of a paper that were not right.
+    """Yield the parts of a paper that were not right.
 
     Raises
     ------
@@ -155,7 +155,7 @@ def find_missed(marked: GradedPaper, paper: Paper) -> Iterator[MissedPart]:
 
 
 def deck_from_missed(missed: Iterable[MissedPart], lang: str, *, bank: Bank, seed: int = 0) -> Deck:
-    """A deck of parts that were not right, each mistake once: as it was made first.
+    """Return a deck of parts that were not right, each mistake once: as it was made first.
 
     Parameters
     ----------
@@ -181,6 +181,7 @@ def deck_from_missed(missed: Iterable[MissedPart], lang: str, *, bank: Bank, see
 
 
 def _make_error_note(missed: MissedPart, wish: DeckRequest) -> Note:
+    """Return the note of a missed part: the question with what was typed, then its solution."""
     part, drawn = missed.part, missed.draw
     wish = replace(wish, bank=wish.bank.owner_of(drawn.template.id)[0])
     pairs = {
@@ -215,6 +216,7 @@ def _make_error_note(missed: MissedPart, wish: DeckRequest) -> Note:
 
 
 def _build_front(pair: Pair, index: int, part: GradedPart, lang: str) -> CardBlocks:
+    """Return the front: the question, part number ``index``, and what was typed."""
     question, said = pair[0], load_card_words(lang)
     asks = front_blocks(question, index)
     if not part.typed.strip():
@@ -224,6 +226,7 @@ def _build_front(pair: Pair, index: int, part: GradedPart, lang: str) -> CardBlo
 
 
 def _build_back(pair: Pair, index: int, part: GradedPart, lang: str) -> CardBlocks:
+    """Return the back: the right answer of part number ``index``, and what was wrong."""
     key = pair[1]
     return (
         *_iter_reasons(key, index, part),
@@ -233,7 +236,7 @@ def _build_back(pair: Pair, index: int, part: GradedPart, lang: str) -> CardBloc
 
 
 def _iter_reasons(key: QuestionKey, index: int, part: GradedPart) -> Iterator[Paragraph]:
-    """The sentence of the template's mistake in this language, else what the checker said."""
+    """Yield the misconception's sentence in this language, else the checker's message."""
     name = part.note.removeprefix("trap:")
     for mistake in key.solution.parts[index].mistakes:
         if mistake.name == name:

@@ -41,7 +41,7 @@ class DisplayMaths:
 
 @dataclass(frozen=True, slots=True)
 class ClozeHole:
-    """A formula with one side asked: what is shown, and the hidden rest with its number."""
+    """A formula with one side to be recalled: what is visible, what is hidden, its number."""
 
     shown: TypesetMaths
     hidden: TypesetMaths
@@ -50,7 +50,7 @@ class ClozeHole:
 
 @dataclass(frozen=True, slots=True)
 class CardPicture:
-    """A figure with its alt text."""
+    """A figure on a card, with its alt text."""
 
     name: str
     figure: Figure
@@ -58,23 +58,23 @@ class CardPicture:
 
     @property
     def data(self) -> bytes:
-        """The drawing, which every language shares."""
+        """The SVG file, which every language shares."""
         return self.figure.standalone_svg
 
     @property
     def shade(self) -> str:
-        """What a dark card does to it: line art is inverted, a photograph stays on white."""
+        """The CSS class for dark cards: line art is inverted, a photograph stays on white."""
         return "keep" if b"<image" in self.data else "invert"
 
     @property
     def file(self) -> str:
-        """Name of the media file: unique for its content."""
+        """The name of the media file, unique for its content."""
         return f"qg_{self.name}_{hashlib.sha256(self.data).hexdigest()[:12]}.svg"
 
 
 @dataclass(frozen=True, slots=True)
 class Details:
-    """Blocks that open on a tap."""
+    """Blocks that are shown after a tap on their title."""
 
     title: str
     body: tuple[Any, ...]
@@ -82,7 +82,7 @@ class Details:
 
 @dataclass(frozen=True, slots=True)
 class NoBreak:
-    """Inlines that a line must not end between."""
+    """Inlines between which a line must not end."""
 
     parts: tuple[Any, ...]
 
@@ -107,7 +107,7 @@ LATEX = "en"
 
 
 def to_mathjax(node: Node) -> str:
-    r"""An inline formula for MathJax.
+    r"""Return an inline formula for MathJax.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def to_mathjax(node: Node) -> str:
 
 
 def _is_relation_row(node: Node) -> TypeGuard[MathRow]:
-    """Whether a formula is a row of sides with a relation sign between any two of them."""
+    """Return whether a formula is a row of sides with a relation sign between any two of them."""
     if not isinstance(node, MathRow) or node.level != RELATION:
         return False
     # "not (...)" is on the level of relations, too, and has no sign to wrap at.
@@ -132,7 +132,7 @@ def _is_relation_row(node: Node) -> TypeGuard[MathRow]:
 
 
 def equations_to_mathjax(node: Node) -> str:
-    """A chain of equations as one formula per side, so that a narrow screen can wrap it."""
+    """Return a chain of equations as one formula per side, so that a narrow screen can wrap it."""
     style = r"\displaystyle "
     if not _is_relation_row(node):
         return _format_mathjax(style, typeset.to_latex(node, LATEX))
@@ -140,6 +140,7 @@ def equations_to_mathjax(node: Node) -> str:
 
 
 def _iter_mathjax_pieces(node: MathRow, style: str) -> Iterator[str]:
+    """Yield each side of a chain with the sign in front of it, for MathJax."""
     first, *rest = node.items
     yield _format_mathjax(style, typeset.to_latex(first, LATEX))
     for sign, side in zip(rest[::2], rest[1::2], strict=True):
@@ -150,6 +151,7 @@ def _iter_mathjax_pieces(node: MathRow, style: str) -> Iterator[str]:
 
 
 def _format_mathjax(style: str, text: str) -> str:
+    """Return LaTeX in MathJax's brackets, in a text or display style."""
     return rf"\({style}{escape(text, quote=False)}\)"
 
 
@@ -161,7 +163,7 @@ WORD_JOINER = "\u2060"
 
 
 def escape_words(words: str, *, quote: bool = False) -> str:
-    """Words as HTML that no reader of the card takes for anything but words."""
+    """Return words as HTML that no reader of the card takes for markup, formulas or clozes."""
     if _MARKS.search(words):
         words = _MARKS.sub(lambda mark: mark[0] + WORD_JOINER, words)
     return escape(words, quote=quote)
@@ -169,7 +171,7 @@ def escape_words(words: str, *, quote: bool = False) -> str:
 
 @singledispatch
 def to_card_html(part: object, lang: str, *, ask: bool | None = None) -> str:
-    """One block, inline or tuple of them as HTML.
+    """Return a block, an inline or a tuple of them as HTML of a card.
 
     Parameters
     ----------
@@ -188,67 +190,80 @@ def to_card_html(part: object, lang: str, *, ask: bool | None = None) -> str:
 
 
 @to_card_html.register
-def _(part: tuple, lang: str, *, ask: bool | None = None) -> str:  # type: ignore[type-arg]
+def _format_blocks_html(part: tuple, lang: str, *, ask: bool | None = None) -> str:  # type: ignore[type-arg]
+    """Return several blocks or inlines as HTML."""
     groups = unbreakable_groups(part)
     return "".join(to_card_html(g[0] if len(g) == 1 else NoBreak(g), lang, ask=ask) for g in groups)
 
 
 @to_card_html.register
-def _(part: NoBreak, lang: str, *, ask: bool | None = None) -> str:
+def _format_no_break_html(part: NoBreak, lang: str, *, ask: bool | None = None) -> str:
+    """Return inlines without a line break as HTML."""
     inside = "".join(to_card_html(item, lang, ask=ask) for item in part.parts)
     return f'<span class="qg-together">{inside}</span>'
 
 
 @to_card_html.register
-def _(part: PlainText, lang: str, *, ask: bool | None = None) -> str:
+def _format_plain_text_html(part: PlainText, lang: str, *, ask: bool | None = None) -> str:
+    """Return words as HTML."""
     del lang, ask
     return escape_words(part.text)
 
 
 @to_card_html.register
-def _(part: TypesetMaths, lang: str, *, ask: bool | None = None) -> str:
+def _format_typeset_maths_html(part: TypesetMaths, lang: str, *, ask: bool | None = None) -> str:
+    """Return a formula as HTML."""
     del lang, ask
     return to_mathjax(part.node)
 
 
 @to_card_html.register
-def _(part: InlineCode, lang: str, *, ask: bool | None = None) -> str:
+def _format_inline_code_html(part: InlineCode, lang: str, *, ask: bool | None = None) -> str:
+    """Return code as HTML."""
     del lang, ask
     return f"<code>{escape_words(part.text)}</code>"
 
 
 @to_card_html.register
-def _(part: Emphasis, lang: str, *, ask: bool | None = None) -> str:
+def _format_emphasis_html(part: Emphasis, lang: str, *, ask: bool | None = None) -> str:
+    """Return emphasised words as HTML."""
     return f"<{part.style}>{to_card_html(part.children, lang, ask=ask)}</{part.style}>"
 
 
 @to_card_html.register
-def _(part: Paragraph, lang: str, *, ask: bool | None = None) -> str:
+def _format_paragraph_html(part: Paragraph, lang: str, *, ask: bool | None = None) -> str:
+    """Return a paragraph as HTML."""
     return f"<p>{to_card_html(part.children, lang, ask=ask)}</p>"
 
 
 @to_card_html.register
-def _(part: CodeBlock, lang: str, *, ask: bool | None = None) -> str:
+def _format_code_block_html(part: CodeBlock, lang: str, *, ask: bool | None = None) -> str:
+    """Return a block of code as HTML."""
     del lang, ask
     lines = escape_words(part.text).replace("\n", "<br>")
     return f"<pre>{lines}</pre>"
 
 
 @to_card_html.register
-def _(part: ListBlock, lang: str, *, ask: bool | None = None) -> str:
+def _format_list_block_html(part: ListBlock, lang: str, *, ask: bool | None = None) -> str:
+    """Return a list as HTML."""
     tag = "ol" if part.ordered else "ul"
     items = "".join(f"<li>{_render_tight_item(item, lang, ask)}</li>" for item in part.items)
     return f"<{tag}>{items}</{tag}>"
 
 
 def _render_tight_item(item: tuple[Any, ...], lang: str, ask: bool | None) -> str:
+    """Return a list item as HTML, without ``<p>`` around a single paragraph."""
     single = len(item) == 1 and isinstance(item[0], Paragraph)
     return to_card_html(item[0].children if single else item, lang, ask=ask)
 
 
 @to_card_html.register
-def _(part: TableBlock, lang: str, *, ask: bool | None = None) -> str:
+def _format_table_block_html(part: TableBlock, lang: str, *, ask: bool | None = None) -> str:
+    """Return a table as HTML."""
+
     def row(cells: Iterable[Sequence[Inline]], tag: str) -> str:
+        """Return one row of the table; ``tag`` is ``th`` or ``td``."""
         return "".join(f"<{tag}>{to_card_html(cell, lang, ask=ask)}</{tag}>" for cell in cells)
 
     head = f"<tr>{row(part.head, 'th')}</tr>"
@@ -257,13 +272,15 @@ def _(part: TableBlock, lang: str, *, ask: bool | None = None) -> str:
 
 
 @to_card_html.register
-def _(part: DisplayMaths, lang: str, *, ask: bool | None = None) -> str:
+def _format_display_maths_html(part: DisplayMaths, lang: str, *, ask: bool | None = None) -> str:
+    """Return a formula on its own line as HTML."""
     del lang, ask
     return f'<div class="qg-line">{equations_to_mathjax(part.maths.node)}</div>'
 
 
 @to_card_html.register
-def _(part: ClozeHole, lang: str, *, ask: bool | None = None) -> str:
+def _format_cloze_hole_html(part: ClozeHole, lang: str, *, ask: bool | None = None) -> str:
+    """Return a formula with a hidden side as HTML; ``ask`` as for `to_card_html`."""
     del lang
     shown, hidden = (equations_to_mathjax(side.node) for side in (part.shown, part.hidden))
     if ask is None:
@@ -274,27 +291,31 @@ def _(part: ClozeHole, lang: str, *, ask: bool | None = None) -> str:
 
 
 @to_card_html.register
-def _(part: CardPicture, lang: str, *, ask: bool | None = None) -> str:
+def _format_card_picture_html(part: CardPicture, lang: str, *, ask: bool | None = None) -> str:
+    """Return a figure as HTML."""
     del lang, ask
     alt = escape_words(part.alt, quote=True)
     return f'<img class="qg-{part.shade}" src="{escape(part.file, quote=True)}" alt="{alt}">'
 
 
 @to_card_html.register
-def _(part: PlacedPicture, lang: str, *, ask: bool | None = None) -> str:
+def _format_placed_picture_html(part: PlacedPicture, lang: str, *, ask: bool | None = None) -> str:
+    """Return a picture of the prose as HTML."""
     del lang, ask
     wide, alt = f"{part.picture.width_pt * 4 / 3:.0f}", escape_words(part.alt, quote=True)
     return f'<img class="qg-keep" src="{part.picture.file}" alt="{alt}" width="{wide}">'
 
 
 @to_card_html.register
-def _(part: Details, lang: str, *, ask: bool | None = None) -> str:
+def _format_details_html(part: Details, lang: str, *, ask: bool | None = None) -> str:
+    """Return blocks under a title as HTML."""
     body = to_card_html(part.body, lang, ask=ask)
     return f"<details><summary>{escape_words(part.title)}</summary>{body}</details>"
 
 
 @to_card_html.register
-def _(part: InLanguage, lang: str, *, ask: bool | None = None) -> str:
+def _format_in_language_html(part: InLanguage, lang: str, *, ask: bool | None = None) -> str:
+    """Return blocks in their language as HTML."""
     del lang
     return (
         f'<div lang="{escape(part.lang, quote=True)}'
@@ -303,14 +324,15 @@ def _(part: InLanguage, lang: str, *, ask: bool | None = None) -> str:
 
 
 @to_card_html.register
-def _(part: CardLabel, lang: str, *, ask: bool | None = None) -> str:
+def _format_card_label_html(part: CardLabel, lang: str, *, ask: bool | None = None) -> str:
+    """Return a label as HTML."""
     del lang, ask
     return f'<div class="qg-label">{escape_words(part.text)}</div>'
 
 
 @singledispatch
 def to_card_text(part: object, *, ask: bool = False) -> str:
-    """One block, inline or tuple of them as text; formulas as Unicode can write them.
+    """Return a block, an inline or a tuple of them as plain text, formulas in Unicode.
 
     Parameters
     ----------
@@ -328,78 +350,91 @@ def to_card_text(part: object, *, ask: bool = False) -> str:
 
 
 @to_card_text.register
-def _(part: tuple, *, ask: bool = False) -> str:  # type: ignore[type-arg]
+def _format_blocks_text(part: tuple, *, ask: bool = False) -> str:  # type: ignore[type-arg]
+    """Return several blocks or inlines as plain text."""
     return "".join(to_card_text(item, ask=ask) for item in part)
 
 
 @to_card_text.register
-def _(part: PlainText | InlineCode, *, ask: bool = False) -> str:
+def _format_plain_text_text(part: PlainText | InlineCode, *, ask: bool = False) -> str:
+    """Return words or code as plain text."""
     del ask
     return part.text
 
 
 @to_card_text.register
-def _(part: TypesetMaths | PlacedPicture, *, ask: bool = False) -> str:
+def _format_typeset_maths_text(part: TypesetMaths | PlacedPicture, *, ask: bool = False) -> str:
+    """Return a formula or a picture of the prose as plain text."""
     del ask
     return part.text
 
 
 @to_card_text.register
-def _(part: Emphasis, *, ask: bool = False) -> str:
+def _format_emphasis_text(part: Emphasis, *, ask: bool = False) -> str:
+    """Return emphasised words as plain text."""
     return to_card_text(part.children, ask=ask)
 
 
 @to_card_text.register
-def _(part: Paragraph, *, ask: bool = False) -> str:
+def _format_paragraph_text(part: Paragraph, *, ask: bool = False) -> str:
+    """Return a paragraph as plain text."""
     return to_card_text(part.children, ask=ask) + "\n"
 
 
 @to_card_text.register
-def _(part: CodeBlock | CardLabel, *, ask: bool = False) -> str:
+def _format_code_block_text(part: CodeBlock | CardLabel, *, ask: bool = False) -> str:
+    """Return a block of code or a label as plain text."""
     del ask
     return f"{part.text}\n"
 
 
 @to_card_text.register
-def _(part: ListBlock, *, ask: bool = False) -> str:
+def _format_list_block_text(part: ListBlock, *, ask: bool = False) -> str:
+    """Return a list as plain text."""
     return "".join(f"{BULLET} {to_card_text(item, ask=ask).strip()}\n" for item in part.items)
 
 
 @to_card_text.register
-def _(part: TableBlock, *, ask: bool = False) -> str:
+def _format_table_block_text(part: TableBlock, *, ask: bool = False) -> str:
+    """Return a table as plain text."""
     rows = (part.head, *part.rows)
     return "".join(" | ".join(to_card_text(cell, ask=ask) for cell in row) + "\n" for row in rows)
 
 
 @to_card_text.register
-def _(part: DisplayMaths, *, ask: bool = False) -> str:
+def _format_display_maths_text(part: DisplayMaths, *, ask: bool = False) -> str:
+    """Return a formula on its own line as plain text."""
     del ask
     return f"{part.maths.text}\n"
 
 
 @to_card_text.register
-def _(part: ClozeHole, *, ask: bool = False) -> str:
+def _format_cloze_hole_text(part: ClozeHole, *, ask: bool = False) -> str:
+    """Return a formula with a hidden side as plain text, without that side if ``ask``."""
     return f"{part.shown.text} {'[...]' if ask else part.hidden.text}\n"
 
 
 @to_card_text.register
-def _(part: CardPicture, *, ask: bool = False) -> str:
+def _format_card_picture_text(part: CardPicture, *, ask: bool = False) -> str:
+    """Return a figure as plain text."""
     del ask
     return f"[{part.alt}]\n"
 
 
 @to_card_text.register
-def _(part: Details, *, ask: bool = False) -> str:
+def _format_details_text(part: Details, *, ask: bool = False) -> str:
+    """Return blocks under a title as plain text."""
     return f"{part.title}: {to_card_text(part.body, ask=ask)}"
 
 
 @to_card_text.register
-def _(part: InLanguage, *, ask: bool = False) -> str:
+def _format_in_language_text(part: InLanguage, *, ask: bool = False) -> str:
+    """Return blocks in their language as plain text."""
     return to_card_text(part.body, ask=ask)
 
 
 def media(parts: Iterable[Any]) -> Iterator[tuple[str, bytes]]:
-    """Name and content of every picture's file in blocks."""
+    """Yield name and content of the file of every picture in blocks."""
     for part in leaves(parts):
         if isinstance(part, CardPicture):
             yield part.file, part.data

@@ -36,12 +36,12 @@ FIELDS = {
 
 
 def field_name(name: str, lang: str) -> str:
-    """Name of a field in one language: ``Front``, ``Front bn``."""
+    """Return the name of a field in one language: ``Front``, ``Front bn``."""
     return name if lang == FIRST else f"{name} {lang}"
 
 
 def field_names(form: str, columns: tuple[str, ...]) -> tuple[str, ...]:
-    """Fields of a note type that has fields for these languages, in order."""
+    """Return the fields of a note type with fields for these languages, in order."""
     said = SAID[form]
     each = [[field_name(name, lang) for lang in columns] if name in said else [name]
             for name in FIELDS[form]]  # fmt: skip
@@ -50,7 +50,7 @@ def field_names(form: str, columns: tuple[str, ...]) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class Note:
-    """One note.
+    """One note of a deck, which gives one or several cards.
 
     Parameters
     ----------
@@ -91,18 +91,18 @@ class Note:
 
     @property
     def guid(self) -> str:
-        """Identity of the note in Anki: from the key, never from its text or language."""
+        """The note's identity in Anki, from its key, never from its text or language."""
         return hashlib.sha256(f"quizgen/{self.key}".encode()).hexdigest()[:20]
 
     @property
     def source(self) -> str:
-        """The small line at the foot: where the note comes from."""
+        """The small line at the foot of a card: where the note comes from."""
         place = f"§{self.section}" if self.section else ""
         return " · ".join(part for part in (*self.refs[:1], place, self.tier) if part)
 
     @property
     def tags(self) -> tuple[str, ...]:
-        """Tags of kind, tier, section, language and curriculum id."""
+        """The note's tags: kind, tier, section, languages and curriculum ids."""
         named = [f"kind::{self.kind}", f"tier::{self.tier}"]
         named += [f"section::{self.section}"] if self.section else []
         named += [f"lang::{lang}" for lang in self.langs]
@@ -110,7 +110,10 @@ class Note:
         return tuple(sorted(_format_tag(f"quizgen::{name}") for name in named))
 
     def fields(self) -> tuple[str, ...]:
-        """HTML of every field of the note type, in order; a language not asked for is empty."""
+        """Return the HTML of every field of the note type, in order.
+
+        Unrequested languages are empty.
+        """
         filled = {"Key": escape(self.key), "Source": escape(self.source)}
         main = self.langs[0]
         filled |= {name: to_card_html(blocks, main) for name, blocks in self.shared.items()}
@@ -121,12 +124,12 @@ class Note:
         return tuple(filled.get(name, "") for name in field_names(self.form, self.columns))
 
     def media(self) -> dict[str, bytes]:
-        """Files of the pictures on the note, by their names."""
+        """Return the files of the pictures on the note, by name."""
         said = [blocks for words in self.words.values() for blocks in words.values()]
         return dict(found for blocks in (*self.shared.values(), *said) for found in media(blocks))
 
     def cards(self) -> tuple[int, ...]:
-        """Numbers of the cards that the note gives, as Anki counts them (from 0)."""
+        """Return the numbers of the cards that the note gives, as Anki counts them (from 0)."""
         if self.form == "cloze":
             holes = {part.number for part in self.shared["Text"] if isinstance(part, ClozeHole)}
             return tuple(sorted(number - 1 for number in holes))
@@ -140,7 +143,7 @@ class Note:
         return (0,)
 
     def sides(self) -> Iterator[tuple[str, CardBlocks, CardBlocks]]:
-        """Each card as (name, front, back), for programs that know nothing but two sides."""
+        """Yield each card as (name, front, back), for programs that know two sides only."""
         if self.form == "term":
             yield from self._term_sides()
         elif self.form == "cloze":
@@ -160,6 +163,7 @@ class Note:
             )
 
     def _term_sides(self) -> Iterator[tuple[str, CardBlocks, CardBlocks]]:
+        """Yield the sides of a vocabulary note: term to meaning, back, and translations."""
         terms, meaning = self.words["Term"], self.in_all_languages("Meaning")
         term, named = (
             terms[FIRST],
@@ -172,24 +176,25 @@ class Note:
             yield get_language(lang).english, asked, (*term, *meaning)
 
     def _list_other_languages(self) -> tuple[str, ...]:
+        """Return the languages of the note without English, the language of terms."""
         return tuple(lang for lang in self.columns if lang != FIRST)
 
     def in_all_languages(self, name: str) -> CardBlocks:
-        """A field in every language of the note, one after the other."""
+        """Return a field in every language of the note, one after the other."""
         words = self.words.get(name, {})
         return tuple(InLanguage(lang, words[lang]) for lang in self.langs if lang in words)
 
 
 def _format_tag(name: str) -> str:
-    """A tag: blanks would part it, control characters and quotes would leave its cell."""
+    """Return a name as a tag of Anki: without blanks, control characters and quotes."""
     return _NO_TAG.sub("_", name)
 
 
 def side_to_html(blocks: CardBlocks, lang: str, *, ask: bool) -> str:
-    """One side of a card as HTML, without Anki's own marks."""
+    """Return one side of a card as HTML, without Anki's own marks; ``ask`` hides clozes."""
     return to_card_html(blocks, lang, ask=ask)
 
 
 def side_to_text(blocks: CardBlocks, *, ask: bool) -> str:
-    """One side of a card as plain text."""
+    """Return one side of a card as plain text; ``ask`` leaves hidden sides out."""
     return to_card_text(blocks, ask=ask).strip()

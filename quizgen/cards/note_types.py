@@ -29,7 +29,7 @@ Sides = list[tuple[str, str, str]]
 
 
 class NoteTypeVersions(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """``looks.toml``: the languages of the plain note types, and version and digest of each."""
+    """``looks.toml``: the languages of the plain note types, version and digest of each."""
 
     languages: tuple[str, ...]
     looks: dict[str, tuple[int, str]]
@@ -37,27 +37,28 @@ class NoteTypeVersions(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 @cache
 def read_note_type_versions() -> NoteTypeVersions:
-    """Versions of the note types; ``python -m quizgen.cards.update_versions`` keeps them."""
+    """Return the versions of the note types that this package ships."""
     return convert(msgspec.toml.decode(_read_packaged_text("looks.toml")), NoteTypeVersions)
 
 
 def _read_packaged_text(name: str) -> str:
+    """Return the text of a file in this package."""
     return (files("quizgen.cards") / name).read_text(encoding="utf-8")
 
 
 def stable_id(name: str) -> int:
-    """A fixed number for a note type or a deck, from its name."""
+    """Return a number for a note type or a deck that follows from its name alone."""
     digest = hashlib.sha256(f"quizgen/{name}".encode()).digest()
     return 1_500_000_000_000 + int.from_bytes(digest[:5], "big") % 2**36
 
 
 def card_css() -> str:
-    """The style sheet of every note type."""
+    """Return the style sheet of every note type."""
     return _read_packaged_text("card.css") + language_css('.qg [lang="{}"]', ".qg")
 
 
 def _render_field_by_language(name: str, columns: Columns) -> str:
-    """A field in each language that is filled in."""
+    """Return Anki's template of a field in each language that is filled in."""
     fields = {lang: field_name(name, lang) for lang in columns}
     return "".join(
         _wrap_in_condition(field, f'<div lang="{lang}">{{{{{field}}}}}</div>') + "\n"
@@ -66,7 +67,7 @@ def _render_field_by_language(name: str, columns: Columns) -> str:
 
 
 def _render_label_by_language(word: str, name: str, columns: Columns) -> str:
-    """What is asked, in each language of the note."""
+    """Return Anki's template of a word shown in each language in which the field is filled in."""
     asked = "".join(
         _wrap_in_condition(
             field_name(name, lang), f'<span lang="{lang}">{load_card_words(lang)[word]}</span>'
@@ -77,10 +78,12 @@ def _render_label_by_language(word: str, name: str, columns: Columns) -> str:
 
 
 def _wrap_in_condition(name: str, text: str) -> str:
+    """Return Anki's template of a text that is shown if a field is filled in."""
     return f"{{{{#{name}}}}}{text}{{{{/{name}}}}}"
 
 
 def _wrap_card(body: str) -> str:
+    """Return Anki's template of one side, in the frame that the style sheet expects."""
     return f'<div class="qg">\n{body}</div>'
 
 
@@ -89,6 +92,7 @@ _RULE = '<hr id="answer">\n'
 
 
 def _build_basic_templates(columns: Columns) -> Sides:
+    """Return name, front and back of the cards with a front and a back field."""
     front = _render_field_by_language("Front", columns) + "{{Figure}}\n"
     work = _wrap_in_condition("Work", '<div class="qg-work">{{Work}}</div>') + "\n"
     back = f'<div class="qg-answer">{_render_field_by_language("Back", columns)}</div>\n'
@@ -97,6 +101,7 @@ def _build_basic_templates(columns: Columns) -> Sides:
 
 
 def _build_term_templates(columns: Columns) -> Sides:
+    """Return name, front and back of the cards of a term, one more for each translation."""
     term = f'<div class="qg-term" lang="{FIRST}">{{{{Term}}}}</div>\n'
     named = {lang: _render_translated_term(lang) for lang in columns if lang != FIRST}
     meaning = _render_field_by_language("Meaning", columns)
@@ -113,12 +118,12 @@ def _build_term_templates(columns: Columns) -> Sides:
 
 
 def _render_translated_term(lang: str) -> str:
-    """The term in another language."""
+    """Return Anki's template of the term in another language."""
     return f'<div class="qg-term" lang="{lang}">{{{{{field_name("Term", lang)}}}}}</div>\n'
 
 
 def _build_translation_template(lang: str, named: str, back: str) -> tuple[str, str, str]:
-    """The card that asks for the English term; there is none if the field is empty."""
+    """Return the card that asks for the English term; Anki makes none if the field is empty."""
     asked = (
         f'<div class="qg-label"><span lang="{lang}'
         f'">{load_card_words(lang)["in_english"]}</span></div>\n'
@@ -128,6 +133,7 @@ def _build_translation_template(lang: str, named: str, back: str) -> tuple[str, 
 
 
 def _build_cloze_templates(columns: Columns) -> Sides:
+    """Return name, front and back of the cloze card."""
     front = (
         _render_label_by_language("formula", "Title", columns)
         + _render_field_by_language("Title", columns)
@@ -150,14 +156,14 @@ _TEMPLATES = {
 
 
 def note_type_name(form: str, columns: Columns) -> str:
-    """Name of a note type: short for the languages it was first made for, else with them."""
+    """Return the name of a note type, with its languages unless they are the usual ones."""
     known = read_note_type_versions().languages
     return NAMES[form] if columns == known else f"{NAMES[form]} ({', '.join(columns)})"
 
 
 @cache
 def note_type(form: str, columns: Columns) -> dict[str, Any]:
-    """One note type in the form in which Anki stores it.
+    """Return one note type in the form in which Anki stores it.
 
     Parameters
     ----------
@@ -188,17 +194,19 @@ def note_type(form: str, columns: Columns) -> dict[str, Any]:
 
 
 def note_type_digest(form: str) -> str:
-    """Digest of everything that a note type consists of."""
+    """Return a digest of everything that a note type consists of."""
     kind = note_type(form, read_note_type_versions().languages)
     table = {key: value for key, value in kind.items() if key != "mod"}
     return hashlib.sha256(json.dumps(table, sort_keys=True).encode()).hexdigest()[:12]
 
 
 def _make_card_template(index: int, name: str, front: str, back: str) -> dict[str, Any]:
+    """Return one card template in the form in which Anki stores it."""
     return {"name": name, "ord": index, "qfmt": front, "afmt": back, "did": None,
             "bqfmt": "", "bafmt": ""}  # fmt: skip
 
 
 def _make_note_field(index: int, name: str) -> dict[str, Any]:
+    """Return one field in the form in which Anki stores it."""
     return {"name": name, "ord": index, "sticky": False, "rtl": False, "font": "Arial",
             "size": 20, "media": []}  # fmt: skip

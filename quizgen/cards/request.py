@@ -15,7 +15,7 @@ SEED = 0
 
 @dataclass(frozen=True)
 class DeckRequest:
-    """What the deck should hold.
+    """What a deck should hold.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class DeckRequest:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """Languages that notes have fields for: the bank's, whichever of them are asked for.
+        """The languages that notes have fields for: the bank's, not only those requested.
 
         So a deck in one language and a later one in another meet in the same notes.
         """
@@ -47,12 +47,12 @@ class DeckRequest:
         return tuple(lang for lang in list_languages() if lang in held)
 
     def includes_topic(self, topic: str) -> bool:
-        """Whether a topic is asked for."""
+        """Return whether a topic is requested."""
         return not self.topics or topic in self.topics
 
 
 class CardKind(Protocol):
-    """A kind of cards: what is wished for goes in, its notes come out in the order of learning."""
+    """A kind of cards: a function from a request to its notes."""
 
     def __call__(self, wish: DeckRequest, /) -> Iterator[Note]:
-        """Make the notes."""
+        """Yield the notes in the order of learning."""

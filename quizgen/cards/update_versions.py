@@ -18,7 +18,7 @@ HEAD = "`python -m quizgen.cards.update_versions` keeps it.\n"
 
 
 def current_digests(bank: Bank) -> dict[str, str]:
-    """Digest of every note as the content stands now, in every language of the bank."""
+    """Return the digest of every note as the content stands now, in every language of the bank."""
     authored = tuple(kind for kind in KINDS if kind not in DRAWN)
     notes = build_deck("both", kinds=authored, bank=bank).notes
     digests = {note.key: note_digest(note) for note in notes}
@@ -26,7 +26,7 @@ def current_digests(bank: Bank) -> dict[str, str]:
 
 
 def raise_versions(old: Registry, new: dict[str, str]) -> Registry:
-    """The list after a change: a new digest raises the version, a new note starts at 1.
+    """Return the versions after a change: a new digest raises one, a new note starts at 1.
 
     A note that is gone stays listed, so that its version never falls should it return.
     """
@@ -38,12 +38,12 @@ def raise_versions(old: Registry, new: dict[str, str]) -> Registry:
 
 
 def format_versions(table: Registry) -> str:
-    """The rows of a list as TOML."""
+    """Return the rows of a list of versions as TOML."""
     return "".join(f'"{key}" = [{v}, "{digest}"]\n' for key, (v, digest) in sorted(table.items()))
 
 
 def update_note_types() -> None:
-    """Write the versions of the note types."""
+    """Write the versions of the note types to ``looks.toml``."""
     old = note_types.read_note_type_versions()
     new = raise_versions(
         old.looks, {form: note_types.note_type_digest(form) for form in note_types.NAMES}
@@ -57,7 +57,7 @@ def update_note_types() -> None:
 
 
 def update_versions(bank: Bank) -> None:
-    """Write a bank's list, and say how many cards changed."""
+    """Write a bank's list of versions, and print how many cards changed."""
     old = read_versions(bank)
     new = raise_versions(old, current_digests(bank))
     path = bank.folder / "cards" / f"{FILE}.toml"
@@ -70,7 +70,7 @@ def update_versions(bank: Bank) -> None:
 
 
 def main(arguments: list[str]) -> None:
-    """Renew the bank that is named, else the built-in one and the note types."""
+    """Update the versions of the named bank, else of the built-in one and of the note types."""
     if arguments:
         update_versions(Bank(Path(arguments[0]), trusted=True))
         return

@@ -41,7 +41,7 @@ Registry = dict[str, tuple[int, str]]
 
 @cache
 def read_versions(bank: Bank) -> Registry:
-    """Note key to its version and digest, as the bank lists them; nothing if it has no list."""
+    """Return version and digest by note key, as the bank lists them; nothing if it has no list."""
     if FILE not in bank.cards:
         return {}
     path = bank.cards[FILE]
@@ -54,14 +54,14 @@ def read_versions(bank: Bank) -> Registry:
 
 
 def note_version(note: Note, bank: Bank) -> int:
-    """Version of a note: as listed, or the one it came with."""
+    """Return the version of a note: the listed one, else its own."""
     if note.kind in DRAWN:
         return note.version
     return read_versions(bank).get(note.key, (note.version, ""))[0]
 
 
 def template_version(template: Template, bank: Bank) -> int:
-    """Version of a worked question, from the files of its template."""
+    """Return the version of a worked question, from the files of its template."""
     version, digest = read_versions(bank).get(
         f"question/{template.origin}", (template.rules.version, "")
     )
@@ -69,7 +69,7 @@ def template_version(template: Template, bank: Bank) -> int:
 
 
 def modification_time(note: Note, seed: int) -> int:
-    """Modification time of a note in Anki, seconds since 1970.
+    """Return the modification time of a note in Anki, seconds since 1970.
 
     It rises with the version; within a version with the seed (only for kinds whose
     numbers depend on it) and from one language to both.
@@ -79,9 +79,10 @@ def modification_time(note: Note, seed: int) -> int:
 
 
 def _count_language_versions(langs: tuple[str, ...]) -> int:
+    """Return 0 for English alone, 1 for another language, 2 for several: the part of a version."""
     return 2 if len(langs) > 1 else int(langs != (FIRST,))
 
 
 def note_digest(note: Note) -> str:
-    """Digest of everything that stands on a note."""
+    """Return a digest of everything that stands on a note."""
     return hashlib.sha256("\x1f".join((*note.fields(), note.topic)).encode()).hexdigest()[:12]

@@ -39,7 +39,7 @@ MOST_MISTAKES, MOST_PLOTS = 3, 6
 
 
 def write_analysis_page(folder: ClassFolder, lang: str = FIRST) -> tuple[ClassAnalysis, Path]:
-    """Analyse a class and write the page in a language.
+    """Analyse the graded papers of a class and write ``analysis.html``; return both.
 
     Raises
     ------
@@ -80,15 +80,18 @@ def write_analysis_page(folder: ClassFolder, lang: str = FIRST) -> tuple[ClassAn
 def _iter_marks_with_outlines(
     history: GradingHistory, keys: KeyIndex
 ) -> Iterator[tuple[StudentMarks, PaperOutline]]:
+    """Yield each student's current marks with the outline of that student's paper."""
     for marks in history.current():
         yield marks, keys.outline(marks.student)
 
 
 def _select_significant_effects(found: ClassAnalysis) -> list[object]:
+    """Return the effects that remain significant after Holm's correction."""
     return [one for one in found.effects if one.corrected < SURE]
 
 
 def _draw_plots(found: ClassAnalysis, scale: GradeScale, lang: str) -> dict[str, object]:
+    """Return the plots of the page as inline SVG, by the names that its layout uses."""
     passing = float(scale.grade_bounds()[-1][1] * Fraction(found.points))
     rows = [
         (str(number), item.difficulty, item.discrimination)
@@ -112,18 +115,22 @@ def _draw_plots(found: ClassAnalysis, scale: GradeScale, lang: str) -> dict[str,
 
 
 def _get_inline_svg(figure: Figure) -> Markup:
+    """Return a figure's SVG as markup that the layout does not escape."""
     return Markup(figure.inline_svg.decode())  # made here, from numbers
 
 
 def _format_localised(lang: str, form: str, value: float | str) -> str:
+    """Return a number in a printf format, with the digits and decimal sign of a language."""
     return localise_numbers(lang, form % value)
 
 
 def _format_statistic(lang: str, value: float | None) -> str:
+    """Return a statistic with two decimals; a dash if the points do not determine it."""
     return "–" if value is None else _format_localised(lang, "%.2f", value)
 
 
 def _format_probability(lang: str, value: float) -> str:
+    """Return a probability with three decimals, or that it is less than 0.001."""
     return (
         _format_localised(lang, "< %s", "0.001")
         if value < 0.001
@@ -132,7 +139,10 @@ def _format_probability(lang: str, value: float) -> str:
 
 
 def mistake_sentence(mistake: ClassMistake, key_of: Callable[[str], AnswerKey], lang: str) -> str:
-    """What the checker says of a mistake, by the example of somebody who made it."""
+    """Return the feedback on a mistake, from an answer of a student who made it.
+
+    Numbers differ from paper to paper, so the sentence needs one paper's key; without it, the note.
+    """
     example = mistake.example
     for question in key_of(example.student).questions:
         for part in question.parts:
@@ -151,9 +161,14 @@ _SIZE = (340.0, 150.0)
 
 
 def _draw_plot(draw: Any, lang: str, axes: tuple[str, str], caption: str, height: float) -> Figure:
+    """Return a figure that ``draw(ax)`` fills, with named axes.
+
+    ``axes`` are the keys of the axis names in ``classes.toml``, ``height`` is in points.
+    """
     words = load_words(lang, "classes")["analysis"]
 
     def draw_named(ax: Any) -> None:
+        """Draw the plot, then name its axes."""
         draw(ax)
         ax.set_xlabel(words[axes[0]] if axes[0] else "")
         ax.set_ylabel(words[axes[1]])
@@ -164,7 +179,7 @@ def _draw_plot(draw: Any, lang: str, axes: tuple[str, str], caption: str, height
 def plot_totals(
     totals: Sequence[float], points: float, passing: float, lang: str, caption: str
 ) -> Figure:
-    """How many students have how many points; the pass mark is a red line."""
+    """Return a histogram of the students' points; a red line marks the pass mark."""
 
     def draw(ax: Any) -> None:
         from matplotlib.ticker import MaxNLocator
@@ -179,7 +194,10 @@ def plot_totals(
 
 
 def plot_items(rows: Sequence[tuple[str, float, float]], lang: str, caption: str) -> Figure:
-    """Difficulty against discrimination, an item a point with its number in the table."""
+    """Return a scatter plot of difficulty and discrimination, each item labelled by its number.
+
+    ``rows`` are item number, difficulty (mean share of the points) and discrimination.
+    """
 
     def draw(ax: Any) -> None:
         ax.axhline(0.0, color="rule", linestyle="-")
@@ -196,7 +214,7 @@ def plot_items(rows: Sequence[tuple[str, float, float]], lang: str, caption: str
 
 
 def plot_effect(effect: VariantEffect, lang: str, caption: str) -> Figure:
-    """Mean share of the points by value, with 95 % of its error."""
+    """Return the mean share of the points for each value, with 95 % error bars."""
 
     def draw(ax: Any) -> None:
         places = np.arange(len(effect.levels))

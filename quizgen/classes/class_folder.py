@@ -30,7 +30,7 @@ PAPERS, SOLUTIONS, FORMS, ANSWERS = "papers", "solutions", "forms", "answers"
 
 
 class ClassSettings(msgspec.Struct, frozen=True):
-    """What a class was made with; written once.
+    """What a class was generated from; written once, to ``class.toml``.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class ClassSettings(msgspec.Struct, frozen=True):
         128 bits, from which every number follows.
     blueprint : str
         Its name or its file.
-    banks : tuple of Source
+    banks : tuple of BankSource
         What it asks.
     lang : str
         Of students whose row names none.
@@ -60,7 +60,7 @@ class ClassSettings(msgspec.Struct, frozen=True):
 
 
 class PrintedHead(msgspec.Struct, frozen=True):
-    """What the line of a student's paper says, apart from its key.
+    """What a line of ``keys.jsonl`` holds apart from the key.
 
     Parameters
     ----------
@@ -87,19 +87,19 @@ class PrintedHead(msgspec.Struct, frozen=True):
 
     @property
     def codes(self) -> tuple[str, ...]:
-        """All codes under which it may come back."""
+        """Return all codes under which the paper may come back."""
         return (self.code, *self.former)
 
 
 class PaperRecord(msgspec.Struct, frozen=True):
-    """A student's paper: what was printed, and the key that marks it."""
+    """One line of ``keys.jsonl``: what was printed, and the key that grades it."""
 
     head: PrintedHead
     key: AnswerKey
 
 
 class ClassFolder:
-    """The folder of a class.
+    """Reads and writes the folder of a class.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ class ClassFolder:
 
     @property
     def is_new(self) -> bool:
-        """Whether there is no class yet.
+        """Whether no class has been generated here yet.
 
         Raises
         ------
@@ -131,7 +131,7 @@ class ClassFolder:
 
     @cached_property
     def settings(self) -> ClassSettings:
-        """What the class was made with.
+        """Return the settings of ``class.toml``; read once.
 
         Raises
         ------
@@ -152,24 +152,27 @@ class ClassFolder:
         return found
 
     def create(self, settings: ClassSettings, students: Sequence[RosterStudent]) -> None:
-        """Begin a class: settings first, for nothing may be made that they do not explain."""
+        """Write settings, roster and an empty file of keys for a new class.
+
+        Settings come first: no paper may exist that they do not explain.
+        """
         contents = {ROSTER: write_roster(students), KEYS: b"", SETTINGS: _format_toml(settings)}
         write_all(self.path, contents, mode=PRIVATE)
 
     def students(self) -> list[RosterStudent]:
-        """The students in the order of their seats."""
+        """Return the students of the roster, in the order of their seats."""
         return read_roster(self.path / ROSTER)
 
     def write_roster(self, students: Sequence[RosterStudent]) -> None:
-        """Replace the roster."""
+        """Replace the roster file."""
         write_all(self.path, {ROSTER: write_roster(students)}, mode=PRIVATE)
 
     def heads(self) -> dict[str, PrintedHead]:
-        """Student's id to what was printed last."""
+        """Return what was printed last for each student, by the student's id."""
         return {head.id: head for head, _ in self.places().values()}
 
     def find_by_code(self, code: str) -> PaperRecord:
-        """The paper with a printed code, whose key is still that which the code was made from.
+        """Return the paper with a printed code, after checking its key against the code.
 
         Raises
         ------
@@ -187,7 +190,7 @@ class ClassFolder:
         return found
 
     def append(self, lines: Iterable[bytes]) -> None:
-        """Add lines of keys; they are on the disk when this returns."""
+        """Append lines to ``keys.jsonl``; they are on the disk when this returns."""
         with open_private(self.path / KEYS) as stream:
             if self._is_last_line_torn:
                 stream.write(b"\n")
@@ -197,7 +200,7 @@ class ClassFolder:
 
     @property
     def _is_last_line_torn(self) -> bool:
-        """Whether a run was killed in the middle of a line."""
+        """Return whether an interrupted run left the last line incomplete."""
         place = self.path / KEYS
         if not place.exists() or not place.stat().st_size:
             return False
@@ -206,11 +209,14 @@ class ClassFolder:
             return stream.read() != b"\n"
 
     def compact(self, order: Sequence[str]) -> None:
-        """Keep each student's last line: those of the roster in its order, then those who left."""
+        """Rewrite ``keys.jsonl`` with each student's last line only.
+
+        Students in ``order`` come first, then those who have left the roster.
+        """
         index = self.places()
         ids = [one for one in dict.fromkeys((*order, *index)) if one in index]
         fresh = self.path / f".{KEYS}.new"
-        with (self.path / KEYS).open("rb") as lines, open_private(fresh, anew=True) as stream:
+        with (self.path / KEYS).open("rb") as lines, open_private(fresh, truncate=True) as stream:
             for one in ids:
                 lines.seek(index[one][1])
                 stream.write(lines.readline())
@@ -219,7 +225,7 @@ class ClassFolder:
         fresh.replace(self.path / KEYS)
 
     def places(self) -> dict[str, tuple[PrintedHead, int]]:
-        """Student's id to the last whole line about it, and where that begins."""
+        """Return each student's last complete line: its head and its byte offset."""
         found: dict[str, tuple[PrintedHead, int]] = {}
         at = 0
         with (self.path / KEYS).open("rb") as stream:
@@ -231,6 +237,7 @@ class ClassFolder:
         return found
 
     def _read_record(self, at: int) -> PaperRecord:
+        """Return the paper in the line at byte ``at``; ``ClassError`` if it is damaged."""
         place = self.path / KEYS
         with place.open("rb") as stream:
             stream.seek(at)
@@ -243,6 +250,8 @@ class ClassFolder:
 
 
 class _Line(msgspec.Struct):
+    """The fields of a line that tell whether its key was edited."""
+
     id: str
     key: msgspec.Raw
     digest: str = ""
@@ -252,7 +261,7 @@ _LINE = json_decoder(_Line).decode
 
 
 def format_record(head: PrintedHead, key: AnswerKey) -> bytes:
-    """A line of the keys."""
+    """Return a paper as a line of ``keys.jsonl``, with the digest of its key."""
     written = msgspec.json.encode(key)
     whole = msgspec.structs.replace(head, digest=_compute_key_digest(written))
     table = {**msgspec.structs.asdict(whole), "key": msgspec.Raw(written)}
@@ -260,7 +269,7 @@ def format_record(head: PrintedHead, key: AnswerKey) -> bytes:
 
 
 def original_key_bytes(line: bytes, place: Path) -> bytes:
-    """The key of a line, to the letter as it was made.
+    """Return the key in a line, exactly as it was written.
 
     Raises
     ------
@@ -280,11 +289,12 @@ def original_key_bytes(line: bytes, place: Path) -> bytes:
 
 
 def _compute_key_digest(written: bytes | msgspec.Raw) -> str:
+    """Return 16 hexadecimal digits of a written key."""
     return hashlib.sha256(written).hexdigest()[:16]
 
 
 def _decode_head(line: bytes) -> PrintedHead | None:
-    """What a line says, apart from the key; None for one that a killed run left."""
+    """Return the head in a line; None if an interrupted run left the line incomplete."""
     if not line.endswith(b"\n"):
         return None
     try:
@@ -294,7 +304,7 @@ def _decode_head(line: bytes) -> PrintedHead | None:
 
 
 def _format_toml(settings: ClassSettings) -> bytes:
-    """Settings as TOML: its texts are written as those of JSON."""
+    """Return the settings as TOML: its strings and arrays are written as those of JSON."""
     table: Mapping[str, Any] = msgspec.structs.asdict(settings)
     lines = [f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in table.items()]
     return ("\n".join(lines) + "\n").encode()

@@ -57,14 +57,14 @@ CLASS = "class"
 
 @dataclass(frozen=True)
 class GenerationJob:
-    """Papers to be made together.
+    """Papers that one worker generates together.
 
     Parameters
     ----------
-    settings : Settings
+    settings : ClassSettings
     blueprint : Blueprint
-    students : tuple of Student
-    beside : mapping of str to tuple of str
+    students : tuple of RosterStudent
+    neighbours : mapping of str to tuple of str
         To whom each of them gives way, and those in turn.
     former : mapping of str to tuple of str
         Codes that each has had.
@@ -73,12 +73,15 @@ class GenerationJob:
     settings: ClassSettings
     blueprint: Blueprint
     students: tuple[RosterStudent, ...]
-    beside: Mapping[str, tuple[str, ...]]
+    neighbours: Mapping[str, tuple[str, ...]]
     former: Mapping[str, tuple[str, ...]]
 
 
 class GeneratedPaper(NamedTuple):
-    """A student's paper: its files, its line of the keys, and what a report says of it."""
+    """A student's files by name, the line for ``keys.jsonl``, and what a report says.
+
+    ``alike`` are the numbers of questions that share a value with a neighbour's.
+    """
 
     student: str
     files: dict[str, bytes]
@@ -91,11 +94,11 @@ class GeneratedPaper(NamedTuple):
 
 @dataclass(frozen=True)
 class GenerationReport:
-    """What was made.
+    """What a run of generation did.
 
     Parameters
     ----------
-    made : tuple of Made
+    made : tuple of GeneratedPaper
         Without files and lines.
     kept : int
         Papers that were there already.
@@ -111,7 +114,7 @@ class GenerationReport:
 def create_settings(
     name: str, bank: Bank, blueprint: Blueprint, lang: str, *, vary: bool = False
 ) -> ClassSettings:
-    """Settings of a new class, with a secret that nobody has had before.
+    """Return the settings of a new class, with a new random secret.
 
     Parameters
     ----------
@@ -141,7 +144,7 @@ def create_settings(
 def _compute_class_digest(
     bank: Bank, blueprint: Blueprint, templates: Sequence[Sequence[str]]
 ) -> str:
-    """Digest of the files behind all papers of a class."""
+    """Return the digest of blueprint and templates: of all that the papers depend on."""
     asked = [
         (bank.template(name), level)
         for family, level in zip(templates, slot_levels(blueprint), strict=False)
@@ -158,7 +161,7 @@ def generate_papers(
     ahead: int,
     tell: ProgressCallback,
 ) -> GenerationReport:
-    """Make the papers that are missing, or whose row of the roster has changed.
+    """Generate the papers that are missing, or whose roster row has changed.
 
     Raises
     ------
@@ -169,7 +172,7 @@ def generate_papers(
     with lock_folder(folder.path):
         _check_bank_unchanged(folder, blueprint)
         heads = folder.heads()
-        todo = [one for one in students if not _is_made(folder, one, heads.get(one.id))]
+        todo = [one for one in students if not _is_up_to_date(folder, one, heads.get(one.id))]
         folder.write_roster(students)
         done: list[GeneratedPaper] = []
         former = {one: head.codes for one, head in heads.items()}
@@ -189,6 +192,10 @@ def generate_papers(
 
 
 def _check_bank_unchanged(folder: ClassFolder, blueprint: Blueprint) -> None:
+    """Raise ``ClassError`` if bank or blueprint have changed since the class was created.
+
+    Papers made from both states could not be compared, and their keys would differ.
+    """
     settings = folder.settings
     bank = open_class_bank(settings)
     if _compute_class_digest(bank, blueprint, settings.templates) != settings.digest:
@@ -207,17 +214,21 @@ def _iter_jobs(
     settings: ClassSettings,
     blueprint: Blueprint,
     todo: Sequence[RosterStudent],
-    beside: Mapping[str, tuple[str, ...]],
+    neighbours: Mapping[str, tuple[str, ...]],
     former: Mapping[str, tuple[str, ...]],
 ) -> Iterator[GenerationJob]:
+    """Yield jobs of ``CHUNK`` students, each with the neighbours its papers depend on."""
     for at in range(0, len(todo), CHUNK):
         chunk = tuple(todo[at : at + CHUNK])
         had = {one.id: former.get(one.id, ()) for one in chunk}
-        yield GenerationJob(settings, blueprint, chunk, _select_neighbours(chunk, beside), had)
+        yield GenerationJob(settings, blueprint, chunk, _select_neighbours(chunk, neighbours), had)
 
 
 def _write_papers_and_keys(folder: ClassFolder, results: Sequence[GeneratedPaper]) -> None:
-    """Papers first, then their keys: who has a key has a paper. Forms with answers stay."""
+    """Write papers, then their keys; forms that hold answers are not overwritten.
+
+    In this order a key in the file always has its paper.
+    """
     files = {name: data for one in results for name, data in one.files.items()}
     contents = {
         name: data
@@ -229,26 +240,31 @@ def _write_papers_and_keys(folder: ClassFolder, results: Sequence[GeneratedPaper
 
 
 def _compute_student_digest(settings: ClassSettings, one: RosterStudent) -> str:
-    """Digest of all that a student's files depend on."""
+    """Return a digest of all that a student's files depend on."""
     row = [one.id, one.name, one.lang or settings.lang, one.extra, settings.digest]
     return hashlib.sha256(json.dumps(row).encode()).hexdigest()[:16]
 
 
-def _is_made(folder: ClassFolder, one: RosterStudent, head: PrintedHead | None) -> bool:
+def _is_up_to_date(folder: ClassFolder, one: RosterStudent, head: PrintedHead | None) -> bool:
+    """Return whether a student's files exist and are up to date."""
     if head is None or head.stamp != _compute_student_digest(folder.settings, one):
         return False
     return all((folder.path / name).exists() for name in _list_student_files(one))
 
 
 def _list_student_files(one: RosterStudent) -> tuple[str, ...]:
-    """The files of a student, as ``render.KINDS``, and the form."""
+    """Return the paths of paper, solution (in the order of ``render.KINDS``) and form."""
     return f"{PAPERS}/{one.file}.pdf", f"{SOLUTIONS}/{one.file}.pdf", f"{FORMS}/{one.file}.toml"
 
 
 def _assign_neighbours(
     students: Sequence[RosterStudent], heads: Mapping[str, PrintedHead]
 ) -> dict[str, tuple[str, ...]]:
-    """To whom each paper gives way: every second one to both sides, a late one to those there."""
+    """Return for each student the neighbours whose numbers the paper must avoid.
+
+    Every second paper avoids both sides, so no two wait for each other; a student who comes late
+    avoids the papers that exist.
+    """
     found = {one: head.beside for one, head in heads.items()}
     near = seat_neighbours(students)
     for seat, one in enumerate(students):
@@ -262,45 +278,49 @@ def _assign_neighbours(
 
 
 def _select_neighbours(
-    students: Sequence[RosterStudent], beside: Mapping[str, tuple[str, ...]]
+    students: Sequence[RosterStudent], neighbours: Mapping[str, tuple[str, ...]]
 ) -> dict[str, tuple[str, ...]]:
-    """What of ``beside`` concerns some students."""
+    """Return the entries of ``neighbours`` that the papers of some students depend on.
+
+    Those of neighbours too, and of their neighbours in turn.
+    """
     found: dict[str, tuple[str, ...]] = {}
     todo = [one.id for one in students]
     while todo:
         one = todo.pop()
         if one not in found:
-            found[one] = beside[one]
-            todo += beside[one]
+            found[one] = neighbours[one]
+            todo += neighbours[one]
     return found
 
 
 def run_generation_job(job: GenerationJob) -> list[GeneratedPaper]:
-    """Make the papers of a job: the same bytes whatever the process."""
+    """Return the generated papers of a job; the same bytes in any process."""
     drawing = _Drawing(job)
     return [_make_student_files(job, one, drawing) for one in job.students]
 
 
 class _Drawing:
-    """The draws of students, each made once."""
+    """The variants of each student, drawn once: a neighbour's are needed too."""
 
     def __init__(self, job: GenerationJob) -> None:
         self.job, self.bank = job, open_class_bank(job.settings)
         self._known: dict[str, list[Variant]] = {}
 
     def of(self, student: str) -> list[Variant]:
-        """The questions of a student."""
+        """Return the variants of a student's questions, in order."""
         if student not in self._known:
             seed = student_seed(self.job.settings.secret, student)
-            near = [self.of(other) for other in self.job.beside[student]]
-            names = _one_of_each(self.job.settings.templates, seed)
+            near = [self.of(other) for other in self.job.neighbours[student]]
+            names = _choose_templates(self.job.settings.templates, seed)
             self._known[student] = [
                 *draw_variants(self.bank, names, seed, near, colour=self.job.blueprint.colour)
             ]
         return self._known[student]
 
 
-def _one_of_each(templates: Sequence[Sequence[str]], seed: str) -> list[str]:
+def _choose_templates(templates: Sequence[Sequence[str]], seed: str) -> list[str]:
+    """Return one template of each family, chosen by the student's seed."""
     return [
         family[pick_index(f"{seed}/{place}", len(family))] for place, family in enumerate(templates)
     ]
@@ -309,7 +329,8 @@ def _one_of_each(templates: Sequence[Sequence[str]], seed: str) -> list[str]:
 def _make_student_files(
     job: GenerationJob, one: RosterStudent, drawing: _Drawing
 ) -> GeneratedPaper:
-    drawn, beside = drawing.of(one.id), job.beside[one.id]
+    """Return one student's paper with its files, key and report."""
+    drawn, neighbours = drawing.of(one.id), job.neighbours[one.id]
     made = _compose_student_paper(job, one, drawing.bank, drawn)
     paper = _assign_student_code(job.settings, one, made)
     sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
@@ -320,7 +341,7 @@ def _make_student_files(
         paper.code,
         made.code,
         _compute_student_digest(job.settings, one),
-        beside,
+        neighbours,
         former=former,
     )
     return GeneratedPaper(
@@ -330,20 +351,24 @@ def _make_student_files(
         paper.points,
         paper.minutes,
         "".join(item.questions[0].tier for item in paper.items),
-        _find_shared_questions(drawn, [drawing.of(other) for other in beside]),
+        _find_shared_questions(drawn, [drawing.of(other) for other in neighbours]),
     )
 
 
 def _compose_student_paper(
     job: GenerationJob, one: RosterStudent, bank: Bank, drawn: Sequence[Variant]
 ) -> Paper:
+    """Return the paper of a student's variants, in the student's language."""
     lang = one.lang or job.settings.lang
     named = PaperCode(job.blueprint.name, CLASS, lang, level=job.blueprint.level)
     return compose_paper(bank, job.blueprint, drawn, named)
 
 
 def _assign_student_code(settings: ClassSettings, one: RosterStudent, paper: Paper) -> Paper:
-    """A paper with a code that tells nothing of it, for one student."""
+    """Return the paper with the student's name, code and seal.
+
+    The code is a message authentication code: it reveals nothing about the numbers.
+    """
     return msgspec.structs.replace(
         paper,
         code=student_code(settings.secret, one.id, paper.digest),
@@ -353,17 +378,20 @@ def _assign_student_code(settings: ClassSettings, one: RosterStudent, paper: Pap
 
 
 def _find_shared_questions(
-    drawn: Sequence[Variant], beside: Sequence[Sequence[Variant]]
+    drawn: Sequence[Variant], neighbours: Sequence[Sequence[Variant]]
 ) -> tuple[int, ...]:
-    """Questions that share a number with a neighbour's, because there are too few to choose."""
+    """Return the numbers (from 1) of questions that share a value with a neighbour's.
+
+    This happens where a template has too few values to choose from.
+    """
     return tuple(
         number
         for number, one in enumerate(drawn, 1)
-        if any(shared_content(one, other[number - 1]) for other in beside)
+        if any(shared_content(one, other[number - 1]) for other in neighbours)
     )
 
 
 @cache
 def open_class_bank(settings: ClassSettings) -> Bank:
-    """The bank that a class is made from, opened once a process."""
+    """Return the bank that a class is generated from, opened once per process."""
     return open_banks(settings.banks)

@@ -51,7 +51,7 @@ class GradeScale(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     steps: dict[str, Share] = {}
 
     def grade_bounds(self) -> list[tuple[str, Fraction]]:
-        """Each grade with the share of the points from which it is given, best first."""
+        """Return each grade with the least share of the points (0 to 1) for it, best first."""
         low, high = parse_written_number(self.passed), parse_written_number(self.best)
         gaps = max(len(self.grades) - 1, 1)
         even = [high - (high - low) * place / gaps for place in range(len(self.grades))]
@@ -62,7 +62,7 @@ class GradeScale(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         ]
 
     def check(self) -> None:
-        """Check what types cannot say.
+        """Raise ``ClassError`` for values that have the right type and make no scale.
 
         Raises
         ------
@@ -80,7 +80,7 @@ class GradeScale(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             raise ClassError("round_to: less than 0")
 
     def round_points(self, marks: Fraction) -> Fraction:
-        """Points as they count."""
+        """Return the points rounded as the scale says, exactly."""
         unit = parse_written_number(self.round_to)
         if not unit:
             return marks
@@ -89,17 +89,17 @@ class GradeScale(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return (whole(count) if whole else math.floor(count + Fraction(1, 2))) * unit
 
     def grade(self, marks: Fraction, points: Fraction) -> str:
-        """The grade for points."""
+        """Return the grade for ``marks`` of at most ``points``."""
         counted = self.round_points(marks)
         return next((g for g, share in self.grade_bounds() if counted >= share * points), self.fail)
 
     def passes(self, grade: str) -> bool:
-        """Whether a grade passes."""
+        """Return whether a grade passes."""
         return grade in self.grades
 
 
 def read_grade_scale(folder: Path) -> GradeScale:
-    """The scale of a class: that of its file, else the German one.
+    """Return the scale in the class's ``scale.toml``, else the usual German one.
 
     Raises
     ------

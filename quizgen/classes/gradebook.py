@@ -22,11 +22,11 @@ Cell = str | float
 
 @dataclass(frozen=True)
 class GradedStudent:
-    """A student's line.
+    """A student of the roster with marks and grade: one line of the table.
 
     Parameters
     ----------
-    student : Student
+    student : RosterStudent
     code : str
         That of the paper, which only this student and the examiner know.
     marks : StudentMarks or None
@@ -44,7 +44,7 @@ class GradedStudent:
 
     @property
     def remark(self) -> str:
-        """Why the line is not the last word."""
+        """Return why the grade is not final; empty if it is."""
         if self.marks is None:
             return "no answers"
         return "provisional" if self.marks.undecided_count else ""
@@ -56,7 +56,10 @@ def grade_students(
     marked: Mapping[str, StudentMarks],
     scale: GradeScale,
 ) -> list[GradedStudent]:
-    """Give a grade to everybody of the roster, in its order."""
+    """Return marks and grade of every student on the roster, in its order.
+
+    ``heads`` and ``marked`` are by student id; who handed in nothing has no grade.
+    """
     lines = []
     for student in students:
         marks = marked.get(student.id)
@@ -67,18 +70,19 @@ def grade_students(
 
 
 def _compute_grade(marks: StudentMarks, scale: GradeScale) -> str:
+    """Return the grade for a student's points."""
     return scale.grade(Fraction(marks.marks), Fraction(marks.points))
 
 
 def write_grades(folder: Path, lines: Sequence[GradedStudent], scale: GradeScale) -> list[Path]:
-    """Write the tables of grades.
+    """Write the tables of grades as CSV, XLSX and by code; return the paths.
 
     Parameters
     ----------
     folder : pathlib.Path
         That of the class.
     lines : sequence of GradedStudent
-    scale : Scale
+    scale : GradeScale
     """
     items = _list_items(lines)
     rows = [_build_table_head(items), *(_build_grade_row(line, items, scale) for line in lines)]
@@ -95,16 +99,18 @@ def write_grades(folder: Path, lines: Sequence[GradedStudent], scale: GradeScale
 
 
 def _list_items(lines: Iterable[GradedStudent]) -> list[str]:
-    """What was asked, in the order of the first paper in which it stands."""
+    """Return the item names of all papers, in the order of the first paper that has each."""
     return list(dict.fromkeys(p.item for one in lines if one.marks for p in one.marks.parts))
 
 
 def _build_table_head(items: list[str]) -> list[Cell]:
+    """Return the column names of the table of grades."""
     return ["id", "name", "group", "code", "points", "of", "percent", "grade", "passed",
             "undecided", "remark", *items]  # fmt: skip
 
 
 def _build_grade_row(line: GradedStudent, items: list[str], scale: GradeScale) -> list[Cell]:
+    """Return a student's cells, in the order of the table's columns."""
     student, marks = line.student, line.marks
     who: list[Cell] = [student.id, student.name, student.group, line.code]
     if marks is None:
@@ -118,7 +124,10 @@ def _build_grade_row(line: GradedStudent, items: list[str], scale: GradeScale) -
 
 
 def _build_posted_rows(lines: Iterable[GradedStudent], scale: GradeScale) -> list[list[Cell]]:
-    """Without names, in the order of the codes, which says nothing of the roster."""
+    """Return code, points, grade and remark of each student, without names.
+
+    Sorted by code: the order of the roster would tell neighbours whose line is whose.
+    """
     rows: list[list[Cell]] = [
         [one.code, float(scale.round_points(Fraction(one.marks.marks))), one.grade, one.remark]
         for one in lines
@@ -128,16 +137,21 @@ def _build_posted_rows(lines: Iterable[GradedStudent], scale: GradeScale) -> lis
 
 
 def _encode_csv(rows: Iterable[Sequence[Cell]]) -> bytes:
+    """Return a table as CSV in UTF-8 with a byte order mark, by which spreadsheets detect it."""
     text = format_csv(map(_format_cell, row) for row in rows)
     return text.encode("utf-8-sig")
 
 
 def _format_cell(cell: Cell) -> str:
+    """Return a cell as text."""
     return cell if isinstance(cell, str) else f"{cell:g}"
 
 
 def _build_workbook(rows: Sequence[Sequence[Cell]], scale: GradeScale) -> bytes:
-    """A workbook: the table, and the scale; texts are texts whatever they begin with."""
+    """Return the table and the scale as XLSX bytes.
+
+    Text is written as text, whatever it begins with, so that no spreadsheet runs it as a formula.
+    """
     import xlsxwriter
 
     out = io.BytesIO()

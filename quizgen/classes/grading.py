@@ -34,7 +34,7 @@ DROPPED = "dropped"
 
 @dataclass(frozen=True)
 class Submission:
-    """What a student handed in.
+    """What one student handed in.
 
     Parameters
     ----------
@@ -80,17 +80,17 @@ class GradedClassPart(msgspec.Struct, frozen=True, omit_defaults=True):
 
     @property
     def share(self) -> float | None:
-        """Marks as a share of the points; None while open, or where it does not count."""
+        """Return the marks as a share of the points; None if undecided or dropped."""
         return None if self.marks is None or not self.points else self.marks / self.points
 
     @property
     def needs_decision(self) -> bool:
-        """Whether a person is asked about it."""
+        """Whether a person must decide the marks."""
         return self.marks is None
 
 
 class StudentMarks(msgspec.Struct, frozen=True, omit_defaults=True):
-    """All marks of one student, as a line of the history keeps them."""
+    """All marks of one student: a line of the grading history."""
 
     student: str
     parts: tuple[GradedClassPart, ...]
@@ -102,40 +102,43 @@ class StudentMarks(msgspec.Struct, frozen=True, omit_defaults=True):
 
     @property
     def marks(self) -> float:
-        """Marks so far."""
+        """Return the sum of the marks decided so far."""
         return sum(part.marks or 0.0 for part in self.parts)
 
     @property
     def points(self) -> float:
-        """Marks that can be had."""
+        """Return the most marks the student can have."""
         return sum(part.points for part in self.parts)
 
     @property
     def undecided_count(self) -> int:
-        """Parts that a person is asked about."""
+        """Return the number of parts that a person must decide."""
         return sum(part.needs_decision for part in self.parts)
 
 
 def item_name(question: KeyQuestion, part: KeyPart) -> str:
-    """What a part is called in all papers of a class: its template, and its letter if any."""
+    """Return a part's name in all papers of a class: template, and ``/label`` if it has one."""
     return item_name_from_parts(question.template, question.number, part.id)
 
 
 @lru_cache(maxsize=4096)
 def item_name_from_parts(template: str, number: str, part: str) -> str:
-    """The same from the names of a question and a part."""
+    """Return the item name ``template/label`` that a part has in all papers of a class.
+
+    ``part`` is its id on the paper, such as ``3b`` in question ``number`` 3.
+    """
     label = part.removeprefix(number)
     return f"{template}/{label}" if label else template
 
 
 def grade_submission(key: AnswerKey, sheet: Submission, book: RulingBook) -> StudentMarks:
-    """Mark what a student handed in.
+    """Return the marks of a submission, with all rulings applied.
 
     Parameters
     ----------
-    key : Key
+    key : AnswerKey
         Of the student's own paper.
-    sheet : Sheet
+    sheet : Submission
     book : RulingBook
         What was decided.
 
@@ -163,6 +166,7 @@ def grade_submission(key: AnswerKey, sheet: Submission, book: RulingBook) -> Stu
 def _iter_graded_parts(
     question: KeyQuestion, sheet: Submission, book: RulingBook, options: GradingOptions
 ) -> Iterator[GradedClassPart]:
+    """Yield each part of a question graded, with its rulings applied."""
     marker = QuestionGrader(question, options, proven=True)
     for part in question.parts:
         item, typed = item_name(question, part), sheet.answers.get(part.id, "")
@@ -176,7 +180,7 @@ def _iter_graded_parts(
 
 
 def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyPart:
-    """The part with the tolerance that was ruled last."""
+    """Return the part with the tolerance of the last ruling about one; unchanged without."""
     stated = [one.tolerance() for one in rulings if one.what == TOLERANCE]
     if not stated:
         return part
@@ -192,7 +196,7 @@ def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyP
 def _apply_decisions(
     found: PartResult, part: KeyPart, item: str, rulings: list[Ruling]
 ) -> GradedClassPart:
-    """The mark of an answer after all that was decided of it."""
+    """Return the mark of an answer after the rulings about it."""
     asked = found.status in TO_DECIDE
     words = part.spec["kind"] == "text"
     group = ""
@@ -215,7 +219,7 @@ def _apply_decisions(
 
 
 def _apply_rulings(plain: GradedClassPart, rulings: list[Ruling]) -> GradedClassPart:
-    """A mark after the rulings about it: what holds for the whole item goes before its answers."""
+    """Return the mark after its rulings: those for the whole item outrank those for answers."""
     whole = [one for one in rulings if one.what in {DROP, GIVE}]
     answers = [one for one in rulings if one.what in {DECIDE, ACCEPT}]
     tolerances = [one for one in rulings if one.what == TOLERANCE]
@@ -233,13 +237,16 @@ def _apply_rulings(plain: GradedClassPart, rulings: list[Ruling]) -> GradedClass
 def _apply_ruling(
     ruling: Ruling, plain: GradedClassPart, **changed: float | str
 ) -> GradedClassPart:
-    """A mark that follows from a ruling."""
+    """Return the mark changed by a ruling, with the ruling's author and comment."""
     known = {"by": ruling.describe, "remark": ruling.comment, **changed}
     return msgspec.structs.replace(plain, **known)
 
 
 def _is_ruling_about(ruling: Ruling, found: PartResult, group: str, *, words: bool) -> bool:
-    """Whether a ruling is about this answer."""
+    """Return whether a ruling concerns this answer.
+
+    ``words``: the answer is a sentence, in which capitals do not matter.
+    """
     if ruling.what in {DROP, GIVE, TOLERANCE}:
         return True
     if ruling.group:
@@ -250,7 +257,7 @@ def _is_ruling_about(ruling: Ruling, found: PartResult, group: str, *, words: bo
 
 
 def _list_ticked_options(part: KeyPart, found: PartResult) -> tuple[str, ...]:
-    """The options that were ticked, by their words: letters differ from paper to paper."""
+    """Return the texts of the ticked options: their letters differ from paper to paper."""
     kind, verdict = part.spec["kind"], found.verdict
     if kind not in {"choice", "multi", "tf"} or not verdict.is_graded:
         return ()

@@ -29,7 +29,7 @@ _DECODE = json_decoder(StudentMarks).decode
 
 
 class MarkChange(NamedTuple):
-    """A mark that is another one now; None where there was none or nobody has decided."""
+    """A mark that a run changed; None stands for no mark or an undecided one."""
 
     student: str
     part: str
@@ -41,7 +41,7 @@ class MarkChange(NamedTuple):
 
 
 class GradingOutcome(NamedTuple):
-    """What a run of marking did."""
+    """How many students a run graded, how many were new, what is undecided or changed."""
 
     students: int
     new: int
@@ -50,7 +50,7 @@ class GradingOutcome(NamedTuple):
 
 
 class GradingHistory:
-    """The marks of a class.
+    """The marks of a class over all grading runs; nothing is overwritten.
 
     Parameters
     ----------
@@ -62,12 +62,12 @@ class GradingHistory:
         self.folder = folder
 
     def runs(self) -> list[Path]:
-        """The files, oldest first."""
+        """Return the files of all runs, oldest first."""
         found = (self.folder / FOLDER).glob("[0-9]*.jsonl")
         return sorted(found, key=lambda path: int(path.stem))
 
     def places(self) -> dict[str, tuple[Path, int]]:
-        """Where the last line of each student begins."""
+        """Return file and byte offset of each student's last line."""
         found: dict[str, tuple[Path, int]] = {}
         for path in self.runs():
             at = 0
@@ -78,14 +78,14 @@ class GradingHistory:
         return found
 
     def current(self) -> Iterator[StudentMarks]:
-        """The marks of each student, one after the other; none is kept in memory."""
+        """Yield the current marks of each student, without holding all in memory."""
         places = self.places()
         with _Lines() as lines:
             for path, at in places.values():
                 yield _decode_marks(lines.at(path, at), path)
 
     def marks_of(self, student: str) -> list[tuple[str, StudentMarks]]:
-        """All marks that a student ever had, each with its run."""
+        """Return all marks that a student ever had, each with the number of its run."""
         found = []
         for path in self.runs():
             with path.open("rb") as stream:
@@ -98,7 +98,7 @@ class GradingHistory:
         return found
 
     def write(self, marked: Iterable[StudentMarks]) -> GradingOutcome:
-        """Keep what changed, and say what did.
+        """Append the marks that changed as a new run; return what changed.
 
         Parameters
         ----------
@@ -116,7 +116,7 @@ class GradingHistory:
         fresh = final.with_suffix(".part")
         students = new = undecided = written = 0
         changes: list[MarkChange] = []
-        with _Lines() as lines, open_private(fresh, anew=True) as stream:
+        with _Lines() as lines, open_private(fresh, truncate=True) as stream:
             for one in marked:
                 students, undecided = students + 1, undecided + one.undecided_count
                 line = _ENCODE(one) + b"\n"
@@ -136,7 +136,7 @@ class GradingHistory:
         return GradingOutcome(students, new, undecided, changes)
 
     def _append_changes(self, changes: list[MarkChange], number: int) -> None:
-        """Add to the list of all differences."""
+        """Append the changed marks of a run to ``changes.csv``."""
         if not changes:
             return
         now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
@@ -148,14 +148,14 @@ class GradingHistory:
 
 
 class _Lines(contextlib.AbstractContextManager["_Lines"]):
-    """Lines of files that stay open meanwhile."""
+    """Reads single lines from several files, which it keeps open until it is closed."""
 
     def __init__(self) -> None:
         self.open = contextlib.ExitStack()
         self.streams: dict[Path, io.BufferedReader] = {}
 
     def at(self, path: Path, start: int) -> bytes:
-        """The line that begins somewhere."""
+        """Return the line that begins at byte ``start``."""
         if path not in self.streams:
             self.streams[path] = self.open.enter_context(path.open("rb"))
         stream = self.streams[path]
@@ -167,6 +167,8 @@ class _Lines(contextlib.AbstractContextManager["_Lines"]):
 
 
 class _Who(msgspec.Struct):
+    """The one field of a line of marks that tells whose it is."""
+
     student: str
 
 
@@ -174,6 +176,7 @@ _WHO = json_decoder(_Who).decode
 
 
 def _read_student(line: bytes, path: Path) -> str:
+    """Return the student's id in a line, without decoding the rest; ``ClassError`` if damaged."""
     try:
         return _WHO(line).student
     except msgspec.DecodeError as error:
@@ -181,6 +184,7 @@ def _read_student(line: bytes, path: Path) -> str:
 
 
 def _decode_marks(line: bytes, path: Path) -> StudentMarks:
+    """Return the marks in a line; ``ClassError`` naming the file if it is damaged."""
     try:
         return _DECODE(line)
     except msgspec.DecodeError as error:
@@ -188,7 +192,7 @@ def _decode_marks(line: bytes, path: Path) -> StudentMarks:
 
 
 def _iter_changed_parts(old: StudentMarks, new: StudentMarks) -> Iterator[MarkChange]:
-    """The parts of a student whose marks are others."""
+    """Yield the parts whose marks or points differ between two runs."""
     before = {part.id: part for part in old.parts}
     for part in new.parts:
         was = before.get(part.id)
@@ -205,12 +209,14 @@ def _iter_changed_parts(old: StudentMarks, new: StudentMarks) -> Iterator[MarkCh
 
 
 def _explain_change(was: GradedClassPart | None, now: GradedClassPart) -> str:
+    """Return why a mark changed, in words for ``changes.csv``."""
     if was is not None and was.typed != now.typed:
         return "another answer came in"
     return now.by or (f"without {was.by}" if was and was.by else "marked anew")
 
 
 def _format_cell(value: str | float | None) -> str:
+    """Return a cell as text; empty for None."""
     if isinstance(value, str):
         return value
     return "" if value is None else f"{value:g}"

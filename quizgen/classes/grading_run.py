@@ -33,14 +33,14 @@ CHUNK = 50
 
 @dataclass(frozen=True)
 class GradingJob:
-    """Sheets to be marked together.
+    """Submissions that one worker grades together.
 
     Parameters
     ----------
     keys : pathlib.Path
         The file of the keys.
     rulings : tuple of Ruling
-    sheets : tuple of (Sheet, int)
+    sheets : tuple of (Submission, int)
         Each with where its key begins.
     """
 
@@ -51,11 +51,11 @@ class GradingJob:
 
 @dataclass(frozen=True)
 class GradingRun:
-    """What marking a class did.
+    """What grading a class did.
 
     Parameters
     ----------
-    outcome : Outcome
+    outcome : GradingOutcome
     decided : int
         Decisions that were read from the queue.
     groups : int
@@ -71,7 +71,7 @@ class GradingRun:
 
 
 def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
-    """Mark all that came back, with all that was decided.
+    """Grade every submission of a class with all rulings; record marks and open decisions.
 
     Raises
     ------
@@ -80,10 +80,11 @@ def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingR
         nothing is changed then.
     """
     with lock_folder(folder.path):
-        return _mark(folder, executor, ahead)
+        return _grade_locked_folder(folder, executor, ahead)
 
 
-def _mark(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
+def _grade_locked_folder(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
+    """Grade the class while its folder is locked."""
     filled, kept = read_queue(folder.path)
     before = read_rulings(folder.path)
     rulings = (*before, *filled)
@@ -101,7 +102,7 @@ def _mark(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
 
 
 def _check_items(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
-    """Refuse rulings about what nobody was asked."""
+    """Raise ``ClassError`` for a ruling about an item that no paper has."""
     named = {one.item for one in rulings}
     unknown = named - keys.items() if named else ()
     if unknown:
@@ -111,13 +112,14 @@ def _check_items(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
 def _iter_jobs(
     sheets: Iterable[Submission], keys: KeyIndex, rulings: tuple[Ruling, ...]
 ) -> Iterator[GradingJob]:
+    """Yield jobs of ``CHUNK`` submissions, each with the byte offset of its key."""
     found = iter(sheets)
     while chunk := tuple((sheet, keys.places[sheet.student][1]) for sheet in islice(found, CHUNK)):
         yield GradingJob(keys.path, rulings, chunk)
 
 
 def run_grading_job(job: GradingJob) -> list[StudentMarks]:
-    """Mark the sheets of a job."""
+    """Return the marks of the submissions of a job."""
     book = RulingBook(job.rulings)
     with error_context(job.keys, KeyFileError):
         return [

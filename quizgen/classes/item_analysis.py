@@ -23,7 +23,7 @@ WRONG = frozenset({"wrong", "partial"})
 
 @dataclass(frozen=True)
 class MistakeExample:
-    """Somebody whose answer shows a mistake."""
+    """An answer that shows a mistake, and whose it is."""
 
     student: str
     part: str
@@ -32,7 +32,7 @@ class MistakeExample:
 
 @dataclass(frozen=True)
 class ClassMistake:
-    """A mistake with a name, and how many made it."""
+    """A misconception by its note, how many students showed it, and an example."""
 
     note: str
     students: int
@@ -41,7 +41,7 @@ class ClassMistake:
 
 @dataclass(frozen=True)
 class ItemStatistics:
-    """One item.
+    """Classical test statistics of one item over the class.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class ItemStatistics:
         Correlation with the points of all other items.
     blank, undecided : int
         Students.
-    mistakes : tuple of Mistake
+    mistakes : tuple of ClassMistake
         The most frequent first.
     options : tuple of (str, int, int)
         Option, how many had it, how many chose it; the least chosen first.
@@ -73,13 +73,13 @@ class ItemStatistics:
 
     @property
     def never(self) -> list[str]:
-        """Options that nobody chose."""
+        """Return the options that nobody chose."""
         return [name for name, had, chosen in self.options if had and not chosen]
 
 
 @dataclass(frozen=True)
 class ClassAnalysis:
-    """A class.
+    """Statistics of a class: totals, reliability, items, and effects of drawn values.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ class ClassAnalysis:
     interval : tuple of float or None
         Feldt's, 95 %.
     items : tuple of ItemStatistics
-    effects : tuple of Effect
+    effects : tuple of VariantEffect
     """
 
     students: int
@@ -112,7 +112,7 @@ class ClassAnalysis:
 
 
 class _Counts:
-    """What is counted of one item."""
+    """What is counted of one item, student by student."""
 
     def __init__(self) -> None:
         self.points = 0.0
@@ -123,7 +123,7 @@ class _Counts:
         self.chosen: Counter[str] = Counter()
 
     def add(self, part: GradedClassPart, student: str, options: Iterable[str]) -> None:
-        """One student's part."""
+        """Count one student's part; ``options`` are those its paper showed."""
         self.points = max(self.points, part.points)
         self.blank += part.status == "blank"
         self.undecided += part.needs_decision
@@ -135,18 +135,18 @@ class _Counts:
             self.examples.setdefault(part.note, MistakeExample(student, part.id, part.typed))
 
     def mistakes(self) -> tuple[ClassMistake, ...]:
-        """The most frequent first."""
+        """Return the mistakes, the most frequent first."""
         common = sorted(self.notes.items(), key=lambda pair: (-pair[1], pair[0]))
         return tuple(ClassMistake(note, count, self.examples[note]) for note, count in common)
 
     def options(self) -> tuple[tuple[str, int, int], ...]:
-        """The least chosen first, by share."""
+        """Return option, times shown and times chosen; the least chosen share first."""
         rows = [(name, had, self.chosen[name]) for name, had in self.had.items()]
         return tuple(sorted(rows, key=lambda row: (row[2] / row[1], row[0])))
 
 
 def analyse_class(pairs: Iterable[tuple[StudentMarks, PaperOutline]]) -> ClassAnalysis:
-    """Analyse a class.
+    """Return the item analysis of a class.
 
     Parameters
     ----------
@@ -185,12 +185,12 @@ def analyse_class(pairs: Iterable[tuple[StudentMarks, PaperOutline]]) -> ClassAn
 
 
 def _index_points_by_item(parts: Iterable[GradedClassPart]) -> dict[str, float]:
-    """Points by item, where they are known and count."""
+    """Return the points of each item that is decided and counts."""
     return {p.item: p.marks for p in parts if p.marks is not None and p.status != DROPPED}
 
 
 def _sum_points_by_question(parts: Sequence[GradedClassPart]) -> dict[str, float]:
-    """Points by question, where all its parts are decided."""
+    """Return the points of each question whose parts are all decided."""
     found: dict[str, float] = defaultdict(float)
     unknown = {_get_template_name(part.item) for part in parts if part.marks is None}
     for part in parts:
@@ -203,7 +203,7 @@ def _sum_points_by_question(parts: Sequence[GradedClassPart]) -> dict[str, float
 def _compute_question_shares(
     parts: Iterable[GradedClassPart], questions: Mapping[str, float]
 ) -> dict[str, float]:
-    """Share of its points by question, where all its parts are decided."""
+    """Return the share of its points (0 to 1) for each question in ``questions``."""
     worth: dict[str, float] = defaultdict(float)
     for part in parts:
         worth[_get_template_name(part.item)] += part.points
@@ -211,11 +211,12 @@ def _compute_question_shares(
 
 
 def _get_template_name(item: str) -> str:
+    """Return the template of an item name such as ``a-question/b``."""
     return item.partition("/")[0]
 
 
 def _build_points_table(rows: list[dict[str, float]]) -> tuple[ScoreTable, list[str]]:
-    """Points as a table, and the names of its columns."""
+    """Return the points, a row per student and NaN where none, and the column names."""
     names = list(dict.fromkeys(name for row in rows for name in row))
     values = [[row.get(name, np.nan) for name in names] for row in rows]
     return np.array(values, float).reshape(len(rows), len(names)), names
@@ -224,6 +225,7 @@ def _build_points_table(rows: list[dict[str, float]]) -> tuple[ScoreTable, list[
 def _compute_item_figures(
     item: str, counts: _Counts, table: ScoreTable, names: list[str]
 ) -> ItemStatistics:
+    """Return the statistics of one item from its counts and the points of all items."""
     difficulty = discrimination = None
     known = 0
     if item in names:

@@ -22,7 +22,7 @@ from quizgen.paper.answer_key import AnswerKey
 
 @dataclass(frozen=True)
 class PaperOutline:
-    """What a paper asks, as far as the analysis looks at it.
+    """What a paper asks, as far as item analysis needs it.
 
     Parameters
     ----------
@@ -37,31 +37,41 @@ class PaperOutline:
 
 
 class _ShortSpec(msgspec.Struct):
+    """The options of a specification, without what grades it."""
+
     options: tuple[str, ...] = ()
 
 
 class _ShortPart(msgspec.Struct):
+    """A part's id and options."""
+
     id: str
     spec: _ShortSpec
 
 
 class _ShortQuestion(msgspec.Struct):
+    """A question without its solution: decoding a full key takes far longer."""
+
     number: str
     template: str
     identity: str
     parts: list[_ShortPart]
 
     def items(self) -> Iterator[tuple[str, tuple[str, ...]]]:
-        """Each part's item, and its options."""
+        """Yield each part's item name and its options."""
         for part in self.parts:
             yield item_name_from_parts(self.template, self.number, part.id), part.spec.options
 
 
 class _ShortKey(msgspec.Struct):
+    """The questions of a key, in their short form."""
+
     questions: list[_ShortQuestion]
 
 
 class _ShortLine(msgspec.Struct):
+    """A line of ``keys.jsonl``, as far as item analysis needs it."""
+
     key: _ShortKey
 
 
@@ -70,7 +80,7 @@ _SHORT = json_decoder(_ShortLine).decode
 
 
 class KeyIndex:
-    """The keys of a class.
+    """Random access to the keys of a class, by byte offsets in ``keys.jsonl``.
 
     Parameters
     ----------
@@ -82,11 +92,11 @@ class KeyIndex:
         self.places: dict[str, tuple[PrintedHead, int]] = folder.places()
 
     def key(self, student: str) -> AnswerKey:
-        """The key of a student's paper."""
+        """Return the answer key of a student's paper."""
         return read_key_at(self.path, self.places[student][1])
 
     def outline(self, student: str) -> PaperOutline:
-        """What a student's paper asks, for the analysis."""
+        """Return what a student's paper asks, without decoding all of its key."""
         try:
             found = _SHORT(_read_line_at(self.path, self.places[student][1])).key
         except msgspec.DecodeError as error:
@@ -97,7 +107,7 @@ class KeyIndex:
         )
 
     def items(self) -> set[str]:
-        """What the papers ask: templates, with the letters of their parts."""
+        """Return the item names of all papers; stops as soon as every template has been seen."""
         families = self.folder.settings.templates  # of a quiz that was played none are known
         missing = {name for family in families for name in family}
         found: set[str] = set()
@@ -111,7 +121,7 @@ class KeyIndex:
 
 
 def read_key_at(path: Path, at: int) -> AnswerKey:
-    """The key in a line that begins somewhere.
+    """Return the answer key in the line that begins at byte ``at``.
 
     Raises
     ------
@@ -125,6 +135,7 @@ def read_key_at(path: Path, at: int) -> AnswerKey:
 
 
 def _read_line_at(path: Path, at: int) -> bytes:
+    """Return the line that begins at byte ``at``."""
     with path.open("rb") as stream:
         stream.seek(at, os.SEEK_SET)
         return stream.readline()

@@ -20,7 +20,9 @@ _PAUSE = 0.05
 
 @contextlib.contextmanager
 def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
-    """Hold the folder of a class; the system lets go of it where a process is killed.
+    """Hold an exclusive lock on the folder of a class during the body of ``with``.
+
+    The operating system releases it where a process is killed.
 
     Parameters
     ----------
@@ -40,7 +42,7 @@ def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
     number = os.open(folder / FILE, os.O_RDWR | os.O_CREAT, PRIVATE)
     try:
         last = time.monotonic() + patience
-        while not _take(number):
+        while not _try_lock(number):
             if time.monotonic() > last:
                 raise ClassError(
                     f"{folder}: another command writes there; try again when it has ended"
@@ -51,8 +53,8 @@ def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
         os.close(number)
 
 
-def _take(number: int) -> bool:
-    """Whether the lock is ours now."""
+def _try_lock(number: int) -> bool:
+    """Return whether the lock on a file descriptor could be taken now, without waiting."""
     try:
         if sys.platform == "win32":
             import msvcrt

@@ -58,7 +58,7 @@ _FILLERS = frozenset(
 
 @dataclass(frozen=True)
 class AnswerGroupMember:
-    """What some students typed alike.
+    """A group of equal answers to one item, with one student's as its example.
 
     Parameters
     ----------
@@ -91,11 +91,11 @@ class AnswerGroupMember:
 
 @dataclass(frozen=True)
 class DecisionCase:
-    """An answer with what helps to decide.
+    """A group of equal answers with what helps a person to decide.
 
     Parameters
     ----------
-    answer : Answer
+    answer : AnswerGroupMember
     key : str
         The right answer.
     seen : str
@@ -119,7 +119,7 @@ class DecisionCase:
 def undecided_answers(
     marked: Iterable[StudentMarks], *, decided: bool = False
 ) -> list[AnswerGroupMember]:
-    """The answers of a class that nobody has decided on; those of most students first.
+    """Return the groups of equal answers that await a decision, by item, the largest first.
 
     Parameters
     ----------
@@ -145,11 +145,11 @@ def undecided_answers(
 def decision_cases(
     answers: Iterable[AnswerGroupMember], key_of: Callable[[str], AnswerKey], lang: str
 ) -> list[DecisionCase]:
-    """The answers with what helps to decide them.
+    """Return each group of answers with the key and what helps to decide, in the same order.
 
     Parameters
     ----------
-    answers : iterable of Answer
+    answers : iterable of AnswerGroupMember
     key_of : callable
         The key of a student's paper.
     lang : str
@@ -159,6 +159,7 @@ def decision_cases(
 
     @lru_cache(maxsize=1)
     def parts(student: str) -> dict[str, KeyPart]:
+        """Return the parts of a student's key by item; one student is read at a time."""
         return {
             item_name(one, part): part for one in key_of(student).questions for part in one.parts
         }
@@ -170,6 +171,7 @@ def decision_cases(
 
 
 def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> DecisionCase:
+    """Return an answer with its key, the key points found, and the points they suggest."""
     spec = part.parse_spec(proven=True)
     verdict = explain_verdict(spec, judge_answer(spec, answer.typed, GradingOptions(lang)), lang)
     if not isinstance(spec, Text):
@@ -191,11 +193,15 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
 
 
 def _require_names(found: object) -> tuple[object, ...]:
+    """Return the value if it is a tuple, else an empty one: verdict fields have no fixed type."""
     return found if isinstance(found, tuple) else ()
 
 
 def group_cases(found: Iterable[DecisionCase]) -> list[list[DecisionCase]]:
-    """Cases that can be decided together; what many typed comes first, then what is nearest."""
+    """Return cases that one decision may settle together, in the order to be read.
+
+    Large groups first, then always the most similar one.
+    """
     groups: dict[tuple[object, ...], dict[str, list[DecisionCase]]] = {}
     for case in found:
         words = _extract_comparable_words(case)
@@ -211,7 +217,7 @@ def group_cases(found: Iterable[DecisionCase]) -> list[list[DecisionCase]]:
 
 
 def _extract_comparable_words(case: DecisionCase) -> str:
-    """What is compared: the words that say something; all of what is no sentence."""
+    """Return what is compared of an answer: of a sentence its words without fillers."""
     text = fold_answer(case.answer.typed, words=case.sentence)
     if not case.sentence:
         return text
@@ -219,21 +225,22 @@ def _extract_comparable_words(case: DecisionCase) -> str:
 
 
 def _find_group_leader(words: str, leaders: Iterable[str]) -> str:
-    """The first answer of the group that some words belong to; the words if there is none."""
+    """Return the group's first answer that ``words`` resemble; ``words`` if there is none."""
     from rapidfuzz import fuzz, process
 
     near = process.extract(words, leaders, scorer=fuzz.ratio, score_cutoff=SIMILAR, limit=5)
-    return next((other for other, *_ in near if _slips_only(words, other)), words)
+    return next((other for other, *_ in near if _is_misspelt_sentence(words, other)), words)
 
 
-def _slips_only(one: str, other: str) -> bool:
-    """Whether two sentences differ by slips in spelling alone, word by word."""
+def _is_misspelt_sentence(one: str, other: str) -> bool:
+    """Return whether two sentences differ by misspellings alone, word by word."""
     pairs = list(zip(one.split(), other.split(), strict=False))
     same_length = len(one.split()) == len(other.split())
     return same_length and all(a == b or _is_misspelling(a, b) for a, b in pairs)
 
 
 def _is_misspelling(one: str, other: str) -> bool:
+    """Return whether one word is the other misspelt, and not another word."""
     most = min(allowed_typos(fold_word(one)), allowed_typos(fold_word(other)))
     return typo_distance(fold_word(one), fold_word(other), most) <= most and not is_another_word(
         one, other, ()
@@ -241,7 +248,7 @@ def _is_misspelling(one: str, other: str) -> bool:
 
 
 def _order_by_similarity(groups: list[list[DecisionCase]]) -> list[list[DecisionCase]]:
-    """Groups of one item: that of most students first, then always the nearest to the last one."""
+    """Return an item's groups: the largest first, then always the most similar to the last."""
     from rapidfuzz import fuzz, process
 
     left = sorted(groups, key=lambda group: -_count_students(group))
@@ -256,19 +263,20 @@ def _order_by_similarity(groups: list[list[DecisionCase]]) -> list[list[Decision
 
 
 def _count_students(group: Iterable[DecisionCase]) -> int:
+    """Return the number of students in a group."""
     return sum(case.answer.students for case in group)
 
 
 def write_queue(
     folder: Path, groups: Iterable[list[DecisionCase]], kept: Mapping[str, str]
 ) -> Path:
-    """Write what is to be decided, for a spreadsheet.
+    """Write the undecided answers to ``decisions.csv`` for a spreadsheet; return its path.
 
     Parameters
     ----------
     folder : pathlib.Path
         That of the class.
-    groups : iterable of list of Case
+    groups : iterable of list of DecisionCase
     kept : mapping of str to str
         Comments that stand there already, by group.
     """
@@ -282,6 +290,7 @@ def write_queue(
 
 
 def _format_table_row(case: DecisionCase, number: int, kept: Mapping[str, str]) -> list[str]:
+    """Return the cells of a case, in the order of ``COLUMNS``."""
     answer = case.answer
     suggested = "" if case.suggestion is None else f"{float(case.suggestion):g}"
     return [answer.item, str(number), answer.typed, str(answer.students), case.key, case.seen,
@@ -290,7 +299,7 @@ def _format_table_row(case: DecisionCase, number: int, kept: Mapping[str, str]) 
 
 
 def read_queue(folder: Path) -> tuple[list[Ruling], dict[str, str]]:
-    """What was filled in there, as rulings; and comments on what is still open, by group.
+    """Return the decisions filled in as rulings, and the comments on open groups, by group.
 
     Points in the first row of what stands together hold for its rows that are empty.
 
@@ -312,7 +321,10 @@ def read_queue(folder: Path) -> tuple[list[Ruling], dict[str, str]]:
 def _iter_filled_rulings(
     tables: Iterable[tuple[int, Mapping[str, str]]], column: str, path: Path
 ) -> Iterator[Ruling]:
-    """The rulings of one column."""
+    """Yield the rulings filled in one column: ``points`` or ``second``.
+
+    An empty row takes the points of the first row with the same number in ``together``.
+    """
     first: dict[str, Mapping[str, str]] = {}
     for at, cells in tables:
         said = cells if cells.get(column, "").strip() else first.get(cells["together"], cells)
@@ -339,7 +351,7 @@ def _iter_filled_rulings(
 
 
 def check_points(ruling: Ruling, worth: str) -> None:
-    """Refuse more points than there are.
+    """Raise ``ClassError`` if a ruling gives more points than the part is worth.
 
     Raises
     ------
@@ -371,7 +383,7 @@ class Agreement:
 
 
 def marker_agreement(rulings: Sequence[Ruling]) -> Agreement:
-    """Compare the first and the second marker, by their last word on each group."""
+    """Return the agreement of first and second marker, by their last ruling on each group."""
     first, second = latest_rulings(rulings, DECIDE), latest_rulings(rulings, SECOND)
     both = [(one, second[group]) for group, one in first.items() if group in second]
     said = [(a.points, b.points) for a, b in both]
@@ -380,7 +392,7 @@ def marker_agreement(rulings: Sequence[Ruling]) -> Agreement:
 
 
 def cohens_kappa(pairs: Sequence[tuple[Hashable, Hashable]]) -> float | None:
-    """Cohen's kappa of two markers.
+    """Return Cohen's kappa of two markers, -1 to 1; None if it is not determined.
 
     Parameters
     ----------

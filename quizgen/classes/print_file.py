@@ -15,7 +15,10 @@ PRINT = "print.pdf"
 
 
 def write_print_file(folder: ClassFolder, students: Sequence[RosterStudent]) -> None:
-    """Write ``print.pdf``; printed on both sides, no sheet belongs to two students.
+    """Write all papers to ``print.pdf``, each from a right-hand page.
+
+    A blank page follows where needed, so that in two-sided print no sheet has pages of two
+    students.
 
     Raises
     ------

@@ -18,17 +18,17 @@ BYTES = 16
 
 
 def new_secret() -> str:
-    """128 bits, as 32 hexadecimal digits."""
+    """Return a new random secret of 128 bits, as 32 hexadecimal digits."""
     return secrets.token_hex(BYTES)
 
 
 def student_seed(secret: str, *whose: str) -> str:
-    """A seed of 128 bits: that of a student by the id, that of the class without."""
+    """Return a seed of 128 bits in hexadecimal: of a student by the id, of the class without."""
     return _compute_mac(secret, "seed", *whose)[:BYTES].hex()
 
 
 def student_code(secret: str, student: str, digest: str) -> str:
-    """What is printed on a paper: ``G-7K2M-X9QD-4TWR-HZP8``.
+    """Return the code printed on a student's paper, such as ``G-7K2M-X9QD-4TWR-HZP8``.
 
     Parameters
     ----------
@@ -44,9 +44,13 @@ def student_code(secret: str, student: str, digest: str) -> str:
 
 
 def form_seal(secret: str, student: str, digest: str) -> str:
-    """What forms bear in place of a paper's digest, which would confirm guesses at its numbers."""
+    """Return 16 hexadecimal digits that forms bear instead of the paper's digest.
+
+    The digest would confirm guesses at the numbers to a student who can compute it.
+    """
     return _compute_mac(secret, "seal", student, digest)[:8].hex()
 
 
 def _compute_mac(secret: str, *words: str) -> bytes:
+    """Return the HMAC-SHA-256 of some words under the secret (32 bytes)."""
     return hmac.new(bytes.fromhex(secret), json.dumps(words).encode(), hashlib.sha256).digest()

@@ -45,7 +45,7 @@ _DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 
 
 class RosterStudent(msgspec.Struct, frozen=True):
-    """A row of the roster.
+    """A student: one row of the roster.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ class RosterStudent(msgspec.Struct, frozen=True):
 
     @property
     def file(self) -> str:
-        """The id as the name of a file, on any system, and never that of another student."""
+        """Return a file name for the student, safe on any system and unique in the class."""
         if (
             is_identifier(self.id)
             and self.id[0] not in ".-"
@@ -83,10 +83,11 @@ class RosterStudent(msgspec.Struct, frozen=True):
 
     @property
     def _is_safe_file_name(self) -> bool:
+        """Return whether the id is short enough and no device name of Windows."""
         return len(self.id) <= LONGEST_FILE and not _DEVICES.fullmatch(self.id)
 
     def extra_minutes(self, minutes: int) -> int:
-        """Minutes added to the working time of the paper."""
+        """Return the student's extra time in minutes for a paper of so many minutes."""
         found = _EXTRA.fullmatch(self.extra)
         if found is None:
             return 0
@@ -99,7 +100,7 @@ def read_roster(
     columns: Mapping[str, str] | None = None,
     tell: ProgressCallback = silent,
 ) -> list[RosterStudent]:
-    """Read a roster in the order of its seats.
+    """Return the students of a roster file, in the order of their seats.
 
     Parameters
     ----------
@@ -134,7 +135,10 @@ def read_roster(
 
 
 def _find_columns(head: Sequence[str], columns: Mapping[str, str], path: Path) -> dict[str, int]:
-    """Which column of the file is which of ours."""
+    """Return the index of each roster column that the file has.
+
+    ``columns`` gives the file's name of a column where it differs from ours.
+    """
     there = {clean_cell(cell).casefold(): place for place, cell in reversed([*enumerate(head)])}
     said = ", ".join(escape_control_characters(clean_cell(cell)) for cell in head)
     for ours, theirs in columns.items():
@@ -143,7 +147,9 @@ def _find_columns(head: Sequence[str], columns: Mapping[str, str], path: Path) -
         if clean_cell(theirs).casefold() not in there:
             raise ClassError(f"{path}: has no column {theirs!r} (it has {said})")
     names = {
-        ours: [clean_cell(columns[ours]).casefold()] if ours in columns else _known_as(ours)
+        ours: [clean_cell(columns[ours]).casefold()]
+        if ours in columns
+        else _list_column_names(ours)
         for ours in COLUMNS
     }
     found = {
@@ -157,11 +163,13 @@ def _find_columns(head: Sequence[str], columns: Mapping[str, str], path: Path) -
     return {ours: place for ours, place in found.items() if place is not None}
 
 
-def _known_as(column: str) -> list[str]:
+def _list_column_names(column: str) -> list[str]:
+    """Return the names that a column may have in a file."""
     return [column, *ALSO_CALLED.get(column, ())]
 
 
 def _parse_student(row: Sequence[str], places: Mapping[str, int], where: str) -> RosterStudent:
+    """Return the student of a row; ``ClassError`` located by ``where`` if a cell is wrong."""
     cells = {
         name: unescape_csv_formula(clean_cell(row[place])) if place < len(row) else ""
         for name, place in places.items()
@@ -181,24 +189,28 @@ def _parse_student(row: Sequence[str], places: Mapping[str, int], where: str) ->
 
 
 def clean_cell(cell: str) -> str:
-    """A cell in one line, without marks that nobody sees, such as those that turn writing round."""
+    """Return a cell on one line, without invisible characters.
+
+    Such as those that reverse the direction of writing and could disguise a name.
+    """
     whole = unicodedata.normalize("NFC", cell)
-    seen = (c if _is_seen(c) else " " if c.isspace() else "" for c in whole)
+    seen = (c if _is_visible(c) else " " if c.isspace() else "" for c in whole)
     return " ".join("".join(seen).split())
 
 
-def _is_seen(character: str) -> bool:
+def _is_visible(character: str) -> bool:
+    """Return whether a character is visible, or joins letters."""
     return character in _JOINERS or unicodedata.category(character) not in {"Cc", "Cf", "Cs", "Co"}
 
 
 def _make_seating_key(one: RosterStudent) -> tuple[str, list[tuple[int, str]]]:
-    """Groups together, seats in the order that people count them: 9 before 10."""
+    """Return a sort key: by group, then by seat with numbers in their order (9 before 10)."""
     pieces = re.findall(r"\d+|\D+", one.seat)
     return one.group, [(int(p), "") if p.isdecimal() else (0, p.casefold()) for p in pieces]
 
 
 def seat_neighbours(students: Sequence[RosterStudent]) -> dict[str, list[str]]:
-    """For each student's id, the ids of those beside."""
+    """Return for each student's id the ids in the adjacent seats of the same group."""
     found: dict[str, list[str]] = {one.id: [] for one in students}
     for left, right in pairwise(students):
         if left.group == right.group:
@@ -208,7 +220,7 @@ def seat_neighbours(students: Sequence[RosterStudent]) -> dict[str, list[str]]:
 
 
 def write_roster(students: Sequence[RosterStudent]) -> bytes:
-    """The roster as a file that ``read_roster`` and any spreadsheet read."""
+    """Return the roster as CSV bytes that ``read_roster`` and any spreadsheet can read."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(COLUMNS)

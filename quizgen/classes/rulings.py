@@ -49,7 +49,7 @@ _TOLERANCE = re.compile(r"(decimals|sigfigs)\s*=\s*(\d{1,2})|(rel|abs)\s*=\s*(\d
 
 
 class Ruling(msgspec.Struct, frozen=True):
-    """A line of the file.
+    """What a person decided: a line of ``rulings.csv``.
 
     Parameters
     ----------
@@ -79,21 +79,21 @@ class Ruling(msgspec.Struct, frozen=True):
 
     @property
     def points(self) -> Fraction | None:
-        """The points that it gives, if it says so."""
+        """Return the points of the ruling; None if it names none."""
         return parse_written_number(self.value) if self.value else None
 
     @property
     def is_revoked(self) -> bool:
-        """Whether it says that nobody has decided after all."""
+        """Whether the ruling takes an earlier decision back."""
         return self.what == DECIDE and not self.value
 
     @property
     def describe(self) -> str:
-        """What it is, and by whom, for the history of a mark."""
+        """Return the kind of ruling and its author, for the history of a mark."""
         return f"{self.what} ({self.who})" if self.who else self.what
 
     def check(self) -> None:
-        """Check what types cannot say.
+        """Raise ``ClassError`` naming the column if the ruling cannot be applied.
 
         Raises
         ------
@@ -110,6 +110,7 @@ class Ruling(msgspec.Struct, frozen=True):
             self._check_points()
 
     def _check_points(self) -> None:
+        """Raise ``ClassError`` unless there is an answer, and points in quarters if any."""
         if not (self.answer or self.group):
             raise ClassError("answer: missing")
         try:
@@ -120,7 +121,7 @@ class Ruling(msgspec.Struct, frozen=True):
             raise ClassError(f"value: {self.value[:40]!r} (points, in quarters)")
 
     def tolerance(self) -> dict[str, int | str]:
-        """The rule of marking that it states."""
+        """Return the tolerance as keys of a specification, such as ``{"rel": "0.05"}``."""
         found = _TOLERANCE.fullmatch(self.value)
         if found is None:
             return {}
@@ -131,7 +132,7 @@ COLUMNS = ("when", "who", "what", "item", "answer", "value", "student", "comment
 
 
 def read_rulings(folder: Path) -> list[Ruling]:
-    """Read all rulings of a class, in order.
+    """Return all rulings of a class, in order.
 
     Raises
     ------
@@ -144,7 +145,7 @@ def read_rulings(folder: Path) -> list[Ruling]:
 
 
 def read_filled_rows(path: Path, needed: set[str]) -> list[tuple[int, dict[str, str]]]:
-    """Rows of a table of ours that people have filled in, each with its line; none without a file.
+    """Return line number and cells by column of each row; none if there is no file.
 
     Parameters
     ----------
@@ -170,6 +171,7 @@ def read_filled_rows(path: Path, needed: set[str]) -> list[tuple[int, dict[str, 
 
 
 def _parse_ruling(cells: Mapping[str, str], where: str) -> Ruling:
+    """Return the ruling of a row; ``ClassError`` located by ``where`` if it cannot be applied."""
     known = {name: cells.get(name, "").strip()[:LONGEST] for name in COLUMNS}
     found = Ruling(**known)
     try:
@@ -180,7 +182,7 @@ def _parse_ruling(cells: Mapping[str, str], where: str) -> Ruling:
 
 
 def append_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
-    """Add rulings to those of a class, in one piece, with the time.
+    """Append rulings with the current time, under the folder's lock; return them as written.
 
     Raises
     ------
@@ -192,7 +194,7 @@ def append_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
 
 
 def note_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
-    """The same where the folder is held already."""
+    """Append rulings as ``append_rulings`` does, where the caller holds the lock."""
     now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
     added = [msgspec.structs.replace(one, when=one.when or now) for one in rulings]
     for one in added:
@@ -206,7 +208,7 @@ def note_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
 
 
 def fold_answer(answer: str, *, words: bool) -> str:
-    """What equal answers have in common.
+    """Return the answer in the form that equal answers share.
 
     Parameters
     ----------
@@ -219,19 +221,23 @@ def fold_answer(answer: str, *, words: bool) -> str:
 
 
 def answer_group(item: str, key: str, answer: str, *, words: bool) -> str:
-    """The name of a group of equal answers: to one item, where the same would be right."""
+    """Return the name of a group of equal answers: ``g`` and ten hexadecimal digits.
+
+    One item may have other keys on other papers, so ``key`` (the right answer as text) parts
+    groups, too. With ``words`` the answer is a sentence, compared as in ``fold_answer``.
+    """
     whole = "\0".join((item, key, fold_answer(answer, words=words)))
     return f"g{hashlib.sha256(whole.encode()).hexdigest()[:10]}"
 
 
 def latest_rulings(rulings: Iterable[Ruling], what: str) -> dict[str, Ruling]:
-    """Group of equal answers to the last line of a kind about it, where that was not taken back."""
+    """Return the last ruling of a kind for each group, without those taken back."""
     last = {one.group: one for one in rulings if one.what == what and one.group}
     return {group: one for group, one in last.items() if one.value}
 
 
 class RulingBook:
-    """All rulings, ready to be asked.
+    """All rulings but those of a second marker, indexed by item.
 
     Parameters
     ----------
@@ -246,7 +252,7 @@ class RulingBook:
                 self.items.setdefault(one.item, []).append(one)
 
     def rulings_for(self, item: str, student: str) -> list[Ruling]:
-        """What holds of an item, for a student; the last line last."""
+        """Return the rulings in force for an item and a student, the last one last."""
         found: list[Ruling] = []
         for one in self.items.get(item, ()):
             if one.student not in {"", student}:

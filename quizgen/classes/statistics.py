@@ -26,7 +26,7 @@ BITS = 64
 
 
 def covariance(scores: ScoreTable) -> ScoreTable:
-    """Covariances of the columns, each over the students who have both (pairwise)."""
+    """Return the covariance matrix of the columns, each over students who have both (pairwise)."""
     known = ~np.isnan(scores)
     filled = np.where(known, scores, 0.0)
     there = known.astype(float)
@@ -37,7 +37,7 @@ def covariance(scores: ScoreTable) -> ScoreTable:
 
 
 def cronbach_alpha(scores: ScoreTable) -> float | None:
-    """Cronbach's alpha."""
+    """Return Cronbach's alpha; None with fewer than two items or students, or no spread."""
     items = scores.shape[1]
     if items < 2 or scores.shape[0] < 2:
         return None
@@ -51,7 +51,7 @@ def cronbach_alpha(scores: ScoreTable) -> float | None:
 def feldt_interval(
     value: float, students: int, items: int, confidence: float = 0.95
 ) -> tuple[float, float]:
-    """Feldt's interval of Cronbach's alpha.
+    """Return lower and upper end of Feldt's confidence interval of Cronbach's alpha.
 
     Parameters
     ----------
@@ -69,13 +69,16 @@ def feldt_interval(
 
 
 def item_rest_correlation(scores: ScoreTable, column: int) -> float | None:
-    """Correlation of an item with the sum of all others (corrected item-total correlation)."""
+    """Return the correlation of an item with the sum of all others; None if undetermined.
+
+    The corrected item-total correlation: an item must not correlate with itself.
+    """
     rest = np.nansum(np.delete(scores, column, axis=1), axis=1)
     return pearson(scores[:, column], rest)
 
 
 def pearson(first: ScoreTable, second: ScoreTable) -> float | None:
-    """Pearson's correlation over the students who have both."""
+    """Return Pearson's correlation over the students who have both; None without spread."""
     both = ~(np.isnan(first) | np.isnan(second))
     try:
         return correlation(first[both].tolist(), second[both].tolist())
@@ -84,14 +87,14 @@ def pearson(first: ScoreTable, second: ScoreTable) -> float | None:
 
 
 def average_ranks(values: ScoreTable) -> ScoreTable:
-    """Ranks from 1; equal values share theirs."""
+    """Return the ranks from 1; equal values share the mean of theirs."""
     _, place, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
     return (last - (counts - 1) / 2)[place]
 
 
 def kruskal_wallis(groups: Sequence[ScoreTable]) -> float | None:
-    """Probability of so great a difference between groups by chance (Kruskal and Wallis)."""
+    """Return the p-value of the Kruskal-Wallis test; None if all values are equal."""
     values = np.concatenate(groups)
     count = len(values)
     placed = average_ranks(values)
@@ -106,7 +109,7 @@ def kruskal_wallis(groups: Sequence[ScoreTable]) -> float | None:
 
 
 def spearman(first: ScoreTable, second: ScoreTable) -> tuple[float, float] | None:
-    """Spearman's rank correlation, and the probability of one so far from 0 by chance."""
+    """Return Spearman's rank correlation and its p-value; None if undetermined."""
     found = pearson(average_ranks(first), average_ranks(second))
     free = len(first) - 2
     if found is None or free < 1:
@@ -116,7 +119,7 @@ def spearman(first: ScoreTable, second: ScoreTable) -> tuple[float, float] | Non
 
 
 def holm_correction(chances: Sequence[float]) -> list[float]:
-    """Probabilities of several tests, corrected so that one in all is wrong as often as one was."""
+    """Return the p-values after Holm's correction for several tests, in the same order."""
     order = sorted(range(len(chances)), key=chances.__getitem__)
     adjusted, least = [0.0] * len(chances), 0.0
     for place, index in enumerate(order):
@@ -127,19 +130,22 @@ def holm_correction(chances: Sequence[float]) -> list[float]:
 
 @working_precision(BITS)
 def chi_square_tail(value: float, free: int) -> float:
-    """Probability of more than a value under the chi-square distribution."""
+    """Return the probability of more than ``value``, with ``free`` degrees of freedom."""
     return float(arb(value / 2).gamma_upper(arb(free) / 2, regularized=1).mid())
 
 
 @working_precision(BITS)
 def f_tail(value: float, first: int, second: int) -> float:
-    """Probability of more than a value under the F distribution."""
+    """Return the probability of more than ``value`` under the F distribution.
+
+    ``first`` and ``second`` are the degrees of freedom of numerator and denominator.
+    """
     share = arb(second) / (second + first * arb(value))
     return float(share.beta_lower(arb(second) / 2, arb(first) / 2, regularized=1).mid())
 
 
 def f_quantile(share: float, first: int, second: int) -> float:
-    """The value below which a share of the F distribution lies."""
+    """Return the quantile of the F distribution at ``share`` (0 to 1)."""
     low, high = 0.0, 1.0
     while f_tail(high, first, second) > 1 - share:
         low, high = high, 2 * high

@@ -51,7 +51,7 @@ PACKAGE = "quizgen.classes"
 
 @dataclass(frozen=True)
 class ReportPart:
-    """One part: what was typed, what is right, what it got, and why.
+    """A row of a report: what was typed, what is right, the marks and why.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class ReportPart:
 
 @dataclass(frozen=True)
 class ReportQuestion:
-    """One question."""
+    """A question in a report, with its points in sum."""
 
     number: str
     title: str
@@ -87,22 +87,22 @@ class ReportQuestion:
 
     @property
     def name(self) -> str:
-        """Number and title."""
+        """Return number and title."""
         return f"{self.number}. {self.title}"
 
     @property
     def worth(self) -> str:
-        """Points that were reached, of those that could be."""
+        """Return marks and points, such as ``2.5 / 4``."""
         return localise_numbers(self.lang, f"{self.marks:g} / {self.points:g}")
 
     @property
     def practise(self) -> str:
-        """The command that asks more of the same."""
+        """Return the shell command that practises the question's topic."""
         own = "" if self.lang == FIRST else f" --lang {self.lang}"
         return f"quizgen practice --topic {self.topic}{own}"
 
     def format_loss(self, words: Mapping[str, str]) -> str:
-        """How much was lost."""
+        """Return the sentence on how many points were lost."""
         return words["lost"].format(
             lost=format_amount(self.lost_points, self.lang),
             points=format_amount(self.points, self.lang),
@@ -110,13 +110,13 @@ class ReportQuestion:
 
     @property
     def lost_points(self) -> float:
-        """Points that were not reached."""
+        """Return the points that were decided and not reached."""
         return self.points - self.marks - self.undecided
 
 
 @dataclass(frozen=True)
 class StudentReport:
-    """All of it, in the student's language.
+    """What a student gets back, in the student's language.
 
     Parameters
     ----------
@@ -134,18 +134,18 @@ class StudentReport:
 
     @property
     def words(self) -> Mapping[str, str]:
-        """The sentences around."""
+        """Return the fixed sentences of a report, by name."""
         found: dict[str, str] = load_words(self.lang, "classes")["report"]
         return found
 
     @property
     def head(self) -> str:
-        """What it is a report of."""
+        """Return the title of the report."""
         return f"{self.words['title']} - {self.title}"
 
     @property
     def total(self) -> str:
-        """Points that were reached, of those that could be."""
+        """Return the sentence with all marks and points."""
         marks, points = (
             format_amount(one, self.lang) for one in (self.marks.marks, self.marks.points)
         )
@@ -153,31 +153,31 @@ class StudentReport:
 
     @property
     def revise(self) -> list[ReportQuestion]:
-        """Where points were lost; most first."""
+        """Return the questions that lost points, the most first, at most ``MOST_TO_REVISE``."""
         lost = [section for section in self.sections if section.lost_points > 0]
         return sorted(lost, key=lambda section: -section.lost_points)[:MOST_TO_REVISE]
 
     @property
     def nothing(self) -> str:
-        """That all points were reached; empty while that is still to be decided."""
+        """Return the sentence that all points were reached; empty while any is undecided."""
         return "" if self.marks.undecided_count else self.words["nothing"]
 
     @property
     def provisional(self) -> str:
-        """That something is still to be decided; empty if nothing is."""
+        """Return the sentence that parts are undecided; empty if none is."""
         count = self.marks.undecided_count
         name = "provisional_one" if count == 1 else "provisional"
         return self.words[name].format(count=count) if count else ""
 
 
 def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False) -> StudentReport:
-    """What a student is told.
+    """Return the report of a student whose answers came back.
 
     Parameters
     ----------
     line : GradedStudent
         Somebody whose answers came back.
-    key : Key
+    key : AnswerKey
         Of the student's paper.
     anonymous : bool
         Leave name and id out.
@@ -194,6 +194,10 @@ def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False)
 
 
 def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion:
+    """Return one question of a student's report: its parts, and its points in sum.
+
+    ``marks`` are all of the student's; title and topic come from the key.
+    """
     given = {part.id: part for part in marks.parts}
     mine = [given[part.id] for part in question.parts if part.id in given]
     rows = tuple(_iter_report_rows(question, marks))
@@ -211,7 +215,7 @@ def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion
 
 
 def _iter_report_rows(question: KeyQuestion, marks: StudentMarks) -> Iterator[ReportPart]:
-    """The parts, each said of in the student's language what the checker says of it."""
+    """Yield each part with its feedback in the student's language."""
     words = load_words(fallback_language(marks.lang), "classes")["report"]
     marker = QuestionGrader(question, GradingOptions(fallback_language(marks.lang), marks.decimal))
     given = {part.item: part for part in marks.parts}
@@ -232,7 +236,7 @@ def _iter_report_rows(question: KeyQuestion, marks: StudentMarks) -> Iterator[Re
 
 
 def _format_right_answer(part: KeyPart, lang: str) -> str:
-    """The key as a person writes it; a program's output stays as it is printed."""
+    """Return the key as a person writes it; a program's output as it is printed."""
     kind = part.spec["kind"]
     if kind in NOT_TYPED:
         return str(load_words(lang, "classes")["report"]["solution"])
@@ -241,13 +245,14 @@ def _format_right_answer(part: KeyPart, lang: str) -> str:
 
 
 def _format_typed_answer(typed: str, kind: str, words: Mapping[str, str]) -> str:
-    """An answer as it stands in a cell."""
+    """Return the student's answer for a cell: a blank or a drawing in words."""
     if not typed.strip():
         return words["blank"]
     return words["drawn"] if kind == "sketch" else escape_control_characters(typed, "")
 
 
 def _format_points(part: GradedClassPart, lang: str) -> str:
+    """Return marks and points, or that the part was dropped or is undecided."""
     words = load_words(lang, "classes")["report"]
     if part.status == DROPPED:
         return str(words["dropped"])
@@ -257,7 +262,7 @@ def _format_points(part: GradedClassPart, lang: str) -> str:
 
 
 def _format_remark(part: GradedClassPart, words: Mapping[str, str]) -> str:
-    """That a person decided, and the remark that goes with it."""
+    """Return that a person decided, with the remark if any; empty if nobody did."""
     if not part.by or part.status == DROPPED:
         return ""
     remark = escape_control_characters(part.remark, "")
@@ -265,7 +270,7 @@ def _format_remark(part: GradedClassPart, words: Mapping[str, str]) -> str:
 
 
 def report_to_html(report: StudentReport) -> bytes:
-    """A report as one self-contained page."""
+    """Return the report as one self-contained page in UTF-8."""
     made = (
         report_environment()
         .get_template("report.html.j2")
@@ -281,19 +286,19 @@ def report_to_html(report: StudentReport) -> bytes:
 
 @cache
 def report_environment() -> jinja2.Environment:
-    """The layouts of pages of a class."""
+    """Return the Jinja environment with the page layouts of classes."""
     return jinja_environment(PACKAGE, "quizgen.render")
 
 
 @cache
 def report_css() -> Markup:
-    """How they look."""
+    """Return the style sheet of those pages, with the colours of the theme."""
     page = (files(PACKAGE) / "pages" / "report.css").read_text(encoding="utf-8")
     return Markup(write_theme_css() + page)
 
 
 def report_to_pdf(report: StudentReport) -> bytes:
-    """A report as a tagged PDF.
+    """Return the report as a tagged PDF.
 
     Raises
     ------
@@ -318,6 +323,7 @@ def report_to_pdf(report: StudentReport) -> bytes:
 
 
 def _typeset_revision_list(report: StudentReport) -> str:
+    """Return Typst source of what to revise, or that nothing is to be revised."""
     words = report.words
     if not report.revise:
         return f"#block({typst_literal(report.nothing)})" if report.nothing else ""
@@ -331,6 +337,7 @@ def _typeset_revision_list(report: StudentReport) -> str:
 
 
 def _typeset_question(section: ReportQuestion, heads: str) -> str:
+    """Return Typst source of a question's table; ``heads`` are its typeset column names."""
     rows = "".join(_typeset_row(row) for row in section.rows)
     return (
         f"#answered({typst_literal(section.name)}, "
@@ -339,14 +346,14 @@ def _typeset_question(section: ReportQuestion, heads: str) -> str:
 
 
 def _typeset_row(row: ReportPart) -> str:
-    """A row of the table: four cells, and what is said below them."""
+    """Return Typst source of a row: four cells, and the remarks below them."""
     cells = ", ".join(map(_typeset_text, (row.label, row.typed, row.right, row.marks)))
     below = "".join(f"{_typeset_text(text)}, " for text in (row.message, row.said) if text)
     return f"({cells}, ({below})), "
 
 
 def _typeset_text(text: str) -> str:
-    """What somebody may have written, with what no font has as ``?``."""
+    """Return a student's text as a Typst literal, with ``?`` for what no font has."""
     return typst_literal(replace_unprintable(text))
 
 
@@ -359,7 +366,7 @@ CHUNK = 50
 def write_grades_and_reports(
     folder: ClassFolder, formats: Sequence[str], *, anonymous: bool = False
 ) -> tuple[list[GradedStudent], list[str], list[Path]]:
-    """Write grades and reports; the lines, who is marked and not on the roster, and the files.
+    """Write grades and reports; return lines, ids not on the roster, and paths.
 
     Parameters
     ----------
@@ -378,12 +385,13 @@ def write_grades_and_reports(
         If something cannot be written.
     """
     with lock_folder(folder.path):
-        return _grade(folder, formats, anonymous=anonymous)
+        return _write_locked_folder(folder, formats, anonymous=anonymous)
 
 
-def _grade(
+def _write_locked_folder(
     folder: ClassFolder, formats: Sequence[str], *, anonymous: bool
 ) -> tuple[list[GradedStudent], list[str], list[Path]]:
+    """Write grades and reports while the folder is locked."""
     marked = {one.student: one for one in GradingHistory(folder.path).current()}
     if not marked:
         raise ClassError(f"{folder.path}: nothing has been marked yet (quizgen class mark)")
@@ -398,6 +406,7 @@ def _grade(
 
 
 def _iter_chunks(lines: Sequence[GradedStudent]) -> Iterator[Sequence[GradedStudent]]:
+    """Yield ``CHUNK`` students at a time: reports of all would fill the memory."""
     for at in range(0, len(lines), CHUNK):
         yield lines[at : at + CHUNK]
 
@@ -405,7 +414,7 @@ def _iter_chunks(lines: Sequence[GradedStudent]) -> Iterator[Sequence[GradedStud
 def _render_reports(
     keys: KeyIndex, lines: Sequence[GradedStudent], formats: Sequence[str], anonymous: bool
 ) -> dict[str, bytes]:
-    """Name of each file and its bytes."""
+    """Return the bytes of each report file by its name."""
     render = {"html": report_to_html, "pdf": report_to_pdf}
     made: dict[str, bytes] = {}
     for line in lines:

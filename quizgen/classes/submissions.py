@@ -35,7 +35,10 @@ ABOUT = ("id", "name", "lang", "decimal", "minutes", "code")
 
 
 def store_submissions(folder: Path, paths: Iterable[Path]) -> list[str]:
-    """Copy what came back into the folder of a class, never over what is there; say what failed."""
+    """Copy files into the class's folder of answers; return what could not be read.
+
+    A file of the same name is never overwritten.
+    """
     problems = []
     for path in paths:
         try:
@@ -50,7 +53,7 @@ def store_submissions(folder: Path, paths: Iterable[Path]) -> list[str]:
 
 
 def _find_free_name(folder: Path, path: Path, data: bytes) -> str:
-    """A name that is free; empty if the same stands there already."""
+    """Return a file name that is free; empty if the same file is already there."""
     name, number = path.name, 1
     while (folder / name).exists():
         if (folder / name).read_bytes() == data:
@@ -61,13 +64,13 @@ def _find_free_name(folder: Path, path: Path, data: bytes) -> str:
 
 
 class Submissions:
-    """What came back of a class, sheet by sheet; problems are listed as they are met.
+    """Iterates over what a class handed in; problems are listed as they are met.
 
     Parameters
     ----------
     folder : pathlib.Path
         That of the class.
-    keys : Keys
+    keys : KeyIndex
     """
 
     def __init__(self, folder: Path, keys: KeyIndex) -> None:
@@ -86,7 +89,7 @@ class Submissions:
                     yield sheet
 
     def _iter_sheets(self, path: Path) -> Iterator[Submission]:
-        """What a file holds."""
+        """Yield the submissions in a file: one of a form, several of a table."""
         if path.suffix.lower() not in FORMS:
             self._add_problem(path, f"no form ({', '.join(FORMS)})")
             return
@@ -102,6 +105,7 @@ class Submissions:
             self._add_problem(path, str(error))
 
     def _read_form_sheet(self, path: Path) -> Submission:
+        """Return the submission of a form; ``KeyFileError`` if it is of another paper."""
         form = read_filled_form(path)
         about = form.student
         student = self._identify_student(form.code, str(about.matriculation))
@@ -112,7 +116,7 @@ class Submissions:
         return Submission(student, form.list_typed_texts(), about.lang, about.decimal, path.name)
 
     def _identify_student(self, code: str, student: str) -> str:
-        """Whose answers they are: by the code, else by the id, which must agree."""
+        """Return the student's id by the code or the typed id, which must agree."""
         student = unescape_csv_formula(clean_cell(student))
         owner = self._codes.get(code.strip().upper(), "")
         if code and not owner:
@@ -125,7 +129,7 @@ class Submissions:
         return owner or self._resolve_student_id(student)
 
     def _resolve_student_id(self, student: str) -> str:
-        """Who has an id, which capitals do not change."""
+        """Return the id as the roster writes it; capitals do not matter."""
         if student in self.keys.places:
             return student
         found = self._ids.get(student.casefold())
@@ -140,7 +144,7 @@ class Submissions:
         return found
 
     def _iter_table_sheets(self, table: _Table) -> Iterator[Submission]:
-        """The students of a table; a row that is wrong is left out."""
+        """Yield the submissions in a table; a wrong row becomes a problem."""
         for line, cells, answers in table.students():
             try:
                 student = self._identify_student(cells.get("code", ""), cells.get("id", ""))
@@ -155,7 +159,7 @@ class Submissions:
                 self._add_problem(table.path, f"line {line}: {error}")
 
     def _is_first_submission(self, sheet: Submission) -> bool:
-        """Whether nothing else came from this student."""
+        """Return whether it is the student's first; note a second that differs."""
         answers = sorted((part, text) for part, text in sheet.answers.items() if text.strip())
         digest = hashlib.sha256(repr(answers).encode()).digest()[:8]
         before = self._seen.get(sheet.student)
@@ -170,21 +174,23 @@ class Submissions:
         return False
 
     def _add_problem(self, path: Path, reason: str) -> None:
+        """Note why a file or row was not read, without control characters."""
         self.problems.append(escape_control_characters(f"{path.name}: {reason}", ""))
 
 
 def _simplify_student_id(student: str) -> str:
-    """An id as it is left by who thinks little of capitals and of zeros in front."""
+    """Return an id without capitals and leading zeros, as spreadsheets mangle it."""
     return student.casefold().lstrip("0")
 
 
 def _read_language_and_decimal(cells: Mapping[str, str]) -> tuple[str, str]:
-    """Language and decimal sign, where they are named rightly."""
+    """Return language and decimal sign of a row; the defaults if they are not valid."""
     lang, decimal = cells.get("lang", "").strip(), cells.get("decimal", "").strip()
     return lang if lang in list_languages() else "", decimal if decimal in DECIMALS else DECIMALS[0]
 
 
 def _parse_minutes(cells: Mapping[str, str]) -> float | None:
+    """Return the minutes in a row; None if there is no number."""
     text = cells.get("minutes", "").strip().replace(",", ".")
     return float(text) if text.replace(".", "", 1).isdecimal() and text.isascii() else None
 
@@ -204,7 +210,7 @@ class _Table:
 
     @classmethod
     def find_in_file(cls, path: Path) -> _Table | None:
-        """The table in a file; None if it is no table of students."""
+        """Return the table in a file; None if it has no column of ids or codes."""
         if path.suffix.lower() != ".csv":
             return None
         with path.open("rb") as stream:
@@ -220,11 +226,12 @@ class _Table:
         return cls(path, encoding, known)
 
     def students(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
-        """Line, what is said of the student, and the answers by part."""
+        """Yield line number, cells by column, and answers by part of each student."""
         long = {"part", "answer"} <= {*self.head}
         yield from self._iter_long_rows() if long else self._iter_wide_rows()
 
     def _iter_cells(self) -> Iterator[tuple[int, dict[str, str]]]:
+        """Yield line number and cells by column of each row."""
         with self.path.open(encoding=self.encoding, newline="") as stream:
             rows = iter_csv_rows(stream, self.path, KeyFileError)
             next(rows)
@@ -234,12 +241,13 @@ class _Table:
                 yield line, dict(zip(self.head, row, strict=False))
 
     def _iter_wide_rows(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
+        """Yield the students of a table with one column for each part."""
         for line, cells in self._iter_cells():
             answers = {name: text for name, text in cells.items() if name not in ABOUT}
             yield line, cells, answers
 
     def _iter_long_rows(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
-        """Rows of one student may stand anywhere."""
+        """Yield the students of a table with one row for each answer, in any order."""
         found: dict[tuple[str, str], tuple[int, dict[str, str], dict[str, str]]] = {}
         for line, cells in self._iter_cells():
             who = cells.get("id", ""), cells.get("code", "")

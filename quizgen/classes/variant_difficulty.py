@@ -28,7 +28,7 @@ _PIECE = re.compile(r"([^\s(,=]+)=([^,)]*)")
 
 @dataclass(frozen=True)
 class ValueGroup:
-    """The students who had one value, or values of one range.
+    """Students who had the same drawn value, or values of one range.
 
     Parameters
     ----------
@@ -48,12 +48,12 @@ class ValueGroup:
 
 @dataclass(frozen=True)
 class VariantEffect:
-    """Points of one question by the value of one drawn quantity.
+    """How the points of one question depend on the value of one drawn quantity.
 
     Parameters
     ----------
     template, quantity : str
-    levels : tuple of Level
+    levels : tuple of ValueGroup
     chance : float
         Probability of so great a difference if the value does not matter.
     corrected : float
@@ -71,12 +71,12 @@ class VariantEffect:
 
 
 def parse_identity(identity: str) -> list[tuple[str, str]]:
-    """Quantities and values of a draw, as its identity names them."""
+    """Return name and value of each quantity in the identity of a variant."""
     return _PIECE.findall(identity.partition("(")[2])
 
 
 class VariantDifficulty:
-    """Who had which values; filled student by student."""
+    """Collects values and points, and tests whether some values were harder."""
 
     def __init__(self) -> None:
         self.values: dict[tuple[str, str], tuple[list[str], list[float]]] = defaultdict(
@@ -84,14 +84,14 @@ class VariantDifficulty:
         )
 
     def add(self, template: str, identity: str, share: float) -> None:
-        """One student's question: its draw, and the share of its points."""
+        """Add one student's question: identity of the variant, share of the points (0 to 1)."""
         for quantity, value in parse_identity(identity):
             values, shares = self.values[template, quantity]
             values.append(value)
             shares.append(share)
 
     def find_effects(self) -> list[VariantEffect]:
-        """What differs; the least likely by chance first."""
+        """Return the effect of each quantity, with Holm's correction; smallest p-value first."""
         found = [
             effect
             for (template, quantity), (values, shares) in sorted(self.values.items())
@@ -108,7 +108,10 @@ class VariantDifficulty:
 def _test_effect(
     template: str, quantity: str, values: Sequence[str], shares: NDArray[np.float64]
 ) -> VariantEffect | None:
-    """The test that fits the values; None where there is nothing to compare."""
+    """Return the effect of one quantity; None if too few students share values.
+
+    Many numbers are tested for a trend, few values group against group.
+    """
     names, places = np.unique(np.array(values), return_inverse=True)
     numbers = _parse_all_numbers(names)
     if len(names) > MOST_GROUPS and numbers is not None:
@@ -127,7 +130,7 @@ def _test_effect(
 
 
 def _parse_all_numbers(names: Iterable[str]) -> NDArray[np.float64] | None:
-    """The values as numbers, if all are."""
+    """Return the values as floats; None if any is no number."""
     try:
         return np.array([float(parse_written_number(str(name))) for name in names])
     except (FormulaError, OverflowError):
@@ -137,7 +140,7 @@ def _parse_all_numbers(names: Iterable[str]) -> NDArray[np.float64] | None:
 def _test_trend(
     template: str, quantity: str, numbers: NDArray[np.float64], shares: NDArray[np.float64]
 ) -> VariantEffect | None:
-    """Whether points rise or fall with a number."""
+    """Return the rank correlation of points with a number, with quartiles as groups."""
     found = spearman(numbers, shares)
     if found is None or len(numbers) < 4 * FEWEST:
         return None
@@ -152,6 +155,7 @@ def _test_trend(
 
 
 def _build_levels(groups: Mapping[str, NDArray[np.float64]]) -> tuple[ValueGroup, ...]:
+    """Return the mean share and its standard error for each group."""
     return tuple(
         ValueGroup(name, len(own), float(own.mean()), _compute_standard_error(own))
         for name, own in groups.items()
@@ -159,4 +163,5 @@ def _build_levels(groups: Mapping[str, NDArray[np.float64]]) -> tuple[ValueGroup
 
 
 def _compute_standard_error(own: NDArray[np.float64]) -> float:
+    """Return the standard error of the mean; 0 for a single value."""
     return float(own.std(ddof=1) / np.sqrt(len(own))) if len(own) > 1 else 0.0

@@ -32,7 +32,10 @@ def banks(**options: Unpack[BankOptions]) -> None:
 
 
 def compare_banks(used: Iterable[BankRecord], named: tuple[Path, ...]) -> None:
-    """Say which of the banks that are named, and of ours, are others than those of a key."""
+    """Print how the banks at hand differ from those that a key was made from.
+
+    Nothing is printed if they agree: grading uses the key alone.
+    """
     from quizgen.bank.bank import Bank, builtin_bank
     from quizgen.bank.discovery import resolve_bank
     from quizgen.paper.provenance import describe_differences

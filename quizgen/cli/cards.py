@@ -32,7 +32,7 @@ A_TEMPLATE = 0.006
 
 
 class CardsOptions(BankOptions):
-    """Which cards, and where to."""
+    """Options of ``quizgen cards``."""
 
     lang: str | None
     topics: str | None
@@ -78,6 +78,7 @@ def cards(**options: Unpack[CardsOptions]) -> None:
 
 
 def _build_requested_deck(options: CardsOptions) -> Deck:
+    """Return the deck that the options ask for: of graded mistakes, or of the bank."""
     from quizgen.cards import build_deck
 
     bank = open_bank(options)
@@ -97,6 +98,7 @@ def _build_requested_deck(options: CardsOptions) -> Deck:
 
 
 def _encode_deck_files(deck: Deck, formats: list[str]) -> Mapping[str, bytes]:
+    """Return the bytes of each file of a deck by its name."""
     from quizgen.cards.apkg import write_apkg
     from quizgen.cards.delimited import write_csv, write_tsv
 
@@ -105,6 +107,7 @@ def _encode_deck_files(deck: Deck, formats: list[str]) -> Mapping[str, bytes]:
 
 
 def _report_deck(deck: Deck, written: list[Path]) -> None:
+    """Print the files written, and how many cards of each kind there are."""
     counts: dict[str, int] = {}
     for note in deck.notes:
         counts[note.kind] = counts.get(note.kind, 0) + len(note.cards())

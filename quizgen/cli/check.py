@@ -34,7 +34,7 @@ HEAD = 4096
 
 
 class GradedForm(NamedTuple):
-    """A form that has been marked."""
+    """A graded form: file, name, matriculation, result and language."""
 
     file: str
     name: str
@@ -44,7 +44,7 @@ class GradedForm(NamedTuple):
 
 
 class CheckOptions(BankOptions):
-    """What is marked, and how it is told."""
+    """Options of ``quizgen check``."""
 
     key: Path
     answers: tuple[Path, ...]
@@ -91,7 +91,7 @@ def check(**options: Unpack[CheckOptions]) -> None:
         from quizgen.cli.banks import compare_banks
 
         compare_banks(paper.banks, options["bank"])
-    marked = list(_all_marked(paper, answers, lang, settle=not options["no_settle"]))
+    marked = list(_iter_graded_forms(paper, answers, lang, settle=not options["no_settle"]))
     if marked:
         _print_results(marked, paper, options, many=len(answers) > 1)
     missing = len(answers) - len(marked)
@@ -100,7 +100,7 @@ def check(**options: Unpack[CheckOptions]) -> None:
 
 
 def _check_key_belongs(page: Path, key: AnswerKey) -> None:
-    """Refuse a key that lies beside the page of another paper.
+    """Raise ``KeyFileError`` if the page in the key's folder is of another paper.
 
     Raises
     ------
@@ -119,10 +119,10 @@ def _check_key_belongs(page: Path, key: AnswerKey) -> None:
         )
 
 
-def _all_marked(
+def _iter_graded_forms(
     key: AnswerKey, answers: tuple[Path, ...], lang: str | None, *, settle: bool
 ) -> Iterator[GradedForm]:
-    """Mark each form that can be read, and say of each other why not."""
+    """Yield each form graded; print why a form could not be read."""
     for path in answers:
         try:
             yield _grade_form(key, path, lang, settle=settle)
@@ -135,6 +135,7 @@ def _all_marked(
 def _print_results(
     marked: list[GradedForm], key: AnswerKey, flags: CheckOptions, *, many: bool
 ) -> None:
+    """Print the results as JSON, CSV or a table."""
     if flags["as_json"]:
         _print_json(marked, key)
     elif flags["as_csv"] or many:
@@ -146,6 +147,7 @@ def _print_results(
 
 
 def _grade_form(key: AnswerKey, path: Path, lang: str | None, *, settle: bool) -> GradedForm:
+    """Return a graded form; ``KeyFileError`` if it is of another paper."""
     from quizgen.paper.answer_form import read_filled_form
     from quizgen.paper.grading import grade_paper
 
@@ -168,12 +170,13 @@ def _grade_form(key: AnswerKey, path: Path, lang: str | None, *, settle: bool) -
 
 
 def _choose_form_language(form: FilledForm, key: AnswerKey) -> str:
-    """The language that the form, else the paper, is written in."""
+    """Return the language of the form, else of the paper, that quizgen has."""
     wished = (form.student.lang, *key.langs[:1])
     return next((lang for lang in wished if lang in list_languages()), FIRST)
 
 
 def _print_json(marked: list[GradedForm], key: AnswerKey) -> None:
+    """Print the results as JSON, a table for each form."""
     import json
 
     import msgspec
@@ -193,6 +196,7 @@ def _print_json(marked: list[GradedForm], key: AnswerKey) -> None:
 
 
 def _print_table(one: GradedForm) -> None:
+    """Print the table of one form, as wide as the terminal."""
     import shutil
 
     from quizgen.paper.grade_report import format_table
@@ -209,7 +213,7 @@ def check_responses(
     banks: tuple[Path, ...],
     flags: Mapping[str, object],
 ) -> int:
-    """Mark the responses in files, print them, and give the code to leave with.
+    """Grade the responses in files and print them; return the exit code.
 
     Raises
     ------
@@ -228,16 +232,16 @@ def check_responses(
     lost: list[str] = []
     given = read_attempts(files, manifest.found, lost.append)
     found = list(grade_attempts(manifest, given, lang, settle=not flags["no_settle"]))
-    for line in (*lost, *_untold(found)):
+    for line in (*lost, *_iter_ungraded_messages(found)):
         click.echo(f"quizgen: {escape_control_characters(' '.join(line.split()))}", err=True)
     there = [one for one in found if one.attempt.responses]
     if there:
-        _print(there, lang or FIRST, flags)
+        _print_attempts(there, lang or FIRST, flags)
     return (1 if there else 2) if lost else 0
 
 
-def _untold(found: Sequence[GradedAttempt]) -> Iterator[str]:
-    """What is no error, but not marked either."""
+def _iter_ungraded_messages(found: Sequence[GradedAttempt]) -> Iterator[str]:
+    """Yield what is no error, but was not graded either."""
     for one in found:
         who = one.attempt.name or one.attempt.person_key[0]
         if not one.attempt.responses:
@@ -246,7 +250,8 @@ def _untold(found: Sequence[GradedAttempt]) -> Iterator[str]:
             yield f"{one.attempt.where}: {who}: question {number} is not in the keys; not marked"
 
 
-def _print(found: Sequence[GradedAttempt], lang: str, flags: Mapping[str, object]) -> None:
+def _print_attempts(found: Sequence[GradedAttempt], lang: str, flags: Mapping[str, object]) -> None:
+    """Print graded attempts as JSON, CSV or a table."""
     from quizgen.lms.attempt_report import attempt_to_json, attempts_to_csv, format_attempts
 
     if flags["as_json"]:

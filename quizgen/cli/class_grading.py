@@ -49,7 +49,7 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
 
 
 def _report_run(folder: Path, run: GradingRun, lost: list[str]) -> None:
-    """What was marked, what was not, whose marks changed, what is to be decided."""
+    """Print what was graded, what was not, which marks changed, what is to be decided."""
     outcome = run.outcome
     print_sentence(
         f"{folder}: {format_count(outcome.students, 'student')}"
@@ -73,6 +73,7 @@ def _report_run(folder: Path, run: GradingRun, lost: list[str]) -> None:
 
 
 def _print_list(head: str, lines: list[str]) -> None:
+    """Print a heading and at most ``SHOWN`` lines; nothing without lines."""
     if not lines:
         return
     print_sentence(f"{head}:")
@@ -83,6 +84,7 @@ def _print_list(head: str, lines: list[str]) -> None:
 
 
 def _format_change(change: MarkChange) -> str:
+    """Return a changed mark in one line."""
     before, after = (("–" if m is None else f"{m:g}") for m in (change.before, change.after))
     return f"{change.student} {change.part} ({change.item}): {before} -> {after}, {change.why}"
 
@@ -135,7 +137,7 @@ def history(folder: Path, student: str) -> None:
 
 
 def _format_part_mark(part: GradedClassPart) -> str:
-    """A mark with the answer, what was said of it, and by whom."""
+    """Return a mark with its answer, its remark and who gave it, in one line."""
     marks = "–" if part.marks is None else f"{part.marks:g}"
     told = [
         f"{marks} / {part.points:g}",

@@ -42,7 +42,7 @@ def class_() -> None:
 
 
 class ClassMakeOptions(BankOptions):
-    """Which class, and where it is made."""
+    """Options of ``quizgen class make``."""
 
     roster: Path
     out: Path
@@ -94,7 +94,7 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     if options["one_file"]:
         write_print_file(folder, students)
     _report_papers(folder, report)
-    _say_of_names(students)
+    _report_unprintable_names(students)
     if unread:
         print_sentence(
             f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)"
@@ -134,6 +134,7 @@ def take(keys: Path, reports: tuple[Path, ...], out: Path) -> None:
 
 
 def _parse_columns(text: str | None) -> Mapping[str, str]:
+    """Return the file's name of each roster column in ``id=Matrikel,name=Name``."""
     pairs = [name.partition("=") for name in split_names(text)]
     for ours, sign, theirs in pairs:
         if not (sign and theirs.strip()):
@@ -144,7 +145,7 @@ def _parse_columns(text: str | None) -> Mapping[str, str]:
 def _open_class_blueprint(
     folder: ClassFolder, students: list[RosterStudent], options: ClassMakeOptions
 ) -> Blueprint:
-    """The blueprint of the class, which is created if there is none yet."""
+    """Return the blueprint of the class; create the class if there is none yet."""
     from quizgen.classes.generation import create_settings, open_class_bank
     from quizgen.paper.blueprint import default_blueprint_name, load_blueprint
 
@@ -163,11 +164,12 @@ def _open_class_blueprint(
 
 
 def _check_same_options(folder: ClassFolder, options: ClassMakeOptions) -> None:
-    """Refuse what a class that there is was not made with."""
+    """Raise an error for options that an existing class was not made with."""
     from quizgen.bank.combined import bank_sources
     from quizgen.classes.generation import open_class_bank
 
     def place(bank: Bank) -> str:
+        """Return a bank's folders as one text, to be compared."""
         return " + ".join(root or "built-in" for root, _ in bank_sources(bank))
 
     settings = folder.settings
@@ -187,7 +189,7 @@ def _check_same_options(folder: ClassFolder, options: ClassMakeOptions) -> None:
 
 
 def _report_papers(folder: ClassFolder, report: GenerationReport) -> None:
-    """What was made, and how alike the papers are."""
+    """Print how many papers were made, and how much they have in common."""
     print_sentence(
         f"{folder.path}: {format_count(len(report.made), 'paper')}"
         f" made, {report.kept} kept as they were"
@@ -204,7 +206,8 @@ def _report_papers(folder: ClassFolder, report: GenerationReport) -> None:
     )
 
 
-def _say_of_names(students: list[RosterStudent]) -> None:
+def _report_unprintable_names(students: list[RosterStudent]) -> None:
+    """Print each name that the fonts of a paper cannot print."""
     from quizgen.render.typst_document import replace_unprintable
 
     for one in students:
@@ -215,7 +218,7 @@ def _say_of_names(students: list[RosterStudent]) -> None:
 
 
 def _describe_papers(report: GenerationReport) -> str:
-    """Questions by tier, points and minutes: one value each, or all that there are."""
+    """Return tiers, points and minutes: one value each, or all that occur."""
     tiers = (
         ", ".join(f"{count} of tier {tier}" for tier, count in sorted(Counter(one.tiers).items()))
         for one in report.made

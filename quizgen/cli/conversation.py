@@ -34,7 +34,7 @@ _BULLET = re.compile(r" *(?:- )*")
 
 
 class TextStyle(TypedDict, total=False):
-    """How a text stands out; nothing where colours are not wished."""
+    """Style options of ``click.secho``."""
 
     fg: str
     bold: bool
@@ -42,11 +42,14 @@ class TextStyle(TypedDict, total=False):
 
 
 class QuitSession(Exception):  # noqa: N818 - a wish, not a failure
-    """The learner wants to stop for now."""
+    """Raised when the learner wants to stop for now."""
 
 
 def print_wrapped(text: str, first: str = "", rest: str = "", **style: Unpack[TextStyle]) -> None:
-    """Print a text, broken between words at the width of the terminal."""
+    """Print a text, broken between words at the width of the terminal.
+
+    ``first`` and ``rest`` stand before the first and the other lines.
+    """
     for line in wrap_lines(escape_control_characters(text), terminal_width(), first, rest):
         click.secho(line, **style)
 
@@ -70,7 +73,7 @@ def print_prose(lines: Iterable[str], first: str = "", rest: str = "") -> None:
 
 
 class Conversation:
-    """One session on a terminal.
+    """Runs one practice session on a terminal.
 
     Parameters
     ----------
@@ -88,7 +91,7 @@ class Conversation:
         self.words = load_practice_words(session.state.wish.lang)
 
     def hold(self) -> None:
-        """Ask until every question is done.
+        """Ask until every question is done; the session is saved after each answer.
 
         Raises
         ------
@@ -96,72 +99,79 @@ class Conversation:
             If the learner stops before.
         """
         while not self.session.is_finished:
-            turn = self.session.current_question()
-            self._show_question(turn)
-            for task in turn.tasks:
+            attempt = self.session.current_question()
+            self._show_question(attempt)
+            for task in attempt.tasks:
                 if task.outcome is None:
-                    self._ask(task)
-            self.session.finish(turn)
-            self._keep()
+                    self._ask_part(task)
+            self.session.finish(attempt)
+            self._save_session()
             if self.learning is not None:
                 from quizgen.store import QuestionRef
 
-                which = QuestionRef(turn.question.template, turn.seed, turn.level)
-                self.learning.save_practice(which, turn.question.topic, turn.parts)
+                which = QuestionRef(attempt.question.template, attempt.seed, attempt.level)
+                self.learning.save_practice(which, attempt.question.topic, attempt.parts)
 
-    def _keep(self) -> None:
+    def _save_session(self) -> None:
+        """Save the session."""
         self.shelf.save(self.session.state)
 
-    def _say(self, name: str, **blanks: object) -> None:
+    def _print_sentence(self, name: str, **blanks: object) -> None:
+        """Print a sentence by its key, with its blanks filled in."""
         print_wrapped(self.words[name].format(**blanks))
 
-    def _show_question(self, turn: QuestionAttempt) -> None:
-        count, title = self.session.state.wish.count, turn.question.title
-        print_heading(self.words["question"].format(number=turn.number, count=count, title=title))
-        print_prose(blocks_to_plain_text(turn.question.stem))
-        self._show_figure(turn.question.figure)
-        done = [f"({task.part.label})" for task in turn.tasks if task.outcome is not None]
+    def _show_question(self, attempt: QuestionAttempt) -> None:
+        """Print the question, and which of its parts are done."""
+        count, title = self.session.state.wish.count, attempt.question.title
+        print_heading(
+            self.words["question"].format(number=attempt.number, count=count, title=title)
+        )
+        print_prose(blocks_to_plain_text(attempt.question.stem))
+        self._show_figure(attempt.question.figure)
+        done = [f"({task.part.label})" for task in attempt.tasks if task.outcome is not None]
         if done:
-            self._say("done-before", parts=", ".join(done))
+            self._print_sentence("done-before", parts=", ".join(done))
 
     def _show_figure(self, figure: Figure | None) -> None:
+        """Print a figure in words and write its SVG file; nothing without one."""
         if figure is None:
             return
         path = self.shelf.figure(self.session.state.wish)
         write_all(path.parent, {path.name: figure.standalone_svg})
-        self._say("figure", alt=figure.alt)
-        self._say("figure-file", path=path)
+        self._print_sentence("figure", alt=figure.alt)
+        self._print_sentence("figure-file", path=path)
 
-    def _ask(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
-        """Ask a part until it is done."""
+    def _ask_part(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+        """Ask a part until it has ended."""
         self._show_part(task)
         while task.outcome is None:
             typed = self._read_line(self.words["prompt"])
             with self._save_on_stop():
-                self._take(task, typed)
+                self._handle_input(task, typed)
 
     @contextmanager
     def _save_on_stop(self) -> Iterator[None]:
-        """Keep what has been done, also if the learner stops in the middle of it."""
+        """Save the session after the body of ``with``, also if the learner stops in it."""
         try:
             yield
         finally:
-            self._keep()
+            self._save_session()
 
-    def _take(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
+    def _handle_input(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
+        """Act on what was typed: a hint, the solution, a skip or an answer."""
         if typed == "?":
-            self._hint(task)
+            self._show_hint(task)
         elif typed == "!":
             task.give_up()
-            self._solution(task)
-        elif self._means("skip-words", typed):
+            self._show_solution(task)
+        elif self._is_word_for("skip-words", typed):
             task.skip()
-            self._say("skipped")
+            self._print_sentence("skipped")
         else:
-            self._answer(task, typed)
+            self._grade_input(task, typed)
 
     def _read_line(self, prompt: str) -> str:
-        """What was typed.
+        """Return what was typed, without blanks around it.
 
         Raises
         ------
@@ -173,16 +183,17 @@ class Conversation:
         except EOFError:
             click.echo()
             raise QuitSession from None
-        if self._means("quit-words", typed):
+        if self._is_word_for("quit-words", typed):
             raise QuitSession
         return typed
 
-    def _means(self, name: str, typed: str) -> bool:
-        """Whether a word was typed that stands for something, here or in English."""
+    def _is_word_for(self, name: str, typed: str) -> bool:
+        """Return whether the learner typed one of a command's words, translated or English."""
         listed = f"{self.words[name]}, {load_practice_words(FIRST)[name]}"
         return typed.casefold() in {word.casefold() for word in listed.split(", ")}
 
     def _show_part(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+        """Print a part with its options and how to answer it."""
         part = task.part
         label = f"({part.label}) " if part.label else ""
         click.echo()
@@ -195,7 +206,8 @@ class Conversation:
             print_wrapped(f"[{hint}]", "   ", "    ")
         print_wrapped(self.words["help"], "   ", "   ", dim=True)
 
-    def _answer(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
+    def _grade_input(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
+        """Grade an answer, print the feedback, and show the solution if the part has ended."""
         feedback = task.answer(typed)
         verdict = task.explain_verdict(feedback.verdict)
         match feedback.then:
@@ -204,40 +216,42 @@ class Conversation:
                 return
             case NextStep.SELF_MARK:
                 print_wrapped(verdict.message)
-                self._solution(task)
+                self._show_solution(task)
                 task.self_mark(right=self._ask_self_mark(task))
                 return
         lang = self.session.state.wish.lang
-        self._say("read", read_as=format_read_back(task.kind, verdict.read_as, lang))
+        self._print_sentence("read", read_as=format_read_back(task.kind, verdict.read_as, lang))
         said = f"{self.words[verdict.verdict]} {verdict.message}".strip()
         print_wrapped(said, fg=COLOURS[verdict.verdict])
         if feedback.then is NextStep.AGAIN:
-            self._say("again", left=feedback.left)
+            self._print_sentence("again", left=feedback.left)
         elif feedback.then is NextStep.OUT_OF_TRIES:
-            self._solution(task)
+            self._show_solution(task)
 
     def _ask_self_mark(self, task: PartAttempt[QuestionPart, PartSolution]) -> bool:
-        """Whether the learner finds the own answer right."""
-        self._say("self-mark", points=task.solved.answer)
+        """Return whether the learner judges the own answer right."""
+        self._print_sentence("self-mark", points=task.solved.answer)
         while True:
             typed = self._read_line(self.words["yes-or-no"])
-            if self._means("yes-words", typed):
+            if self._is_word_for("yes-words", typed):
                 return True
-            if self._means("no-words", typed):
+            if self._is_word_for("no-words", typed):
                 return False
 
-    def _hint(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+    def _show_hint(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+        """Print the next hint, or that there is none."""
         rung = task.next_hint()
         if rung is None:
-            self._say("no-more-hints")
+            self._print_sentence("no-more-hints")
             return
         shown, why = inlines_to_plain_text(rung.shown), inlines_to_plain_text(rung.why)
-        self._say(f"hint-{rung.kind}", hint=f"{shown}. {why}" if why else shown)
+        self._print_sentence(f"hint-{rung.kind}", hint=f"{shown}. {why}" if why else shown)
         sheet = cite_formula(self.session.bank, rung.formula, self.session.state.wish.lang)
         if sheet:
-            self._say("hint-sheet", hint=inlines_to_plain_text(sheet))
+            self._print_sentence("hint-sheet", hint=inlines_to_plain_text(sheet))
 
-    def _solution(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+    def _show_solution(self, task: PartAttempt[QuestionPart, PartSolution]) -> None:
+        """Print the worked solution of a part."""
         for line in task.solved.lines:
             print_wrapped(inlines_to_plain_text(line.maths), "   ", "      ")
             print_wrapped(inlines_to_plain_text(line.why), "      ", "      ")

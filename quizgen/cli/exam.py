@@ -55,7 +55,7 @@ PRETENDED = 5
 
 
 class ExamOptions(BankOptions):
-    """Which paper, and where to."""
+    """Options of ``quizgen exam``."""
 
     seed: int | None
     code: str | None
@@ -114,14 +114,14 @@ def exam(**options: Unpack[ExamOptions]) -> None:
     with ProgressLine("exam") as tell:
         paper = _build_requested_paper(options, tell)
         form = (options["out"] or _get_paper_folder(paper.code)) / f"answers.{options['form']}"
-        kept = _filled_in(form, paper.code)
+        kept = _has_filled_form(form, paper.code)
         contents = _build_paper_files(paper, formats, form.name, tell)
     _write_paper_files(form, contents, kept=kept)
     _report_paper(form, paper, contents, options, kept=kept)
 
 
 def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
-    """Make papers of consecutive seeds; each is written whole as soon as it is made."""
+    """Write papers of consecutive seeds, each complete as soon as it is made."""
     from quizgen.core.executor import map_ordered, open_executor
 
     if options["code"] or options["reference"]:
@@ -134,7 +134,7 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
     make = partial(
         _make_numbered_paper, bank, _load_blueprint_at_level(options, bank), lang, formats, name
     )
-    first = _first_seed(options)
+    first = _choose_first_seed(options)
     if first + count - 1 > LARGEST_SEED:
         raise InvalidChoiceError(
             f"--count: the last of {count} seeds would be beyond {LARGEST_SEED}"
@@ -144,7 +144,7 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
     with ProgressLine("exam", count) as tell, open_executor(processes) as (executor, ahead):
         for code, contents in map_ordered(executor, make, range(first, first + count), ahead):
             form = (options["out"] or HOME) / _get_paper_folder(code).name / name
-            _write_paper_files(form, contents, kept=_filled_in(form, code))
+            _write_paper_files(form, contents, kept=_has_filled_form(form, code))
             codes.append(code)
             tell(code)
     click.echo(
@@ -157,7 +157,7 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
 def _make_numbered_paper(
     bank: Bank, blueprint: Blueprint, lang: str, formats: list[str], form: str, seed: int
 ) -> tuple[str, dict[str, bytes]]:
-    """Code and files of one paper of many."""
+    """Return code and files of one of many papers; runs in a worker."""
     from quizgen.paper.paper import build_paper, silent
 
     paper = build_paper(bank, blueprint, seed, lang)
@@ -172,7 +172,10 @@ def _make_numbered_paper(
 def _build_paper_files(
     paper: Paper, formats: list[str], form: str, tell: Callable[[str], None]
 ) -> dict[str, bytes]:
-    """All files of a paper, the key last."""
+    """Return the files of a paper by name, the key last.
+
+    In this order a key in the folder always has its paper.
+    """
     from quizgen.paper.answer_form import write_blank_form
     from quizgen.paper.answer_key import write_answer_key
 
@@ -185,7 +188,7 @@ def _build_paper_files(
 
 
 def _write_paper_files(form: Path, contents: dict[str, bytes], *, kept: bool) -> None:
-    """Write a paper's files; a form that has been written in stays as it is."""
+    """Write a paper's files; ``kept`` leaves a form with answers as it is."""
     from quizgen.core.files import write_all
 
     if kept:
@@ -195,8 +198,8 @@ def _write_paper_files(form: Path, contents: dict[str, bytes], *, kept: bool) ->
     write_all(form.parent, contents, private=private)
 
 
-def _filled_in(form: Path, paper: str) -> bool:
-    """Whether there is a form already, with answers to this very paper.
+def _has_filled_form(form: Path, paper: str) -> bool:
+    """Return whether the form exists and holds answers to this paper.
 
     Raises
     ------
@@ -228,6 +231,7 @@ def _filled_in(form: Path, paper: str) -> bool:
 
 
 def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
+    """Return the paper that the options name: by code, as reference, or by seed."""
     from quizgen.paper.paper import build_paper, build_reference_paper, rebuild_paper
     from quizgen.paper.provenance import bank_difference_context
 
@@ -244,7 +248,7 @@ def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
                 "--code already fixes the questions; leave --topic and --minutes out"
             )
         given = _load_requested_blueprint(options, bank) if options["blueprint"] else None
-        with bank_difference_context(partial(_banks_of, options), bank):
+        with bank_difference_context(partial(_read_banks_of_code, options), bank):
             return rebuild_paper(bank, options["code"], given, progress=tell)
     blueprint, lang = (
         _load_blueprint_at_level(options, bank),
@@ -252,11 +256,11 @@ def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
     )
     if options["reference"]:
         return build_reference_paper(bank, blueprint, lang, progress=tell)
-    return build_paper(bank, blueprint, _first_seed(options), lang, progress=tell)
+    return build_paper(bank, blueprint, _choose_first_seed(options), lang, progress=tell)
 
 
-def _banks_of(options: ExamOptions) -> tuple[BankRecord, ...]:
-    """The banks that the paper of a code was made from, if its key is still in its folder."""
+def _read_banks_of_code(options: ExamOptions) -> tuple[BankRecord, ...]:
+    """Return the banks of a code's paper, from the key in its folder; none without a key."""
     from quizgen.paper.answer_key import read_answer_key
 
     key = (options["out"] or _get_paper_folder(str(options["code"]))) / KEY
@@ -264,15 +268,20 @@ def _banks_of(options: ExamOptions) -> tuple[BankRecord, ...]:
 
 
 def _get_paper_folder(code: str) -> Path:
-    """The folder of a paper; what parts a bank from its blueprint's name parts drives elsewhere."""
+    """Return the folder of a paper's code.
+
+    The sign between bank and blueprint is not allowed in all file systems.
+    """
     return HOME / code.replace(BETWEEN, ".")
 
 
-def _first_seed(options: ExamOptions) -> int:
+def _choose_first_seed(options: ExamOptions) -> int:
+    """Return the seed in the options, or a random one."""
     return secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
 
 
 def _load_blueprint_at_level(options: ExamOptions, bank: Bank) -> Blueprint:
+    """Return the blueprint that the options name, at their level."""
     import msgspec
 
     return msgspec.structs.replace(
@@ -281,6 +290,7 @@ def _load_blueprint_at_level(options: ExamOptions, bank: Bank) -> Blueprint:
 
 
 def _load_requested_blueprint(options: ExamOptions, bank: Bank) -> Blueprint:
+    """Return the blueprint of a topic, of a length, or by its name."""
     from quizgen.paper.blueprint import (
         EVERYTHING,
         default_blueprint_name,
@@ -302,6 +312,7 @@ def _load_requested_blueprint(options: ExamOptions, bank: Bank) -> Blueprint:
 def _iter_rendered_files(
     paper: Paper, formats: list[str], tell: Callable[[str], None]
 ) -> Iterator[tuple[str, bytes]]:
+    """Yield name and bytes of each rendered file of a paper."""
     for output in formats:
         for kind in render.KINDS:
             name = f"{kind}.{output}"
@@ -312,6 +323,7 @@ def _iter_rendered_files(
 def _report_paper(
     form: Path, paper: Paper, written: Collection[str], options: ExamOptions, *, kept: bool
 ) -> None:
+    """Print the files, the size of the paper, and how to go on."""
     folder = form.parent
     for name in sorted(written):
         click.echo(f"  {folder / name}")
@@ -333,7 +345,7 @@ def _report_paper(
 
 
 def _report_variety(paper: Paper, asked: int | None) -> None:
-    """Say how many papers there are, and whether the time that was asked for is used."""
+    """Print how many papers there are, and whether the time requested is used."""
     from quizgen.paper.blueprint import EVERYTHING
 
     if paper.variety:
@@ -345,7 +357,7 @@ def _report_variety(paper: Paper, asked: int | None) -> None:
 
 
 def _list_rebuild_options(options: ExamOptions) -> list[str]:
-    """Options without which a code does not lead to the same paper."""
+    """Return the options that a code needs to give the same paper."""
     words: list[str] = []
     if options["blueprint"] and Path(options["blueprint"]).exists():
         words += ["--blueprint", options["blueprint"]]

@@ -35,7 +35,7 @@ MOST = 1000
 
 
 class ExportOptions(BankOptions):
-    """Which questions, and where to."""
+    """Options of ``quizgen export``."""
 
     target: str
     blueprint: str | None
@@ -107,13 +107,14 @@ def export(**options: Unpack[ExportOptions]) -> None:
 
 
 def _encode_lines(lines: list[str]) -> bytes:
+    """Return lines as bytes in UTF-8."""
     return "".join(f"{line}\n" for line in lines).encode()
 
 
 def _iter_requested_items(
     bank: Bank, options: ExportOptions, tell: ProgressLine
 ) -> Iterator[ExportItem]:
-    """The questions that are asked for.
+    """Yield the questions that the options name.
 
     Raises
     ------
@@ -138,7 +139,7 @@ def _iter_requested_items(
 
 
 def _list_requested_templates(options: ExportOptions, bank: Bank) -> list[str]:
-    """Templates of a topic, or those that are named.
+    """Return the templates of a topic, or those named.
 
     Raises
     ------
@@ -155,7 +156,7 @@ def _list_requested_templates(options: ExportOptions, bank: Bank) -> list[str]:
 
 
 def _print_summary(items: list[ExportItem], lines: list[str]) -> None:
-    """How many questions there are, and what a person marks of them, most frequent reason first."""
+    """Print how many questions there are, and why some are graded manually."""
     slots, parts = {item.category for item in items}, sum(len(item.parts) for item in items)
     click.echo(f"questions: {len(items)}, slots: {len(slots)}, parts: {parts}")
     why = Counter(line.rpartition(": ")[2] for line in lines)

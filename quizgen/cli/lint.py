@@ -46,7 +46,7 @@ ENOUGH, ENOUGH_A_DRAW = 20.0, 0.05
 
 
 class LintOptions(BankOptions):
-    """What to examine."""
+    """Options of ``quizgen lint``."""
 
     folder: Path | None
     seeds: int
@@ -108,7 +108,7 @@ def lint(**options: Unpack[LintOptions]) -> None:
 
 
 def _lint_bank(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
-    """Examine a bank by itself, whatever others it is named with; 1 if a problem is found."""
+    """Check one bank, whatever others are named; return 1 if a problem is found."""
     if options["papers"]:
         return _print_leaks(bank, options["papers"], options["jobs"])
     if options["teach"]:
@@ -127,7 +127,7 @@ def _lint_bank(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
 
 
 def _advise_on_words(bank: Bank) -> None:
-    """Say where to begin with words of a language; without them they are English, no problem."""
+    """Print where to translate the interface of a language that has no words yet."""
     from quizgen.bank.bank import LOCALE
     from quizgen.locale import untranslated_languages
 
@@ -150,12 +150,12 @@ def _advise_on_words(bank: Bank) -> None:
 def _examine_templates(
     bank: Bank, names: tuple[str, ...], options: LintOptions
 ) -> tuple[list[tuple[str, ...]], list[Diagnostic]]:
-    """Rows of the table of templates, and all problems."""
+    """Return the rows of the table of templates, and all problems of the bank."""
     from quizgen.lint.bank_checks import check_leaks
 
     limit, seeds, debug = _compute_time_limit(options), options["seeds"], options["debug"]
     rows, heard = [], list["QuestionContent"]()
-    broken = _of_bank(bank, limit, whole=len(names) == len(bank.template_paths))
+    broken = _check_bank(bank, limit, whole=len(names) == len(bank.template_paths))
     examine = partial(_examine_template, bank, seeds=seeds, limit=limit, debug=debug)
     with (
         ProgressLine("lint", len(names)) as progress,
@@ -170,8 +170,8 @@ def _examine_templates(
     return rows, broken
 
 
-def _of_bank(bank: Bank, limit: float, *, whole: bool) -> list[Diagnostic]:
-    """What is wrong with the files that belong to no template; of all of it, also the sheet."""
+def _check_bank(bank: Bank, limit: float, *, whole: bool) -> list[Diagnostic]:
+    """Return what is wrong with the files of no template; with ``whole`` also the sheet."""
     from quizgen.cards.checks import check_cards
     from quizgen.cli.lint_outputs import check_sheet
     from quizgen.lint.bank_checks import check_bank_files
@@ -189,12 +189,12 @@ def _of_bank(bank: Bank, limit: float, *, whole: bool) -> list[Diagnostic]:
 
 
 def lint_while_writing(bank: Bank, name: str) -> list[str]:
-    """What is wrong with a template, over a few draws, as an author sees it while writing."""
+    """Return the messages on a template, over few draws: quick enough while writing."""
     return [str(problem) for problem in _examine_template(bank, name, FEW, ENOUGH)[1]]
 
 
 def _print_teaching_findings(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
-    """Print what stands between questions and teaching; 1 if there are errors."""
+    """Print what keeps templates from testing well; return 1 if there are errors."""
     rows: list[tuple[str, ...]] = []
     with (
         ProgressLine("lint", len(names)) as progress,
@@ -213,7 +213,7 @@ def _print_teaching_findings(bank: Bank, names: tuple[str, ...], options: LintOp
 
 
 def _build_teaching_rows(bank: Bank, seeds: int, limit: float, name: str) -> list[tuple[str, ...]]:
-    """Rows of a template's table: what stands between it and teaching."""
+    """Return the rows of a template's findings on quality."""
     from quizgen.lint.cpu_limit import CpuLimitExceeded, cpu_limit
     from quizgen.lint.item_quality import review_template
 
@@ -227,7 +227,7 @@ def _build_teaching_rows(bank: Bank, seeds: int, limit: float, name: str) -> lis
 
 
 def _print_leaks(bank: Bank, count: int, jobs: int | None) -> int:
-    """Print which questions of a paper tell what another one asks; 1 if any does."""
+    """Print which questions of papers give away others; return 1 if any does."""
     from quizgen.paper.blueprint import load_blueprint
 
     found: dict[str, list[int]] = {}
@@ -250,7 +250,7 @@ def _print_leaks(bank: Bank, count: int, jobs: int | None) -> int:
 
 
 def _describe_leaks(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
-    """Which questions of a paper tell what another one asks."""
+    """Return a line for each leak in the paper of one seed."""
     from quizgen.lint.leaks import find_paper_leaks
     from quizgen.paper.paper import build_paper
 
@@ -262,21 +262,21 @@ def _describe_leaks(bank: Bank, blueprint: Blueprint, seed: int) -> list[str]:
 
 
 def _count_processes(options: LintOptions, names: tuple[str, ...]) -> int:
-    """How many processes examine templates."""
+    """Return how many processes to check templates with."""
     return worthwhile_processes(
         options["jobs"], len(names) * (A_TEMPLATE + options["seeds"] * A_DRAW)
     )
 
 
 def _compute_time_limit(options: LintOptions) -> float:
-    """Seconds after which a template is given up."""
+    """Return the seconds of processor time after which a template is given up."""
     return options["limit"] or ENOUGH + options["seeds"] * ENOUGH_A_DRAW
 
 
 def _examine_template(
     bank: Bank, name: str, seeds: int, limit: float, *, debug: bool = False
 ) -> tuple[tuple[str, ...], list[Diagnostic], list[QuestionContent]]:
-    """Cells of a template's row, its problems, and what it says and asks."""
+    """Return a template's table row, its problems, and what its questions print and ask."""
     from quizgen.lint.cpu_limit import CpuLimitExceeded, cpu_limit
 
     try:  # an author's Python may print, and not into our JSON
@@ -296,7 +296,7 @@ def _examine_template(
 
 
 def _build_template_report(bank: Bank, name: str, seeds: int) -> TemplateReport:
-    """What was found for a template and for the formulas of its solver."""
+    """Return what was found for a template and the formulas of its solver."""
     from quizgen.bank.formulas import find_missing_formulas, find_unnamed_formulas
     from quizgen.cli.lint_outputs import check_outputs
     from quizgen.core.diagnostics import can_be_ignored, diagnose
@@ -331,7 +331,7 @@ def _build_template_report(bank: Bank, name: str, seeds: int) -> TemplateReport:
 
 
 def _diagnose_crash(bank: Bank, file: Path, error: BaseException) -> Diagnostic:
-    """What stopped the examination: the place in the bank, else in quizgen."""
+    """Return a diagnostic of an unexpected error, at its place in the bank if it has one."""
     from quizgen.core.diagnostics import diagnose
     from quizgen.lint.cpu_limit import CpuLimitExceeded
 
@@ -353,6 +353,7 @@ def _diagnose_crash(bank: Bank, file: Path, error: BaseException) -> Diagnostic:
 
 
 def _format_report_cells(report: TemplateReport) -> tuple[str, ...]:
+    """Return the cells of a template's row."""
     ranges = ", ".join(f"{n} {a:.4g}..{b:.4g}" for n, (a, b) in report.ranges.items())
     per_draw = 1e3 * report.seconds / report.seeds if report.seeds else 0
     return (

@@ -25,12 +25,17 @@ SEED = 0
 
 
 def check_outputs(bank: Bank, template: Template) -> Iterator[Diagnostic]:
-    """What stops an output of one variant: text, page, print, card, course system, practice."""
+    """Yield what fails when one variant is written in every format.
+
+    Text, page, print, card, export and practice: an author may never try them all.
+    """
     from quizgen.question.compose import draw_instance
 
     drawn = draw_instance(template, SEED)
     paper: list[Paper] = []
-    made = _diagnose_failure(template.file, "question", lambda: paper.append(_paper_of(drawn)))
+    made = _diagnose_failure(
+        template.file, "question", lambda: paper.append(_build_single_paper(drawn))
+    )
     if made or not paper:
         yield from filter(None, (made,))
         return
@@ -41,7 +46,7 @@ def check_outputs(bank: Bank, template: Template) -> Iterator[Diagnostic]:
 
 
 def check_sheet(bank: Bank) -> Iterator[Diagnostic]:
-    """What stops the formula sheet of a bank, if it has formulas."""
+    """Yield what fails when the formula sheet of a bank is rendered."""
     from quizgen.bank.formulas import read_formulas
     from quizgen.question.formula_sheet import compose_sheet
     from quizgen.render import RENDERERS, render_sheet
@@ -60,7 +65,7 @@ def check_sheet(bank: Bank) -> Iterator[Diagnostic]:
 
 
 def _diagnose_failure(file: Path, output: str, make: Callable[[], object]) -> Diagnostic | None:
-    """The diagnostic of what an output fails with, if it fails."""
+    """Return the diagnostic of an output that fails, else None."""
     from quizgen.core.diagnostics import diagnose
 
     try:
@@ -79,8 +84,8 @@ def _diagnose_failure(file: Path, output: str, make: Callable[[], object]) -> Di
     return None
 
 
-def _paper_of(drawn: Variant) -> Paper:
-    """A paper of one variant, in all languages of its template."""
+def _build_single_paper(drawn: Variant) -> Paper:
+    """Return a paper of one variant, in all languages of its template."""
     from quizgen.paper.blueprint import Blueprint, SlotRule
     from quizgen.paper.paper import Paper, PaperItem
     from quizgen.question.compose import compose_variant
@@ -96,7 +101,7 @@ def _paper_of(drawn: Variant) -> Paper:
 def _iter_outputs(
     bank: Bank, drawn: Variant, paper: Paper
 ) -> Iterator[tuple[str, Callable[[], object]]]:
-    """Name of each output, and what makes it."""
+    """Yield the name of each output and a function that makes it."""
     from quizgen.cards.kinds.question import template_notes
     from quizgen.cards.request import DeckRequest
     from quizgen.lms import FORMATS
@@ -120,6 +125,7 @@ def _iter_outputs(
 
 
 def _format_preview(drawn: Variant, lang: str, name: str) -> str:
+    """Return a question at a level as plain text."""
     from quizgen.paper.paper import PaperItem
     from quizgen.question.compose import compose_variant
     from quizgen.render.text import format_question
@@ -129,6 +135,7 @@ def _format_preview(drawn: Variant, lang: str, name: str) -> str:
 
 
 def _export_question(name: str, paper: Paper) -> Iterable[object]:
+    """Return all that an export makes of a question, to see that nothing fails."""
     from quizgen.lms import get_exporter
     from quizgen.lms.items import ExportItem, manual_parts
 

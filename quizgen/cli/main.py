@@ -52,10 +52,12 @@ class _Lazy(click.Group):
     """A group that imports a command's module only when the command runs."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names of all commands, in the order of the help."""
         del ctx
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return a command, imported only now; None if there is none."""
         del ctx
         if cmd_name not in COMMANDS:
             return None
@@ -67,11 +69,13 @@ class _Lazy(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return a command and its arguments; end with all names for an unknown one."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-"):
             ctx.fail(f"no command {args[0]!r} (there are {', '.join(COMMANDS)})")
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the list of commands without importing any."""
         del ctx
         with formatter.section("Commands"):
             formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
@@ -110,7 +114,7 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def _run_command(arguments: list[str] | None) -> int:
-    """The exit code of a command."""
+    """Return the exit code of a command; print expected errors in one line."""
     try:
         status = root_group.main(arguments, prog_name="quizgen", standalone_mode=False)
     except click.exceptions.Abort:
@@ -131,11 +135,12 @@ def _run_command(arguments: list[str] | None) -> int:
 
 
 def _print_message(message: str) -> None:
+    """Print a message in one line on the error stream."""
     click.echo(f"quizgen: {escape_control_characters(' '.join(message.split()))}", err=True)
 
 
 def _stop_at_once() -> NoReturn:
-    """Say so and end at once: finalisers of extensions have hung after an interrupt."""
+    """Print that it was interrupted and end the process: extensions may hang in finalisers."""
     with contextlib.suppress(OSError, ValueError):
         _print_message("interrupted")
         sys.stdout.flush()

@@ -15,7 +15,7 @@ from quizgen.locale import FIRST
 
 
 class MarkOptions(TypedDict):
-    """How to read the answer."""
+    """Options of ``quizgen mark``."""
 
     lang: str | None
     decimal: str
@@ -59,6 +59,7 @@ def mark(
 
 
 def _parse_inline_spec(text: str) -> Mapping[str, object]:
+    """Return an inline TOML table as a mapping; decimals stay text, so none is rounded."""
     import tomllib
 
     try:
@@ -71,6 +72,7 @@ def _parse_inline_spec(text: str) -> Mapping[str, object]:
 
 
 def _grade_batch() -> None:
+    """Grade each line of standard input as it comes."""
     from quizgen.kinds.batch import grade_lines
 
     out = sys.stdout.buffer

@@ -27,7 +27,7 @@ T = TypeVar("T")
 
 
 def bank_to_write(function: Callable[P, T]) -> Callable[P, T]:
-    """Add ``--bank``, a folder to write into."""
+    """Return the command with ``--bank``, a folder to write into."""
     function = click.option("--trust", is_flag=True, expose_value=False,
                             help="As everywhere beside --bank; nothing of the bank runs here.")(
                                 function)  # fmt: skip
@@ -85,7 +85,7 @@ def language(lang: str, root: Path, words: bool) -> None:
 
 
 def _add_kind_options(function: Callable[P, T]) -> Callable[P, T]:
-    """Add a flag for each kind of question."""
+    """Return the command with a flag for each kind of question."""
     for kind, text in reversed(KINDS.items()):
         function = click.option(f"--{kind}", "kind", flag_value=kind, help=text)(function)
     return function
@@ -102,8 +102,8 @@ def template(place: str, kind: str | None, root: Path) -> None:
     topic, slash, name = place.partition("/")
     if not slash:
         raise BankError(f"{place!r} has no topic before it; write TOPIC/{place}")
-    _must_be_name(topic)
-    _must_be_name(name)
+    _require_name(topic)
+    _require_name(name)
     own = Bank(root)
     if own.metadata.topics and topic not in own.topics:
         file, known = own.folder / "bank.toml", ", ".join(own.topics)
@@ -118,13 +118,14 @@ def template(place: str, kind: str | None, root: Path) -> None:
     _print_next_steps(root, name)
 
 
-def _must_be_name(name: str) -> None:
+def _require_name(name: str) -> None:
+    """Raise ``BankError`` unless a name is allowed in banks."""
     if not is_identifier(name):
         raise BankError(f"{name!r} is no name (allowed: {NAMES})")
 
 
 def _write_new_files(root: Path, contents: Mapping[str, bytes]) -> None:
-    """Write all files, or none if one is there already."""
+    """Write all files, or none if one exists already; print their paths."""
     for name in contents:
         if (root / name).exists():
             raise BankError(f"{root / name}: there already; nothing was written")
@@ -133,6 +134,7 @@ def _write_new_files(root: Path, contents: Mapping[str, bytes]) -> None:
 
 
 def _print_next_steps(root: Path, name: str) -> None:
+    """Print the commands to go on with."""
     where = ("--bank", str(root), "--trust")
     click.echo("Next:")
     click.echo(f"  {build_command_line('preview', name, *where)}")

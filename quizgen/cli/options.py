@@ -25,13 +25,13 @@ T = TypeVar("T")
 
 
 class IntRangeParam(click.IntRange):
-    """A whole number between bounds, and called so where something else is typed."""
+    """A whole number between bounds; named so in messages about other input."""
 
     name = "whole number"
 
 
 class LanguageParam(click.types.StringParamType):
-    """A language, or all of a bank's; which of them a bank has, it says itself."""
+    """A language; with ``both`` also all of a bank's. A bank checks itself which it has."""
 
     name = "language"
 
@@ -39,7 +39,7 @@ class LanguageParam(click.types.StringParamType):
         self.both = both
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """A language as it is written elsewhere, whatever the size of its letters."""
+        """Return a language tag in its usual capitals; end with a message if it is none."""
         known = {one.lower(): one for one in self._list_choices()}
         if value.lower() in known:
             return known[value.lower()]
@@ -48,6 +48,7 @@ class LanguageParam(click.types.StringParamType):
         return normalise_language_tag(value)
 
     def _list_choices(self) -> tuple[str, ...]:
+        """Return the languages that messages list."""
         return list_language_choices() if self.both else list_languages()
 
 
@@ -64,7 +65,7 @@ SEED = IntRangeParam(0, LARGEST_SEED)
 
 
 class BankOptions(TypedDict):
-    """The banks that a command works on."""
+    """The options that name banks."""
 
     bank: tuple[Path, ...]
     trust: bool
@@ -72,7 +73,7 @@ class BankOptions(TypedDict):
 
 
 def bank_options(command: Callable[P, T]) -> Callable[P, T]:
-    """Add ``--bank``, and ``--trust`` or ``--trust-bank`` for whose Python runs."""
+    """Return the command with ``--bank``, ``--trust`` and ``--trust-bank``."""
     trust = click.option("--trust", is_flag=True, help="Run the Python of every --bank this time.")
     one = click.option(
         "--trust-bank",
@@ -90,7 +91,7 @@ def bank_options(command: Callable[P, T]) -> Callable[P, T]:
 
 
 def open_bank(options: BankOptions) -> Bank:
-    """The bank that the options name, or several as one."""
+    """Return the bank that the options name, or several as one."""
     from quizgen.bank.combined import open_banks
     from quizgen.bank.discovery import resolve_bank
 
@@ -100,7 +101,7 @@ def open_bank(options: BankOptions) -> Bank:
 
 
 def _find_trusted_roots(roots: Sequence[Path], options: BankOptions) -> set[Path]:
-    """Banks whose Python may run this time, as the command line says.
+    """Return the folders of the banks whose Python the command line trusts.
 
     Raises
     ------
@@ -111,7 +112,7 @@ def _find_trusted_roots(roots: Sequence[Path], options: BankOptions) -> set[Path
 
     found = {root.resolve() for root in roots}
     if options["trust"]:
-        _tell_all(roots)
+        _print_trusted_banks(roots)
         return found
     chosen = {resolve_bank(named).resolve(): named for named in options["trust_bank"]}
     for root, named in chosen.items():
@@ -123,8 +124,8 @@ def _find_trusted_roots(roots: Sequence[Path], options: BankOptions) -> set[Path
     return {*chosen}
 
 
-def _tell_all(roots: Sequence[Path]) -> None:
-    """Name the banks whose Python ``--trust`` lets run, where it is that of more than one."""
+def _print_trusted_banks(roots: Sequence[Path]) -> None:
+    """Print which banks ``--trust`` applies to, if there are several."""
     from quizgen.bank.bank import builtin_root
     from quizgen.bank.discovery import python_files
 
@@ -136,7 +137,7 @@ def _tell_all(roots: Sequence[Path]) -> None:
 
 
 def is_trusted(root: Path, allowed: Collection[Path]) -> bool:
-    """Whether a bank's Python may run: as typed, as remembered, or by asking the person who types.
+    """Return whether a bank's Python may run: by option, remembered, or confirmed now.
 
     Where nobody can be asked it is said at once that it does not run.
 
@@ -168,19 +169,19 @@ def is_trusted(root: Path, allowed: Collection[Path]) -> bool:
 
 
 def language_option(command: Callable[P, T]) -> Callable[P, T]:
-    """Add ``--lang``, one of the languages there are."""
+    """Return the command with ``--lang``."""
     return click.option("--lang", type=LanguageParam(), help=LANGUAGE_HELP)(command)
 
 
 def own_database() -> str:
-    """Address of a learner's own database."""
+    """Return the address of the learner's own database."""
     from platformdirs import user_data_path
 
     return f"sqlite:///{user_data_path('quizgen', ensure_exists=True) / 'learning.sqlite3'}"
 
 
 def database_option(command: Callable[P, T]) -> Callable[P, T]:
-    """Add ``--database``, where what is learnt is kept, in the browser as in the terminal."""
+    """Return the command with ``--database``."""
     return click.option(
         "--database",
         metavar="ADDRESS",
@@ -190,7 +191,7 @@ def database_option(command: Callable[P, T]) -> Callable[P, T]:
 
 
 def level_option(command: Callable[P, T]) -> Callable[P, T]:
-    """Add ``--level``, one of the levels there are."""
+    """Return the command with ``--level``."""
     kind = click.Choice(CHOICES, case_sensitive=False)
     return click.option(
         "--level", type=kind, default=EXAM, show_default=True, help=LEVEL_HELP
@@ -198,14 +199,14 @@ def level_option(command: Callable[P, T]) -> Callable[P, T]:
 
 
 def jobs_option(command: Callable[P, T]) -> Callable[P, T]:
-    """Add ``--jobs``."""
+    """Return the command with ``--jobs``."""
     return click.option(
         "--jobs", type=IntRangeParam(1, MOST_JOBS), help="Processes. [default: as many as pay]"
     )(command)
 
 
 def worthwhile_processes(asked: int | None, seconds: float) -> int:
-    """How many processes to begin: those asked for, else no more than the work is worth.
+    """Return the processes to start: as requested, else no more than the work is worth.
 
     Parameters
     ----------
@@ -247,5 +248,5 @@ def resolve_topic(bank: Bank, name: str) -> str:
 
 
 def split_names(text: str | None) -> tuple[str, ...]:
-    """Names that stand between commas."""
+    """Return the names in a comma-separated text."""
     return tuple(name.strip() for name in (text or "").split(",") if name.strip())

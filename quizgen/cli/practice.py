@@ -37,7 +37,7 @@ TIERS = tuple("ABCD")
 
 
 class PracticeOptions(BankOptions):
-    """What can be asked for."""
+    """Options of ``quizgen practice``."""
 
     topic: str | None
     tier: str | None
@@ -88,12 +88,12 @@ def practice(**options: Unpack[PracticeOptions]) -> None:
 
 
 def state_folder() -> Path:
-    """Where sessions are kept."""
+    """Return the folder where unfinished sessions are saved."""
     return Path(click.get_app_dir("quizgen")) / "practice"
 
 
 def _open_learning(bank: Bank, database: str) -> LearnerProgress | None:
-    """What has been learnt, here and in the browser; nothing without the packages for it.
+    """Return the learner's progress; None without the packages for databases.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def _open_session(
     *,
     fresh: bool,
 ) -> Session:
-    """The session that a wish has begun, or a new one."""
+    """Return the stored session of a request, or a new one."""
     from quizgen.grading.feedback import load_practice_words
     from quizgen.practice.session import Session
     from quizgen.practice.session_state import new_session
@@ -130,18 +130,18 @@ def _open_session(
     state = shelf.load(wish)
     if state is not None:
         click.echo(load_practice_words(wish.lang)["resumed"].format(seed=state.seed))
-    choose = None if wish.seed or learning is None else partial(_next_due, learning)
+    choose = None if wish.seed or learning is None else partial(_choose_due_question, learning)
     return Session(bank, state or new_session(wish), choose)
 
 
-def _next_due(learning: LearnerProgress, names: Sequence[str]) -> tuple[str, str]:
-    """The template and the seed of the question that is due."""
+def _choose_due_question(learning: LearnerProgress, names: Sequence[str]) -> tuple[str, str]:
+    """Return template and seed of the question that is due."""
     which = learning.next_question(names)
     return which.template, which.seed
 
 
 def _build_request(options: PracticeOptions, bank: Bank) -> PracticeRequest:
-    """What is asked for, if there is such a question.
+    """Return what the options ask to practise, if any template fits.
 
     Raises
     ------
@@ -175,7 +175,7 @@ def _build_request(options: PracticeOptions, bank: Bank) -> PracticeRequest:
 def _print_summary(
     session: Session, learning: LearnerProgress | None, words: dict[str, str]
 ) -> None:
-    """Say how the session went, how the last ones did, and what to practise."""
+    """Print how the session went, how recent ones did, and what to practise next."""
     from quizgen.cli.conversation import print_heading, print_wrapped
     from quizgen.practice.topic_results import RECENT, summarise_by_topic, weak_topics
 
@@ -199,6 +199,7 @@ def _print_summary(
 def _print_topic_results(
     session: Session, results: Iterable[TopicResult], words: dict[str, str]
 ) -> None:
+    """Print the counts of each topic."""
     from quizgen.cli.conversation import print_wrapped
 
     for row in results:
@@ -211,4 +212,5 @@ def _print_topic_results(
 
 
 def _get_topic_title(session: Session, topic: str) -> str:
+    """Return the title of a topic in the session's language."""
     return session.bank.topic_title(topic, session.state.wish.lang)

@@ -19,7 +19,7 @@ from quizgen.locale import default_language
 
 
 class PreviewOptions(BankOptions):
-    """What to show, and where."""
+    """Options of ``quizgen preview``."""
 
     seed: int
     reference: bool

@@ -20,7 +20,7 @@ from quizgen.core.errors import require_extra
 
 
 class ServeOptions(BankOptions):
-    """Where to listen, and where to keep what is done."""
+    """Options of ``quizgen serve``."""
 
     port: int
     show: bool

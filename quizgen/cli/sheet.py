@@ -25,7 +25,7 @@ NAME = "formulas"
 
 
 class SheetOptions(BankOptions):
-    """Which formulas, and where to."""
+    """Options of ``quizgen sheet``."""
 
     lang: str | None
     topics: str | None

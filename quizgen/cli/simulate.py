@@ -44,7 +44,7 @@ SCENES = Path(__file__).parent.parent / "camera" / "scenes"
 
 
 class SimulateOptions(TypedDict):
-    """What to run, and what to write."""
+    """Options of ``quizgen simulate``."""
 
     asks: tuple[str, ...]
     only: tuple[str, ...]
@@ -60,7 +60,7 @@ class SimulateOptions(TypedDict):
 
 @dataclass
 class SimulatedShot:
-    """A scene photographed: the picture, what it is compared with, and where the time went."""
+    """A rendered scene: its pictures, what they are compared with, and times in ms."""
 
     title: str
     prepared: PreparedScene
@@ -79,13 +79,14 @@ class SimulatedShot:
 
     @contextmanager
     def measure_time(self, what: str) -> Iterator[None]:
-        """Count the time of what is done within."""
+        """Add the milliseconds of the body of ``with`` to ``times[what]``."""
         started = perf_counter()
         yield
         self.times[what] = self.times.get(what, 0.0) + (perf_counter() - started) * 1e3
 
 
 def _make_effect_option(*flags: str, name: str, text: str) -> Callable[[Any], Any]:
+    """Return a decorator that adds an option naming effects, which may be repeated."""
     return click.option(*flags, name, multiple=True, metavar="EFFECT", help=text)
 
 
@@ -154,6 +155,7 @@ def simulate(scene: str | None, **options: Unpack[SimulateOptions]) -> None:
 
 
 def _simulate_scene(scene: str, options: SimulateOptions, told: ProgressLine) -> SimulatedShot:
+    """Return a scene rendered and compared as the options ask; ``told`` shows progress."""
     from quizgen.camera.comparison import measure_effects, time_in_turns
     from quizgen.camera.planner import PreparedScene
     from quizgen.camera.scene_file import load_scene
@@ -167,9 +169,9 @@ def _simulate_scene(scene: str, options: SimulateOptions, told: ProgressLine) ->
     shot.times = {"read": read, "drawn": shot.photo.drawn_ms, "effects": shot.photo.measured_ms}
     if prepared.given.scene.precision == "float64":
         single = PreparedScene(*load_scene(_find_scene(scene), "float32"), shot.plan.names)
-        shot.single = run_plan(single, told=told, last=True)
+        shot.single = run_plan(single, on_effect=told, last=True)
     if options["everything"] or (options["compare"] is not None and shot.taken is None):
-        shot.whole = run_plan(prepared, told=told)
+        shot.whole = run_plan(prepared, on_effect=told)
     if options["everything"]:
         told("timing")
         shot.race = time_in_turns(prepared, shot.plan.names, [one.name for one in prepared.present])
@@ -183,7 +185,7 @@ def _simulate_scene(scene: str, options: SimulateOptions, told: ProgressLine) ->
 def _take_photo(
     scene: str, prepared: PreparedScene, options: SimulateOptions, told: ProgressLine
 ) -> SimulatedShot:
-    """Photograph for a question, or within a budget where nothing is asked."""
+    """Return a scene rendered for its question, or within a budget if nothing is asked."""
     from quizgen.camera.planner import plan_budget
     from quizgen.camera.question_photo import photograph_question, take_question_photo
     from quizgen.camera.simulation import run_plan
@@ -198,7 +200,7 @@ def _take_photo(
     if options["budget"] is None and (asks or chosen.only):
         # who chooses effects by name may look at what cannot be seen
         take = take_question_photo if chosen.only or chosen.minus else photograph_question
-        taken = take(seen, prepared.camera, options["asks"], chosen=chosen, told=told)
+        taken = take(seen, prepared.camera, options["asks"], chosen=chosen, on_effect=told)
         return SimulatedShot(title, prepared, taken.plan, taken.photo, taken)
     plan = plan_budget(prepared, options["budget"] or "same", chosen)
     again = options["everything"] or options["compare"] is not None
@@ -208,6 +210,7 @@ def _take_photo(
 
 
 def _parse_selection(options: SimulateOptions) -> EffectSelection:
+    """Return the effects that the options run alone, add or leave out."""
     from quizgen.camera.planner import EffectSelection, parse_effect
 
     only, plus, minus = (
@@ -219,6 +222,7 @@ def _parse_selection(options: SimulateOptions) -> EffectSelection:
 def _write_pictures(
     shot: SimulatedShot, options: SimulateOptions, encode: Callable[[NDArray[np.uint8]], bytes]
 ) -> None:
+    """Write the picture and the comparison, if files are named for them."""
     out, beside = options["out"], options["compare"]
     if out is not None:
         photo = shot.whole if options["everything"] and shot.whole else shot.photo
@@ -233,7 +237,7 @@ def _write_pictures(
 
 
 def _choose_pictures(shot: SimulatedShot) -> dict[str, Photo]:
-    """Two pictures to compare, by what they show."""
+    """Return two pictures to compare, by what they show."""
     if shot.taken is not None:
         asked = ", ".join(shot.plan.asked)
         return {f"with {asked}": shot.photo, f"without {asked}": shot.taken.without}
@@ -241,6 +245,7 @@ def _choose_pictures(shot: SimulatedShot) -> dict[str, Photo]:
 
 
 def _find_scene(scene: str) -> Path:
+    """Return the file of a scene, given as a path or as the name of a shipped one."""
     path, shipped = Path(scene), SCENES / f"{scene}.toml"
     plain = path.name == scene
     if path.exists() or not plain or path.suffix:
@@ -254,6 +259,7 @@ def _find_scene(scene: str) -> Path:
 
 
 def _list_scenes() -> None:
+    """Print name and title of each shipped scene."""
     from quizgen.camera.scene_file import load_scene
 
     for path in sorted(SCENES.glob("*.toml")):
@@ -261,7 +267,10 @@ def _list_scenes() -> None:
 
 
 def _find_writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
-    """What encodes a picture for a file, by its ending; asked before anything is computed."""
+    """Return the encoder for a file's suffix.
+
+    Called before anything is computed: an unknown suffix must not cost a rendering.
+    """
     from quizgen.camera.pixels.codecs import WRITERS
 
     ending = ".png" if target is None else target.suffix.lower()
@@ -271,7 +280,7 @@ def _find_writer(target: Path | None) -> Callable[[NDArray[np.uint8]], bytes]:
 
 
 def summarise(shot: SimulatedShot) -> dict[str, Any]:
-    """The report as plain data; what everything gives only where it was run for comparison."""
+    """Return the report as plain data; the full rendering only if it was made."""
     from quizgen.camera import effects
     from quizgen.camera.simulation import measure_difference
 
@@ -292,17 +301,18 @@ def summarise(shot: SimulatedShot) -> dict[str, Any]:
         "times_ms": shot.times,
     }
     if shot.taken is not None:
-        report["seen"] = [_tell_seen(one) for one in shot.taken.seen]
+        report["seen"] = [_format_visibility_json(one) for one in shot.taken.seen]
         report["readings"] = shot.taken.readings
     if shot.single is not None:
         report["float32_difference_dn"] = measure_difference(shot.single, shot.photo)
         report["float32_ms"] = shot.single.measured_ms
     if shot.race is not None and shot.whole is not None:
-        report["everything"] = _tell_everything(shot, shot.race, shot.whole)
+        report["everything"] = _format_full_run_json(shot, shot.race, shot.whole)
     return report
 
 
 def _format_choice_json(choice: EffectChoice, shot: SimulatedShot) -> dict[str, Any]:
+    """Return why an effect was chosen and what it did, as plain data."""
     told: dict[str, Any] = {
         "effect": choice.effect,
         "why": choice.why,
@@ -316,7 +326,8 @@ def _format_choice_json(choice: EffectChoice, shot: SimulatedShot) -> dict[str, 
     return told
 
 
-def _tell_seen(seen: Visibility) -> dict[str, Any]:
+def _format_visibility_json(seen: Visibility) -> dict[str, Any]:
+    """Return how visible an effect is, as plain data."""
     return {
         "kind": seen.kind,
         "is_visible": seen.is_visible,
@@ -328,7 +339,8 @@ def _tell_seen(seen: Visibility) -> dict[str, Any]:
     }
 
 
-def _tell_everything(shot: SimulatedShot, race: Race, whole: Photo) -> dict[str, Any]:
+def _format_full_run_json(shot: SimulatedShot, race: Race, whole: Photo) -> dict[str, Any]:
+    """Return how the picture differs from one with every effect, as plain data."""
     from quizgen.camera.simulation import is_within, measure_difference
 
     return {
@@ -341,6 +353,7 @@ def _tell_everything(shot: SimulatedShot, race: Race, whole: Photo) -> dict[str,
 
 
 def _print_report(shot: SimulatedShot, report: dict[str, Any]) -> None:
+    """Print the table of effects and the sentences below it."""
     click.echo(shot.title)
     if rows := list(_iter_table_rows(shot)):
         print_table(REALLY if shot.really else HEAD, rows)
@@ -349,7 +362,7 @@ def _print_report(shot: SimulatedShot, report: dict[str, Any]) -> None:
 
 
 def _iter_table_rows(shot: SimulatedShot) -> Iterator[tuple[str, ...]]:
-    """Rows of the table."""
+    """Yield effect, state, bound (grey levels), time (ms) and reason of each effect."""
     plan = shot.plan
     for state, choice in [*(("ran", x) for x in plan.steps), *(("", x) for x in plan.left_out)]:
         bound = "any" if choice.bound_dn >= 255.0 else f"{choice.bound_dn:.3g}"
@@ -360,7 +373,7 @@ def _iter_table_rows(shot: SimulatedShot) -> Iterator[tuple[str, ...]]:
 
 
 def _iter_plan_sentences(shot: SimulatedShot) -> Iterator[str]:
-    """What was left out and why, and what is seen."""
+    """Yield sentences on what was left out and why, and on what is visible."""
     plan = shot.plan
     for item in plan.left_out:
         yield f"{item.effect}: {item.why}; would {item.says}"
@@ -375,6 +388,7 @@ def _iter_plan_sentences(shot: SimulatedShot) -> Iterator[str]:
 
 
 def _iter_total_lines(shot: SimulatedShot, report: dict[str, Any]) -> Iterator[str]:
+    """Yield sentences on the whole: bound, times, float32, the full rendering."""
     plan = shot.plan
     if plan.budget is not None:
         yield (
@@ -394,21 +408,24 @@ def _iter_total_lines(shot: SimulatedShot, report: dict[str, Any]) -> Iterator[s
     for name, need in report["idle"].items():
         yield f"{name} does nothing without {need}"
     if shot.race is not None:
-        yield from _tell_race(shot.race, report["everything"]["difference_dn"])
+        yield from _iter_race_sentences(shot.race, report["everything"]["difference_dn"])
 
 
-def _tell_race(race: Race, difference: float) -> Iterator[str]:
+def _iter_race_sentences(race: Race, difference: float) -> Iterator[str]:
+    """Yield sentences on difference (grey levels) and time of the full rendering."""
     yield f"everything: really {difference:.3g} grey levels apart"
     chosen, whole = race.medians
     yield (
-        f"what was run {_told_ms(chosen, race.first_ms)}, everything "
-        f"{_told_ms(whole, race.second_ms)}: medians of {len(race.first_ms)} turns, both warm"
+        f"what was run {_format_milliseconds(chosen, race.first_ms)}, everything "
+        f"{_format_milliseconds(whole, race.second_ms)}: "
+        f"medians of {len(race.first_ms)} turns, both warm"
     )
     if not race.saves:
         yield "leaving out saves no time here"
 
 
-def _told_ms(middle: float, times: tuple[float, ...]) -> str:
+def _format_milliseconds(middle: float, times: tuple[float, ...]) -> str:
+    """Return a median and the range of times (sorted, ms) in words."""
     return f"{middle:.1f} ms ({times[0]:.1f} to {times[-1]:.1f})"
 
 
@@ -429,7 +446,9 @@ th, td { text-align: left; padding: .2em .8em .2em 0; border-bottom: 1px solid #
 
 
 def check_target(target: Path | None) -> None:
-    """Refuse an ending before anything is computed.
+    """Raise ``InvalidChoiceError`` for a suffix that no comparison can be written to.
+
+    Checked before anything is computed.
 
     Raises
     ------
@@ -450,7 +469,7 @@ def comparison_file(
     told: tuple[Sequence[str], ...],
     notes: Iterable[str] = (),
 ) -> bytes:
-    """A file that shows two pictures and how they differ.
+    """Return the bytes of a file with two pictures and their difference.
 
     Parameters
     ----------
@@ -478,7 +497,7 @@ def comparison_file(
 
 
 def _write_on(codes: Codes, text: str) -> Codes:
-    """A picture with its scale on it, as far as it has room."""
+    """Return a picture with a text in its corner."""
     import numpy as np
     from PIL import Image, ImageDraw, ImageFont
 
@@ -497,6 +516,7 @@ def _render_page(
     told: tuple[Sequence[str], ...],
     notes: Iterable[str],
 ) -> str:
+    """Return the HTML page of a comparison."""
     head, *rows = told
     figures = "".join(_render_figure(name, codes) for name, codes in pictures)
     body = "".join(_render_table_row("td", row) for row in rows)
@@ -512,6 +532,7 @@ def _render_page(
 
 
 def _render_figure(name: str, codes: Codes) -> str:
+    """Return a picture as an HTML figure with its name."""
     from quizgen.camera.pixels.codecs import encode_photo
 
     data = b64encode(encode_photo(codes)).decode()
@@ -521,4 +542,5 @@ def _render_figure(name: str, codes: Codes) -> str:
 
 
 def _render_table_row(cell: str, texts: Sequence[str]) -> str:
+    """Return texts as an HTML table row of ``td`` or ``th``."""
     return "<tr>" + "".join(f"<{cell}>{escape(text)}</{cell}>" for text in texts) + "</tr>\n"

@@ -17,7 +17,7 @@ HEAD = ("id", "tier", "topic", "pool", "languages", "title")
 
 
 class TemplateFilters(TypedDict):
-    """Which templates to list; all conditions hold together."""
+    """Conditions on templates; all must hold."""
 
     topic: str | None
     kind: str | None
@@ -26,7 +26,7 @@ class TemplateFilters(TypedDict):
 
 
 class TemplatesOptions(BankOptions, TemplateFilters):
-    """What to list, and of which bank."""
+    """Options of ``quizgen templates``."""
 
     coverage: bool
 
@@ -56,7 +56,7 @@ def templates(**options: Unpack[TemplatesOptions]) -> None:
 
 
 def _iter_matching_templates(bank: Bank, filters: TemplateFilters) -> Iterator[str]:
-    """Names of the templates that meet every condition.
+    """Yield the names of the templates that meet every condition.
 
     Raises
     ------
@@ -84,6 +84,7 @@ def _iter_matching_templates(bank: Bank, filters: TemplateFilters) -> Iterator[s
 
 
 def _is_mentioned(bank: Bank, name: str, search: str) -> bool:
+    """Return whether a text occurs in a template's name or titles."""
     texts = [
         name,
         *(_read_template_title(bank, name, lang) for lang in bank.template_languages(name)),
@@ -92,25 +93,27 @@ def _is_mentioned(bank: Bank, name: str, search: str) -> bool:
 
 
 def _build_template_row(bank: Bank, name: str) -> tuple[str, ...]:
-    """Cells of a template; its solver is not run for them."""
+    """Return the cells of a template, without running its solver."""
     rules, langs = bank.rules(name), _list_languages(bank, name)
     title = _read_template_title(bank, name, langs[0]) if langs else ""
     return (name, rules.tier, rules.topic, str(rules.pool or "-"), ",".join(langs), title)
 
 
 def _list_languages(bank: Bank, name: str) -> list[str]:
-    """Languages of a template, those of the bank first and in their order."""
+    """Return the languages of a template, those of the bank first and in their order."""
     written = bank.template_languages(name)
     return sorted(written, key=[*bank.languages, *written].index)
 
 
 def _read_template_title(bank: Bank, name: str, lang: str) -> str:
+    """Return a template's title in a language."""
     from quizgen.bank.language_file import read_language_file
 
     return read_language_file(bank.template_paths[name] / f"{lang}.md").title
 
 
 def _print_coverage(bank: Bank) -> None:
+    """Print how much of the curriculum is covered, and what is not."""
     from quizgen.lint.coverage import curriculum_coverage
 
     rows = [
@@ -122,7 +125,7 @@ def _print_coverage(bank: Bank) -> None:
 
 
 def _print_templates(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table where people read it, else a line of cells and tabs for each row."""
+    """Print a table on a terminal, else tab-separated lines."""
     if is_interactive():
         print_table(head, rows)
         return

@@ -28,22 +28,25 @@ PATIENCE = 1.0
 
 
 def terminal_width() -> int:
-    """Width of the terminal; 80 where there is none."""
+    """Return the columns of the terminal; 80 if there is none."""
     return max(shutil.get_terminal_size((80, 24)).columns, NARROWEST)
 
 
 def is_interactive() -> bool:
-    """Whether people read along; otherwise what is printed goes to a file or a program."""
+    """Return whether the output goes to a terminal rather than to a file or program."""
     return sys.stdout.isatty()
 
 
 class InterruptHandler:
-    """Handles Ctrl-C and remembers it, for it may come out of an extension as any other error."""
+    """Raises ``KeyboardInterrupt`` once, and remembers it.
+
+    An extension may turn it into any other error.
+    """
 
     came = False
 
     def __call__(self, number: int, frame: FrameType | None) -> None:
-        """Stop whatever is running; a second Ctrl-C has nothing left to stop."""
+        """Interrupt what is running; later signals do nothing."""
         del number, frame
         if not self.came:
             self.came = True
@@ -51,50 +54,53 @@ class InterruptHandler:
 
 
 def was_interrupted() -> bool:
-    """Whether Ctrl-C has come."""
+    """Return whether Ctrl-C was pressed."""
     handler = signal.getsignal(signal.SIGINT)
     return isinstance(handler, InterruptHandler) and handler.came
 
 
 def colour_choice() -> bool | None:
-    """``False`` where the environment asks for plain text; ``None`` leaves it to the stream.
+    """Return False if the environment asks for plain text, else None: the stream decides.
 
-    ``click`` takes it from the context of the outermost command, for every ``echo`` below it.
+    ``click`` takes it from the context of the outermost command, for every ``echo`` in it.
     """
     plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
     return False if plain else None
 
 
 def to_one_line(text: str) -> str:
-    """A text without line breaks and other control characters, as a cell of a table."""
+    """Return a text without line breaks and control characters, for a cell of a table."""
     return escape_control_characters(" ".join(text.split()))
 
 
 def print_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     """Print aligned columns; on a terminal the last one is wrapped, or stands below the others."""
     table = [head, *([to_one_line(cell) for cell in row] for row in rows)]
-    for number, lines in enumerate(lay_out_table(table, _room())):
+    for number, lines in enumerate(lay_out_table(table, _get_wrap_width())):
         for line in lines:
             click.echo(line if number else click.style(line, bold=True))
 
 
-def _room() -> int:
+def _get_wrap_width() -> int:
+    """Return the columns to wrap at; without a terminal nothing is wrapped."""
     return terminal_width() if is_interactive() else sys.maxsize
 
 
 def format_count(count: int, word: str) -> str:
-    """How many of something there are: ``1 question``, ``2 questions``."""
+    """Return a count with its noun: ``1 question``, ``2 questions``."""
     return f"{count} {word}" + ("s" if count != 1 else "")
 
 
 def print_sentence(text: str) -> None:
     """Print a sentence; on a terminal it is broken between words."""
-    for line in wrap_lines(escape_control_characters(text), _room()):
+    for line in wrap_lines(escape_control_characters(text), _get_wrap_width()):
         click.echo(line)
 
 
 class ProgressLine:
-    """One line on the error stream, if that is a terminal and it takes longer than a second.
+    """A progress line on the error stream.
+
+    It appears on a terminal, and only for work of more than a second.
 
     Parameters
     ----------
@@ -115,7 +121,7 @@ class ProgressLine:
         self._start = clock()
 
     def __call__(self, name: str) -> None:
-        """Tell what is done now."""
+        """Count one step and show its name."""
         self.done += 1
         if self.clock() - self._start < PATIENCE or not _can_overwrite():
             return
@@ -127,13 +133,13 @@ class ProgressLine:
         )
 
     def over(self, things: Iterable[str]) -> Iterator[str]:
-        """Things in their order, each told as it comes."""
+        """Yield the names in order, and count each as a step."""
         for thing in things:
             self(thing)
             yield thing
 
     def __enter__(self) -> Self:
-        """Begin."""
+        """Return the line itself."""
         return self
 
     def __exit__(
@@ -142,16 +148,18 @@ class ProgressLine:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Leave the line as it was."""
+        """Remove the line from the terminal."""
         if self._bar:
             self._bar.stop()
 
 
 def _can_overwrite() -> bool:
+    """Return whether the error stream is a terminal that can overwrite a line."""
     return sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
 
 def _open_progress(what: str, total: int) -> RichProgress:
+    """Return a progress display; without ``total`` it has no bar."""
     # Loaded where a line is shown: it takes longer than all else that most commands load.
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
@@ -173,12 +181,12 @@ def _open_progress(what: str, total: int) -> RichProgress:
 
 
 def build_command_line(*arguments: str | Path) -> str:
-    """A quizgen command that works from where the user stands."""
+    """Return a quizgen command that works in the user's current folder."""
     return join_words([*_find_start_command(), *map(str, arguments)])
 
 
 def join_words(words: list[str]) -> str:
-    """Words as a line of the shell."""
+    """Return words as one line for the shell, quoted where needed."""
     if os.name == "nt":
         from subprocess import list2cmdline
 
@@ -187,23 +195,23 @@ def join_words(words: list[str]) -> str:
 
 
 def _find_start_command() -> list[str]:
-    """How this program was started: by uv, as a module, or by its name or path."""
+    """Return the words that started this program: by uv, as a module, or by name."""
     if os.environ.get("UV_RUN_RECURSION_DEPTH"):
-        return ["uv", "run", *_project(), "quizgen"]
+        return ["uv", "run", *_list_project_options(), "quizgen"]
     script = Path(sys.argv[0])
     if script.name == "__main__.py":
         return [_shorten_program(Path(sys.executable)), "-m", "quizgen"]
     return [_shorten_program(script) if script.stem == "quizgen" else "quizgen"]
 
 
-def _project() -> list[str]:
-    """What uv must be told if the user stands outside the project."""
+def _list_project_options() -> list[str]:
+    """Return the option that uv needs outside the project's folder; none inside."""
     home = Path(sys.prefix).parent
     inside = Path.cwd().is_relative_to(home) or not (home / "pyproject.toml").exists()
     return [] if inside else ["--project", str(home)]
 
 
 def _shorten_program(program: Path) -> str:
-    """A program's name if the shell finds the same one by it, else its path."""
+    """Return a program's name if the shell finds the same one by it, else its path."""
     found = shutil.which(program.name)
     return program.name if found and Path(found).samefile(program) else str(program)

@@ -26,7 +26,10 @@ _SUM = 64
 
 
 def compute_digest(*parts: bytes) -> str:
-    """Digest of parts; none can be taken for two or for part of another."""
+    """Return the SHA-256 of several byte strings as 64 hexadecimal digits.
+
+    The length of each part is hashed, too: ``(b"ab", b"c")`` and ``(b"a", b"bc")`` differ.
+    """
     total = hashlib.sha256()
     for part in parts:
         total.update(len(part).to_bytes(8, "big"))
@@ -35,14 +38,16 @@ def compute_digest(*parts: bytes) -> str:
 
 
 def read_cached(kind: str, key: str) -> bytes | None:
-    """What is kept, or None.
+    """Return the bytes stored under a key, or None.
+
+    What the wheel brings is searched first, then the user's cache.
 
     Parameters
     ----------
     kind : str
-        What sort of thing it is: a folder of the cache.
+        What sort of thing it is, which is a folder of the cache.
     key : str
-        Digest of all that it follows from.
+        Digest of everything that the bytes follow from.
     """
     found = _read_entry(SHIPPED, kind, key)
     if found is None and (home := user_cache_folder()) is not None:
@@ -51,6 +56,7 @@ def read_cached(kind: str, key: str) -> bytes | None:
 
 
 def _read_entry(folder: Path, kind: str, key: str) -> bytes | None:
+    """Return the stored bytes of one cache folder; None if missing, too large or damaged."""
     with contextlib.suppress(OSError), (folder / kind / key).open("rb") as stream:
         found = stream.read(LARGEST + _SUM + 1)
         if found[:_SUM] == _compute_checksum(kind, key, found[_SUM:]):
@@ -59,7 +65,11 @@ def _read_entry(folder: Path, kind: str, key: str) -> bytes | None:
 
 
 def write_cached(kind: str, key: str, data: bytes) -> None:
-    """Keep a thing in the user's cache, if that can be: whole or not at all."""
+    """Store bytes in the user's cache under a kind and a digest of all that they follow from.
+
+    Nothing is stored, and nothing raised, where there is no safe cache folder, the data is larger
+    than ``LARGEST`` or the disk refuses: a cache only saves time. Old entries of the kind go.
+    """
     home = user_cache_folder()
     if home is None or len(data) > LARGEST:
         return
@@ -69,7 +79,10 @@ def write_cached(kind: str, key: str, data: bytes) -> None:
 
 
 def write_entry(home: Path, kind: str, key: str, data: bytes) -> None:
-    """Write a thing as ``find`` reads it."""
+    """Write one cache entry below ``home`` so that ``read_cached`` accepts it, or not at all.
+
+    The checksum goes in front of the data. Raises ``OSError`` where the folder cannot be written.
+    """
     folder = home / kind
     folder.mkdir(parents=True, exist_ok=True)
     part = folder / f".{key}.{os.getpid()}-{secrets.token_hex(4)}.part"
@@ -81,13 +94,13 @@ def write_entry(home: Path, kind: str, key: str, data: bytes) -> None:
 
 
 def _compute_checksum(kind: str, key: str, data: bytes) -> bytes:
-    """A damaged thing has another one, and so has one that was meant for another place."""
+    """Return the 64 bytes in front of an entry: it is undamaged and under its own key."""
     return compute_digest(kind.encode(), key.encode(), data).encode()
 
 
 @cache
 def user_cache_folder() -> Path | None:
-    """The user's cache; None where there is none, or others may write there."""
+    """Return the cache folder of the user, created if missing; None if others may write there."""
     from platformdirs import user_cache_path
 
     with contextlib.suppress(OSError, RuntimeError):
@@ -99,6 +112,7 @@ def user_cache_folder() -> Path | None:
 
 
 def _is_own(folder: os.stat_result) -> bool:
+    """Return whether a folder belongs to this user and nobody else may write to it."""
     if not hasattr(os, "getuid"):
         return True
     return folder.st_uid == os.getuid() and not folder.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
@@ -106,7 +120,7 @@ def _is_own(folder: os.stat_result) -> bool:
 
 @cache
 def remove_stale(folder: Path) -> None:
-    """Remove what is old, once."""
+    """Delete the files of a folder that are older than ``OLD``, once in the life of a process."""
     for path in folder.iterdir():
         if time.time() - path.stat().st_mtime > OLD:
             path.unlink(missing_ok=True)

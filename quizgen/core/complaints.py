@@ -33,16 +33,19 @@ _STEP = re.compile(r"\[(\d+)\]|\[(\.\.\.)\]|([^.\[\]]+)")
 def complaint_of(
     error: Exception, kind: object, table: object = None, before: Place = ()
 ) -> BankError:
-    """What msgspec says of a table that should be of a kind: key, what is there, what may be.
+    """Return a ``BankError`` that says in an author's words why a table is not of a type.
+
+    msgspec names a path and two types; the error names the key, what stands there, what is allowed
+    and the name that was probably meant.
 
     Parameters
     ----------
     error : Exception
-        Any but msgspec's keep their words.
+        What the conversion raised; one that is not msgspec's keeps its message.
     kind : type
-        What the table was converted to.
+        The type that the table was converted to.
     table : object
-        The table: msgspec does not say which of several names has the fault, and it is looked for.
+        The table itself, to find the faulty key: of a mapping msgspec says only ``[...]``.
     before : tuple of str or int
         Where the table stands in its file.
     """
@@ -50,9 +53,9 @@ def complaint_of(
     if not isinstance(error, msgspec.ValidationError):
         return BankError(text, rule="QG100", place=before)
     found = _PLACE.search(text)
-    place = _place(found[1] if found else "", kind, table)
+    place = _parse_msgspec_path(found[1] if found else "", kind, table)
     rule, what, key = _explain_type_error(
-        text[: found.start()] if found else text, _kind_at(kind, place)
+        text[: found.start()] if found else text, _resolve_type_at(kind, place)
     )
     said = written_place((*before, *place))
     whole = (*before, *place, *([key] if key else []))
@@ -60,39 +63,43 @@ def complaint_of(
 
 
 def written_place(place: Place) -> str:
-    """``("part", 0, "points")`` as ``part 1: points``: as it is counted by people."""
+    """Return a place as people count it: ``("part", 0, "points")`` is ``part 1: points``."""
     text = ""
     for step in place:
         text += f" {step + 1}" if isinstance(step, int) else f".{step}"
     return re.sub(r"^part (\d+)\.?", r"part \1: ", text.removeprefix(".")).rstrip(": ")
 
 
-def _place(path: str, kind: object, table: object) -> Place:
-    """Msgspec's path as keys; for any name of a table the one whose value is at fault."""
+def _parse_msgspec_path(path: str, kind: object, table: object) -> Place:
+    """Return the keys and indices of msgspec's path (``.part[0].points``).
+
+    For ``[...]``, any key of a mapping, the first one is taken whose value does not convert.
+    """
     place: list[str | int] = []
     for number, dots, name in _STEP.findall(path):
         step: str | int | None = int(number) if number else name or None
         if dots:
-            inside = _find_type_at_step(_kind_at(kind, tuple(place)), "...")
-            step = next((key for key, value in _items(table) if not _fits(value, inside)), None)
+            inside = _find_type_at_step(_resolve_type_at(kind, tuple(place)), "...")
+            step = next(
+                (key for key, value in _iter_items(table) if not _is_convertible(value, inside)),
+                None,
+            )
         if step is None:
             break
         place.append(step)
-        table = _within(table, step)
+        table = dict(_iter_items(table)).get(step)
     return tuple(place)
 
 
-def _items(table: object) -> Iterable[tuple[Any, object]]:
+def _iter_items(table: object) -> Iterable[tuple[Any, object]]:
+    """Return the (key, value) pairs of a table or the (index, value) pairs of a list; else none."""
     if isinstance(table, dict):
         return table.items()
     return enumerate(table) if isinstance(table, list | tuple) else ()
 
 
-def _within(table: object, step: str | int) -> object:
-    return dict(_items(table)).get(step)
-
-
-def _fits(value: object, kind: Any) -> bool:
+def _is_convertible(value: object, kind: Any) -> bool:
+    """Return whether msgspec can convert a value to a type."""
     try:
         convert(value, kind)
     except msgspec.ValidationError:
@@ -101,7 +108,7 @@ def _fits(value: object, kind: Any) -> bool:
 
 
 def _explain_type_error(text: str, kind: object) -> tuple[str, str, str]:
-    """Code, message and the key that it is about, if it is one in the table."""
+    """Return code, message and the unknown key that one message of msgspec is about (or "")."""
     if match := _EXPECTED.match(text):
         wanted = (_TYPES.get(name, name) for name in match[1].split(" | "))
         got = _GOT.get(match[2], match[2])
@@ -119,6 +126,7 @@ def _explain_type_error(text: str, kind: object) -> tuple[str, str, str]:
 
 
 def _suggest_name(name: str, known: Iterable[str]) -> str:
+    """Return the end of a message: the closest known name, and all that are allowed."""
     allowed = sorted(known)
     from difflib import get_close_matches
 
@@ -128,6 +136,7 @@ def _suggest_name(name: str, known: Iterable[str]) -> str:
 
 
 def _list_allowed_keys(kind: object) -> list[str]:
+    """Return the keys that a table of this type may have; none if it is no Struct."""
     if isinstance(kind, type) and issubclass(kind, msgspec.Struct):
         names = (field.encode_name for field in msgspec.structs.fields(kind))
         return [name for name in names if not name.startswith("/")]
@@ -135,19 +144,21 @@ def _list_allowed_keys(kind: object) -> list[str]:
 
 
 def _list_allowed_values(kind: object) -> tuple[Any, ...]:
+    """Return the texts that a ``Literal``, or a union of them, allows."""
     inside = [value for one in get_args(kind) for value in (get_args(one) or (one,))]
     return tuple(value for value in inside if isinstance(value, str))
 
 
-def _kind_at(kind: object, place: Place) -> object:
-    """The type that stands at a place."""
+def _resolve_type_at(kind: object, place: Place) -> object:
+    """Return the type that a Struct has at a place, such as its first part's answer."""
     for step in place:
         kind = _find_type_at_step(kind, step)
-    return _struct_in(kind)
+    return _choose_container(kind)
 
 
 def _find_type_at_step(kind: object, step: str | int) -> object:
-    kind = _struct_in(kind)
+    """Return the type of one key or item of a type; None if the type has no such key."""
+    kind = _choose_container(kind)
     if isinstance(kind, type) and issubclass(kind, msgspec.Struct):
         names = {f.encode_name: f.name for f in msgspec.structs.fields(kind)}
         return get_type_hints(kind).get(names.get(str(step), str(step)))
@@ -155,8 +166,8 @@ def _find_type_at_step(kind: object, step: str | int) -> object:
     return args[-1] if args else None
 
 
-def _struct_in(kind: object) -> object:
-    """The table among several types, else the types."""
+def _choose_container(kind: object) -> object:
+    """Return the Struct, dict, list or tuple among a union's members, else the type itself."""
     for one in get_args(kind) if get_origin(kind) not in {dict, tuple, list} else ():
         if isinstance(one, type) and issubclass(one, msgspec.Struct):
             return one

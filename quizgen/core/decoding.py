@@ -19,12 +19,12 @@ _LOCK = Lock()
 
 
 def prepare_type(shape: Any) -> None:
-    """Have a type described before anything else is done with it."""
+    """Have msgspec describe a type, under a lock, before several threads use it."""
     _prepare_decoder_type(shape)
 
 
 def convert(table: object, shape: type[T]) -> T:
-    """A table as a value of a type, checked.
+    """Return a table as a checked value of a type.
 
     Raises
     ------
@@ -36,14 +36,14 @@ def convert(table: object, shape: type[T]) -> T:
 
 
 def json_decoder(shape: type[T]) -> msgspec.json.Decoder[T]:
-    """What reads values of a type from JSON."""
+    """Return the decoder of JSON to values of a type, one for each type and process."""
     asked: Any = shape
     found: msgspec.json.Decoder[T] = _build_json_decoder(asked)
     return found
 
 
 def decode_json(data: bytes | str, shape: type[T]) -> T:
-    """A value of a type that stands in JSON, checked.
+    """Return the checked value of a type that JSON describes.
 
     Raises
     ------
@@ -55,11 +55,13 @@ def decode_json(data: bytes | str, shape: type[T]) -> T:
 
 @cache
 def _prepare_decoder_type(shape: Any) -> None:
+    """Describe a type once: any decoder does it, and this one is thrown away."""
     with _LOCK:
         msgspec.msgpack.Decoder(shape)
 
 
 @cache
 def _build_json_decoder(shape: Any) -> msgspec.json.Decoder[Any]:
+    """Return a new decoder of a type that was described under the lock."""
     prepare_type(shape)
     return msgspec.json.Decoder(shape)

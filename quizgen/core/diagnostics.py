@@ -15,14 +15,17 @@ from quizgen.core.positions import Place, Span, find_span
 
 
 class Rule(msgspec.Struct, frozen=True):
-    """What a code stands for, and what mends it where the message does not say so itself."""
+    """One rule of a bank: what is wrong if it is broken, and how to mend it.
+
+    The hint is empty where each message says itself what mends it.
+    """
 
     what: str
     hint: str = ""
 
 
 class Diagnostic(msgspec.Struct, frozen=True):
-    """What is wrong, where, and what mends it.
+    """One thing that is wrong in a bank: its code, file, position, message and what mends it.
 
     Parameters
     ----------
@@ -42,13 +45,17 @@ class Diagnostic(msgspec.Struct, frozen=True):
     hint: str = ""
 
     def __str__(self) -> str:
+        """Return one line for a terminal: ``file:line:column: code message; hint``."""
         place = f"{self.file}"
         if self.span:
             place += f":{self.span.line}:{self.span.column}"
         return "; ".join(filter(None, (f"{place}: {self.code} {self.message}", self.hint)))
 
     def as_json(self) -> dict[str, object]:
-        """Plain values, for editors."""
+        """Return the fields as plain JSON values, for editors.
+
+        Line and column are None without a span.
+        """
         return {
             "code": self.code,
             "file": str(self.file),
@@ -62,7 +69,7 @@ class Diagnostic(msgspec.Struct, frozen=True):
 def diagnose(
     code: str, file: Path, message: str, place: Place = (), *, line: int = 0
 ) -> Diagnostic:
-    """A diagnostic with the hint of its code, and the line and column of a place.
+    """Return a diagnostic with the hint of its code, and with the line and column of a place.
 
     Parameters
     ----------
@@ -80,10 +87,9 @@ def diagnose(
 
 
 def can_be_ignored(code: str) -> bool:
-    """Whether a template may ask not to be told.
+    """Return whether a template may list a code under ``ignore``.
 
-    What stops a paper is told whatever a template says, or lint would say that nothing is wrong
-    and ``exam`` would fail.
+    What stops a paper cannot be ignored: lint would find nothing wrong where ``exam`` fails.
     """
     return code in CODES and code[2] in "234"
 

@@ -19,7 +19,7 @@
     |-- AttemptFinishedError  a part in practice is answered again after it has ended
     `-- InvalidChoiceError  an argument is none of the values allowed (names them)
 
-Two more stand beside their subject: ``SceneError`` in ``camera.setup.scene``, and
+Two more are defined with their subject: ``SceneError`` in ``camera.setup.scene``, and
 ``FormulaReadError`` in ``maths.notation.lexer``, the ``FormulaError`` that knows what was found and
 what was expected.
 ``DomainError`` in ``numerics.domain`` is a plain ``ValueError``: array functions know nothing of
@@ -94,10 +94,11 @@ class QuizgenError(Exception):
 
     @property
     def message(self) -> str:
-        """What is wrong, without the place."""
+        """The message without file and line."""
         return Exception.__str__(self)
 
     def __str__(self) -> str:
+        """Return ``file:line: message``, as far as file and line are known."""
         if self.file is None:
             return self.message
         found = self.diagnostic(self.file)
@@ -105,7 +106,10 @@ class QuizgenError(Exception):
         return f"{self.file}{line}: {self.message}"
 
     def diagnostic(self, file: Path) -> Diagnostic:
-        """The same as lint says it, about this file unless the error knows a better one."""
+        """Return the error as a diagnostic of lint, about ``file`` unless it names a file itself.
+
+        An error without a code of its own gets ``DEFAULT``.
+        """
         from quizgen.core.diagnostics import DEFAULT, diagnose
 
         own = self.file or file
@@ -196,7 +200,7 @@ class InvalidChoiceError(QuizgenError, ValueError):
 
 
 def require_one_of(what: str, value: object, allowed: Collection[str]) -> str:
-    """Return a value that is one of those allowed.
+    """Return ``value`` if it is one of those allowed; ``what`` names the argument in the message.
 
     Raises
     ------
@@ -209,12 +213,14 @@ def require_one_of(what: str, value: object, allowed: Collection[str]) -> str:
 
 
 def has_extra(extra: str) -> bool:
-    """Whether the packages of an extra are installed; none of them is imported."""
+    """Return whether the packages of an extra are installed; none of them is imported."""
     return all(find_spec(module) is not None for module in EXTRA_MODULES[extra])
 
 
 def require_extra(extra: str, feature: str) -> None:
-    """Refuse a feature whose packages are not installed.
+    """Raise an error if the packages of an extra are not installed.
+
+    ``feature`` is what needs them, as the user typed it: a command or an option.
 
     Raises
     ------

@@ -44,17 +44,20 @@ _SPAWN = multiprocessing.get_context("spawn")
 
 
 class InlineExecutor(Executor):
-    """Does each job at once, in this process."""
+    """An executor that runs each job at once, in this process and thread."""
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
-        """Do it."""
+        """Run a job and return its finished future; what the job raises is raised here."""
         done: Future[T] = Future()
         done.set_result(fn(*args, **kwargs))
         return done
 
 
 class ProcessExecutor(ThreadPoolExecutor):
-    """Processes, each with a thread here, so that one that dies takes no other with it.
+    """An executor of worker processes, each served by its own thread of this process.
+
+    A process that dies takes no other with it: its job is given to another one, up to ``TRIES``
+    times.
 
     Parameters
     ----------
@@ -85,20 +88,28 @@ class ProcessExecutor(ThreadPoolExecutor):
         self._changing = threading.Lock()
 
     def start_all(self) -> None:
-        """Begin all processes now, not each with the first job that finds no other idle."""
+        """Start all processes now.
+
+        Otherwise each starts with the first job that finds none idle.
+        """
         with self._changing:
             self._idle += [self._begin_worker() for _ in range(self._max_workers)]
 
     @property
     def processes(self) -> list[SpawnProcess]:
-        """All that were begun; one that has died is replaced when its turn comes."""
+        """The worker processes started so far; one that died is replaced when it is needed."""
         return [worker.process for worker in self._workers]
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
-        """Do it in a process that is free."""
+        """Return the future of a job that runs in the next idle process."""
         return super().submit(self._run_in_worker, fn, *args, **kwargs)
 
     def _run_in_worker(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> T:
+        """Return what a job returns in a process, or raise what it raises.
+
+        A process that dies or hangs is discarded and the job tried again; after ``TRIES`` of them a
+        ``WorkerError`` is raised.
+        """
         job = bytes(ForkingPickler.dumps((fn, args, kwargs)))
         for _ in range(TRIES):
             worker = self._take_worker()
@@ -110,6 +121,10 @@ class ProcessExecutor(ThreadPoolExecutor):
         raise WorkerError(f"{TRIES} processes died of the same work (is there memory enough?)")
 
     def _take_worker(self) -> _Worker:
+        """Return the idle process that worked last, or a new one.
+
+        Raise ``WorkerError`` once stopped.
+        """
         with self._changing:
             if self._stopped:
                 raise WorkerError("the work was stopped")
@@ -122,13 +137,14 @@ class ProcessExecutor(ThreadPoolExecutor):
         return worker
 
     def _discard(self, worker: _Worker) -> None:
+        """Kill a process that died or hangs, and forget it."""
         with self._changing:
             worker.process.kill()
             self._workers.remove(worker)
         worker.close()
 
     def stop(self) -> None:
-        """End all processes, whatever they do."""
+        """Kill all processes and cancel the jobs that wait."""
         with self._changing:
             self._stopped = True
             for worker in self._workers:
@@ -136,7 +152,7 @@ class ProcessExecutor(ThreadPoolExecutor):
         self.shutdown(cancel_futures=True)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """End all processes once their work is done."""
+        """End all processes once their work is done, as ``concurrent.futures`` defines it."""
         super().shutdown(wait, cancel_futures=cancel_futures)
         if wait:
             for worker in self._workers:
@@ -144,7 +160,7 @@ class ProcessExecutor(ThreadPoolExecutor):
 
 
 class _Worker:
-    """A process that does one job after another, told over a pipe.
+    """One worker process, which receives pickled jobs over a pipe and returns pickled results.
 
     A pipe ends with the process, even amid an answer. A ``ProcessPoolExecutor`` waits for ever for
     the rest of such an answer, because the other end of its queue is open here, too; it also gives
@@ -163,7 +179,10 @@ class _Worker:
         there.close()
 
     def answer(self, job: bytes, longest: float | None) -> bytes | None:
-        """What comes of a job, or nothing if the process died of it or took too long."""
+        """Return the pickled result of a pickled job; None if the process died or took too long.
+
+        ``longest`` is in seconds, None for no limit.
+        """
         with contextlib.suppress(EOFError, OSError):
             self._line.send_bytes(job)
             if self._line.poll(longest):
@@ -171,14 +190,17 @@ class _Worker:
         return None
 
     def close(self) -> None:
-        """Let it end: there is no more work."""
+        """Close the pipe, which ends the process, and wait for it."""
         self._line.close()
         self.process.join()
 
 
 @contextmanager
 def shield_from_interrupt() -> Iterator[None]:
-    """Leave Ctrl-C to this process, which ends those it begins: they never see it."""
+    """Block Ctrl-C while processes are started, so that they inherit that and never see it.
+
+    This process sees it and ends them.
+    """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -198,7 +220,10 @@ def _serve_jobs(
     initializer: Callable[..., object] | None,
     initargs: tuple[Any, ...],
 ) -> None:
-    """Do jobs until there are none."""
+    """Run a worker process: answer the jobs of a pipe until the parent closes it.
+
+    ``threshold`` is the parent's for garbage collection, as ``gc.get_threshold`` returns it.
+    """
     _set_up_worker(*threshold)
     if initializer:
         initializer(*initargs)
@@ -208,9 +233,10 @@ def _serve_jobs(
 
 
 def _set_up_worker(*threshold: int) -> None:
-    """A worker ends with its parent, and typesets in one thread: it has company.
+    """Have a worker end with its parent, ignore Ctrl-C and typeset in one thread.
 
-    It looks for garbage as seldom as its parent, which took a twentieth of each of many papers.
+    It collects garbage as seldom as its parent: the usual threshold took a twentieth of the time of
+    many papers.
     """
     gc.set_threshold(*threshold)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # where it cannot be blocked
@@ -219,6 +245,7 @@ def _set_up_worker(*threshold: int) -> None:
 
 
 def _end_with_parent() -> None:
+    """Wait for the parent process and end this one: nobody would take its results."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         parent.join()
@@ -226,7 +253,7 @@ def _end_with_parent() -> None:
 
 
 def _run_job(job: bytes) -> bytes:
-    """What a job gives, or the error that it ends in, as it goes over the line."""
+    """Run a pickled job and return its pickled result, ``(True, value)`` or ``(False, error)``."""
     try:
         work, args, kwargs = pickle.loads(job)  # noqa: S301 - from the parent
         return bytes(ForkingPickler.dumps((True, work(*args, **kwargs))))
@@ -236,7 +263,10 @@ def _run_job(job: bytes) -> bytes:
 
 
 def _pickle_error(error: Exception) -> bytes:
-    """An error as it goes over the line: in words if it cannot be taken apart and put together."""
+    """Return ``(False, error)``, pickled.
+
+    An error that cannot be unpickled becomes its traceback.
+    """
     try:
         told = bytes(ForkingPickler.dumps((False, error)))
         pickle.loads(told)  # noqa: S301 - made here
@@ -246,6 +276,7 @@ def _pickle_error(error: Exception) -> bytes:
 
 
 def _unpickle_answer(answer: bytes) -> Any:
+    """Return the value that a worker sent, or raise the error that it sent."""
     good, value = pickle.loads(answer)  # noqa: S301 - from our own process
     if not good:
         raise value
@@ -254,7 +285,7 @@ def _unpickle_answer(answer: bytes) -> Any:
 
 @contextmanager
 def open_executor(count: int, scheduler: str = "") -> Iterator[tuple[Executor, int]]:
-    """An executor, and how many jobs it should be given at a time.
+    """Give an executor for a ``with`` block, and how many jobs to have in flight at a time.
 
     Parameters
     ----------
@@ -285,7 +316,7 @@ def open_executor(count: int, scheduler: str = "") -> Iterator[tuple[Executor, i
 
 @contextmanager
 def _open_cluster_executor(scheduler: str) -> Iterator[tuple[Executor, int]]:
-    """As ``open_executor``, on the workers of a Dask scheduler."""
+    """Give what ``open_executor`` gives, on the workers of a Dask scheduler."""
     require_extra("cluster", "--scheduler")
     from distributed import Client
 
@@ -301,7 +332,10 @@ def _open_cluster_executor(scheduler: str) -> Iterator[tuple[Executor, int]]:
 def map_unordered(
     executor: Executor, work: Callable[[J], T], jobs: Iterable[J], ahead: int
 ) -> Iterator[T]:
-    """Do jobs, and give each result as it is there."""
+    """Yield the result of each job as soon as it is there, in any order.
+
+    At most ``ahead`` jobs are in flight, so that many jobs take no more memory than a few.
+    """
     waiting: set[Future[T]] = set()
     for job in jobs:
         waiting.add(executor.submit(work, job))
@@ -316,7 +350,7 @@ def map_unordered(
 def map_ordered(
     executor: Executor, work: Callable[[J], T], jobs: Iterable[J], ahead: int
 ) -> Iterator[T]:
-    """Do jobs, and give the results in the order of the jobs."""
+    """Yield the result of each job in the order of the jobs, with at most ``ahead`` in flight."""
     waiting: deque[Future[T]] = deque()
     for job in jobs:
         waiting.append(executor.submit(work, job))

@@ -31,27 +31,30 @@ _LEFT_BEHIND = re.compile(r"\..*\.\d+-[0-9a-f]{8}\.part", re.DOTALL)
 
 
 def _get_final_path_name(path: str) -> str:
-    """What a file will be called that is still being written; any other path as it is."""
+    """Return the name that a file will have once written.
+
+    A path that is not staged stays as it is.
+    """
     return re.sub(r"\.([^/\\]*)\.\d+-[0-9a-f]{8}\.part", r"\1", path)
 
 
-def open_private(path: Path, *, anew: bool = False) -> io.BufferedWriter:
-    """Open a file that only its owner reads, to add to its end.
+def open_private(path: Path, *, truncate: bool = False) -> io.BufferedWriter:
+    """Return a binary stream that appends to a file only its owner may read.
 
     Parameters
     ----------
     path : pathlib.Path
         Made if it does not exist.
-    anew : bool
-        Write it from its beginning instead.
+    truncate : bool
+        Empty the file first, in place of adding to it.
     """
     flags = os.O_WRONLY | os.O_CREAT | getattr(os, "O_BINARY", 0)
-    number = os.open(path, flags | (os.O_TRUNC if anew else os.O_APPEND), PRIVATE)
+    number = os.open(path, flags | (os.O_TRUNC if truncate else os.O_APPEND), PRIVATE)
     return os.fdopen(number, "wb")
 
 
 def build_zip(contents: Mapping[str, bytes], *, packed: bool = True) -> bytes:
-    """Files as a zip archive, in their order: the same bytes on any day.
+    """Return a zip archive of files in the order given: the same bytes on any day and system.
 
     Parameters
     ----------
@@ -79,10 +82,10 @@ def write_all(
     mode: int = USUAL,
     private: Collection[str] = (),
 ) -> list[Path]:
-    """Write several files so that either all of them appear or none changes.
+    """Write several files so that all of them appear or none changes; return their paths.
 
     A folder that is new appears with everything in it. In one that exists, the last file seals the
-    set: it goes first and comes back last, so a run that is killed never leaves it beside others
+    set: it goes first and comes back last, so a run that is killed never leaves it with others
     that it does not belong to.
 
     Parameters
@@ -127,7 +130,10 @@ def _write_staged_files(
     modes: Mapping[str, int],
     mode: int,
 ) -> None:
-    """Write everything where nobody looks."""
+    """Write all files to a hidden folder, each with its mode, before any is moved to its place.
+
+    Raises ``RenderError`` if a folder stands where a file should; ``mode`` is that of new folders.
+    """
     _make_folder(stage, mode)
     for name, data in contents.items():
         if (folder / name).is_dir():
@@ -138,7 +144,10 @@ def _write_staged_files(
 
 
 def _make_folder(folder: Path, mode: int) -> None:
-    """Make a folder and those around it: names of files, such as of students, tell something."""
+    """Create a folder and its missing parents, closed to others if ``mode`` is ``PRIVATE``.
+
+    File names are private, too: they may be those of students.
+    """
     for one in reversed([path for path in (folder, *folder.parents) if not path.exists()]):
         one.mkdir(0o700 if mode == PRIVATE else 0o777, exist_ok=True)
 
@@ -146,7 +155,10 @@ def _make_folder(folder: Path, mode: int) -> None:
 def _move_staged_files(
     stage: Path, folder: Path, names: list[str], mode: int, *, new: bool
 ) -> None:
-    """Move what was staged to where it belongs, the last file last."""
+    """Move the staged files into their folder, the last one last.
+
+    A new folder is moved in one step.
+    """
     if new:
         stage.rename(folder)
         return
@@ -158,7 +170,7 @@ def _move_staged_files(
 
 
 def _remove_stale_stages(folder: Path) -> None:
-    """Remove what runs that were killed long ago left behind."""
+    """Delete staging folders that killed runs left more than ``STALE`` seconds ago."""
     for path in folder.iterdir():
         if not _LEFT_BEHIND.fullmatch(path.name):
             continue
@@ -168,6 +180,7 @@ def _remove_stale_stages(folder: Path) -> None:
 
 
 def _remove_path(path: Path) -> None:
+    """Delete a file, a link or a folder with all that is in it."""
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path)
     else:
@@ -176,13 +189,14 @@ def _remove_path(path: Path) -> None:
 
 @contextlib.contextmanager
 def _delay_interrupts() -> Iterator[None]:
-    """Let Ctrl-C wait until all files stand where they belong."""
+    """Hold Ctrl-C back until the block is over, then raise it; only the main thread can."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
     waiting: list[int] = []
 
     def wait(number: int, _frame: FrameType | None) -> None:
+        """Note a signal instead of acting on it."""
         waiting.append(number)
 
     before = signal.signal(signal.SIGINT, wait)
@@ -195,6 +209,7 @@ def _delay_interrupts() -> Iterator[None]:
 
 
 def _write_synced(path: Path, data: bytes) -> None:
+    """Write a file and wait until it is on the disk."""
     with path.open("wb") as stream:
         stream.write(data)
         stream.flush()
@@ -202,13 +217,15 @@ def _write_synced(path: Path, data: bytes) -> None:
 
 
 def read_table(path: Path, meant: Callable[[str], str] = str) -> Mapping[str, Any]:
-    """Read a JSON file or, by its suffix or its first sign, a TOML file; 0.50 stays text.
+    """Return the table in a JSON or TOML file; numbers with a point stay text: 0.50 keeps its zero.
+
+    The suffix decides on the format, else the first character: ``{`` begins JSON.
 
     Parameters
     ----------
     path : pathlib.Path
     meant : callable
-        What becomes of a TOML file that people write by hand before it is read.
+        Applied to the text of a TOML file before it is parsed, to mend what people mistype.
 
     Raises
     ------

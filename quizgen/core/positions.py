@@ -38,13 +38,16 @@ class Span(msgspec.Struct, frozen=True):
 
 
 def find_span(file: Path, place: Place) -> Span | None:
-    """Where in a file a place is; the nearest table, list or heading around it if it is missing.
+    """Return line and column of a place in a file, or None.
+
+    For a missing place they are those of the nearest table, list or heading that holds it.
 
     Parameters
     ----------
     file : pathlib.Path
         Of TOML, Markdown or Python, by its suffix; in others nothing is found.
     place : tuple of str or int
+        In the words of the file, as the top of this module explains.
     """
     if not place or file.suffix not in _FINDERS:
         return None
@@ -71,7 +74,7 @@ _ESCAPE = re.compile(r'\\(["\\])')
 
 
 class TomlPositions:
-    """Keys, items of lists and texts of TOML that can be read, each with its offset.
+    """The offsets of the keys, list items and texts of a TOML document, as far as it can be read.
 
     Parameters
     ----------
@@ -89,16 +92,20 @@ class TomlPositions:
             self._scan()
 
     def find(self, place: Place) -> Span | None:
-        """Where a key or a text is, else what is around it."""
+        """Return the span of a key or a text, or None.
+
+        For a missing key it is the span of the table that would hold it.
+        """
         if place[0] == TEXT:
             offset = self.texts.get(str(place[1]))
-            return None if offset is None else _span_at(self.text, offset)
+            return None if offset is None else _compute_span(self.text, offset)
         for end in range(len(place), 0, -1):
             if place[:end] in self.keys:
-                return _span_at(self.text, self.keys[place[:end]])
+                return _compute_span(self.text, self.keys[place[:end]])
         return None
 
     def _scan(self) -> None:
+        """Read the whole text and fill ``keys`` and ``texts``."""
         table: Place = ()
         while self._skip_blank() < len(self.text):
             if self._is_next("[["):
@@ -109,22 +116,26 @@ class TomlPositions:
                 self._read_pair(table)
 
     def _skip_blank(self) -> int:
+        """Pass over blanks and comments, and return the offset of what follows."""
         found = _BLANK.match(self.text, self._at)
         self._at = found.end() if found else self._at
         return self._at
 
     def _is_next(self, mark: str) -> bool:
+        """Return whether ``mark`` follows, and pass over it if so."""
         if not self.text.startswith(mark, self._at):
             return False
         self._at += len(mark)
         return True
 
     def _expect(self, mark: str) -> None:
+        """Pass over blanks and ``mark``; raise ``_ScanError`` if something else follows."""
         self._skip_blank()
         if not self._is_next(mark):
             raise _ScanError
 
     def _read_table_header(self, closing: str) -> Place:
+        """Return the path of ``[table]`` or ``[[table]]``, counted if it is one of an array."""
         begin = self._at - len(closing)
         path: Place = ()
         names = self._read_dotted_key()
@@ -141,12 +152,14 @@ class TomlPositions:
         return path
 
     def _read_dotted_key(self) -> list[str]:
+        """Return the names of a key such as ``answer.unit``."""
         names = [self._read_key_name()]
         while self._skip_blank() < len(self.text) and self._is_next("."):
             names.append(self._read_key_name())
         return names
 
     def _read_key_name(self) -> str:
+        """Return one bare or quoted name of a key."""
         self._skip_blank()
         found = _STRING.match(self.text, self._at) or _BARE.match(self.text, self._at)
         if found is None:
@@ -155,6 +168,7 @@ class TomlPositions:
         return _decode_string(found) if found.re is _STRING else found[0]
 
     def _read_pair(self, table: Place) -> None:
+        """Read ``key = value`` of the table whose path is given."""
         begin, path = self._at, table
         for name in self._read_dotted_key():
             path = (*path, name)
@@ -163,6 +177,7 @@ class TomlPositions:
         self._read_value(path)
 
     def _read_value(self, path: Place) -> None:
+        """Read a value and note its offset under its path, with all that is inside it."""
         begin = self._skip_blank()
         self.keys.setdefault(path, begin)
         if self._is_next("["):
@@ -178,7 +193,10 @@ class TomlPositions:
             self._at = found.end()
 
     def _iter_entry_indices(self, closing: str) -> Iterator[int]:
-        """Count what stands between brackets; who asks reads each."""
+        """Yield 0, 1 and so on, once for each entry before a closing bracket.
+
+        The caller reads the entry each time.
+        """
         count = 0
         while self._skip_blank() < len(self.text) and not self._is_next(closing):
             yield count
@@ -189,11 +207,11 @@ class TomlPositions:
 
 
 class _ScanError(Exception):
-    """Something that TOML does not have."""
+    """Raised where the text is not TOML; what was scanned before it stays usable."""
 
 
 def _decode_string(found: re.Match[str]) -> str:
-    """What a string says. Of escapes only those that formulas have are undone."""
+    """Return the text of a TOML string; of the escapes only quote and backslash are undone."""
     kind = str(found.lastgroup)
     text = found[kind]
     if kind in "ab":
@@ -201,16 +219,19 @@ def _decode_string(found: re.Match[str]) -> str:
     return _ESCAPE.sub(r"\1", text) if kind in "ac" else text
 
 
-def _span_at(text: str, offset: int) -> Span:
+def _compute_span(text: str, offset: int) -> Span:
+    """Return line and column, both from 1, of an offset in a text."""
     return Span(text.count("\n", 0, offset) + 1, offset - text.rfind("\n", 0, offset))
 
 
 @lru_cache(maxsize=64)
 def _scan_toml(text: str) -> TomlPositions:
+    """Return the positions of a TOML text, kept for the next question about the same file."""
     return TomlPositions(text)
 
 
-def _in_toml(text: str, place: Place) -> Span | None:
+def _find_in_toml(text: str, place: Place) -> Span | None:
+    """Return where a TOML text has a key or a text."""
     return _scan_toml(text).find(place)
 
 
@@ -220,7 +241,8 @@ _HEADING = re.compile(r"^## +(\S.*?)\s*$")
 _ITEM = re.compile(r"^- ([^:\[]*?)\s*(?:\[[^\]]*\])?\s*:")
 
 
-def _in_markdown(text: str, place: Place) -> Span | None:
+def _find_in_markdown(text: str, place: Place) -> Span | None:
+    """Return the line of a list item, else of the heading above it, or of a quoted sentence."""
     if place[0] == TEXT:
         return _find_quoted_text(text, str(place[1]), int(place[2]) if len(place) > 2 else 1)
     heading, found = "", None
@@ -234,23 +256,24 @@ def _in_markdown(text: str, place: Place) -> Span | None:
 
 
 def _find_quoted_text(text: str, quoted: str, column: int) -> Span | None:
-    """Where a sentence, or a column in it, is; it may be broken into lines there otherwise."""
+    """Return where a sentence, or a column in it, is in a text that breaks lines elsewhere."""
     found = re.search(_match_any_blanks(quoted), text) if quoted.strip() else None
     if found is None:
         return None
     before = re.match(_match_any_blanks(quoted[: column - 1]) + r"\s*", text[found.start() :])
-    return _span_at(text, found.start() + (before.end() if before and column > 1 else 0))
+    return _compute_span(text, found.start() + (before.end() if before and column > 1 else 0))
 
 
 def _match_any_blanks(quoted: str) -> str:
-    """A pattern for a text, whatever blanks stand in it."""
+    """Return a pattern for a text, whatever blanks stand in it."""
     return r"\s*".join([re.escape(part) for part in re.findall(r"\w+|[^\w\s]", quoted)])
 
 
 # Python -------------------------------------------------------------------------------------------
 
 
-def _in_python(text: str, place: Place) -> Span | None:
+def _find_in_python(text: str, place: Place) -> Span | None:
+    """Return where a call has this first argument, or a keyword holds this text."""
     import ast
 
     tree = ast.parse(text)
@@ -271,11 +294,12 @@ def _in_python(text: str, place: Place) -> Span | None:
 
 
 def _get_callee_name(call: ast.Call) -> str:
+    """Return the last name of what is called: ``Step`` in ``Step(...)`` and ``model.Step(...)``."""
     return str(getattr(call.func, "id", "") or getattr(call.func, "attr", ""))
 
 
 def _iter_matching_constants(node: ast.AST, text: str) -> Iterator[ast.AST]:
-    """Constants inside a node that equal a text."""
+    """Yield the constants inside a syntax node that equal a text."""
     import ast
 
     for inner in ast.walk(node):
@@ -284,7 +308,10 @@ def _iter_matching_constants(node: ast.AST, text: str) -> Iterator[ast.AST]:
 
 
 def _iter_symbol_variables(tree: ast.AST, symbol: str) -> Iterator[str]:
-    """What Python calls a symbol: ``f, image = symbols("f z'")``."""
+    """Yield the Python names of a symbol.
+
+    In ``f, image = symbols("f z'")`` that of ``z'`` is ``image``.
+    """
     import ast
 
     for node in ast.walk(tree):
@@ -299,4 +326,4 @@ def _iter_symbol_variables(tree: ast.AST, symbol: str) -> Iterator[str]:
                     yield variable.id
 
 
-_FINDERS = {".toml": _in_toml, ".md": _in_markdown, ".py": _in_python}
+_FINDERS = {".toml": _find_in_toml, ".md": _find_in_markdown, ".py": _find_in_python}

@@ -26,6 +26,7 @@ def text_width(text: str) -> int:
 
 
 def _is_wide(character: str) -> bool:
+    """Return whether a character takes two columns, as most of Chinese and Japanese do."""
     return unicodedata.east_asian_width(character) in {"W", "F"}
 
 

@@ -61,17 +61,17 @@ NAMES = "letters A-Z, digits, '_', '.' and '-'"
 
 
 def is_identifier(text: str) -> bool:
-    """Whether a text can name a template, a topic, a figure or a solver, in any output."""
+    """Return whether a text can name a template, a topic, a figure or a solver in any output."""
     return _NAME.fullmatch(text) is not None
 
 
 def require_identifier(text: str, what: str, error: ErrorType) -> str:
-    """Return a text that is a name.
+    """Return a text if it is an identifier; ``what`` names it in the message of the error.
 
     Raises
     ------
     QuizgenError
-        Of the kind asked for, if it is none.
+        Of class ``error``, if it is none.
     """
     if is_identifier(text):
         return text
@@ -81,9 +81,9 @@ def require_identifier(text: str, what: str, error: ErrorType) -> str:
 
 @contextmanager
 def error_context(file: Path | None, kind: ErrorType = QuizgenError) -> Iterator[None]:
-    """Have errors about what stands in a file name the file.
+    """Add the file to errors that are raised inside the block and name none.
 
-    An error that names the file already, or another of its folder, stays as it is.
+    An error whose message names this file already, or another of its folder, stays as it is.
 
     Parameters
     ----------
@@ -101,11 +101,12 @@ def error_context(file: Path | None, kind: ErrorType = QuizgenError) -> Iterator
 
 
 def _has_file_name(message: str, file: Path) -> bool:
+    """Return whether a message names a file or another one of its folder."""
     return str(file) in message or f"{file.parent}{os.sep}" in message
 
 
 def escape_csv_formula(cell: str) -> str:
-    """A cell of a table that no spreadsheet runs as a formula.
+    """Return a cell that no spreadsheet runs as a formula: with an apostrophe in front if needed.
 
     Spreadsheets skip blanks, line breaks and invisible marks before the sign, and some read the
     full-width signs, too.
@@ -114,20 +115,25 @@ def escape_csv_formula(cell: str) -> str:
 
 
 def unescape_csv_formula(cell: str) -> str:
-    """A cell as it was before it was made inert for spreadsheets."""
+    """Return a cell without the apostrophe that ``escape_csv_formula`` put in front of it."""
     bare = cell.removeprefix("'")
     return bare if bare != cell and escape_csv_formula(bare) == cell else cell
 
 
 def _find_visible_character(cell: str) -> str:
-    """The first character that is seen; a control character counts as seen."""
+    """Return the first visible character, full-width forms as usual ones; "" if there is none.
+
+    A control character counts as visible.
+    """
     hidden = {"Zs", "Zl", "Zp", "Cf"}
     seen = (c for c in cell if c not in "\n\r\v\f" and unicodedata.category(c) not in hidden)
     return unicodedata.normalize("NFKC", next(seen, ""))
 
 
 def escape_control_characters(text: str, kept: str = "\n") -> str:
-    """A text with its control characters named, so that it steers no terminal and hides nothing.
+    """Return a text with its control characters written as names, such as ``[U+001B ESCAPE]``.
+
+    Raw, they could steer a terminal or hide text.
 
     Parameters
     ----------
@@ -143,30 +149,32 @@ def escape_control_characters(text: str, kept: str = "\n") -> str:
 
 
 def _is_control(character: str) -> bool:
+    """Return whether a character controls output or breaks lines; the joiners of Bangla do not."""
     kind = unicodedata.category(character)
     return (kind[0] == "C" or kind in _BREAKS) and character not in _JOINERS
 
 
 def _format_character_name(character: str) -> str:
+    """Return code point and Unicode name of a character: ``[U+200B ZERO WIDTH SPACE]``."""
     name = unicodedata.name(character, "control character")
     return f"[U+{ord(character):04X} {name}]"
 
 
 def read_bytes(path: Path, error: ErrorType, most: int = LARGEST_FILE) -> bytes:
-    """Read a regular file.
+    """Return the bytes of a regular file.
 
     Parameters
     ----------
     path : pathlib.Path
     error : type
-        What to raise.
+        Class of the error that is raised.
     most : int
-        Bytes.
+        The largest size allowed, in bytes.
 
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file.
+        Of class ``error``, naming the file, if it is missing, larger, or no regular file.
     """
     try:
         _refuse_special(path.stat(), path, error)
@@ -185,30 +193,37 @@ def read_bytes(path: Path, error: ErrorType, most: int = LARGEST_FILE) -> bytes:
 
 
 def _refuse_special(found: os.stat_result, path: Path, error: ErrorType) -> None:
-    """Refuse what has no end or no beginning: once before opening, once for what was opened."""
+    """Raise an error if a path is a folder, a pipe or a device, which may have no end.
+
+    Checked before opening, which may hang, and once more for what was opened.
+    """
     if not stat.S_ISREG(found.st_mode):
         what = "not a file that can be read (a folder, a pipe or a device)"
         raise error(what, rule="QG101", file=path)
 
 
 def read_text(path: Path, error: ErrorType, most: int = LARGEST_FILE) -> str:
-    """Read a regular file of text, UTF-8 unless it says it is UTF-16, with any line ends.
+    """Return the text of a regular file, UTF-8 unless a byte order mark says UTF-16.
+
+    Lines end in LF.
 
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file.
+        Of class ``error``, naming the file.
     """
     return decode_text(read_bytes(path, error, most), path, error)
 
 
 def decode_text(data: bytes, where: object, error: ErrorType) -> str:
-    """Text from bytes, UTF-8 unless they say they are UTF-16, with any line ends.
+    """Return bytes as text, UTF-8 unless a byte order mark says UTF-16; lines end in LF.
+
+    ``where`` is the file, or what messages call the text.
 
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file.
+        Of class ``error``, naming the file.
     """
     try:
         text = data.decode(detect_encoding(data))
@@ -224,29 +239,31 @@ def decode_text(data: bytes, where: object, error: ErrorType) -> str:
 def _error_at(
     where: object, what: str, error: ErrorType, rule: str, place: Place = (), line: int = 0
 ) -> QuizgenError:
-    """An error about a file, or about something that is only called so."""
+    """Return an error of class ``error`` about a file, or about a text by its name."""
     if isinstance(where, Path):
         return error(what, rule=rule, file=where, place=place, line=line)
     return error(f"{where}: {what}", rule=rule)
 
 
 def detect_encoding(data: bytes) -> str:
-    """How text is written that begins with these bytes: UTF-8 unless they say it is UTF-16."""
+    """Return the codec of a text that begins with these bytes: UTF-16 by its mark, else UTF-8."""
     return "utf-16" if data.startswith(_MARKS) else "utf-8-sig"
 
 
 def iter_csv_rows(
     lines: Iterable[str], where: object, error: ErrorType
 ) -> Iterator[tuple[int, list[str]]]:
-    """Read rows of cells, each with its line, as any spreadsheet saves them, one after the other.
+    """Yield (line number, cells) of each row of CSV as any spreadsheet writes it.
 
-    Cells are parted by the comma, semicolon or tab that the first row has most of; a line
-    ``sep=;`` before it says so. Cells may be quoted; rows of blanks are left out.
+    The separator is the comma, semicolon or tab that the first row has most of, unless a line
+    ``sep=;`` above it names one. ``where`` is the file or its name in messages.
+
+    Blank rows are left out.
 
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file and the line.
+        Of class ``error``, naming the file and the line.
     """
     rest, above = iter(lines), [""]
     for line in islice(rest, MOST_VALUES):
@@ -269,12 +286,12 @@ def iter_csv_rows(
 
 
 def parse_csv(text: str, where: object, error: ErrorType) -> list[tuple[int, list[str]]]:
-    """Read all rows of a table, as ``csv_rows`` does.
+    """Return all rows of CSV as (line number, cells), as ``iter_csv_rows`` reads them.
 
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file and the line.
+        Of class ``error``, naming the file and the line.
     """
     rows: list[tuple[int, list[str]]] = []
     count = 0
@@ -287,7 +304,7 @@ def parse_csv(text: str, where: object, error: ErrorType) -> list[tuple[int, lis
 
 
 def format_csv(rows: Iterable[Iterable[str]]) -> str:
-    """Rows of cells as CSV that no spreadsheet runs and no terminal obeys."""
+    """Return rows of cells as CSV that runs in no spreadsheet and steers no terminal."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerows(
@@ -299,22 +316,22 @@ def format_csv(rows: Iterable[Iterable[str]]) -> str:
 def parse_toml(
     text: str, where: object, error: ErrorType, parse_float: Callable[[str], object] = float
 ) -> dict[str, object]:
-    """Read TOML.
+    """Return the table that TOML describes, within the limits of depth and size.
 
     Parameters
     ----------
     text : str
     where : object
-        The file, for messages.
+        The file, or what messages call the text.
     error : type
-        What to raise.
+        Class of the error that is raised.
     parse_float : callable
-        What becomes of a number with a point.
+        Turns the digits of a number with a point into its value.
 
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file and the line or the place.
+        Of class ``error``, naming the file and the line or the place.
     """
     try:
         table = tomllib.loads(text, parse_float=parse_float)
@@ -337,12 +354,16 @@ def parse_toml(
 
 
 def parse_json(text: str, where: object, error: ErrorType) -> object:
-    """Read JSON; numbers with a point stay text, and a name stands in a table once.
+    """Return the value that JSON describes.
+
+    A key that stands twice in a table is an error.
+
+    Numbers with a point stay text, so that 0.50 keeps its digits.
 
     Raises
     ------
     QuizgenError
-        Of the kind asked for, naming the file and the line or the place.
+        Of class ``error``, naming the file and the line or the place.
     """
     if (
         _count_json_values(text) > MOST_VALUES
@@ -351,7 +372,10 @@ def parse_json(text: str, where: object, error: ErrorType) -> object:
         raise error(f"{where}: more than {MOST_VALUES} values")
     try:
         value = json.loads(
-            text, parse_float=str, parse_constant=_no_number, object_pairs_hook=_without_twins
+            text,
+            parse_float=str,
+            parse_constant=_reject_constant,
+            object_pairs_hook=_build_unique_table,
         )
     except RecursionError:
         raise error(f"{where}: more than {DEEPEST} tables and lists within each other") from None
@@ -364,15 +388,20 @@ def parse_json(text: str, where: object, error: ErrorType) -> object:
 
 
 def _count_json_values(text: str) -> int:
-    """Values of JSON at most: what is small in a file may be large once it is read."""
+    """Return an upper bound of the number of values.
+
+    What is small in a file may be large in memory.
+    """
     return sum(map(text.count, ",[{"))
 
 
-def _no_number(text: str) -> object:
+def _reject_constant(text: str) -> object:
+    """Raise ``ValueError`` for ``NaN`` and ``Infinity``, which ``json`` would accept."""
     raise ValueError(f"{text} is no number")
 
 
-def _without_twins(pairs: list[tuple[str, object]]) -> dict[str, object]:
+def _build_unique_table(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    """Return the pairs of a JSON object as a dict; raise ``ValueError`` if a key stands twice."""
     table = dict(pairs)
     if len(table) < len(pairs):
         names = [name for name, _ in pairs]
@@ -382,11 +411,15 @@ def _without_twins(pairs: list[tuple[str, object]]) -> dict[str, object]:
 
 
 def _shorten_text(found: Exception) -> str:
+    """Return the message of an error, at most 300 characters of it."""
     return str(found)[:300]
 
 
 def _check_table_limits(table: object, where: object, error: ErrorType) -> None:
-    """Refuse a table that is too deep or too long, and numbers and texts that nobody means."""
+    """Raise an error if a table is too deep or large, or a number or text in it too odd.
+
+    ``where`` is the file or its name in messages; the error is of class ``error``.
+    """
     for count, (place, value, depth) in enumerate(_iter_table_values(table)):
         problem, said = _find_value_problem(value), escape_control_characters(_format_place(place))
         if problem:
@@ -399,7 +432,7 @@ def _check_table_limits(table: object, where: object, error: ErrorType) -> None:
 
 
 def _iter_table_values(table: object) -> Iterator[tuple[Place, object, int]]:
-    """Every key and value with its place and depth, without recursion."""
+    """Yield every key and value with place and depth; no recursion, which depth could exhaust."""
     todo: list[tuple[Place, object, int]] = [((), table, 0)]
     while todo:
         place, value, depth = todo.pop()
@@ -415,12 +448,13 @@ def _iter_table_values(table: object) -> Iterator[tuple[Place, object, int]]:
 
 
 def _format_place(place: Place) -> str:
-    """``entry[0].term`` for people."""
+    """Return a place as people write it: ``entry[0].term``."""
     steps = (f"[{key}]" if isinstance(key, int) else f".{key[:LONGEST_NAME]}" for key in place)
     return "".join(steps).removeprefix(".")
 
 
 def _find_value_problem(value: object) -> str:
+    """Return what is wrong with a number or text, or "": too many digits, half a surrogate pair."""
     if isinstance(value, int) and not -_TOO_LARGE < value < _TOO_LARGE:
         return f"a number of more than {MOST_DIGITS} digits"
     if isinstance(value, str):

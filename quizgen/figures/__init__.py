@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 
 def figure_parameters(figure: ModuleType) -> Mapping[str, Parameter]:
-    """Parameters of a figure: name to unit, meaning and default.
+    """Return the parameters of a figure by name: unit, meaning and default of each.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def draw_figure(
     figure: ModuleType, values: Mapping[str, Any], *, quiz: bool, lang: str,
     marks: Mapping[str, float] | None = None,
 ) -> Figure:  # fmt: skip
-    """Draw a figure, or take it from the cache.
+    """Return a drawn figure, from the cache if it was drawn before.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def draw_figure(
     lang : str
         Language of the description, and of the decimal signs in the picture.
     marks : mapping of str to float, optional
-        Values of a learner, to be drawn beside the right ones by the figure's ``mark``.
+        Values of a learner, to be drawn next to the right ones by the figure's ``mark``.
 
     Returns
     -------
@@ -88,13 +88,16 @@ def draw_figure(
 
 
 def describe_figure(figure: ModuleType, values: Mapping[str, Any], *, quiz: bool, lang: str) -> str:
-    """What a figure shows, in words, not drawn; arguments and errors as ``draw_figure``."""
+    """Return a figure's description in words, without drawing it.
+
+    Arguments as for ``draw_figure``.
+    """
     values = complete_parameters(figure, values)
     return _describe_values(check_figure_module(figure), values, lang, quiz=quiz)
 
 
 def complete_parameters(figure: ModuleType, values: Mapping[str, Any]) -> dict[str, Any]:
-    """All parameters of a figure, those left out at their defaults; errors as ``draw_figure``."""
+    """Return all parameters of a figure, those left out at their defaults."""
     return fill_defaults(figure_name(figure), figure_parameters(figure), values)
 
 
@@ -102,7 +105,7 @@ def plot_figure(
     draw: Callable[[Any], object], alt: str, lang: str,
     size: tuple[float, float] | None = None,
 ) -> Figure:  # fmt: skip
-    """Draw a plot that is no question's: of a class, of a learner's progress, of measurements.
+    """Return a plot that belongs to no question: of a class, of progress, of measurements.
 
     Parameters
     ----------
@@ -126,11 +129,13 @@ def plot_figure(
 def _describe_values(
     module: FigureModule, values: Mapping[str, Any], lang: str, *, quiz: bool
 ) -> str:
+    """Return a figure's description, with names and numbers as a language writes them."""
     return localise_numbers(lang, pretty.format_names_in(module.alt(values, lang, quiz=quiz)))
 
 
 @lru_cache(maxsize=256)
 def _draw_items(module: FigureModule, items: Items, quiz: bool, lang: str, marks: Items) -> Figure:
+    """Return a drawn figure, cached by its values in hashable form."""
     load_engine()
     from quizgen.figures.engine import draw_module
 
@@ -141,6 +146,7 @@ def _draw_items(module: FigureModule, items: Items, quiz: bool, lang: str, marks
 
 
 def _finish_figure(drawing: Drawing, alt: str, lang: str, *, colour: bool = False) -> Figure:
+    """Return a figure made of a drawing and its description."""
     from quizgen.figures.svg import write_svg
 
     return Figure(

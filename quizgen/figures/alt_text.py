@@ -18,44 +18,47 @@ _DERIVED = Context(prec=4, rounding=ROUND_HALF_UP)
 
 
 def _format_plain(number: Decimal) -> str:
+    """Return a decimal without exponent and trailing zeros, with a true minus sign."""
     text = f"{number.normalize():f}"
     return ("−" + text[1:] if text.startswith("-") else text) if number else "0"
 
 
 def format_given(value: float) -> str:
-    """Print a number that the question states, in full."""
+    """Return a number that the question states, with all its digits."""
     return _format_plain(_GIVEN.create_decimal(repr(float(value))))
 
 
 def format_derived(value: float) -> str:
-    """Print a computed number: whole or rounded half away from zero to 4 significant digits."""
+    """Return a computed number: whole, or rounded to 4 significant digits (half away from 0)."""
     return _format_plain(_to_short_decimal(value))
 
 
 def _to_short_decimal(value: float) -> Decimal:
+    """Return a whole number as it is, any other rounded to 4 significant digits."""
     value = float(value)
     return Decimal(value) if value.is_integer() else _DERIVED.create_decimal(repr(value))
 
 
 def relation_sign(value: float) -> str:
-    """``=`` if the printed number is the value, else ``≈``."""
+    """Return ``=`` if the printed number is exactly the value, else ``≈``."""
     shown = float(_to_short_decimal(value))
     return "=" if abs(shown - value) <= 1e-12 * abs(value) else "≈"
 
 
 def format_equation(name: str, value: float, unit: str = "", *, hide: bool = False) -> str:
-    """``name = value unit`` for a computed value, or ``name = ?``."""
+    """Return ``name = value unit`` for a computed value; ``name = ?`` if it is to be hidden."""
     if hide:
         return f"{name} = ?"
-    return f"{name} {relation_sign(value)} {format_derived(value)}{_after_number(unit)}"
+    return f"{name} {relation_sign(value)} {format_derived(value)}{_format_unit_suffix(unit)}"
 
 
 def format_statement(name: str, value: float, unit: str = "") -> str:
-    """``name = value unit`` for a number that the question states."""
-    return f"{name} = {format_given(value)}{_after_number(unit)}"
+    """Return ``name = value unit`` for a number that the question states."""
+    return f"{name} = {format_given(value)}{_format_unit_suffix(unit)}"
 
 
-def _after_number(unit: str) -> str:
+def _format_unit_suffix(unit: str) -> str:
+    """Return a unit with a space in front, or ""."""
     return f" {unit}" if unit else ""
 
 
@@ -67,14 +70,14 @@ _COMMAND = re.compile(rf"({'|'.join(map(re.escape, _COMMANDS))})(?![A-Za-z])\s?"
 
 
 def strip_mathtext(label: str) -> str:
-    """A label of a figure as plain text: ``$z'_p$ = 60 mm`` is ``z'_p = 60 mm``."""
+    """Return a label of a figure as plain text: ``$z'_p$ = 60 mm`` is ``z'_p = 60 mm``."""
     label = _COMMAND.sub(lambda found: _COMMANDS[found[1]], label)
     return _MATHTEXT.sub("", label)
 
 
 @cache
 def load_alt_words(module: str, lang: str) -> dict[str, str]:
-    """Sentences of a figure, from ``<lang>.toml`` beside it; in English where there is none.
+    """Return the sentences of a figure by key, in English where a language has none.
 
     Parameters
     ----------
@@ -99,12 +102,13 @@ def load_alt_words(module: str, lang: str) -> dict[str, str]:
 
 
 def clear_alt_words() -> None:
-    """Have the sentences of all figures read again."""
+    """Forget the sentences of all figures, so that changed files are read again."""
     load_alt_words.cache_clear()
     _load_table.cache_clear()
 
 
 @cache
 def _load_table(file: Path) -> dict[str, Any]:
+    """Return the content of a file of sentences; raise ``BankError`` if it cannot be read."""
     with error_context(file, BankError):
         return tomllib.loads(read_bytes(file, BankError).decode())

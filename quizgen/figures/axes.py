@@ -39,8 +39,8 @@ _LEAN = {"size", "width", "pad", "labelsize", "gridOn", "tick1On", "tick2On", "l
          "label2On"}  # fmt: skip
 
 
-class _LeanAxis:
-    """An axis that draws its ticks itself, unless somebody has styled them."""
+class _TickPathAxis:
+    """An axis that draws all its ticks as one path, unless somebody has styled them."""
 
     styled = False
     axes: Any
@@ -49,7 +49,7 @@ class _LeanAxis:
     minor: Any
 
     def set_tick_params(self, which: str = "major", reset: bool = False, **kwargs: Any) -> None:
-        """Keep the settings; ticks are made when matplotlib's own way of drawing needs them."""
+        """Store the settings; matplotlib makes ticks from them only when it must."""
         unmade = [name for name in ("majorTicks", "minorTicks") if name not in self.__dict__]
         for name in unmade:
             setattr(self, name, [])
@@ -62,13 +62,13 @@ class _LeanAxis:
         self.styled = bool(settings.keys() - _LEAN) or bool(elsewhere)
 
     def set_clip_path(self, path: Any, transform: Any = None) -> None:
-        """Clip the axis; its ticks, which matplotlib would make and clip here, are not there."""
+        """Clip the axis without making ticks, as matplotlib would."""
         Artist.set_clip_path(self, path, transform)  # type: ignore[arg-type]
 
     def set_ticks(
         self, ticks: Any, labels: Any = None, *, minor: bool = False, **kwargs: Any
     ) -> Any:
-        """Put ticks at places, without making an artist of each."""
+        """Set the positions and labels of ticks, without making an artist of each."""
         here: Any = self
         if kwargs or self.styled:
             return super().set_ticks(ticks, labels, minor=minor, **kwargs)  # type: ignore[misc]
@@ -98,7 +98,7 @@ class _LeanAxis:
         if self.styled or made or moved or not hasattr(renderer, "labels"):
             super().draw(renderer)  # type: ignore[misc]
             ticks = (label for tick in here.majorTicks for label in (tick.label1, tick.label2))
-            self._note_name(renderer, [text.get_text() for text in ticks if text.get_visible()])
+            self._count_unnamed(renderer, [text.get_text() for text in ticks if text.get_visible()])
             return
         renderer.open_group("axis", here.get_gid() or "axis")
         gc, reach = renderer.new_gc(), 0.0
@@ -110,7 +110,7 @@ class _LeanAxis:
         here.stale = False
 
     def _locate_ticks(self, kind: str) -> Any:
-        """Places of ticks inside the view, in data units."""
+        """Return the positions of major or minor ticks inside the view, in data units."""
         here: Any = self
         ticks = getattr(here, kind)
         if isinstance(ticks.locator, NullLocator):
@@ -121,7 +121,7 @@ class _LeanAxis:
         return found[(found >= low - slack) & (found <= high + slack)]
 
     def _draw_ticks(self, renderer: Any, gc: Any, kind: str, spine: Any) -> float:
-        """Draw the ticks of a kind; how far their labels reach from the axes, in points."""
+        """Draw major or minor ticks; return how far their labels reach from the axes, in points."""
         here: Any = self
         places = self._locate_ticks(kind)
         if not len(places):
@@ -151,10 +151,11 @@ class _LeanAxis:
             return float(size)
         font = house_font(settings.get("labelsize", _settings[f"{name}tick.labelsize"]))
         texts = getattr(here, kind).formatter.format_ticks(places)
-        self._note_name(renderer, texts)
+        self._count_unnamed(renderer, texts)
         return self._draw_labels(renderer, gc, font, zip(at, texts, strict=True), size + pad)
 
     def _draw_labels(self, renderer: Any, gc: Any, font: Any, labels: Any, gap: float) -> float:
+        """Draw labels ``gap`` points from the axes; return how far they reach, in points."""
         here: Any = self
         across, box, reach = here.axis_name == "x", here.axes.bbox, gap
         for place, label in labels:
@@ -175,6 +176,7 @@ class _LeanAxis:
         return float(reach)
 
     def _draw_bars(self, renderer: Any, gc: Any, places: Any, start: float, end: float) -> None:
+        """Draw a bar across the axis at each place, from start to end, in points."""
         along = 0 if self.axis_name == "x" else 1
         points = np.empty((2 * len(places), 2))
         points[:, along] = np.repeat(places, 2)
@@ -182,15 +184,18 @@ class _LeanAxis:
         codes = np.tile(np.array([1, 2], np.uint8), len(places))
         renderer.draw_path(gc, Path(points, codes), _IN_POINTS)
 
-    def _note_name(self, renderer: Any, texts: Any) -> None:
-        """Count an axis that has numbers, and no name that says of what."""
+    def _count_unnamed(self, renderer: Any, texts: Any) -> None:
+        """Count an axis that has numbers but no name that says of what."""
         here: Any = self
         named = here.label.get_visible() and here.label.get_text()
         if not named and any(_IS_NUMBER(_IN_NUMBERS.sub("", str(text))) for text in texts):
             renderer.unnamed_axes = getattr(renderer, "unnamed_axes", 0) + 1
 
     def _draw_name(self, renderer: Any, gc: Any, reach: float) -> None:
-        """Write the name of the axis at its end, level, as textbooks have it."""
+        """Draw the name at the axis' end, level, as textbooks do.
+
+        ``reach`` is that of its labels.
+        """
         here: Any = self
         text, factor, box = here.label.get_text(), here.major.formatter.get_offset(), here.axes.bbox
         text = f"{text}  ({factor})" if factor and text else text or factor
@@ -206,16 +211,16 @@ class _LeanAxis:
         renderer.draw_text(gc, x, renderer.height - y, text, font, 0, "$" in text)
 
 
-class _X(_LeanAxis, XAxis):
-    pass
+class _HorizontalAxis(_TickPathAxis, XAxis):
+    """The x axis, with ticks drawn as one path."""
 
 
-class _Y(_LeanAxis, YAxis):
-    pass
+class _VerticalAxis(_TickPathAxis, YAxis):
+    """The y axis, with ticks drawn as one path."""
 
 
 class HouseAxes(Axes):
-    """Axes in the style of the house; everything of matplotlib works on them."""
+    """Axes in quizgen's style, on which everything of matplotlib works."""
 
     name = "house"
 
@@ -228,7 +233,11 @@ class HouseAxes(Axes):
             axis.styled = False
 
     def _init_axis(self) -> None:
-        self.xaxis, self.yaxis = _X(self, clear=False), _Y(self, clear=False)
+        """Give the axes quizgen's own x and y axis; matplotlib calls this."""
+        self.xaxis, self.yaxis = (
+            _HorizontalAxis(self, clear=False),
+            _VerticalAxis(self, clear=False),
+        )
         sides = {"bottom": self.xaxis, "top": self.xaxis, "left": self.yaxis, "right": self.yaxis}
         for side, axis in sides.items():
             self.spines[side].register_axis(axis)
@@ -236,7 +245,7 @@ class HouseAxes(Axes):
     def grid(
         self, visible: bool | None = True, which: Any = "major", axis: Any = "both", **kwargs: Any
     ) -> None:
-        """Switch the house's grid on or off; with other styles, matplotlib's."""
+        """Switch the grid on or off; with other styles, matplotlib's own grid."""
         if kwargs:
             super().grid(visible, which, axis, **kwargs)
             return
@@ -247,7 +256,7 @@ class HouseAxes(Axes):
 
 
 class Sheet(Figure):
-    """A figure of matplotlib measured in points, whose plain axes are those of the house.
+    """A figure of matplotlib measured in points, whose plain axes are `HouseAxes`.
 
     Parameters
     ----------
@@ -261,23 +270,25 @@ class Sheet(Figure):
         self.patch.set_visible(False)
 
     def add_subplot(self, *args: Any, **kwargs: Any) -> Any:
+        """Return new axes as matplotlib does, `HouseAxes` unless they have a projection."""
         if "projection" not in kwargs and not kwargs.get("polar"):
             kwargs.setdefault("axes_class", HouseAxes)
         return super().add_subplot(*args, **kwargs)
 
     def add_axes(self, *args: Any, **kwargs: Any) -> Any:
+        """Return new or given axes as matplotlib does, `HouseAxes` unless with a projection."""
         made = args and isinstance(args[0], Axes)
         if "projection" not in kwargs and not kwargs.get("polar") and not made:
             kwargs.setdefault("axes_class", HouseAxes)
         return super().add_axes(*args, **kwargs)
 
     def axes_in(self, left: float, low: float, width: float, height: float) -> Any:
-        """Add axes in a box in points, from the lower left."""
+        """Return new axes in a box in points, from the lower left corner."""
         w, h = self.get_size_inches() * 72
         return self.add_axes((left / w, low / h, width / w, height / h))
 
     def sketch(self, on: Any = None, **kwargs: Any) -> Sketch:
-        """Add a sketch, in points of the figure or in units of axes."""
+        """Return a new sketch, in points of the figure or, with axes ``on``, in their units."""
         added = Sketch(on.transData if on is not None else _IN_POINTS, **kwargs)
         added.set_figure(self)
         (self if on is None else on).add_artist(added)
@@ -285,7 +296,10 @@ class Sheet(Figure):
         return added
 
     def picture(self, pixels: Any, box: Any, palette: Any = None, gid: str = "") -> Picture:
-        """Add pixels in a box (left, low, width, height) in points; they are never resampled."""
+        """Return pixels added in a box (left, low, width, height) in points.
+
+        They are never resampled.
+        """
         added = Picture(pixels, box, palette)
         added.set_gid(gid)
         added.set_figure(self)
@@ -302,7 +316,7 @@ class Picture(Artist):
         self.set_zorder(0)
 
     def draw(self, renderer: Any) -> None:
-        """Hand the pixels on from below, as matplotlib counts them."""
+        """Draw the pixels on a renderer, last row first, as matplotlib counts them."""
         renderer.open_group("picture", self.get_gid())
         left, low, width, height = self.box
         pixels, named = self.pixels[::-1], {}

@@ -19,19 +19,19 @@ if TYPE_CHECKING:
 
 
 class FigureModule(Protocol):
-    """One figure: what it is drawn from, the drawing, and the same picture in words.
+    """A module that draws one figure: its parameters, the drawing, and a description in words.
 
-    Beside these it may have ``SIZE``, width and height in points of its axes or sheet (``COLUMN``,
+    It may also have ``SIZE``, width and height in points of its axes or sheet (``COLUMN``,
     ``WIDE`` and ``SQUARE`` of the kit are ready ones); ``COLOUR = True``, or a function of the
     values, if it cannot be read on grey paper; and ``mark(place, values, marks)``, which draws
-    values of a learner beside the right ones.
+    values of a learner next to the right ones.
     """
 
     PARAMETERS: dict[str, Parameter]
     """Parameter name to unit, meaning, range and default."""
 
     def __hash__(self) -> int:
-        """Modules are what drawn figures are kept by."""
+        """Return a hash: drawn figures are cached by their module."""
         ...
 
     def draw(self, place: Any, values: Values, *, quiz: bool) -> None:
@@ -44,22 +44,23 @@ class FigureModule(Protocol):
         ...
 
     def alt(self, values: Values, lang: str, *, quiz: bool) -> str:
-        """Describe the figure in words, in a language of the bank."""
+        """Return the figure's description in words, in a language of the bank."""
         ...
 
 
 def figure_name(module: ModuleType) -> str:
-    """What templates call a figure."""
+    """Return the name by which templates refer to a figure."""
     return module.__name__.rpartition(".")[2]
 
 
-def _file(module: ModuleType) -> Path | None:
+def _find_module_file(module: ModuleType) -> Path | None:
+    """Return the file of a module, None if it has none."""
     found = getattr(module, "__file__", None)
     return Path(found) if found else None
 
 
 def check_figure_module(module: ModuleType) -> FigureModule:
-    """Return a module that draws a figure.
+    """Return a module that was checked to draw a figure.
 
     Raises
     ------
@@ -70,26 +71,26 @@ def check_figure_module(module: ModuleType) -> FigureModule:
     for name in ("PARAMETERS", "draw", "alt"):
         if not hasattr(module, name):
             said = f"{what} has no {name} (see docs/figures.md)"
-            raise BankError(said, rule="QG145", file=_file(module))
+            raise BankError(said, rule="QG145", file=_find_module_file(module))
     if first_parameter(module.draw) not in {"ax", "fig"}:
         said = f"{what}'s draw() takes 'ax' or 'fig' first (see docs/figures.md)"
-        raise BankError(said, rule="QG145", file=_file(module))
+        raise BankError(said, rule="QG145", file=_find_module_file(module))
     return cast("FigureModule", module)
 
 
 @lru_cache(256)
 def parameters_of(function: Any) -> tuple[str, ...]:
-    """Names of a function's parameters; finding them out takes as long as a kept figure."""
+    """Return the names of a function's parameters, cached, as inspection is slow."""
     return tuple(signature(function).parameters)
 
 
 def first_parameter(function: Any) -> str:
-    """Name of a function's first parameter."""
+    """Return the name of a function's first parameter."""
     return next(iter(parameters_of(function)), "")
 
 
 def needs_colour(module: ModuleType | FigureModule, values: Mapping[str, Any]) -> bool:
-    """Whether a figure cannot be read on grey paper."""
+    """Return whether a figure with these values cannot be read in greyscale."""
     rule = getattr(module, "COLOUR", False)
     return bool(rule(values) if callable(rule) else rule)
 
@@ -101,7 +102,7 @@ _VARIABLE = re.compile(rb"var\(--fig-[a-z-]+,(#[0-9a-f]{6})\)")
 
 @dataclass(frozen=True, eq=False)
 class Figure:
-    """A finished figure.
+    """A finished figure: SVG, size, description and labels.
 
     Attributes
     ----------
@@ -140,20 +141,21 @@ class Figure:
 
     @cached_property
     def standalone_svg(self) -> bytes:
-        """The same for files: in fixed colours on light paper, as they know no variables of a page.
+        """The SVG file in fixed colours on light paper, for programs without a page's variables.
 
-        Without its words, which stand beside it, so that all languages share one file.
+        Without its description, so that all languages share one file.
         """
         bare = _WORDS.sub(b"", _LANGUAGE.sub(b"", self.inline_svg, count=1), count=1)
         return _VARIABLE.sub(rb"\1", bare).replace(b"currentColor", b"#000000")
 
     def __eq__(self, other: object) -> bool:
-        """Whether they show the same and say the same of it."""
+        """Return whether two figures have the same SVG, description included."""
         return isinstance(other, Figure) and self.inline_svg == other.inline_svg
 
     def __hash__(self) -> int:
+        """Return a hash of the SVG."""
         return hash(self.inline_svg)
 
     def _repr_html_(self) -> str:
-        """The figure as a notebook shows it."""
+        """Return the SVG for a notebook."""
         return self.inline_svg.decode()

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class FieldPicture(msgspec.Struct, frozen=True):
-    """A field to draw in and the lines in it, told in a language."""
+    """A field to draw in, and the lines in it, described in a language."""
 
     field: DrawingField
     lang: str
@@ -29,12 +29,12 @@ class FieldPicture(msgspec.Struct, frozen=True):
 
     @property
     def figure(self) -> Figure:
-        """The picture."""
+        """The drawn field."""
         return _draw_field(self)
 
     @property
     def alt(self) -> str:
-        """The picture in words, without drawing it."""
+        """The description of the field in words, without drawing it."""
         words, field = load_words(self.lang, "figures")["field"], self.field
         text = words["solved" if self.lines else "empty"]
         text += words["ranges"].format(
@@ -55,6 +55,7 @@ class FieldPicture(msgspec.Struct, frozen=True):
 
 @lru_cache(maxsize=256)
 def _draw_field(picture: FieldPicture) -> Figure:
+    """Return the drawn field, cached."""
     load_engine()
     from quizgen.figures.engine import draw_sheet
     from quizgen.figures.svg import write_svg
@@ -62,6 +63,7 @@ def _draw_field(picture: FieldPicture) -> Figure:
     field, decimal = picture.field, get_language(picture.lang).decimal
 
     def draw(sheet: Any) -> None:
+        """Draw axes, given lines and the learner's or the right lines."""
         sketch = sheet.sketch()
         _draw_axes(sketch, field)
         for line in field.given:
@@ -86,6 +88,7 @@ def _draw_field(picture: FieldPicture) -> Figure:
 
 
 def _draw_axes(sketch: Sketch, field: DrawingField) -> None:
+    """Draw grid, axes and their numbers."""
     left, right, low, high = field.view
     size = 8.0
     for x in _iter_ticks(left, right, field.grid[0]):
@@ -109,14 +112,17 @@ def _draw_axes(sketch: Sketch, field: DrawingField) -> None:
 
 
 def _iter_ticks(first: float, last: float, step: float) -> Iterator[float]:
+    """Yield the multiples of a step from first to last."""
     slack = 1e-9 * (last - first)
     for count in range(ceil((first - slack) / step), floor((last + slack) / step) + 1):
         yield round(count * step, 9) + 0.0
 
 
 def _format_lines(lines: tuple[Line, ...]) -> str:
+    """Return lines as text: their points, lines parted by semicolons."""
     return "; ".join(", ".join(map(_format_point, line)) for line in lines)
 
 
 def _format_point(point: Point) -> str:
+    """Return a point as ``(x; y)``, rounded to 3 decimals."""
     return "({}; {})".format(*(format_given(round(value, 3)) for value in point))

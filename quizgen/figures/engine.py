@@ -47,7 +47,7 @@ Draw = Callable[[Any], object]
 def draw_sheet(
     draw: Draw, size: tuple[float, float], decimal: str, *, axes: bool, fixed: bool = False
 ) -> Drawing:
-    """Draw on a new sheet.
+    """Return the drawing that a function makes on a new sheet.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def draw_sheet(
 
 @lru_cache(32)
 def _empty_axes(width: float, height: float) -> bytes:
-    """A sheet with empty axes, pickled: a fresh copy takes half the time of making it."""
+    """Return a pickled sheet with empty axes: a copy takes half the time of a new one."""
     sheet = Sheet(width, height)
     sheet.add_axes((0, 0, 1, 1))
     return pickle.dumps(sheet)
@@ -81,7 +81,7 @@ def _empty_axes(width: float, height: float) -> bytes:
 def draw_module(
     module: FigureModule, items: Items, *, quiz: bool, lang: str, decimal: str, marks: Items = ()
 ) -> Drawing:
-    """Draw a figure's module, or take what was kept of it.
+    """Return the drawing of a figure's module, from the cache if it was drawn before.
 
     A drawing is kept under the digest of all that decides its bytes: the figure's code and its
     neighbours', the engine, the camera, the versions of matplotlib and NumPy, and the values.
@@ -95,6 +95,7 @@ def draw_module(
     extra = {"lang": lang} if wants_lang else {}
 
     def draw(place: Any) -> None:
+        """Draw the figure, and a learner's marks if there are any."""
         values = dict(items)
         module.draw(place, values, quiz=quiz, **extra)
         if marks:
@@ -108,26 +109,28 @@ def draw_module(
 
 @cache
 def _make_drawing_decoder() -> msgspec.msgpack.Decoder[Drawing]:
+    """Return the decoder of cached drawings."""
     prepare_type(Drawing)
     return msgspec.msgpack.Decoder(Drawing)
 
 
 @cache
 def _digest_engine() -> bytes:
-    """Digest of quizgen's code that draws, and of the libraries it draws with."""
-    files = [file for name in _CODE for file in _python_files(_PACKAGE / name)]
+    """Return a digest of quizgen's drawing code and of the libraries that it draws with."""
+    files = [file for name in _CODE for file in _list_python_files(_PACKAGE / name)]
     versions = f"{mpl.__version__} {np.__version__}".encode()
     return compute_digest(versions, *(file.read_bytes() for file in files)).encode()
 
 
 @lru_cache(256)
 def _digest_folder(module: FigureModule) -> bytes:
-    """Digest of a figure's code and of what it may import from beside it."""
+    """Return a digest of a figure's code and of the modules in its folder."""
     folder = Path(str(module.__file__)).parent  # type: ignore[attr-defined]
     return compute_digest(*(file.read_bytes() for file in sorted(folder.glob("*.py")))).encode()
 
 
-def _python_files(place: Path) -> list[Path]:
+def _list_python_files(place: Path) -> list[Path]:
+    """Return the Python files below a folder, sorted."""
     return sorted(place.rglob("*.py"))
 
 
@@ -169,24 +172,26 @@ _NOT_DRAWN = ("backend", "webagg", "savefig", "animation", "keymap", "tk.", "int
 
 
 def _complete_settings() -> dict[str, Any]:
-    """All settings a drawing depends on, whatever the machine's matplotlibrc says."""
+    """Return all settings a drawing depends on, whatever the machine's matplotlibrc says."""
     usual = {k: v for k, v in mpl.rcParamsDefault.items() if not k.startswith(_NOT_DRAWN)}
     with HouseColours():
         return dict(mpl.RcParams({**usual, **_SETTINGS}).items())
 
 
 class HouseColours:
-    """Names of the house's inks inside, those of before afterwards: ``red`` is ours only here."""
+    """A ``with`` block in which colour names mean quizgen's inks: ``red`` is ours there alone."""
 
     _cache: ClassVar[dict[Any, Any]] = {}
 
     def __enter__(self) -> None:
+        """Replace matplotlib's colours of these names."""
         names: Any = get_named_colors_mapping()
         self._before = {name: dict.get(names, name) for name in _LIGHT}
         self._cache_before, names.cache = names.cache, self._cache
         dict.update(names, _LIGHT)
 
     def __exit__(self, *_: object) -> None:
+        """Restore matplotlib's colours."""
         names: Any = get_named_colors_mapping()
         names.cache = self._cache_before
         for name, before in self._before.items():
@@ -197,19 +202,21 @@ class HouseColours:
 
 
 class HouseStyle(HouseColours):
-    """The house's settings inside, those of before afterwards.
+    """A ``with`` block with quizgen's settings and colours of matplotlib.
 
     ``matplotlib.rc_context`` does the same in 0.44 ms, as it validates each value; these were
     validated once. The caller holds the lock of the engine: settings belong to the process.
     """
 
     def __enter__(self) -> None:
+        """Replace matplotlib's settings."""
         super().__enter__()
         now: Any = mpl.rcParams
         self._settings = {key: dict.__getitem__(now, key) for key in _COMPLETE}
         dict.update(now, _COMPLETE)
 
     def __exit__(self, *_: object) -> None:
+        """Restore matplotlib's settings."""
         now: Any = mpl.rcParams
         dict.update(now, self._settings)
         super().__exit__()

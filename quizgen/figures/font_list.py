@@ -14,11 +14,11 @@ import matplotlib as mpl
 FONTS = Path(__file__).parent / "fonts"
 
 
-def _load_font_list() -> None:
-    """Let the font manager read the list in ``fonts`` in place of scanning the machine.
+def _install_font_list() -> None:
+    """Have matplotlib read the list in ``fonts`` in place of scanning the machine for fonts.
 
     The file is named after the version of the list's form. Another matplotlib looks for another
-    name, finds none here, and would write its own beside it: then it may scan as usual.
+    name, finds none here, and would write its own there: then it may scan as usual.
     """
     files = sorted(FONTS.glob("fontlist-*.json"))
     if not files or not mpl.__version__.startswith("3.11."):
@@ -39,4 +39,4 @@ def _load_font_list() -> None:
         mpl.get_cachedir = own
 
 
-_load_font_list()
+_install_font_list()

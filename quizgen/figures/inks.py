@@ -25,6 +25,7 @@ white is 8.6, 5.8, 4.4 and 3.3, with the dark page at least 8.7.
 
 
 def _format_css_paint(name: str, light: str) -> str:
+    """Return the CSS paint of an ink: a variable with its light colour, or ``currentColor``."""
     return "currentColor" if name == "ink" else f"var(--fig-{name},{light})"
 
 
@@ -33,7 +34,7 @@ PAINTS = {light: _format_css_paint(name, light) for name, (light, _) in INKS.ite
 
 
 def write_theme_css() -> str:
-    """CSS that gives figures the colours of a dark page; black follows the text's colour.
+    """Return CSS that gives figures the colours of a dark page; black follows the text's colour.
 
     Paper is light even where the screen is dark: the rule is for screens alone.
     """

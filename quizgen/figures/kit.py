@@ -1,4 +1,4 @@
-"""What figures are drawn with, beside matplotlib: one import for authors.
+"""What figures are drawn with, apart from matplotlib: one import for authors.
 
 A figure is a module ``templates/figures/<name>.py`` of a bank, or ``figure.py`` in the folder of a
 template; ``docs/figures.md`` shows both.

@@ -9,6 +9,6 @@ from quizgen.core.imports import LOCK
 
 @cache
 def load_engine() -> None:
-    """Import what draws; call this before other imports when drawing."""
+    """Import the drawing engine; call this before other imports when drawing."""
     with LOCK:
         import quizgen.figures.engine  # noqa: F401

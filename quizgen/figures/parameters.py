@@ -18,7 +18,7 @@ ABSENT = math.nan
 
 
 class Parameter(msgspec.Struct, frozen=True):
-    """One value that a figure is drawn from.
+    """One parameter of a figure: unit, meaning, default and allowed values.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Parameter(msgspec.Struct, frozen=True):
 
 
 def fill_defaults(figure: str, table: Mapping[str, Parameter], values: Values) -> dict[str, Any]:
-    """Check values against a table and fill in the defaults, in the order of the table.
+    """Return checked values with defaults filled in, in the order of the table.
 
     Raises
     ------
@@ -63,6 +63,7 @@ def fill_defaults(figure: str, table: Mapping[str, Parameter], values: Values) -
 
 
 def _check_value(figure: str, name: str, rule: Parameter, values: Values) -> Any:
+    """Return one value as its parameter defines it; raise ``BankError`` if it does not fit."""
     if name not in values:
         if rule.default is None:
             what = f"figure {figure!r}: missing parameter {name!r} ({rule.meaning})"
@@ -75,15 +76,16 @@ def _check_value(figure: str, name: str, rule: Parameter, values: Values) -> Any
         return value
     if rule.kind == "number":
         return _check_number(figure, name, rule, value)
-    rows = _as_list(figure, name, value)
+    rows = _require_list(figure, name, value)
     if rule.kind == "list":
         return tuple(_check_number(figure, name, rule, item) for item in rows)
-    table = [_as_list(figure, name, row) for row in rows]
+    table = [_require_list(figure, name, row) for row in rows]
     require(figure, len(set(map(len, table))) <= 1, f"{name}: rows of different lengths")
     return tuple(tuple(_check_number(figure, name, rule, item) for item in row) for row in table)
 
 
-def _as_list(figure: str, name: str, value: Any) -> list[Any]:
+def _require_list(figure: str, name: str, value: Any) -> list[Any]:
+    """Return an array, list or tuple as a list; raise ``BankError`` for anything else."""
     if hasattr(value, "tolist"):  # an array
         value = value.tolist()
     require(figure, isinstance(value, (list, tuple)), f"{name} = {value!r} is no list")
@@ -91,6 +93,7 @@ def _as_list(figure: str, name: str, value: Any) -> list[Any]:
 
 
 def _check_number(figure: str, name: str, rule: Parameter, given: Any) -> float:
+    """Return a number that is finite, whole if asked, and in range; else raise ``BankError``."""
     number = isinstance(given, (int, float)) and not isinstance(given, bool)
     require(figure, number, f"{name} = {given!r} is not a number")
     value = float(given) + 0.0  # the sum turns -0.0 into 0.0
@@ -101,7 +104,7 @@ def _check_number(figure: str, name: str, rule: Parameter, given: Any) -> float:
 
 
 def require(figure: str, holds: bool, message: str) -> None:
-    """Refuse values that cannot be drawn.
+    """Raise ``BankError`` about a figure unless a condition holds.
 
     Raises
     ------

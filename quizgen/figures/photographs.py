@@ -22,7 +22,7 @@ def check_seen(
     shown: NDArray[np.uint8], plain: NDArray[np.uint8], kind: str, *, speckles: bool = False,
     grey: bool = True,
 ) -> None:  # fmt: skip
-    """Refuse a picture in which nobody sees what it is asked about.
+    """Raise an error if nobody sees in a picture what it is asked about.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def place_photo(
     fig: Any, codes: NDArray[np.uint8], box: Box, *, palette: Any = None, number: int = 0,
     told: str = "",
 ) -> None:  # fmt: skip
-    """Put a photograph into a box of the figure and frame it.
+    """Draw a photograph in a box of the figure, with a frame.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def place_photo(
     number : int
         Written above; 0 writes none.
     told : str
-        Beside the number, what a quiz hides.
+        Text after the number, which a quiz hides.
     """
     fig.picture(codes, box, palette, gid="photographs")
     left, low, wide, high = box

@@ -33,6 +33,8 @@ Dashes = Sequence[float] | None
 
 @dataclass(frozen=True, slots=True)
 class _Stroke:
+    """One drawn path of a sketch; ``part`` names it in the SVG, widths are in points."""
+
     part: str
     path: Path
     fill: str | None
@@ -44,6 +46,8 @@ class _Stroke:
 
 @dataclass(frozen=True, slots=True)
 class _Text:
+    """One label of a sketch; size in points, angle in degrees."""
+
     part: str
     text: str
     at: Any
@@ -55,7 +59,9 @@ class _Text:
 
 
 class Sketch(Artist):
-    """Lines, areas, arrows and labels; colours are names of the house's inks, or any of matplotlib.
+    """Lines, areas, arrows and labels, drawn in one go.
+
+    Colours are names of quizgen's inks, or any of matplotlib.
 
     What is drawn in units of axes is placed at once: set their limits first.
 
@@ -75,17 +81,17 @@ class Sketch(Artist):
         self.set_zorder(zorder)
 
     def to_points(self, points: Any) -> Any:
-        """Coordinates in points of the figure, shape (n, 2)."""
+        """Return coordinates of the sketch in points of the figure, shape (n, 2)."""
         if self._probes is None:
             self._probes = self._probe_transform()
         return self.places.transform(np.asarray(points, float).reshape(-1, 2))
 
     def _probe_transform(self) -> Any:
-        """Where two points lie: they move when the limits of the axes change."""
+        """Return where two fixed points lie: they move when the limits of the axes change."""
         return self.places.transform(np.array([(1.0, 1.0), (2.0, 3.0)]))
 
     def in_points(self) -> Sketch:
-        """The same sketch, drawn on in points of the figure."""
+        """Return the same sketch, with coordinates in points of the figure."""
         other = Sketch()
         other._acts = self._acts
         return other
@@ -94,20 +100,24 @@ class Sketch(Artist):
         self, part: str, path: Path, fill: str | None, stroke: str | None, width: float = 1.0,
         dashes: Dashes = None, cap: str = "butt",
     ) -> None:  # fmt: skip
+        """Add a path, in points of the figure."""
         self._acts.append(_Stroke(part, path, fill, stroke, width, dashes, cap))
 
     def line(
         self, points: Any, stroke: str = "ink", width: float = 1.0, *, dashes: Dashes = None,
         part: str = "", cap: str = "butt",
     ) -> None:  # fmt: skip
-        """Draw a line through points."""
+        """Draw a line through points; ``width`` is in points, ``part`` its name in the SVG."""
         self._add_stroke(part, Path(self.to_points(points)), None, stroke, width, dashes, cap)
 
     def area(
         self, points: Iterable[Any], fill: str | None = "shade", stroke: str | None = None,
         width: float = 0.7, *, dashes: Dashes = None, part: str = "",
     ) -> None:  # fmt: skip
-        """Fill a polygon, outline it, or both."""
+        """Fill a polygon, outline it, or both.
+
+        ``width`` is in points, ``part`` its name in the SVG.
+        """
         corners = list(points)
         path = Path(self.to_points([*corners, corners[0]]), closed=True)
         self._add_stroke(part, path, fill, stroke, width, dashes)
@@ -146,6 +156,7 @@ class Sketch(Artist):
         self._add_arrow_head(self.to_points(tip)[0], direction, fill, size, part)
 
     def _add_arrow_head(self, tip: Any, direction: Any, fill: str, size: float, part: str) -> None:
+        """Add the head of an arrow, in points of the figure."""
         (x, y), length = tip, hypot(*direction)
         if not length:
             return
@@ -167,6 +178,7 @@ class Sketch(Artist):
         self, a: Any, b: Any, stroke: str, width: float, *, size: float, both: bool = False,
         dashes: Dashes = None, part: str,
     ) -> None:  # fmt: skip
+        """Add a shaft and one or two heads, in points of the figure."""
         way = b - a
         cut = min(0.7 * size / max(hypot(*way), 1e-9), 1.0)
         ends = [a + cut * way if both else a, b - cut * way]
@@ -213,7 +225,7 @@ class Sketch(Artist):
         angle : float
             Degrees, anticlockwise.
         halo : bool
-            Put paper behind it.
+            Draw a rim in the colour of paper around it.
         """
         place = self.to_points(at)[0] + shift
         self._acts.append(_Text(part, text, place, align, size, fill, angle, halo))
@@ -222,7 +234,7 @@ class Sketch(Artist):
         self, start: Any, end: Any, text: str, *, side: str = "t", size: float = 10.0,
         gap: float = 3.5, stroke: str = "grey", part: str = "measures",
     ) -> None:  # fmt: skip
-        """Draw a distance as drawings have it: a thin double arrow, its label in a gap or beside.
+        """Draw a distance as drawings have it: a thin double arrow with a label in or next to it.
 
         Parameters
         ----------
@@ -283,7 +295,7 @@ class Sketch(Artist):
             here.line([(x + dx - 1.9, y - 5), (x + dx + 1.9, y + 5)], "ink", 0.8, part=part)
 
     def draw(self, renderer: Any) -> None:
-        """Hand everything to a renderer of matplotlib."""
+        """Draw everything on a renderer of matplotlib."""
         if not self.get_visible():
             return
         if self._probes is not None and not np.allclose(self._probes, self._probe_transform()):
@@ -305,12 +317,13 @@ class Sketch(Artist):
 
 
 def measure_label(text: str, size: float = 10.0) -> Point:
-    """Width and height of a label in points."""
+    """Return width and height of a label in points."""
     shape = shape_label(text, house_font(size), size)
     return shape.width, shape.height
 
 
 def _write_label(renderer: Any, gc: Any, act: _Text) -> None:
+    """Draw one label on a renderer of matplotlib."""
     font, maths = house_font(act.size), "$" in act.text
     wide, high, deep = renderer.get_text_width_height_descent(act.text, font, maths)
     dx, dy = wide * _ALONG[act.align[0]], (high - deep) * _UP[act.align[1:] or "m"]

@@ -58,7 +58,7 @@ _SUBSCRIPT = 0.7  # how large mathtext sets an index
 
 
 class Label(msgspec.Struct, frozen=True):
-    """A text in a figure: what it says, its smallest letters and its box, in points from above.
+    """A text in a figure: its words, its smallest letters and its box, in points from above.
 
     ``angle`` is what it is turned by, in degrees counterclockwise.
     """
@@ -73,7 +73,7 @@ class Label(msgspec.Struct, frozen=True):
 
 
 class Drawing(msgspec.Struct, frozen=True):
-    """What was drawn: elements of an ``<svg>``, size and origin of its view box in points."""
+    """A drawing before it is described: the elements of an ``<svg>``, its view box and labels."""
 
     body: str
     width: float
@@ -88,7 +88,7 @@ _SENTENCE = re.compile(r"(?<=[.।])\s+")
 
 
 def write_svg(drawing: Drawing, alt: str, lang: str) -> bytes:
-    """A drawing as one ``<svg>``, described in a language.
+    """Return a drawing as one ``<svg>``, described in a language.
 
     The first sentence of ``alt`` is its title, which a screen reader says at once; the rest is its
     description.
@@ -109,17 +109,21 @@ def write_svg(drawing: Drawing, alt: str, lang: str) -> bytes:
 
 @lru_cache(64)
 def house_font(size: float, family: str = "STIXGeneral") -> FontProperties:
-    """Letters of the house in a size; shared, so nobody may change what comes back."""
+    """Return the font of labels in a size (points); it is shared, so nobody may change it."""
     return FontProperties(family=family, size=size)
 
 
 def _format_step(dx: int, dy: int) -> str:
+    """Return a relative line of an SVG path, as short as possible."""
     return f"{dx}{dy}" if dy < 0 else f"{dx} {dy}"
 
 
 @lru_cache(16384)
 def _load_glyph_outline(file: str, index: int, size: float) -> tuple[int, int, str] | None:
-    """Where the outline of a glyph starts, and the way from there, in steps."""
+    """Return where a glyph's outline starts (x, y) and its relative path; None without ink.
+
+    All in steps of the SVG's grid, at a font size in points.
+    """
     font = _open_font(file)
     font.set_size(_EM, 72)
     font.load_glyph(index, flags=LoadFlags.NO_HINTING)
@@ -153,7 +157,7 @@ _Glyph = tuple[str, int, float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class _Run:
+class _TextRun:
     """A piece of a label at the size of ``_EM``: width, height, depth, glyphs and bars."""
 
     width: float
@@ -164,19 +168,20 @@ class _Run:
 
 
 @lru_cache(4096)
-def _lay_out_formula(text: str, font: FontProperties) -> _Run:
+def _lay_out_formula(text: str, font: FontProperties) -> _TextRun:
+    """Return a formula laid out by matplotlib's mathtext."""
     font = font.copy()
     font.set_size(_EM)
     # Its own prime is tiny, and pushes an index away; a real one has the index below it.
     text = _PRIME_WITH_INDEX.sub(r"'_{\\!\1\2}", text).replace("'", "\u2032")
     width, height, depth, glyphs, bars = _MATHTEXT.parse(text, 72, font)
     found = [(face.fname, index, size / _EM, x, y) for face, size, _, index, x, y in glyphs]
-    return _Run(width, height - depth, depth, found, bars)
+    return _TextRun(width, height - depth, depth, found, bars)
 
 
 @lru_cache(2048)
 def _load_glyph_metrics(file: str, character: str) -> tuple[int, float]:
-    """Index and advance width of a letter."""
+    """Return glyph index and advance width of a character."""
     font = _open_font(file)
     font.set_size(_EM, 72)
     found = font.load_char(ord(character), flags=LoadFlags.NO_HINTING)
@@ -185,6 +190,7 @@ def _load_glyph_metrics(file: str, character: str) -> tuple[int, float]:
 
 @lru_cache(8192)
 def _load_kerning(file: str, left: int, right: int) -> float:
+    """Return the kerning between two glyphs of a font."""
     font = _open_font(file)
     font.set_size(_EM, 72)
     return font.get_kerning(left, right, Kerning.UNFITTED) / 64
@@ -198,7 +204,8 @@ _HEIGHT = 66.0  # of capitals and digits at the size of _EM
 
 
 @lru_cache(4096)
-def _lay_out_words(text: str, font: FontProperties) -> _Run:
+def _lay_out_words(text: str, font: FontProperties) -> _TextRun:
+    """Return words laid out with kerning; joining scripts go to `_shape_words`."""
     file = findfont(font)
     if not _SIMPLE(text):
         return _shape_words(text, str(file))
@@ -208,12 +215,12 @@ def _lay_out_words(text: str, font: FontProperties) -> _Run:
         x += _load_kerning(file, before, index) if before else 0.0
         glyphs.append((file, index, 1.0, x, 0.0))
         before, x = index, x + width
-    return _Run(x, _HEIGHT, 0.0, glyphs, [])
+    return _TextRun(x, _HEIGHT, 0.0, glyphs, [])
 
 
 @cache
 def _bangla_font() -> str:
-    """Hind Siliguri, which the papers are set in: matplotlib brings no Bangla letters."""
+    """Return the file of Hind Siliguri, as matplotlib brings no Bangla letters."""
     spec = find_spec("fontpkg_hind_siliguri")
     places = spec.submodule_search_locations if spec else None
     for folder in places or ():
@@ -221,14 +228,14 @@ def _bangla_font() -> str:
     raise BankError("font package 'fontpkg_hind_siliguri' is not installed; reinstall quizgen")
 
 
-def _shape_words(text: str, file: str) -> _Run:
-    """Words of a script whose letters join, by HarfBuzz; Bangla in the letters of the papers."""
+def _shape_words(text: str, file: str) -> _TextRun:
+    """Return words of a script whose letters join, shaped by HarfBuzz."""
     font = _open_font((file, _bangla_font()))
     font.set_size(_EM, 72)
     items: Any = list(layout(text, font))
     glyphs = [(i.ft_object.fname, i.glyph_index, 1.0, i.x, i.y) for i in items]
     font.set_text(text, 0.0, flags=LoadFlags.NO_HINTING)
-    return _Run(font.get_width_height()[0] / 64, _HEIGHT, 0.0, glyphs, [])
+    return _TextRun(font.get_width_height()[0] / 64, _HEIGHT, 0.0, glyphs, [])
 
 
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
@@ -236,7 +243,7 @@ _FORMULA = re.compile(r"(?<!\\)(\$[^$]+\$)")
 
 
 class LabelShape:
-    """A line of text laid out: size in points, and outlines in steps from its baseline's start.
+    """A line of text laid out: size in points, and outlines relative to its baseline's start.
 
     Formulas and words of a label are laid out apart, so that each stays kept when the other
     changes: ``$z'$ = 66.67 mm`` parses ``$z'$`` once in a process.
@@ -271,7 +278,7 @@ class LabelShape:
 
 @lru_cache(4096)
 def shape_label(text: str, font: FontProperties, size: float) -> LabelShape:
-    """Lay out a line of text; formulas stand between dollar signs."""
+    """Return a line of text laid out; formulas stand between dollar signs."""
     return LabelShape(text, font, size)
 
 
@@ -280,7 +287,10 @@ def shape_label(text: str, font: FontProperties, size: float) -> LabelShape:
 
 @lru_cache(1024)
 def write_paint(colour: tuple[float, ...], attribute: str) -> str:
-    """An attribute for a colour: a variable of the page where it is one of the house's inks."""
+    """Return an SVG attribute for a colour.
+
+    One of quizgen's inks becomes a variable of the page.
+    """
     found = to_hex((colour[0], colour[1], colour[2]))
     text = f' {attribute}="{PAINTS.get(found, found)}"'
     opaque = len(colour) < 4 or colour[3] >= 1
@@ -288,7 +298,7 @@ def write_paint(colour: tuple[float, ...], attribute: str) -> str:
 
 
 class SvgRenderer(RendererBase):
-    """Collects what the artists of a figure draw.
+    """A renderer of matplotlib that collects SVG elements.
 
     Parameters
     ----------
@@ -315,15 +325,19 @@ class SvgRenderer(RendererBase):
     # What matplotlib asks of a renderer
 
     def get_canvas_width_height(self) -> tuple[float, float]:
+        """Return the size of the canvas in points; matplotlib asks for it."""
         return 1e4, self.height
 
     def points_to_pixels(self, points: Any) -> Any:
+        """Return points as they are: this renderer's pixels are points."""
         return points
 
     def option_image_nocomposite(self) -> bool:
+        """Return True: matplotlib must not merge several pictures into one."""
         return True
 
     def option_scale_image(self) -> bool:
+        """Return True: pictures are scaled by their viewer and never resampled."""
         return True
 
     def open_group(self, s: str, gid: str | None = None) -> None:
@@ -331,15 +345,18 @@ class SvgRenderer(RendererBase):
         self._parts.append(escape(gid) if gid else self._parts[-1] if self._parts else "")
 
     def close_group(self, s: str) -> None:
+        """End a named group."""
         self._parts.pop()
 
     def get_text_width_height_descent(self, s: str, prop: Any, ismath: Any) -> Any:
+        """Return width, height and depth of a text in points."""
         shape = self._shape_text(s, prop)
         return shape.width, shape.height + shape.depth, shape.depth
 
     # Paths
 
     def draw_path(self, gc: Any, path: Path, transform: Any, rgbFace: Any = None) -> None:  # noqa: N803
+        """Add a path; equal styles in a row share one element."""
         filled = rgbFace is not None and (len(rgbFace) < 4 or rgbFace[3] > 0)
         width = gc.get_linewidth()
         stroked = width > 0 and gc.get_rgb()[3] > 0
@@ -354,7 +371,7 @@ class SvgRenderer(RendererBase):
             return
         low, high = points.min(axis=0), points.max(axis=0)
         clip = None
-        sides = self._clip_sides(gc)
+        sides = self._clip_rectangle(gc)
         if sides is not None and ((low < sides[0] - 0.05).any() or (high > sides[1] + 0.05).any()):
             low, high = np.maximum(low, sides[0]), np.minimum(high, sides[1])
             if (low > high).any():
@@ -369,7 +386,7 @@ class SvgRenderer(RendererBase):
         if "Q" not in data and "C" not in data:
             data = data.replace("\nL", "")  # after a move SVG takes more points as lines
         data = data.replace(" \n", "").replace("\n", "")
-        paint = write_paint(_with_alpha(gc, rgbFace), "fill") if filled else ""
+        paint = write_paint(_apply_alpha(gc, rgbFace), "fill") if filled else ""
         self._add_path_data(
             gc, data, paint + self._write_stroke(gc, width, stroked=stroked), join=not filled
         )
@@ -381,7 +398,10 @@ class SvgRenderer(RendererBase):
         offset_trans: Any, facecolors: Any, edgecolors: Any, linewidths: Any, linestyles: Any,
         *args: Any, **kwargs: Any,
     ) -> None:  # fmt: skip
-        """Lines that look alike become one path; all else goes the usual way."""
+        """Add many paths; lines that look alike become one path.
+
+        All else goes matplotlib's usual way.
+        """
         styles = max(map(len, (edgecolors, linewidths, linestyles)))
         moved = len(all_transforms) or len(offsets) > 1 or np.any(offsets)
         if styles > 1 or len(facecolors) or moved or len(paths) < 2:
@@ -399,7 +419,7 @@ class SvgRenderer(RendererBase):
         self, gc: Any, marker_path: Path, marker_trans: Any, path: Path, trans: Any,
         rgbFace: Any = None,  # noqa: N803
     ) -> None:  # fmt: skip
-        """All markers of a line as one path; those outside the axes are left out and counted."""
+        """Add all markers of a line as one path; those outside the axes are only counted."""
         shape = marker_trans.transform_path(marker_path)
         places = trans.transform(path.vertices)
         places = places[np.isfinite(places).all(axis=1)]
@@ -420,7 +440,10 @@ class SvgRenderer(RendererBase):
         gc.set_clip_rectangle(box)
 
     def draw_quad_mesh(self, gc: Any, *args: Any) -> None:
-        """Cells without edges get thin ones of their own colour: viewers show seams otherwise."""
+        """Add the cells of a mesh.
+
+        Those without edges get thin ones of their own colour: viewers would show seams.
+        """
         *others, edgecolors = args
         if not len(edgecolors):
             gc.set_linewidth(_SEAM)
@@ -430,21 +453,22 @@ class SvgRenderer(RendererBase):
     def draw_gouraud_triangles(
         self, gc: Any, triangles_array: Any, colors_array: Any, transform: Any
     ) -> None:
-        """Fill each triangle with the mean of its corners: SVG has no shading of this kind."""
+        """Add each triangle filled with its corners' mean, as SVG has no such shading."""
         gc.set_linewidth(_SEAM)
         for corners, colours in zip(triangles_array, colors_array, strict=True):
             colour = tuple(colours.mean(axis=0))
             gc.set_foreground(colour, isRGBA=True)
             self.draw_path(gc, Path(corners, closed=False), transform, colour)
 
-    def _clip_sides(self, gc: Any) -> Any:
-        """Corners of the clipping rectangle, from above; None without one."""
+    def _clip_rectangle(self, gc: Any) -> Any:
+        """Return left, top, right and foot of the clipping rectangle; None without one."""
         box = gc.get_clip_rectangle()
         if box is None:
             return None
         return np.array([[box.x0, self.height - box.y1], [box.x1, self.height - box.y0]])
 
     def _write_stroke(self, gc: Any, width: float, *, stroked: bool) -> str:
+        """Return the SVG attributes of a line; ``width`` is in points."""
         if not stroked:
             return ""
         text = write_paint(tuple(gc.get_rgb()), "stroke")
@@ -459,7 +483,7 @@ class SvgRenderer(RendererBase):
         return text + ("" if join == "round" else f' stroke-linejoin="{join}"')
 
     def _fill_with_hatch(self, gc: Any, data: str) -> None:
-        """Fill a shape with a pattern, whose name is a digest of it: twice on a page is no harm."""
+        """Add a shape filled with a pattern, whose id is a digest of it."""
         from matplotlib.hatch import get_path
 
         size, lines = 12, get_path(gc.get_hatch(), 1)
@@ -473,7 +497,7 @@ class SvgRenderer(RendererBase):
         self._add_path_data(gc, data, f' fill="url(#{name})"', join=False)
 
     def _define_element(self, tag: str, inside: str, attributes: str = "") -> str:
-        """Put down an element once, and return its id."""
+        """Add an element to the definitions once, and return its id, a digest of its content."""
         name = tag[0] + sha256(inside.encode()).hexdigest()[:8]
         if name not in self._defined:
             self._defined.add(name)
@@ -483,6 +507,7 @@ class SvgRenderer(RendererBase):
         return name
 
     def _add_path_data(self, gc: Any, data: str, style: str, *, join: bool) -> None:
+        """Add path data in a style, to the last element if ``join`` and both look the same."""
         key = (self._parts[-1] if self._parts else "", style + self._write_clip(gc))
         if key != self._style or not join:
             self._flush_path()
@@ -490,7 +515,7 @@ class SvgRenderer(RendererBase):
         self._run.append(data)
 
     def _write_clip(self, gc: Any) -> str:
-        """An attribute for a clip that is no rectangle; its name is a digest of it."""
+        """Return the attribute for a clip that is no rectangle; its id is a digest of it."""
         shape, transform = gc.get_clip_path()
         if shape is None:
             return ""
@@ -501,24 +526,28 @@ class SvgRenderer(RendererBase):
         return f' clip-path="url(#{name})"'
 
     def _flush_path(self) -> None:
-        """End the path that grows."""
+        """Write the element that path data was added to."""
         if self._run and self._style:
             name = f' data-part="{self._style[0]}"' if self._style[0] else ""
             self._elements.append(f'<path{name} d="{"".join(self._run)}"{self._style[1]}/>')
         self._run, self._style = [], None
 
     def _extend_bounds(self, left: float, top: float, right: float, foot: float) -> None:
-        """Let the picture reach as far; plain numbers, as this runs for all that is drawn."""
+        """Extend the view box; plain numbers, as this runs for everything drawn."""
         self._left, self._top = min(self._left, left), min(self._top, top)
         self._right, self._foot = max(self._right, right), max(self._foot, foot)
 
     # Labels and pictures
 
     def _shape_text(self, text: str, font: Any) -> LabelShape:
+        """Return a text laid out in a font of matplotlib."""
         return shape_label(self._localise_label(text), font, font.get_size_in_points())
 
     def _localise_label(self, text: str) -> str:
-        """A label with the decimal sign of the language; a bare comma in a formula adds space."""
+        """Return a label with the decimal sign of the language.
+
+        A comma in a formula is braced, as a bare one would add space.
+        """
         if self.decimal == ".":
             return text
         parts = _FORMULA.split(text)
@@ -529,6 +558,7 @@ class SvgRenderer(RendererBase):
         self, gc: Any, x: float, y: float, s: str, prop: Any, angle: float, ismath: Any = False,
         mtext: Any = None,
     ) -> None:  # fmt: skip
+        """Add a label at (x, y) in points, turned by degrees."""
         shape = self._shape_text(s, prop)
         if not shape.data:
             return
@@ -548,7 +578,7 @@ class SvgRenderer(RendererBase):
     def draw_image(
         self, gc: Any, x: float, y: float, im: Any, transform: Any = None, palette: Any = None
     ) -> None:
-        """Put pixels down, shape (H, W, 4), from below; with a palette, (H, W) of its indices."""
+        """Add pixels, shape (H, W, 4), last row first; with a palette, (H, W) of its indices."""
         if im.size == 0:
             return
         high, wide = im.shape[:2]
@@ -582,8 +612,11 @@ class SvgRenderer(RendererBase):
         self._elements.append(f"<g{clip}>{image}</g>" if clip else image)
 
     def _clip_image(self, gc: Any, low: Any, top: Any) -> str:
-        """An attribute for a picture that reaches out of its axes; the rest grows the view."""
-        sides = self._clip_sides(gc)
+        """Return the attribute for a picture that reaches out of its axes.
+
+        Others extend the view.
+        """
+        sides = self._clip_rectangle(gc)
         if sides is not None and ((low < sides[0] - 0.05).any() or (top > sides[1] + 0.05).any()):
             self._extend_bounds(
                 *np.maximum(low, sides[0]).tolist(), *np.minimum(top, sides[1]).tolist()
@@ -595,7 +628,7 @@ class SvgRenderer(RendererBase):
         return ""
 
     def write(self, size: tuple[float, float] | None = None) -> Drawing:
-        """Write what was drawn, as large as it is or of a fixed size in points.
+        """Return the drawing, as large as its ink or of a fixed size in points.
 
         Raises
         ------
@@ -623,7 +656,7 @@ class SvgRenderer(RendererBase):
 def _turn_box(
     shape: LabelShape, x: float, y: float, angle: float
 ) -> tuple[float, float, float, float]:
-    """Left, top, right and foot of a label that starts at a place, turned by degrees."""
+    """Return left, top, right and foot of a label turned by degrees about its start."""
     if not angle:
         return x, y - shape.height, x + shape.width, y + shape.depth
     c, s = cos(radians(angle)), sin(radians(angle))
@@ -634,7 +667,7 @@ def _turn_box(
 
 
 def _clip_path_to_box(path: Path, transform: Any, box: Bbox, *, filled: bool) -> tuple[Path, Any]:
-    """A path that leaves a box: areas are cut, curves become lines that are cut when written."""
+    """Return a path that leaves a box: areas cut, curves as lines, which are cut when written."""
     if filled:
         return transform.transform_path(path).clip_to_bbox(box), Affine2D()
     if path.codes is not None and (np.asarray(path.codes) > Path.LINETO).any():
@@ -643,15 +676,18 @@ def _clip_path_to_box(path: Path, transform: Any, box: Bbox, *, filled: bool) ->
     return path, transform
 
 
-def _with_alpha(gc: Any, colour: Any) -> tuple[float, ...]:
-    """A fill with the opacity that its artist forces on everything."""
+def _apply_alpha(gc: Any, colour: Any) -> tuple[float, ...]:
+    """Return a fill colour with the opacity that its artist forces on everything."""
     if gc.get_forced_alpha():
         return (*colour[:3], gc.get_alpha())
     return tuple(colour)
 
 
 def _write_png(pixels: Any, palette: Any = None) -> bytes:
-    """A PNG file whose bytes do not depend on the version of zlib; few colours as a palette."""
+    """Return a PNG file independent of the version of zlib; few colours become a palette.
+
+    ``pixels`` have shape (H, W, 4), or (H, W) with a palette of (red, green, blue), 0 to 255.
+    """
     if palette is not None:
         return encode_png(pixels, [(int(r), int(g), int(b)) for r, g, b in palette])
     pixels = np.ascontiguousarray(pixels)
@@ -663,7 +699,7 @@ def _write_png(pixels: Any, palette: Any = None) -> bytes:
 
 @lru_cache(64)
 def _encode_colours(shape: tuple[int, ...], data: bytes) -> bytes:
-    """A PNG file, kept: a question and its solution show the same photographs."""
+    """Return a PNG file, cached: a question and its solution show the same photographs."""
     rgb = np.frombuffer(data, np.uint8).reshape(shape)
     codes = rgb.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32)
     ordered = np.sort(codes, axis=None)  # a tenth of the time of unique()
@@ -712,6 +748,7 @@ def encode_png(
 def _write_file(
     codes: NDArray[np.uint8], kind: int, row_filter: int, *chunks: tuple[bytes, bytes]
 ) -> bytes:
+    """Return a PNG file of filtered rows; ``kind`` is its colour type, ``chunks`` precede them."""
     height, width = codes.shape[:2]
     pixels = codes.reshape(height, -1)
     rows = np.empty((height, pixels.shape[1] + 1), np.uint8)
@@ -725,6 +762,7 @@ def _write_file(
 
 
 def _write_chunk(name: bytes, content: bytes) -> bytes:
+    """Return one chunk of a PNG file: length, name, content and checksum."""
     return pack(">I", len(content)) + name + content + pack(">I", crc32(name + content))
 
 
@@ -741,14 +779,14 @@ def _compress_runs(data: NDArray[np.uint8]) -> bytes:
 
 @lru_cache(1 << 16)
 def _run_bits(byte: int, repeats: int) -> str:
-    """Bits of a byte and its repeats; what is too short for a length is written out."""
+    """Return the bits of a byte and its repeats; runs too short for a length are written out."""
     full, left = divmod(repeats, _LONGEST)
     rest = _repeat_bits(left) if left >= _SHORTEST else _symbol_bits(byte) * left
     return _symbol_bits(byte) + _repeat_bits(_LONGEST) * full + rest
 
 
 def _repeat_bits(length: int) -> str:
-    """Bits that repeat the last byte 3 to 258 times."""
+    """Return the bits that repeat the last byte 3 to 258 times."""
     code = max(i for i, base in enumerate(_LENGTH_BASE) if base <= length)
     bits = _LENGTH_BITS[code]
     extra = f"{length - _LENGTH_BASE[code]:0{bits}b}"[::-1] if bits else ""
@@ -756,7 +794,7 @@ def _repeat_bits(length: int) -> str:
 
 
 def _symbol_bits(code: int) -> str:
-    """Bits of a literal or length symbol in the fixed table, in the order they are written."""
+    """Return the bits of a literal or length symbol in deflate's fixed table, in writing order."""
     if code < 144:
         return f"{0x30 + code:08b}"
     if code < 256:

@@ -164,8 +164,9 @@ def _diagnose_unit_slip(
     power = power_of_ten_off(value, key)
     if not (same and power) and verdict.note not in POWERS:
         return verdict
-    if abs(power) == 1 and not any(base == "m" for base, _ in typed.dimension):
-        return verdict  # ten times is a prefix of lengths only: cm and mm
+    bases = {base for base, _ in typed.dimension}
+    if abs(power) == 1 and ("m" not in bases or "kg" in bases):
+        return verdict  # ten times is a prefix of lengths only, cm and mm: not of N or W
     asked = format_unit(spec.unit)
     note = "unit-prefix" if same else "unit-prefix-power"
     fields = {"asked": asked, "power": power}

@@ -18,7 +18,10 @@ QUOTED = 30
 
 
 def check_bank_files(bank: Bank) -> Iterator[Diagnostic]:
-    """What is wrong with ``bank.toml``, the curriculum, blueprints, quantities and words."""
+    """Yield what is wrong in ``bank.toml``, the curriculum, blueprints, units and words.
+
+    Each file is read by itself, so that one that cannot be read does not hide the others.
+    """
     looks: list[Callable[[], object]] = [
         lambda: (bank.metadata, bank.template_paths),
         lambda: bank.curriculum.inventory,
@@ -38,7 +41,7 @@ def check_bank_files(bank: Bank) -> Iterator[Diagnostic]:
 
 
 def find_missing_files(bank: Bank) -> Iterator[Diagnostic]:
-    """Questions without rules, topics without a question, and a bank that has none at all."""
+    """Yield prose without ``template.toml``, topics without a template, and an empty bank."""
     if not bank.template_paths:
         yield diagnose("QG501", bank.folder / "bank.toml", "the bank has no template")
         return
@@ -48,11 +51,11 @@ def find_missing_files(bank: Bank) -> Iterator[Diagnostic]:
         file = folder / "template.toml"
         if not file.exists():
             yield diagnose("QG502", file, "there is no template.toml beside the words")
-    yield from _empty_topics(bank)
+    yield from _find_empty_topics(bank)
 
 
-def _empty_topics(bank: Bank) -> Iterator[Diagnostic]:
-    """Topics of ``bank.toml`` that no paper can be made of."""
+def _find_empty_topics(bank: Bank) -> Iterator[Diagnostic]:
+    """Yield a diagnostic for each topic of ``bank.toml`` that no template has."""
     try:
         held = {bank.rules(name).topic for name in bank.template_paths}
     except QuizgenError:  # the template is told of by itself
@@ -64,7 +67,7 @@ def _empty_topics(bank: Bank) -> Iterator[Diagnostic]:
 
 
 def check_leaks(bank: Bank, questions: Sequence[QuestionContent]) -> Iterator[Diagnostic]:
-    """Which questions tell what another one of the bank asks."""
+    """Yield a diagnostic for each question that gives away the answer of another one."""
     for leak, lang in find_bank_leaks(bank, questions).items():
         if "QG218" in bank.rules(leak.teller).ignore:
             continue

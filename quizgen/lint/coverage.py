@@ -15,7 +15,7 @@ from quizgen.bank.bank import Bank
 
 @dataclass(frozen=True)
 class CoverageGroup:
-    """One group: how much of it is covered, by which templates, and the holes."""
+    """Coverage of one curriculum group: each covered item with its templates, and the holes."""
 
     group: str
     covered: Mapping[str, tuple[str, ...]]
@@ -23,12 +23,12 @@ class CoverageGroup:
 
     @property
     def total(self) -> int:
-        """Items of the group."""
+        """Return the number of items of the group."""
         return len(self.covered) + len(self.holes)
 
 
 def curriculum_coverage(bank: Bank) -> list[CoverageGroup]:
-    """Coverage of every group of the inventory."""
+    """Return the coverage of every group of the curriculum, in its order."""
     by_item: dict[str, list[str]] = {}
     for name in bank.template_paths:
         for item in _list_covered_items(bank, name):
@@ -38,7 +38,7 @@ def curriculum_coverage(bank: Bank) -> list[CoverageGroup]:
 
 
 def templates_covering(bank: Bank, item: str) -> list[str]:
-    """Templates that cover an item, or a part of it: ``C12`` finds ``C12a``."""
+    """Return the templates that cover an item or a part of it: ``C12`` finds ``C12a``."""
     wanted = re.compile(rf"{re.escape(item)}(?:-?[a-z].*)?")
     return [
         name
@@ -48,6 +48,7 @@ def templates_covering(bank: Bank, item: str) -> list[str]:
 
 
 def _list_covered_items(bank: Bank, name: str) -> Iterable[str]:
+    """Return the curriculum items that a template covers, that of its figure too."""
     rules = bank.rules(name)
     figure = bank.curriculum.figures.get(rules.figure.name) if rules.figure else None
     return {*rules.covers, *([figure] if figure else [])}
@@ -56,5 +57,6 @@ def _list_covered_items(bank: Bank, name: str) -> Iterable[str]:
 def _build_coverage_row(
     group: str, items: tuple[str, ...], by_item: Mapping[str, list[str]]
 ) -> CoverageGroup:
+    """Return one group's coverage, from its items and the templates of every item."""
     covered = {item: tuple(by_item[item]) for item in items if item in by_item}
     return CoverageGroup(group, covered, tuple(item for item in items if item not in by_item))

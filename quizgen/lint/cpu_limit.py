@@ -13,15 +13,18 @@ AGAIN = 1.0
 
 
 class CpuLimitExceeded(BaseException):
-    """What an author's Python did has no end in sight."""
+    """Raised in code that took too much processor time.
+
+    A ``BaseException``, because an author's ``except Exception`` must not catch it.
+    """
 
 
 @contextmanager
 def cpu_limit(seconds: float) -> Iterator[None]:
-    """Stop what takes more time of the processor than this.
+    """Interrupt the body of ``with`` after so many seconds of processor time.
 
-    Without effect on Windows, which has no such clock, and beside the main thread, which alone can
-    be stopped.
+    Python of an author may loop without end. No limit applies on Windows, which has no such timer,
+    nor outside the main thread, the only one that a signal interrupts.
 
     Raises
     ------
@@ -36,6 +39,7 @@ def cpu_limit(seconds: float) -> Iterator[None]:
         return
 
     def stop(number: int, frame: FrameType | None) -> None:
+        """Raise in the frame that is running."""
         del number, frame
         raise CpuLimitExceeded(f"not done after {seconds:g} s")
 

@@ -18,7 +18,7 @@ CheckOutcome = tuple[str, str, bool]
 
 
 def run_checks() -> Iterator[CheckOutcome]:
-    """Yield name, outcome and whether it is fine, check by check."""
+    """Yield name, result in words and success of each check of the installation."""
     yield "python", sys.version.split()[0], sys.version_info >= (3, 11)
     for package in PACKAGES:
         try:
@@ -31,6 +31,7 @@ def run_checks() -> Iterator[CheckOutcome]:
 
 
 def _check_fonts() -> Iterator[CheckOutcome]:
+    """Yield the checks of fonts: files, and a glyph for every Bangla character in use."""
     try:
         yield "Bangla font", fonts.bangla_file().name, True
         missing = fonts.missing_characters(all_bangla_text())
@@ -43,6 +44,7 @@ def _check_fonts() -> Iterator[CheckOutcome]:
 
 
 def _check_bank() -> CheckOutcome:
+    """Return the check that the built-in bank loads."""
     try:
         count = sum(1 for _ in builtin_bank())
     except QuizgenError as error:
@@ -51,7 +53,7 @@ def _check_bank() -> CheckOutcome:
 
 
 def all_bangla_text() -> str:
-    """Every Bangla sentence of interface and templates."""
+    """Return all Bangla words of interface and templates as one text: what fonts must cover."""
     langs = languages_in_script("Beng")
     paths = [
         *(

@@ -32,7 +32,10 @@ _SPACES = re.compile(r"[\u2009\u202f\u00a0]")
 
 
 def check_figures(draws: Sequence[Variant]) -> Iterator[Diagnostic]:
-    """What is wrong with the figure of a template, by some of its draws."""
+    """Yield what is wrong with a template's figure, in the first ``DRAWN`` of its variants.
+
+    A figure must be drawable, legible, and give no answer away.
+    """
     template = draws[0].template
     rule = template.rules.figure
     if rule is None:
@@ -48,14 +51,17 @@ def check_figures(draws: Sequence[Variant]) -> Iterator[Diagnostic]:
                     return
                 numbers.update(_iter_numbers(said) if quiz else ())
     if rule.quiz:
-        yield from _given_away(shown)
+        yield from _find_given_away_answers(shown)
         yield from _find_unreadable(shown, rule.reads)
     for code, what in look_problems(_iter_figures(draws[:DRAWN])):
         yield diagnose(code, template.file, what, ("figure",))
 
 
 def _iter_figures(draws: Sequence[Variant]) -> Iterator[Figure]:
-    """The figures of questions and solutions, which were drawn before and so cost nothing."""
+    """Yield each variant's figure as question and as solution show it.
+
+    They were drawn before and are cached.
+    """
     for one in draws:
         for quiz in (True, False):
             figure = draw_question_figure(one, one.template.languages[0], quiz=quiz)
@@ -64,11 +70,11 @@ def _iter_figures(draws: Sequence[Variant]) -> Iterator[Figure]:
 
 
 def figure_text(one: Variant, lang: str, *, quiz: bool, drawn: bool = True) -> str:
-    """All that a figure says: its words and, if it is one of the bank's own, its labels.
+    """Return the description of a figure and, if the bank draws it, its labels.
 
     Parameters
     ----------
-    one : Draw
+    one : Variant
     lang : str
     quiz : bool
         As the question shows it, not the solution.
@@ -82,11 +88,16 @@ def figure_text(one: Variant, lang: str, *, quiz: bool, drawn: bool = True) -> s
 
 
 def _iter_numbers(text: str) -> Iterator[str]:
+    """Yield the numbers of a text with four significant digits, to be compared as text."""
     for found in _NUMBER.findall(text):
         yield f"{float(_SPACES.sub('', found).replace(',', '.')):.4g}"
 
 
-def _given_away(shown: Sequence[tuple[Variant, set[str]]]) -> Iterator[Diagnostic]:
+def _find_given_away_answers(shown: Sequence[tuple[Variant, set[str]]]) -> Iterator[Diagnostic]:
+    """Yield an answer that the figure shows in every variant, and the question never states.
+
+    ``shown`` pairs each variant with the numbers in its figure.
+    """
     template = shown[0][0].template
     for place, part in enumerate(template.rules.part, 1):
         for name in asked_quantities(part.answer):
@@ -105,7 +116,7 @@ def _given_away(shown: Sequence[tuple[Variant, set[str]]]) -> Iterator[Diagnosti
 def _find_unreadable(
     shown: Sequence[tuple[Variant, set[str]]], reads: Sequence[str]
 ) -> Iterator[Diagnostic]:
-    """Quantities that are said to be read in a figure that does not have their numbers."""
+    """Yield quantities that ``reads`` lists and whose numbers the figure does not show."""
     file = shown[0][0].template.file
     for index, name in enumerate(reads):
         lacking = [one for one, numbers in shown if leading_digits(one.shown[name]) not in numbers]
@@ -116,7 +127,7 @@ def _find_unreadable(
 
 
 def _collect_stated_numbers(one: Variant) -> set[str]:
-    """Numbers that the question states."""
+    """Return the numbers that the question states, rounded as those of a figure."""
     return {leading_digits(value) for value in one.shown.values()}
 
 
@@ -139,14 +150,14 @@ _ATTRIBUTE = re.compile(r' ([a-z-]+)="([^"]*)"')
 
 
 class Stroke(NamedTuple):
-    """How a line is drawn: its colour as #rrggbb and its dashes."""
+    """How a line is drawn: its colour as #rrggbb and its SVG dash pattern."""
 
     colour: str
     dashes: str
 
 
 def look_problems(figures: Iterable[Figure]) -> Iterator[tuple[str, str]]:
-    """Code and what makes figures hard to read, each by the first figure that has it."""
+    """Yield code and message of each legibility problem, for the first figure that has it."""
     left = list(_LOOKS)
     for figure in figures:
         for code, look in [*left]:
@@ -157,6 +168,7 @@ def look_problems(figures: Iterable[Figure]) -> Iterator[tuple[str, str]]:
 
 
 def _find_overlaps(figure: Figure) -> Iterator[str]:
+    """Yield labels that overlap by more than ``TOUCHING`` points."""
     level = [label for label in figure.labels if label.angle % 90 == 0]
     for one, other in combinations(level, 2):
         across = min(one.right, other.right) - max(one.left, other.left)
@@ -165,7 +177,8 @@ def _find_overlaps(figure: Figure) -> Iterator[str]:
             yield f"labels {one.text!r} and {other.text!r} overlap by {min(across, down):.1f} pt"
 
 
-def _small_letters(figure: Figure) -> Iterator[str]:
+def _find_small_letters(figure: Figure) -> Iterator[str]:
+    """Yield labels in letters below the smallest legible size."""
     for label in figure.labels:
         least = SMALLEST_INDEX if _has_index(label) else SMALLEST
         if label.size < least - 0.01:
@@ -173,26 +186,34 @@ def _small_letters(figure: Figure) -> Iterator[str]:
 
 
 def _has_index(label: Label) -> bool:
+    """Return whether a label has raised or lowered letters, which may be smaller."""
     return any(sign in label.text for sign in "_^") and "$" in label.text
 
 
-def _too_wide(figure: Figure) -> Iterator[str]:
+def _find_excess_width(figure: Figure) -> Iterator[str]:
+    """Yield a message if a figure is wider than the column of a page."""
     if figure.width_pt > COLUMN:
         yield f"is {figure.width_pt:g} pt wide, more than the {COLUMN:g} pt of a page"
 
 
 def _find_clipped_markers(figure: Figure) -> Iterator[str]:
+    """Yield a message if markers lie outside the axes."""
     if figure.outside:
         yield f"markers that lie outside the axes are clipped: {figure.outside}"
 
 
 def _find_unnamed_axes(figure: Figure) -> Iterator[str]:
+    """Yield a message if an axis with numbers has no name."""
     if figure.unnamed_axes:
         yield "an axis has numbers and no name"
 
 
 def _find_pale_colours(figure: Figure) -> Iterator[str]:
-    """Colours that white paper swallows; the house's own were chosen, and a scale has pale ends."""
+    """Yield colours with too little contrast to white paper.
+
+    Not those of the palette, which were chosen with care, nor those of a colour scale, which has
+    pale ends.
+    """
     if b"<image" in figure.inline_svg or figure.needs_colour:
         return
     paths = list(_iter_path_attributes(figure))
@@ -209,8 +230,8 @@ def _find_pale_colours(figure: Figure) -> Iterator[str]:
                 yield f"{what} in {colour} can hardly be seen on white (contrast {contrast:.1f})"
 
 
-def _alike_on_grey(figure: Figure) -> Iterator[str]:
-    """Coloured lines of one kind that a grey print cannot tell apart."""
+def _find_alike_greys(figure: Figure) -> Iterator[str]:
+    """Yield pairs of coloured lines that cannot be told apart in a grey print."""
     strokes = {
         Stroke(p["stroke"], p.get("stroke-dasharray", ""))
         for p in _iter_path_attributes(figure)
@@ -227,33 +248,35 @@ def _alike_on_grey(figure: Figure) -> Iterator[str]:
 
 _LOOKS: tuple[tuple[str, Callable[[Figure], Iterator[str]]], ...] = (
     ("QG403", _find_overlaps),
-    ("QG404", _small_letters),
-    ("QG405", _too_wide),
+    ("QG404", _find_small_letters),
+    ("QG405", _find_excess_width),
     ("QG406", _find_clipped_markers),
     ("QG407", _find_unnamed_axes),
     ("QG408", _find_pale_colours),
-    ("QG409", _alike_on_grey),
+    ("QG409", _find_alike_greys),
 )
 
 
 def _iter_path_attributes(figure: Figure) -> Iterator[dict[str, str]]:
-    """Attributes of each path, but for its points."""
+    """Yield the attributes of each SVG path, without its points."""
     svg = figure.standalone_svg.decode()
     for found in _PATH.findall(svg):
         yield {name: value for name, value in _ATTRIBUTE.findall(found) if name != "d"}
 
 
 def _parse_channels(colour: str) -> list[float]:
+    """Return red, green and blue of #rrggbb, each 0 to 1."""
     return [int(colour[place : place + 2], 16) / 255 for place in (1, 3, 5)]
 
 
 def _is_coloured(colour: str) -> bool:
+    """Return whether a colour differs visibly from grey."""
     channels = _parse_channels(colour)
     return max(channels) - min(channels) > 0.15
 
 
 def _compute_luminance(colour: str) -> float:
-    """Relative luminance of sRGB (IEC 61966-2-1), 0 to 1."""
+    """Return the relative luminance of an sRGB colour (IEC 61966-2-1), 0 to 1."""
     red, green, blue = (
         c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in _parse_channels(colour)
     )
@@ -261,6 +284,6 @@ def _compute_luminance(colour: str) -> float:
 
 
 def _compute_lightness(colour: str) -> float:
-    """L* of CIELAB, 0 to 100."""
+    """Return the lightness L* of a colour (CIELAB), 0 to 100."""
     share = _compute_luminance(colour)
     return 116 * share ** (1 / 3) - 16 if share > 0.008856 else 903.3 * share

@@ -50,7 +50,7 @@ Said = Iterator[tuple[Level, str, str]]
 
 @dataclass(frozen=True, slots=True)
 class QualityFinding:
-    """What was found in a part (``label``; empty: in the whole template)."""
+    """One finding about a part of a template; an empty ``label`` means the whole template."""
 
     template: str
     label: str
@@ -60,7 +60,7 @@ class QualityFinding:
 
 
 class QualityReview:
-    """What stands between a template and teaching, by its draws, which are looked at one by one."""
+    """Collects variants of a template and judges whether its parts test and teach something."""
 
     def __init__(self, template: Template) -> None:
         self.template = template
@@ -70,27 +70,27 @@ class QualityReview:
         self.first: Variant | None = None
 
     def add(self, one: Variant) -> None:
-        """Take a draw into account."""
+        """Count one variant."""
         self.first = self.first or one
         fillers = [Interpolator(one, lang) for lang in self.template.languages] if self.seen else []
         for index, part in self.seen.items():
             part.add(one, index, fillers)
 
     def findings(self) -> Iterator[QualityFinding]:
-        """What was found, by part."""
+        """Yield what was found over all variants added, part by part."""
         for index, label in enumerate(self.template.labels):
-            said = [*_claims_findings(self.template)] if index == 0 else []
+            said = [*_check_claims(self.template)] if index == 0 else []
             said += _check_authored_reasons(self.template, index)
             said += _check_option_letters(self.first, index) if self.first else []
             if index in self.seen:
-                said += _seen_findings(self.template, index, self.seen[index])
+                said += _check_tally(self.template, index, self.seen[index])
             for level, code, what in said:
                 if code not in self.template.rules.ignore:
                     yield QualityFinding(self.template.id, label or "1", level, code, what)
 
 
 def review_template(template: Template, seeds: int = 200) -> list[QualityFinding]:
-    """Look at one template over many draws, and count its pool.
+    """Return what keeps a template from testing well, over ``seeds`` variants and its pool.
 
     Parameters
     ----------
@@ -103,21 +103,25 @@ def review_template(template: Template, seeds: int = 200) -> list[QualityFinding
         one = draw_variant(template, seed)
         different.add(one.identity)
         lessons.add(one)
-    said = [*_pool_findings(template, len(different), seeds)]
+    said = [*_check_pool(template, len(different), seeds)]
     said += [("note", "QG315", what) for what in check_workload(template)]
     ignored = template.rules.ignore
     found = [QualityFinding(template.id, "", *one) for one in said if one[1] not in ignored]
     return [*found, *lessons.findings()]
 
 
-def _seen_findings(template: Template, index: int, seen: AnswerTally) -> Said:
+def _check_tally(template: Template, index: int, seen: AnswerTally) -> Said:
+    """Yield what the tally of one part shows: too little entropy, a favoured position, ...
+
+    Nothing with fewer than ``ENOUGH`` variants, where shares are chance.
+    """
     if seen.draws < ENOUGH:
         return
     answer = template.rules.part[index].answer
     wanted = WANTED_BITS.get(seen.kind, MANY if seen.most >= 4 else FEW)
     if seen.most_bits < wanted:
         yield "error", "QG301", f"its answer has {seen.bits:.2f} bits, at least {wanted} are wanted"
-    yield from _choice_findings(seen)
+    yield from _check_options(seen)
     if seen.kind == "choice" and not answer.get("in_order"):
         share = seen.draws / seen.most
         most = SPREAD * math.sqrt(share * (1 - 1 / seen.most))
@@ -127,7 +131,8 @@ def _seen_findings(template: Template, index: int, seen: AnswerTally) -> Said:
             yield "error", "QG302", what
 
 
-def _choice_findings(seen: AnswerTally) -> Said:
+def _check_options(seen: AnswerTally) -> Said:
+    """Yield options that are never right, always right, or betrayed by their length."""
     never = sorted(set(seen.shown) - set(seen.right))
     if never:
         yield "note", "QG313", f"never right: {', '.join(never)}"
@@ -142,11 +147,13 @@ def _choice_findings(seen: AnswerTally) -> Said:
 
 
 def _check_authored_reasons(template: Template, index: int) -> Said:
-    """What is missing in the files, whatever is drawn."""
+    """Yield reasons and traps that a part's files lack, whatever is drawn."""
     answer = template.rules.part[index].answer
     reasons = {name for text in template.texts.values() for name in text.named.get("reasons", ())}
     told = reasons | {name.partition(" = ")[0] for name in reasons}
-    lacking = [name for name in _to_explain(template, answer, reasons) if name not in told]
+    lacking = [
+        name for name in _list_names_to_explain(template, answer, reasons) if name not in told
+    ]
     if lacking:
         yield "error", "QG304", f"no reason for {', '.join(lacking)}"
     if answer["kind"] == "tf" and not {"from", "claim"} & answer.keys():
@@ -160,8 +167,10 @@ EXPLAINED = {"choice": ("options",), "multi": ("options",), "match": ("pairs",),
 """Kind to the keys of its answer whose names need a reason."""
 
 
-def _to_explain(template: Template, answer: Mapping[str, Any], reasons: set[str]) -> list[str]:
-    """Names that need a sentence in section ``reasons``."""
+def _list_names_to_explain(
+    template: Template, answer: Mapping[str, Any], reasons: set[str]
+) -> list[str]:
+    """Return the names of options, claims or steps that need a sentence in ``reasons``."""
     if "from" in answer:
         return list(template.rules.claims)
     if answer["kind"] in {"tf", "gap"}:
@@ -171,12 +180,16 @@ def _to_explain(template: Template, answer: Mapping[str, Any], reasons: set[str]
 
 
 def _list_drawable_phrases(template: Template, name: str, reasons: set[str]) -> tuple[str, ...]:
-    """The name itself, or each phrase that may be drawn for it."""
+    """Return the name itself, or each phrase that may be drawn for it."""
     rule = template.rules.draw.get(name)
     return rule.words if rule and name not in reasons else (name,)
 
 
-def _pool_findings(template: Template, different: int, seeds: int) -> Said:
+def _check_pool(template: Template, different: int, seeds: int) -> Said:
+    """Yield too few different questions, and a pool size that differs from the declared one.
+
+    ``different`` were counted among ``seeds`` variants.
+    """
     rules = template.rules
     if different < min(DIFFERENT, seeds):
         yield "error", "QG307", f"{different} different questions in {seeds} draws"
@@ -187,7 +200,8 @@ def _pool_findings(template: Template, different: int, seeds: int) -> Said:
         yield "error", "QG308", f"there are {counted} different questions, not {rules.pool}"
 
 
-def _claims_findings(template: Template) -> Said:
+def _check_claims(template: Template) -> Said:
+    """Yield a pool of claims that is too small, or shares names with options."""
     rules = template.rules
     asked = sum("from" in part.answer for part in rules.part)
     if len(rules.claims) < CLAIMS * asked:
@@ -202,7 +216,7 @@ def _claims_findings(template: Template) -> Said:
 
 
 def count_pool(template: Template) -> int:
-    """How many different questions there are; 0 if there are too many candidates to count."""
+    """Return the number of different questions; 0 if there are too many candidates to count."""
     plan, rules = sampler_for(template), template.rules
     free = [variable for variable in plan.variables if variable.choices]
     pooled = rules.claims or any("take" in part.answer for part in rules.part)
@@ -227,7 +241,7 @@ _PICTURE = re.compile(r"[^\W\d]{2,15} (\d)")
 
 
 def _check_option_letters(one: Variant, index: int) -> Said:
-    """Letters of options that the figure shows too, and numbered pictures out of order."""
+    """Yield option letters that the figure uses too, and numbered pictures out of order."""
     lang = one.template.languages[0]
     shown = set(_MARK.findall(figure_text(one, lang, quiz=True)))
     options = ask_part(one, index).options
@@ -259,7 +273,7 @@ FAR = 2.0
 
 
 def estimate_minutes(template: Template) -> float:
-    """Minutes that a template takes by its operations, options and key points."""
+    """Return the minutes that a template takes, by its operations, options and key points."""
     done: set[str] = set()
     parts = (
         _estimate_part_minutes(template, index, done) for index in range(len(template.rules.part))
@@ -268,6 +282,10 @@ def estimate_minutes(template: Template) -> float:
 
 
 def _estimate_part_minutes(template: Template, index: int, done: set[str]) -> float:
+    """Return the minutes of one part; add its steps to ``done``.
+
+    A step that an earlier part needed is not computed twice.
+    """
     answer: dict[str, Any] = template.rules.part[index].answer
     kind = answer["kind"]
     if kind in WHOLE:
@@ -280,7 +298,7 @@ def _estimate_part_minutes(template: Template, index: int, done: set[str]) -> fl
 
 
 def _count_operations(expr: Expr) -> int:
-    """Operations of a formula; of several cases only the longest is computed."""
+    """Return the number of operations of a formula; of several cases the longest."""
     if not isinstance(expr, Call) or not expr.args:
         return 0
     if expr.op == "piecewise":
@@ -289,7 +307,7 @@ def _count_operations(expr: Expr) -> int:
 
 
 def check_workload(template: Template) -> Iterator[str]:
-    """What of a template's points and minutes is far from the estimate."""
+    """Yield points and minutes that are a factor ``FAR`` from the estimate."""
     minutes = estimate_minutes(template)
     given = (
         ("points", float(total_points(template.rules))),
@@ -308,7 +326,7 @@ CLEARLY = 1.1
 
 @dataclass
 class AnswerTally:
-    """One closed part over many draws.
+    """Counts of what was right and shown in one closed part, over many variants.
 
     Parameters
     ----------
@@ -338,18 +356,18 @@ class AnswerTally:
 
     @property
     def bits(self) -> float:
-        """Entropy of the answers."""
+        """Return the entropy of the answers in bits."""
         return entropy_bits(self.answers.values())
 
     @property
     def most_bits(self) -> float:
-        """The same, and how far it may be off because the draws are few: two deviations."""
+        """Return the entropy plus two standard errors: few draws must not fail a good part."""
         shares = [count / self.draws for count in self.answers.values()]
         squares = sum(share * math.log2(share) ** 2 for share in shares)
         return self.bits + 2 * math.sqrt(max(0.0, squares - self.bits**2) / self.draws)
 
     def add(self, drawn: Variant, index: int, fillers: Sequence[Interpolator]) -> None:
-        """Take a draw into account."""
+        """Count part ``index`` of a variant; one ``filler`` for each language."""
         self.draws += 1
         if self.kind not in {"choice", "multi"}:
             self.answers[_describe_answer(self.kind, drawn, index)] += 1
@@ -369,7 +387,10 @@ class AnswerTally:
             self.longest[filler.lang] += _find_longest_option(lengths) in right
 
     def _measure_option(self, filler: Interpolator, name: str) -> int:
-        """Letters of an option; of one that is the same in every draw they are counted once."""
+        """Return the letters of an option in one language.
+
+        The length of an option that is the same in every variant is stored.
+        """
         known = self._lengths.get((filler.lang, name))
         if known is None:
             known = len(inlines_to_text(filler.sentence("options", name)))
@@ -379,14 +400,14 @@ class AnswerTally:
 
 
 def _find_longest_option(lengths: dict[str, int]) -> str:
-    """The option that is clearly the longest; empty if none is."""
+    """Return the option that is clearly the longest; empty if none is."""
     name = max(lengths, key=lambda one: lengths[one])
     others = [length for other, length in lengths.items() if other != name]
     return name if lengths[name] >= CLEARLY * max(others, default=0) else ""
 
 
 def _describe_answer(kind: str, drawn: Variant, index: int) -> str:
-    """What a learner would have to know in this draw: words, pairs or an order."""
+    """Return what a learner must know to answer this variant, as text that is equal if it is."""
     if kind == "tf":
         part = VariantPart(drawn, index)
         return str(part.condition_holds(true_false.selected_statement(part)[1]))
@@ -402,7 +423,7 @@ def _describe_answer(kind: str, drawn: Variant, index: int) -> str:
 
 
 def entropy_bits(counts: Iterable[int]) -> float:
-    """Bits that one answer is worth to a learner who has seen all others."""
+    """Return the Shannon entropy in bits of a distribution given by counts."""
     found = [count for count in counts if count]
     total = sum(found)
     return math.log2(total) - sum(n * math.log2(n) for n in found) / total if found else 0.0

@@ -64,7 +64,7 @@ _WORD = re.compile(r"[^\W\d_\u0980-\u09ff][\w'-]{3,}|[\u0980-\u09ff]{3,}")
 
 @dataclass(frozen=True)
 class Leak:
-    """A question tells what another one asks, in a text of it if that can be shown."""
+    """One question (``teller``) gives away what a part of another (``asker``) asks."""
 
     teller: str
     asker: str
@@ -75,7 +75,7 @@ class Leak:
 
 @dataclass
 class PrintedContent:
-    """What a question prints in one language."""
+    """What a question prints in one language, indexed by what leaks are searched by."""
 
     sentences: list[str] = field(default_factory=list)
     formulas: dict[CanonicalForm, str] = field(default_factory=dict)
@@ -83,33 +83,33 @@ class PrintedContent:
 
     @cached_property
     def numbers(self) -> set[str]:
-        """Numbers of enough digits, without blanks and signs."""
+        """Return the numbers with enough digits not to be chance, without blanks and signs."""
         return {n for sentence in self.sentences for n in _iter_notable_numbers(sentence)}
 
     @cached_property
     def words(self) -> list[tuple[str, frozenset[str]]]:
-        """Each sentence with its words."""
+        """Return each sentence with the stems of its words."""
         return [(sentence, _extract_word_stems(sentence)) for sentence in self.sentences]
 
     @cached_property
     def lines(self) -> list[tuple[str, str]]:
-        """Each sentence, and how it is searched for words."""
+        """Return each sentence, and the same folded to lower case for searching."""
         return [(sentence, f" {sentence.casefold()}") for sentence in self.sentences]
 
     @cached_property
     def text(self) -> str:
-        """All of it, to be searched at once."""
+        """Return all sentences as one text, so that most searches end after one pass."""
         return "\n".join(line for _, line in self.lines)
 
     @cached_property
     def vocabulary(self) -> frozenset[str]:
-        """Words of all sentences."""
+        """Return the word stems of all sentences."""
         return frozenset[str]().union(*(words for _, words in self.words))
 
 
 @dataclass(frozen=True)
 class AskedContent:
-    """What one part asks, and must not stand in another question."""
+    """What answers one part, and so must not stand in another question."""
 
     label: str
     formulas: Mapping[CanonicalForm, str]
@@ -120,21 +120,21 @@ class AskedContent:
 
     @property
     def is_checkable(self) -> bool:
-        """Whether there is anything that could be told."""
+        """Whether the part has anything that another question could give away."""
         return bool(
             self.formulas or self.numbers or self.words or self.named_key_points or self.steps
         )
 
     @cached_property
     def named_key_points(self) -> dict[str, list[str]]:
-        """Key points with the words that name each; none if they are too few to tell them."""
+        """Return each key point with the terms that name it; empty if they are too few to leak."""
         points = self.points.key_points() if self.points else {}
         named = {name: [f" {t.casefold()}" for t in terms] for name, terms in points.items()}
         return named if len(named) >= POINTS else {}
 
     @cached_property
     def words(self) -> list[tuple[str, frozenset[str], frozenset[str]]]:
-        """Each sentence, what of its words must be told, and all of them, if they are enough."""
+        """Return sentence, required stems and all stems of each sentence that is long enough."""
         found = [
             (
                 f"{must} {may}".strip(),
@@ -148,7 +148,7 @@ class AskedContent:
 
 @dataclass(frozen=True)
 class QuestionContent:
-    """What a question says, and what it asks, in one of its languages."""
+    """What a question prints and what it asks, in one language."""
 
     template: str
     lang: str
@@ -157,16 +157,19 @@ class QuestionContent:
 
 
 def question_content(question: Question, key: QuestionKey) -> QuestionContent:
-    """Look through a question; its numbers aside, of which a paper draws others if need be."""
+    """Return what a question prints and asks, without the numbers of its answers.
+
+    Numbers differ in each variant, so a bank is checked without them and a paper with them.
+    """
     own = printed_content(question, key.draw)
     asked = tuple(replace(one, numbers=frozenset()) for one in asked_content(question, key, own))
     return QuestionContent(question.template, question.lang, own, asked)
 
 
 def find_bank_leaks(bank: Bank, questions: Sequence[QuestionContent]) -> dict[Leak, str]:
-    """Which of a bank's questions tell what another one asks, and in which language first.
+    """Return the leaks between a bank's questions, each with the first language that has it.
 
-    Those of which one names the other in ``apart`` never stand in one paper.
+    Templates that exclude each other (``apart``) never stand in one paper and are not compared.
     """
     found: dict[Leak, str] = {}
     known = {one.name: one for one in bank.candidates({one.template: None for one in questions})}
@@ -184,7 +187,7 @@ def find_bank_leaks(bank: Bank, questions: Sequence[QuestionContent]) -> dict[Le
 
 
 def find_paper_leaks(paper: Paper) -> list[Leak]:
-    """Every question of a paper that tells what another one asks, in any of its languages."""
+    """Return every leak between the questions of a paper, in any of its languages."""
     found: dict[Leak, None] = {}
     for place in range(len(paper.langs)):
         told = [
@@ -201,7 +204,7 @@ def find_paper_leaks(paper: Paper) -> list[Leak]:
 
 
 def _iter_leaks(secret: AskedContent, other: PrintedContent) -> Iterator[tuple[str, str]]:
-    """What of a secret is told, and the text that tells it."""
+    """Yield what ``other`` gives away of a secret, and the text that does it."""
     if not secret.formulas.keys().isdisjoint(other.formulas):
         for form in secret.formulas.keys() & other.formulas.keys():
             text = f"${other.formulas[form]}$"
@@ -223,7 +226,7 @@ def _iter_leaks(secret: AskedContent, other: PrintedContent) -> Iterator[tuple[s
 def _named_points(
     named: Mapping[str, Sequence[str]], other: PrintedContent
 ) -> Iterator[tuple[str, str]]:
-    """Sentences that name several key points, and most of them."""
+    """Yield sentences that name several key points, and most of them."""
     there = [name for name, terms in named.items() if any(term in other.text for term in terms)]
     for sentence, line in other.lines if len(there) >= POINTS else ():
         found = [name for name in there if any(term in line for term in named[name])]
@@ -232,7 +235,7 @@ def _named_points(
 
 
 def printed_content(question: Question, drawn: Variant) -> PrintedContent:
-    """What a question prints: sentences and formulas."""
+    """Return the sentences and formulas that a question prints."""
     shown: list[Block] = [*question.stem]
     for part in question.parts:
         rows = [text for _, text in (*part.field.options, *part.field.targets)]
@@ -249,7 +252,7 @@ def printed_content(question: Question, drawn: Variant) -> PrintedContent:
 
 
 def _iter_printed_formulas(parts: Iterable[Block | Inline]) -> Iterator[Expr]:
-    """Formulas in print and in programs."""
+    """Yield the formulas in blocks: typeset ones, those in code and in programs."""
     for part in parts:
         if isinstance(part, TypesetMaths):
             yield from _parse_if_formula(part.typed)
@@ -268,6 +271,7 @@ def _iter_printed_formulas(parts: Iterable[Block | Inline]) -> Iterator[Expr]:
 
 
 def _parse_if_formula(typed: str) -> Iterator[Expr]:
+    """Yield the formula that a text is; nothing if it is none."""
     try:
         yield parse_formula(typed)
     except (FormulaReadError, FormulaError):
@@ -277,7 +281,7 @@ def _parse_if_formula(typed: str) -> Iterator[Expr]:
 def asked_content(
     question: Question, key: QuestionKey, own: PrintedContent
 ) -> Iterator[AskedContent]:
-    """What each part of a question asks, which says itself what is ``own``."""
+    """Yield what answers each part, without what the question prints itself (``own``)."""
     for index, part in enumerate(question.parts):
         spec = key.specs[index]
         asked = _asked_formulas(key, index)
@@ -295,13 +299,16 @@ def asked_content(
 
 
 def _asked_formulas(key: QuestionKey, index: int) -> dict[CanonicalForm, str]:
-    """What a part asks; where a level has made the parts, what any authored one asks."""
+    """Return the formulas that a part asks and their names.
+
+    A level other than exam makes its own parts, so those of all authored parts count there.
+    """
     parts = [index] if key.level == EXAM else range(len(key.draw.template.rules.part))
     return {f: told for part in parts for f, told in asked_formulas(key.draw, part).items()}
 
 
 def _right_sentences(question: Question, index: int, spec: AnySpec) -> Iterator[tuple[str, str]]:
-    """What is right in words, options, pairs, filled gaps: what must be told, and what may be."""
+    """Yield the right statements of a part: words that must recur, and words that may."""
     shown = question.parts[index].field
     options = {mark: inlines_to_plain_text(text) for mark, text in shown.options}
     if isinstance(spec, match.MatchSpec):
@@ -318,7 +325,7 @@ def _right_sentences(question: Question, index: int, spec: AnySpec) -> Iterator[
 
 
 def _iter_notable_numbers(text: str) -> Iterator[str]:
-    """Numbers in a text that have enough digits."""
+    """Yield the numbers of a text that have too many digits to be there by chance."""
     for found in _NUMBER.findall(text):
         number = re.sub(r"[ \u00a0\u202f,−-]", "", found)
         whole, _, decimals = number.partition(".")
@@ -331,5 +338,5 @@ def _iter_notable_numbers(text: str) -> Iterator[str]:
 
 
 def _extract_word_stems(text: str) -> frozenset[str]:
-    """The longer words of a text, endings aside."""
+    """Return the first ``STEM`` letters of the longer words, so that endings do not matter."""
     return frozenset(word.casefold()[:STEM] for word in _WORD.findall(text))

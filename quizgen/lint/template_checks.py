@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+from quizgen.bank.dimensions import find_unit_errors
 from quizgen.bank.levels import EXAM
 from quizgen.bank.markdown import LanguageFile, slot_names
 from quizgen.bank.sampler import sampler_for
@@ -29,7 +30,6 @@ from quizgen.core.positions import TEXT, Place
 from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
-from quizgen.lint.dimensions import check_dimensions
 from quizgen.lint.figures import check_figures
 from quizgen.lint.item_quality import QualityReview
 from quizgen.lint.leaks import QuestionContent, question_content
@@ -43,13 +43,13 @@ from quizgen.render.text import blocks_to_plain_text
 
 
 class SampleShare(NamedTuple):
-    """How many of the draws are looked at more closely: one in so many, and no fewer than some."""
+    """How many variants a costly check looks at: one in ``one_in``, at least ``least``."""
 
     least: int
     one_in: int
 
     def count(self, seeds: int) -> int:
-        """The first so many of all."""
+        """Return how many of ``seeds`` variants to look at."""
         return max(self.least, seeds // self.one_in)
 
 
@@ -76,7 +76,11 @@ VERBATIM = frozenset({"code", "sketch"})
 
 @dataclass
 class TemplateReport:
-    """What was found for one template."""
+    """Counts, ranges and diagnostics of one template over its draws.
+
+    ``seconds`` is processor time of drawing alone; ``heard`` is what the questions print, for the
+    leaks between templates.
+    """
 
     template: str
     seeds: int = 0
@@ -90,19 +94,19 @@ class TemplateReport:
 
     @property
     def acceptance(self) -> float:
-        """Share of candidates that were kept."""
+        """Return the share of candidates that no condition rejected, 0 to 1."""
         return self.seeds / self.tries if self.tries else 0.0
 
     @property
     def duplicates(self) -> float:
-        """Share of draws whose numbers had come before."""
+        """Return the share of variants that repeat an earlier one, 0 to 1."""
         return 1 - self.distinct / self.seeds if self.seeds else 0.0
 
 
 def lint_template(
     template: Template, seeds: int = 200, langs: tuple[str, ...] = ()
 ) -> TemplateReport:
-    """Examine one template.
+    """Return everything that is wrong with a template, from its files and from its variants.
 
     Parameters
     ----------
@@ -114,7 +118,8 @@ def lint_template(
     """
     report = TemplateReport(template.id)
     ignored = template.rules.ignore
-    found = [*_language_problems(template, langs), *check_dimensions(template)]
+    clashes = [error.diagnostic(template.file) for error in find_unit_errors(template)]
+    found = [*_find_language_problems(template, langs), *clashes]
     report.problems += [problem for problem in found if problem.code not in ignored]
     if report.problems:
         return report
@@ -128,12 +133,14 @@ def lint_template(
         for worded in composed:
             report.problems += find_unfilled_placeholders(worded)
         typed = (*_select_telling_variants(first, MARKED.count(seeds)), *known)
-        report.problems += _once_a_part(answer for one in typed for answer in _typed_back(one))
+        report.problems += _select_first_diagnostics(
+            answer for one in typed for answer in _iter_misjudged_answers(one)
+        )
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
-        report.problems += _lacking_lessons(template, lessons)
+        report.problems += _diagnose_quality_errors(template, lessons)
         report.problems = [one for one in report.problems if one.code not in ignored]
     except QuizgenError as error:
         report.problems.append(error.diagnostic(template.file))
@@ -141,24 +148,26 @@ def lint_template(
     return report
 
 
-def _answer(index: int) -> Place:
+def _locate_answer(index: int) -> Place:
+    """Return where a part's answer stands in ``template.toml``."""
     return ("part", index, "answer")
 
 
-def _lacking_lessons(template: Template, lessons: QualityReview) -> Iterator[Diagnostic]:
+def _diagnose_quality_errors(template: Template, lessons: QualityReview) -> Iterator[Diagnostic]:
+    """Yield the errors of the quality review as diagnostics with their places."""
     labels = [label or "1" for label in template.labels]
     for one in lessons.findings():
         if one.level == "error":
-            file, place = template.file, _answer(labels.index(one.label))
+            file, place = template.file, _locate_answer(labels.index(one.label))
             if one.code == "QG304":
-                file, place = _prose_file(template, template.languages[0]), ("reasons",)
+                file, place = _get_prose_file(template, template.languages[0]), ("reasons",)
             elif one.code in {"QG309", "QG310"}:
                 place = ("claims",)
             yield diagnose(one.code, file, f"part {one.label}: {one.what}", place)
 
 
 def _select_telling_variants(draws: list[Variant], marked: int) -> Iterator[Variant]:
-    """The first draws, and those further ones in which a mistake is met that is rare."""
+    """Yield the first ``marked`` variants, and later ones with a misconception that is rare."""
     met = Counter[tuple[int, str]]()
     for place, one in enumerate(draws):
         mistakes = [(part, trap) for part, traps in enumerate(one.traps) for trap in traps]
@@ -170,7 +179,7 @@ def _select_telling_variants(draws: list[Variant], marked: int) -> Iterator[Vari
 def _examine_draws(
     template: Template, seeds: int, report: TemplateReport, lessons: QualityReview
 ) -> list[Variant]:
-    """Count what the draws give; those whose answers are to be typed back."""
+    """Count what the variants give into ``report``; return those to be typed back."""
     seen: set[str] = set()
     first: list[Variant] = []
     met: Counter[tuple[tuple[str, ...], ...]] = Counter()
@@ -200,7 +209,10 @@ def _examine_draws(
 
 
 def _draw_within_limit(template: Template, seeds: int, report: TemplateReport) -> Iterator[Variant]:
-    """Draws, some at a time: to read the clock for each would take a part of what it measures."""
+    """Yield variants in batches, and add the time that drawing took to the report.
+
+    Reading the clock for each would cost a part of what is measured.
+    """
     for begin in range(0, seeds, AT_ONCE):
         started = time.process_time()
         drawn = [draw_variant(template, seed) for seed in range(begin, min(begin + AT_ONCE, seeds))]
@@ -209,6 +221,7 @@ def _draw_within_limit(template: Template, seeds: int, report: TemplateReport) -
 
 
 def _widen_ranges(report: TemplateReport, one: Variant) -> None:
+    """Extend the range of each asked quantity by one variant."""
     for part in one.template.rules.part:
         for name in asked_quantities(part.answer):
             value = to_float(one.shown_values[name])
@@ -217,7 +230,7 @@ def _widen_ranges(report: TemplateReport, one: Variant) -> None:
 
 
 def _find_constant_answers(template: Template, report: TemplateReport) -> Iterator[Diagnostic]:
-    """Answers that do not vary although the questions do."""
+    """Yield answers that do not vary although the questions do."""
     for part in template.rules.part if report.distinct >= VARIED else ():
         ranges = {name: report.ranges[name] for name in asked_quantities(part.answer)}
         if ranges and all(low == high for low, high in ranges.values()):
@@ -226,13 +239,15 @@ def _find_constant_answers(template: Template, report: TemplateReport) -> Iterat
             yield diagnose("QG208", template.file, what, _DRAW)
 
 
-def _prose_file(template: Template, lang: str) -> Path:
+def _get_prose_file(template: Template, lang: str) -> Path:
+    """Return the file with a template's prose in a language."""
     return template.path / f"{lang}.md"
 
 
-def _language_problems(template: Template, langs: tuple[str, ...]) -> list[Diagnostic]:
+def _find_language_problems(template: Template, langs: tuple[str, ...]) -> list[Diagnostic]:
+    """Return what is missing in the languages a template must have or has."""
     wanted = langs or tuple(template.texts) or (FIRST,)
-    files = {lang: _prose_file(template, lang) for lang in (*wanted, *template.texts)}
+    files = {lang: _get_prose_file(template, lang) for lang in (*wanted, *template.texts)}
     problems = [
         diagnose("QG210", files[lang], f"no {lang}.md")
         for lang in wanted
@@ -243,11 +258,12 @@ def _language_problems(template: Template, langs: tuple[str, ...]) -> list[Diagn
     for lang in template.texts:
         problems += [diagnose(code, files[lang], what, place)
                      for code, what, place in _find_missing_texts(template, lang)]  # fmt: skip
-    problems += _unequal_slots(template)
+    problems += _find_language_differences(template)
     return problems
 
 
 def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, str, Place]]:
+    """Yield code, message and place of each section or sentence that a language lacks."""
     text, chain = template.texts[lang], template.chain
     for label, part in zip(template.labels, template.rules.part, strict=True):
         if label and label not in text.sections and "from" not in part.answer:
@@ -277,9 +293,9 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
             yield "QG213", what, (section, name)
 
 
-def _unequal_slots(template: Template) -> Iterator[Diagnostic]:
-    """Every drawn value that one language shows must be shown in the others."""
-    shown = {lang: set(_question_slots(text)) for lang, text in template.texts.items()}
+def _find_language_differences(template: Template) -> Iterator[Diagnostic]:
+    """Yield values and names that one language shows and another does not."""
+    shown = {lang: set(_iter_question_slots(text)) for lang, text in template.texts.items()}
     first, *others = shown
     for lang in others:
         if shown[first] != shown[lang]:
@@ -288,7 +304,7 @@ def _unequal_slots(template: Template) -> Iterator[Diagnostic]:
             # The one that shows more has the line to look at.
             more = first if odd[0] in shown[first] else lang
             place: Place = (TEXT, f"{{{{ {odd[0]} }}}}")
-            yield diagnose("QG214", _prose_file(template, more), what, place)
+            yield diagnose("QG214", _get_prose_file(template, more), what, place)
     for section in ("options", "words", "gaps", "points", "claims", "reasons", "why"):
         keys = {lang: set(text.named.get(section, {})) for lang, text in template.texts.items()}
         for lang in others:
@@ -297,10 +313,11 @@ def _unequal_slots(template: Template) -> Iterator[Diagnostic]:
                 what = f"section {section!r} differs from {first}.md by {odd}"
                 stranger = next((name for name in odd if name in keys[lang]), "")
                 place = (section, stranger) if stranger else (section,)
-                yield diagnose("QG215", _prose_file(template, lang), what, place)
+                yield diagnose("QG215", _get_prose_file(template, lang), what, place)
 
 
-def _question_slots(text: LanguageFile) -> Iterator[str]:
+def _iter_question_slots(text: LanguageFile) -> Iterator[str]:
+    """Yield the placeholders of stem, parts, options and claims."""
     yield from slot_names(text.stem)
     for name, section in text.sections.items():
         if len(name) == 1:
@@ -311,14 +328,15 @@ def _question_slots(text: LanguageFile) -> Iterator[str]:
 
 
 def _compose_in_all_languages(one: Variant) -> ComposedLanguages:
+    """Return the variant's question and key in each language, without figures."""
     return {lang: compose_variant(one, lang, figures=False) for lang in one.template.languages}
 
 
 def find_unfilled_placeholders(worded: ComposedLanguages) -> list[Diagnostic]:
-    """Placeholders, nan or inf left in a composed question, for each language."""
+    """Return a diagnostic for each placeholder, nan or inf left in a composed question."""
     problems: list[Diagnostic] = []
     for lang, (question, key) in worded.items():
-        file = _prose_file(key.draw.template, lang)
+        file = _get_prose_file(key.draw.template, lang)
         bodies = [question.stem, *(part.body for part in question.parts)]
         shown = " ".join(line for body in bodies for line in blocks_to_plain_text(body))
         if re.search(r"\{\{|\}\}|\bnan\b|\binf\b", shown):
@@ -333,17 +351,21 @@ def find_unfilled_placeholders(worded: ComposedLanguages) -> list[Diagnostic]:
 
 @dataclass(frozen=True)
 class _TypedAnswer:
-    """An answer that was typed back and not marked as it should be; no trap: it was the key."""
+    """A typed answer that was not marked as it should be.
+
+    ``trap`` is the misconception that was typed; empty if it was the key.
+    """
 
     part: str
     trap: str
     diagnostic: Diagnostic
 
 
-def _once_a_part(answers: Iterable[_TypedAnswer]) -> list[Diagnostic]:
-    """The first problem of a part's key and of each mistake, which would come again in each draw.
+def _select_first_diagnostics(answers: Iterable[_TypedAnswer]) -> list[Diagnostic]:
+    """Return the first diagnostic of each part's key and each misconception.
 
-    Where the key itself is not right when typed, what becomes of mistakes says nothing.
+    It would come again in each draw. Where the key itself is not accepted, misconceptions prove
+    nothing.
     """
     found: dict[tuple[str, str], Diagnostic] = {}
     for one in answers:
@@ -352,8 +374,8 @@ def _once_a_part(answers: Iterable[_TypedAnswer]) -> list[Diagnostic]:
     return [said for (part, trap), said in found.items() if not trap or part not in keys]
 
 
-def _typed_back(one: Variant) -> Iterator[_TypedAnswer]:
-    """Problems with typing the printed answer and each mistake back."""
+def _iter_misjudged_answers(one: Variant) -> Iterator[_TypedAnswer]:
+    """Yield what goes wrong when the key and each misconception of a variant are typed."""
     for index, label in enumerate(one.template.labels):
         yield from _check_printed_answers(one, ask_part(one, index), index, label)
 
@@ -361,7 +383,10 @@ def _typed_back(one: Variant) -> Iterator[_TypedAnswer]:
 def _check_printed_answers(
     one: Variant, part: AskedPart[AnySpec], index: int, label: str
 ) -> Iterator[_TypedAnswer]:
-    """What is typed alike in several languages is marked once: a verdict knows no language."""
+    """Yield what goes wrong when one part's key and misconceptions are typed.
+
+    A text typed alike in several languages is graded once: a verdict knows no language.
+    """
     seen = set[tuple[str, str]]()
     langs = one.template.languages
     ways = {"": part.spec, **part.mistakes}
@@ -372,14 +397,17 @@ def _check_printed_answers(
             text = typed[trap][lang]
             if (trap, text) not in seen:
                 seen.add((trap, text))
-                place = _answer(index)
+                place = _locate_answer(index)
                 for code, what in _check_typed_answer(part.spec, trap, text, lang):
                     found = diagnose(code, one.template.file, f"{where}: {what}", place)
                     yield _TypedAnswer(label, trap, found)
 
 
 def _format_key_by_language(spec: AnySpec, langs: Sequence[str]) -> dict[str, str]:
-    """The key as it is printed in each language; what stands there as program text is in none."""
+    """Return the printed key in each language.
+
+    A key that is program text, or is shown by no rule of its own, is formatted once.
+    """
     first = show_key(spec, langs[0])
     own = type(spec).show_in is not SpecBase.show_in
     shown = {lang: show_key(spec, lang) if own else first for lang in langs}
@@ -389,7 +417,7 @@ def _format_key_by_language(spec: AnySpec, langs: Sequence[str]) -> dict[str, st
 
 
 def check_levels(one: Variant) -> list[Diagnostic]:
-    """Problems of the levels that are made from the chain: marked alike in every language."""
+    """Return the problems of the derived levels: languages must be graded alike, keys accepted."""
     found: list[Diagnostic] = []
     file, place = one.template.file, ("levels",)
     for name in (name for name in LEVELS if name != EXAM and load_level(name).is_applicable(one)):
@@ -414,7 +442,7 @@ def check_levels(one: Variant) -> list[Diagnostic]:
 def _check_typed_answer(
     spec: AnySpec, trap: str, typed: str, lang: str
 ) -> Iterator[tuple[str, str]]:
-    """Code and what is wrong with the verdict on what was typed."""
+    """Yield code and message if a typed key (no ``trap``) or misconception is misjudged."""
     comma = get_language(lang).decimal == "," and spec.kind not in VERBATIM
     verdict = grade_answer(spec, typed, lang=lang, decimal="comma" if comma else "point")
     if trap and verdict.note != f"trap:{trap}":

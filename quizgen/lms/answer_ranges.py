@@ -79,10 +79,11 @@ def disjoint_ranges(
 
 
 def _right_ranges(rule: Tolerance, key: Value, period: Value | None) -> Iterator[AnswerRange]:
+    """Yield the right intervals: of the key, one period apart, and what ``accept`` adds."""
     value, width = to_float(key), to_float(rule.half_width(key)) * BEYOND
     width = max(width, SAME * max(abs(value), 1))
-    turn = to_float(period) if period is not None else 0
-    for shift in (0, -turn, turn) if turn else (0,):
+    cycle = to_float(period) if period is not None else 0
+    for shift in (0, -cycle, cycle) if cycle else (0,):
         yield AnswerRange(value + shift, _move_off_edge(value + shift, width, WIDER), right=True)
     if rule.accept is not None:
         low, high = (to_float(parse_exact(bound)) for bound in rule.accept)
@@ -92,7 +93,7 @@ def _right_ranges(rule: Tolerance, key: Value, period: Value | None) -> Iterator
 
 
 def _wrong_range(rule: Tolerance, one: WrongValue) -> AnswerRange:
-    """As near as grading names a misconception."""
+    """Return the interval of a misconception, as wide as grading would name it."""
     value = to_float(one.value)
     close = to_float(CLOSE) * abs(value)
     width = min(to_float(rule.half_width(one.value)), to_float(WIDEST) * abs(value))
@@ -104,12 +105,15 @@ def _wrong_range(rule: Tolerance, one: WrongValue) -> AnswerRange:
 
 
 def _rounding_error(value: float) -> float:
-    """How far a number is from what people write who have to round it."""
+    """Return how far a number is from what people write who round it; 0 if they need not."""
     return 0 if round(value, ROUNDED) == value else 0.51 * 10**-ROUNDED
 
 
 def _separate(wanted: Iterable[AnswerRange]) -> Iterator[AnswerRange]:
-    """Narrow each interval to the room that those before it leave."""
+    """Yield each interval narrowed to the room that those before it leave; drop one without room.
+
+    Systems differ in which of several intervals they apply, so none may meet another.
+    """
     separate: list[AnswerRange] = []
     for one in wanted:
         room = min((abs(one.value - other.value) - other.width for other in separate), default=inf)

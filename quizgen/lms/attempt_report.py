@@ -69,19 +69,22 @@ def question_statistics(marked: Sequence[GradedAttempt]) -> Iterator[QuestionSta
 
 
 def _is_missed(part: PartResult) -> bool:
+    """Return whether a part was answered and did not earn all its marks."""
     return part.marks is not None and part.verdict.credit < 1 and not part.is_blank
 
 
 def _sum_marks(parts: Sequence[PartResult]) -> Fraction:
+    """Return the marks of some parts together; an undecided part counts 0."""
     return sum((part.marks or Fraction(0) for part in parts), Fraction(0))
 
 
 def _score_share(parts: Sequence[PartResult]) -> float:
+    """Return the marks of some parts as a share of their points, 0 to 1."""
     return float(_sum_marks(parts) / sum(part.points for part in parts))
 
 
 def _item_rest_correlation(shares: Sequence[float], others: Sequence[float]) -> float | None:
-    """None for few attempts, and where all are equal."""
+    """Return the item-rest correlation; None for few attempts, or if all are equal."""
     if len(shares) < FEWEST_ATTEMPTS or len({*shares}) < 2 or len({*others}) < 2:
         return None
     return correlation(shares, others)
@@ -97,6 +100,7 @@ def attempts_to_csv(marked: Sequence[GradedAttempt]) -> str:
 
 
 def _attempt_row(one: GradedAttempt, numbers: Sequence[str], parts: Sequence[str]) -> list[str]:
+    """Return the cells of an attempt, in the order of the table's columns."""
     found = {part.id: part for part in one.result.parts}
     row = [*_person_cells(one), *(one.questions.get(number, "") for number in numbers)]
     for shown in (_typed_cell, _marks_cell, part_note):
@@ -105,6 +109,7 @@ def _attempt_row(one: GradedAttempt, numbers: Sequence[str], parts: Sequence[str
 
 
 def _person_cells(one: GradedAttempt) -> list[str]:
+    """Return the cells that say who made an attempt, and its totals."""
     attempt, result = one.attempt, one.result
     totals = (format_points(result.marks), format_points(result.points))
     counts = (one.number, result.asked_back, result.to_decide)
@@ -114,10 +119,12 @@ def _person_cells(one: GradedAttempt) -> list[str]:
 
 
 def _typed_cell(part: PartResult) -> str:
+    """Return the text that was typed for a part, for a cell of the table."""
     return part.typed
 
 
 def _marks_cell(part: PartResult) -> str:
+    """Return the marks of a part; empty if a person must decide them."""
     return "" if part.marks is None else format_points(part.marks)
 
 
@@ -146,6 +153,7 @@ def format_attempts(marked: Sequence[GradedAttempt], lang: str) -> Iterator[str]
 
 
 def _attempt_line(one: GradedAttempt, lang: str) -> tuple[str, ...]:
+    """Return the cells of an attempt, for a terminal in a language."""
     result = one.result
     again = f" ({one.number})" if one.number > 1 else ""
     marks = localise_numbers(
@@ -162,10 +170,12 @@ def _attempt_line(one: GradedAttempt, lang: str) -> tuple[str, ...]:
 
 
 def _question_line(one: QuestionStatistics, lang: str) -> tuple[str, ...]:
+    """Return the cells of a question's statistics, for a terminal in a language."""
     rest = "" if one.correlation is None else localise_numbers(lang, f"{one.correlation:.2f}")
     notes = ", ".join(f"{count} {name}" for name, count in one.notes)
     return (escape_control_characters(one.number), str(one.count), f"{one.share:.0%}", rest, notes)
 
 
 def _format_table(rows: Sequence[tuple[str, ...]]) -> Iterator[str]:
+    """Yield the lines of a table with aligned columns."""
     return (line for lines in lay_out_table(rows) for line in lines)

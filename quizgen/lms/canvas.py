@@ -148,8 +148,10 @@ def canvas_files(items: Iterable[ExportItem]) -> dict[str, bytes]:
     quizzes, figures = {}, dict[str, bytes]()
     for lang, found in groupby(group_by_slot(items), key=lambda item: item.lang):
         of_lang = list(found)
-        questions = sorted((one for item in of_lang for one in canvas_questions(item)), key=_group)
-        groups = [(name, list(row)) for name, row in groupby(questions, key=_group)]
+        questions = sorted(
+            (one for item in of_lang for one in canvas_questions(item)), key=_get_group
+        )
+        groups = [(name, list(row)) for name, row in groupby(questions, key=_get_group)]
         quizzes[f"quizgen-{lang}"] = groups
         for item in of_lang:
             figures |= all_images(item)
@@ -166,12 +168,14 @@ def canvas_files(items: Iterable[ExportItem]) -> dict[str, bytes]:
     return {name: text.encode() for name, text in files.items()} | figures
 
 
-def _group(question: CanvasQuestion) -> str:
+def _get_group(question: CanvasQuestion) -> str:
+    """Return the group of a question: the key that questions are sorted and grouped by."""
     return question.group
 
 
 @cache
 def _load_layouts() -> jinja2.Environment:
+    """Return the Jinja environment with the layouts of a Canvas package."""
     layouts = jinja_environment("quizgen.lms")
     layouts.globals.update(
         answers=weighted_answers,
@@ -186,10 +190,12 @@ def _load_layouts() -> jinja2.Environment:
 
 
 def _canvas_solution(question: CanvasQuestion) -> Markup:
+    """Return the worked solution of a question, without feedback that Canvas gives itself."""
     ((part, found),) = question.parts
     has_feedback = any(not isinstance(one, NumericInteraction) for one in found)
     return solution_html(question.item, _file_address, (part.label,), has_feedback=has_feedback)
 
 
 def _file_address(shown: Figure | PictureFile) -> str:
+    """Return the address of a package's file, as Canvas resolves it."""
     return f"%24IMS-CC-FILEBASE%24/{image_path(shown)}"

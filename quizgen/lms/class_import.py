@@ -34,14 +34,14 @@ from quizgen.paper.answer_key import FORMAT, AnswerKey, KeyQuestion, answer_key_
 
 
 class ImportedQuiz(NamedTuple):
-    """How many people are new, and how many the class has."""
+    """How many people an import added, and how many the class has now."""
 
     new: int
     people: int
 
 
 class _ImportedPaper(NamedTuple):
-    """The questions of one person, and the responses."""
+    """The questions that one person was asked, and the typed responses by part."""
 
     student: RosterStudent
     lang: str
@@ -88,7 +88,7 @@ def import_quiz(
 def _last_attempts(
     found: Iterable[QuizAttempt], tell: ReportLoss
 ) -> list[tuple[RosterStudent, QuizAttempt]]:
-    """Everybody in the reports, with the last attempt that is not empty."""
+    """Return everybody in the reports, each with the last attempt that is not empty."""
     tries: dict[str, list[QuizAttempt]] = {}
     for attempt in found:
         who = clean_cell(attempt.person_key[0] or attempt.name)
@@ -111,6 +111,7 @@ def _last_attempts(
 def _make_papers(
     people: Iterable[tuple[RosterStudent, QuizAttempt]], manifest: ExportManifest, tell: ReportLoss
 ) -> Iterator[_ImportedPaper]:
+    """Yield the paper of everybody who responded; report questions that the keys lack."""
     for student, attempt in people:
         found = sort_responses(manifest, attempt)
         for number in found.foreign:
@@ -120,6 +121,7 @@ def _make_papers(
 
 
 def _make_paper(student: RosterStudent, found: SortedResponses) -> _ImportedPaper:
+    """Return a person's questions, renumbered as the quiz asked them, with the responses."""
     questions, answers, asked = [], dict[str, str](), Counter[str]()
     for place, (item, typed) in enumerate(found.items, 1):
         first = next(iter(typed.values()))[0]
@@ -136,13 +138,14 @@ def _make_paper(student: RosterStudent, found: SortedResponses) -> _ImportedPape
 
 
 def _part_label(item: ManifestItem, part: str) -> str:
+    """Return the letter of a part; empty if it is the only one."""
     return part.removeprefix(item.key.number)
 
 
 def _renumber_question(
     item: ManifestItem, asked: Iterable[str], number: str, template: str
 ) -> KeyQuestion:
-    """The key of the parts of a question that were asked, under its number in the quiz."""
+    """Return the key of the parts that were asked, under their number in the quiz."""
     parts = [
         msgspec.structs.replace(part, id=number + _part_label(item, part.id))
         for part in item.key.parts
@@ -160,7 +163,10 @@ def _begin_class(
     people: Sequence[RosterStudent],
     papers: Sequence[_ImportedPaper],
 ) -> None:
-    """Begin the class; no papers can be made again, so it has no digest and no templates."""
+    """Create the class folder.
+
+    No papers can be generated for it, so its settings have no digest and no templates.
+    """
     if not papers:
         raise ClassError("nobody has responded to a question of these keys")
     own = folder.path.resolve().name
@@ -172,7 +178,7 @@ def _begin_class(
 def _write_papers(
     folder: ClassFolder, name: str, papers: Iterable[_ImportedPaper], tell: ReportLoss
 ) -> int:
-    """Add keys and forms of new people; return how many these are."""
+    """Add keys and filled forms of new people; return how many these are."""
     there, place = folder.heads(), folder.path / ANSWERS
     lines: list[bytes] = []
     forms: dict[str, bytes] = {}
@@ -194,7 +200,7 @@ def _write_papers(
 
 
 def _filled_form(paper: _ImportedPaper, code: str) -> bytes:
-    """The responses as a filled form."""
+    """Return the responses as a filled form (JSON)."""
     student = {
         "name": paper.student.name,
         "matriculation": paper.student.id,
@@ -204,4 +210,5 @@ def _filled_form(paper: _ImportedPaper, code: str) -> bytes:
 
 
 def _has_content(path: Path, content: bytes) -> bool:
+    """Return whether a file exists with exactly this content."""
     return path.exists() and path.read_bytes() == content

@@ -78,6 +78,7 @@ def grade_attempts(
 def _grade_attempt(
     manifest: ExportManifest, attempt: QuizAttempt, number: int, options: GradingOptions
 ) -> GradedAttempt:
+    """Return an attempt with its marks; ``number`` counts that person's attempts from 1."""
     found = sort_responses(manifest, attempt)
     parts = [part for one in found.items for part in _grade_parts(one, options)]
     places = [*found.places]
@@ -128,7 +129,7 @@ def sort_responses(manifest: ExportManifest, attempt: QuizAttempt) -> SortedResp
 def _grade_parts(
     responses: tuple[ManifestItem, Mapping[str, tuple[str, Typed]]], options: GradingOptions
 ) -> Iterator[PartResult]:
-    """The parts of one item, which a system may have asked as several questions."""
+    """Yield the graded parts of an item; a system may have asked them as several questions."""
     item, typed = responses
     marker = QuestionGrader(item.key, structs.replace(options, lang=options.lang or item.lang))
     for part in item.key.parts:
@@ -147,7 +148,7 @@ def _grade_parts(
 def _typed_by_part(
     item: ManifestItem, question: ManifestQuestion, response: Response
 ) -> dict[str, Typed]:
-    """Part to what would have been typed for it, in one line."""
+    """Return what would have been typed in one line for each part of a response."""
     found: dict[str, list[FieldValues | FormulaReadError]] = {}
     stems: dict[str, list[str]] = {}
     given = response.given
@@ -166,6 +167,7 @@ def _typed_by_part(
 def _typed_line(
     shape: ResponseShape, values: list[FieldValues | FormulaReadError], stems: list[str]
 ) -> Typed:
+    """Return a part's fields joined to one line, or the error of the first unreadable one."""
     filled: list[str] = []
     for one in values:
         if isinstance(one, FormulaReadError):

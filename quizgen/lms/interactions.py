@@ -196,6 +196,7 @@ class SolvedPart:
 
 
 def _join_sentences(options: tuple[FeedbackText, ...]) -> Iterator[Inline]:
+    """Yield sentences one after another, with a blank between two."""
     for place, option in enumerate(options):
         yield from ((PlainText(" "),) if place else ())
         yield from option
@@ -208,7 +209,7 @@ def part_interactions(
 
     Parameters
     ----------
-    part : Part
+    part : QuestionPart
     spec : AnySpec
         What it is graded by.
     solution : PartSolution
@@ -225,11 +226,13 @@ def part_interactions(
 
 @singledispatch
 def _interactions_of(spec: AnySpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return the interactions of a part; of a kind without its own rule one graded manually."""
     return (solved.as_manual(spec.kind),)
 
 
 @_interactions_of.register
 def _number_interactions(spec: number.NumberSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return a numeric interaction; a fraction is graded manually."""
     if spec.form in {"fraction", "lowest"}:
         return (solved.as_manual("fraction"),)
     unit = "%" if spec.percent else spec.unit
@@ -240,17 +243,24 @@ def _number_interactions(spec: number.NumberSpec, solved: SolvedPart) -> tuple[I
 def _quantity_interactions(
     spec: quantities.QuantitySpec, solved: SolvedPart
 ) -> tuple[Interaction, ...]:
+    """Return a numeric interaction in the unit of the key."""
     return _numeric_interaction(spec, solved, spec.unit)
 
 
 @_interactions_of.register
 def _angle_interactions(spec: angle.AngleSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return a numeric interaction in degrees that also accepts the key a period away."""
     return _numeric_interaction(spec, solved, "°", period=parse_exact(spec.period))
 
 
 def _numeric_interaction(
     spec: ScalarSpec, solved: SolvedPart, unit: str, scale: int = 1, period: Value | None = None
 ) -> tuple[Interaction, ...]:
+    """Return one numeric interaction with intervals of the key and misconceptions.
+
+    ``scale`` multiplies all values (100 for percent). An exact key without a finite decimal is
+    graded manually: it could not be typed.
+    """
     key = parse_exact(spec.value) * scale
     if spec.exact and not _has_finite_decimal(key):
         return (solved.as_manual("fraction"),)
@@ -261,7 +271,7 @@ def _numeric_interaction(
 
 
 def _precision_text(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
-    """How exactly a number is meant, since it can only be typed as a decimal."""
+    """Return how exactly a number is meant, since systems take it only as a decimal."""
     rule, number = spec.stated_rule or ("", "")
     if rule == "exact":
         return translate(lang, "export.exact")
@@ -271,7 +281,7 @@ def _precision_text(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
 
 
 def _has_finite_decimal(key: Value) -> bool:
-    """Whether a key can be typed as a decimal."""
+    """Return whether an exact value can be typed as a decimal."""
     from flint import fmpq
 
     return isinstance(key, fmpq) and count_decimals(key) is not None
@@ -279,6 +289,10 @@ def _has_finite_decimal(key: Value) -> bool:
 
 @_interactions_of.register
 def _point_interactions(spec: point.PointSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return a numeric interaction for each coordinate.
+
+    A point up to scale is graded manually: no interval tells whether its coordinates agree.
+    """
     if spec.up_to_scale:
         return (solved.as_manual("scale"),)
     return _numeric_interactions(
@@ -289,6 +303,7 @@ def _point_interactions(spec: point.PointSpec, solved: SolvedPart) -> tuple[Inte
 def _numeric_interactions(
     spec: SeveralNumbers, solved: SolvedPart, names: list[str]
 ) -> tuple[Interaction, ...]:
+    """Return a numeric interaction for each value of a key, named by ``names``."""
     feedback = solved.mistakes
     found: list[Interaction] = []
     for place, key in enumerate(spec.keys()):
@@ -308,6 +323,7 @@ def _numeric_interactions(
 
 @_interactions_of.register
 def _table_interactions(spec: table.TableSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return an interaction for each cell; all is graded manually if one cell must be."""
     found: list[Interaction] = []
     for name in spec.values:
         cell = table.cell_spec(spec, name)
@@ -320,6 +336,7 @@ def _table_interactions(spec: table.TableSpec, solved: SolvedPart) -> tuple[Inte
 
 @_interactions_of.register
 def _choice_interactions(spec: choice.ChoiceSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return a choice, or for ``tf`` a statement that is true or false."""
     if spec.kind == "tf":
         why = solved.solution.options
         return (TrueFalseInteraction(spec.correct == [1], why[0] if why else ()),)
@@ -333,6 +350,7 @@ def _choice_interactions(spec: choice.ChoiceSpec, solved: SolvedPart) -> tuple[I
 
 @_interactions_of.register
 def _match_interactions(spec: match.MatchSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return a match with its feedback on each wrong pair."""
     field, reasons = solved.part.field, solved.reasons
     feedback = {
         (left, right): reasons.get(f"{left}{right}", reasons.get(left, ()))
@@ -345,13 +363,14 @@ def _match_interactions(spec: match.MatchSpec, solved: SolvedPart) -> tuple[Inte
 
 @_interactions_of.register
 def _order_interactions(spec: order.OrderSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return an order; one with several right orders is graded manually."""
     if spec.before and not _has_one_order(spec):
         return (solved.as_manual("orders"),)
     return (OrderInteraction(solved.part.field.options, tuple(spec.steps)),)
 
 
 def _has_one_order(spec: order.OrderSpec) -> bool:
-    """Whether only one order keeps to what must come before what."""
+    """Return whether the constraints between steps leave only one order."""
     then = order.later_steps(spec)
     row = zip(spec.steps, spec.steps[1:], strict=False)
     return all(later in then[earlier] for earlier, later in row)
@@ -359,6 +378,7 @@ def _has_one_order(spec: order.OrderSpec) -> bool:
 
 @_interactions_of.register
 def _gap_interactions(spec: gap.GapSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return a text entry for each gap, with feedback on the wrong words that have some."""
     wrong: dict[str, list[tuple[str, FeedbackText]]] = {}
     for mark, sentence in solved.reasons.items():
         place, _, term = mark.removeprefix("(").partition(") ")
@@ -371,6 +391,7 @@ def _gap_interactions(spec: gap.GapSpec, solved: SolvedPart) -> tuple[Interactio
 
 @_interactions_of.register
 def _code_interactions(spec: code.CodeSpec, solved: SolvedPart) -> tuple[Interaction, ...]:
+    """Return a text entry for a program's output; several lines are graded manually."""
     outputs = (spec.output, *spec.also)
     if any("\n" in output for output in outputs):
         return (solved.as_manual("lines"),)
@@ -380,6 +401,6 @@ def _code_interactions(spec: code.CodeSpec, solved: SolvedPart) -> tuple[Interac
 
 
 def _output_spellings(outputs: Iterable[str]) -> Iterator[str]:
-    """Outputs, and the same without blanks after commas."""
+    """Yield each output, and the same without blanks after commas."""
     for output in outputs:
         yield from dict.fromkeys((output, output.replace(", ", ",")))

@@ -30,7 +30,7 @@ class ExportItem:
     slot : str
         Of which it is one of several variants.
     question : Question
-    key : Key
+    key : QuestionKey
     """
 
     id: str
@@ -105,7 +105,7 @@ class CourseQuestion:
     item : ExportItem
     suffix : str
         Tells it from the other questions made of the item.
-    parts : sequence of (Part, interactions)
+    parts : sequence of (QuestionPart, interactions)
         What it asks.
     """
 

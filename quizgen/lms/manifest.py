@@ -162,6 +162,7 @@ def read_manifest(path: Path) -> ExportManifest:
 
 
 def _read_lines(path: Path, shape: type[Line], lines: list[str], first: int = 1) -> Iterator[Line]:
+    """Yield the values on lines of JSON; ``KeyFileError`` names file and line (from ``first``)."""
     decode = json_decoder(shape).decode
     for number, line in enumerate(lines, first):
         try:

@@ -34,6 +34,7 @@ def manifest_entry(item: ExportItem, questions: Iterable[ManifestQuestion]) -> M
 
 
 def _response_shape(part: QuestionPart) -> ResponseShape:
+    """Return how a part is answered in one line."""
     control = part.field.control
     return ResponseShape(control.form, [box.name for box in control.boxes], control.named)
 
@@ -71,6 +72,6 @@ def response_field(
 
 
 def _option_texts(words: FeedbackText, lang: str) -> list[str]:
-    """What an option says once a system has made text of it, and in our own plain text."""
+    """Return an option as systems export it (HTML without tags), and in our own plain text."""
     page = html.unescape(_HTML_TAG.sub("", str(to_course_html(words, lang))))
     return list(dict.fromkeys((page, inlines_to_plain_text(words))))

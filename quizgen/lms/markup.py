@@ -53,6 +53,7 @@ _STYLING = re.compile(r' (?:class|lang)="[^"]*"')
 
 
 def _tex_formula(node: typeset.Node, lang: str, marks: str = "()") -> str:
+    """Return a formula in LaTeX between the delimiters of MathJax: ``()`` or ``[]``."""
     return rf"\{marks[0]}{escape(typeset.to_latex(node, lang), quote=False)}\{marks[1]}"
 
 
@@ -98,6 +99,7 @@ def to_course_html(words: Inline | FeedbackText, lang: str) -> Markup:
 
 
 def _blocks_html(parts: Sequence[Block], lang: str) -> Markup:
+    """Return blocks of a question as HTML in the chosen dialect of formulas."""
     return html.blocks_to_html(parts, lang, _manner.get())
 
 
@@ -125,6 +127,7 @@ def part_html(
 
 
 def _options_list(part: QuestionPart, lang: str) -> Markup:
+    """Return the options of a part as a list, each after its letter; empty without options."""
     options = (*part.field.options, *part.field.targets)
     rows = [option_html(letter, words, lang) for letter, words in options]
     items = Markup("").join(Markup("<li>{}</li>").format(row) for row in rows)
@@ -167,7 +170,7 @@ def question_mark(item: ExportItem, suffix: str) -> Markup:
 def _typing_advice(
     part: QuestionPart, interactions: Sequence[Interaction], lang: str
 ) -> Iterable[Markup]:
-    """Sentences that say what to type, each once."""
+    """Return the sentences on what to type in a part, each once."""
     if needs_manual_grading(interactions):
         return [to_course_html(part.field.hint, lang)]
     advice = [text for one in interactions for text in _interaction_advice(one, lang)]
@@ -177,6 +180,7 @@ def _typing_advice(
 
 
 def _unit_text(unit: str, lang: str) -> str:
+    """Return the sentence on the unit to type in; empty for a plain number."""
     names = {"%": "ask.percent", "°": "ask.degrees"}
     if unit in names:
         return translate(lang, names[unit])
@@ -184,6 +188,7 @@ def _unit_text(unit: str, lang: str) -> str:
 
 
 def _interaction_advice(interaction: Interaction, lang: str) -> Iterator[str]:
+    """Yield the sentences on what to type for one interaction."""
     match interaction:
         case NumericInteraction():
             yield translate(lang, "export.number")
@@ -241,7 +246,10 @@ def solution_html(
 
 
 def _without_feedback(interactions: Sequence[Interaction], solution: PartSolution) -> PartSolution:
-    """Feedback on single pairs and places shows in no system, so it stays in their solution."""
+    """Return a solution without feedback that the system gives itself.
+
+    Feedback on single pairs and places shows in no system, so it stays in their solution.
+    """
     if any(isinstance(one, MatchInteraction | OrderInteraction) for one in interactions):
         return solution
     return replace(solution, mistakes=(), reasons=())
@@ -260,6 +268,7 @@ def hint_html(item: ExportItem) -> Iterator[Markup]:
 
 
 def _with_label(label: str, words: Markup) -> Markup:
+    """Return a paragraph after the letter of its part, if it has one."""
     return Markup("<p>{}{}</p>").format(f"({label}) " if label else "", words)
 
 
@@ -308,4 +317,5 @@ def all_images(item: ExportItem) -> dict[str, bytes]:
 
 
 def _figure_files(figures: Iterable[Figure | None]) -> dict[str, bytes]:
+    """Return the SVG files of figures by name; equal figures are one file."""
     return {image_name(figure): figure.standalone_svg for figure in figures if figure}

@@ -103,9 +103,9 @@ class MoodleQuestion(CourseQuestion):
 def write_moodle(items: Iterable[ExportItem]) -> bytes:
     """Return the questions as a file to import, equal for equal questions."""
     questions = [question for item in items for question in moodle_questions(item)]
-    questions.sort(key=_category_of)
+    questions.sort(key=_get_category)
     page = _load_layouts().get_template("moodle.xml.j2")
-    return page.render(slots=groupby(questions, key=_category_of)).encode()
+    return page.render(slots=groupby(questions, key=_get_category)).encode()
 
 
 def moodle_manifest(item: ExportItem) -> Iterator[ManifestQuestion]:
@@ -114,12 +114,14 @@ def moodle_manifest(item: ExportItem) -> Iterator[ManifestQuestion]:
         yield manifest_question(question, embedded=question.type == "cloze")
 
 
-def _category_of(question: MoodleQuestion) -> str:
+def _get_category(question: MoodleQuestion) -> str:
+    """Return the category of a question: the key that questions are sorted and grouped by."""
     return question.category
 
 
 @cache
 def _load_layouts() -> jinja2.Environment:
+    """Return the Jinja environment with the layout of Moodle XML."""
     layouts = jinja_environment("quizgen.lms")
     layouts.globals.update(
         answers=weighted_answers,
@@ -139,6 +141,7 @@ def _load_layouts() -> jinja2.Environment:
 
 
 def _file_address(figure: Figure) -> str:
+    """Return the address of a figure that is attached to its question."""
     return f"@@PLUGINFILE@@/{image_name(figure)}"
 
 
@@ -154,7 +157,7 @@ def moodle_questions(item: ExportItem) -> Iterator[MoodleQuestion]:
 
 
 def _single_question(item: ExportItem) -> MoodleQuestion | None:
-    """A question of Moodle's own type, if only one thing is asked."""
+    """Return a question of Moodle's own type if one thing is asked, else None."""
     _, found = item.parts[0]
     if len(item.parts) > 1 or len(found) > 1:
         return None
@@ -165,7 +168,7 @@ def _single_question(item: ExportItem) -> MoodleQuestion | None:
 
 
 def _cloze_html(question: MoodleQuestion) -> Markup:
-    """The parts with a field in their text for each value."""
+    """Return the parts as cloze text, with a field for each value."""
     lang = question.item.lang
     shares = [part.points / _count_fields(found, lang) for part, found in question.parts]
     # Weights of fields are whole numbers.
@@ -179,12 +182,12 @@ def _cloze_html(question: MoodleQuestion) -> Markup:
 
 
 def _escape_braces(text: Markup) -> Markup:
-    """A text around fields, in which no brace begins a field."""
+    """Return a text in which no brace begins a field."""
     return Markup(text.replace("{", "&#123;"))  # noqa: S704 - the same page
 
 
 def _count_fields(found: Sequence[Interaction], lang: str) -> int:
-    """How many fields embed what is asked."""
+    """Return how many cloze fields the interactions of a part need."""
     return sum(
         len(order_as_match(one, lang).stems)
         if isinstance(one, MatchInteraction | OrderInteraction)
@@ -195,11 +198,13 @@ def _count_fields(found: Sequence[Interaction], lang: str) -> int:
 
 @singledispatch
 def _embed(interaction: Interaction, _weight: int, _lang: str) -> Markup:
+    """Return an interaction as cloze fields; ``_weight`` is a whole number of marks for each."""
     raise TypeError(type(interaction).__name__)
 
 
 @_embed.register
 def _embed_number(interaction: NumericInteraction, weight: int, lang: str) -> Markup:
+    """Return a numeric field between its name and its unit."""
     answers = weighted_answers(interaction, lang)
     rows = [(f"{one.text}:{one.tolerance}", one.percent, one.feedback) for one in answers]
     around = _escape_braces(field_html(interaction, _FIELD_MARK, lang))
@@ -209,6 +214,7 @@ def _embed_number(interaction: NumericInteraction, weight: int, lang: str) -> Ma
 
 @_embed.register
 def _embed_text(interaction: TextEntryInteraction, weight: int, lang: str) -> Markup:
+    """Return a field for words; a program's output is compared with its capitals."""
     kind = "SHORTANSWER_C" if interaction.printed else "SHORTANSWER"
     answers = weighted_answers(interaction, lang)
     rows = [(_escape_cloze(one.text), one.percent, one.feedback) for one in answers]
@@ -217,6 +223,7 @@ def _embed_text(interaction: TextEntryInteraction, weight: int, lang: str) -> Ma
 
 @_embed.register
 def _embed_choice(interaction: ChoiceInteraction, weight: int, lang: str) -> Markup:
+    """Return a list of options to choose from."""
     kind = "MULTIRESPONSE" if interaction.many else "MULTICHOICE_V"
     answers = weighted_answers(interaction, lang)
     rows = [(_escape_cloze(with_letter(one)), one.percent, one.feedback) for one in answers]
@@ -225,6 +232,7 @@ def _embed_choice(interaction: ChoiceInteraction, weight: int, lang: str) -> Mar
 
 @_embed.register
 def _embed_true_false(interaction: TrueFalseInteraction, weight: int, lang: str) -> Markup:
+    """Return the two options of a statement."""
     feedback = to_course_html(interaction.feedback, lang)
     rows = [
         (
@@ -242,7 +250,7 @@ def _embed_true_false(interaction: TrueFalseInteraction, weight: int, lang: str)
 def _embed_match(
     interaction: MatchInteraction | OrderInteraction, weight: int, lang: str
 ) -> Markup:
-    """A drop-down of the targets' letters for each stem, since it can hold no formulas."""
+    """Return a drop-down of the targets' letters for each stem, since it can hold no formulas."""
     pairs = order_as_match(interaction, lang)
     targets = [
         _escape_braces(option_html(letter, words, lang))
@@ -260,7 +268,10 @@ def _embed_match(
 
 
 def _match_field(pairs: MatchInteraction, stem: str, weight: int, lang: str) -> Markup:
-    """Feedback by target; if it is the same for all, it stands in the worked solution instead."""
+    """Return the drop-down of one stem, with feedback by target.
+
+    If the feedback is the same for all targets, it stands in the worked solution instead.
+    """
     feedback = {letter: pairs.feedback.get((stem, letter), ()) for letter, _ in pairs.targets}
     right = pairs.right[stem]
     is_same = len({words for letter, words in feedback.items() if letter != right}) == 1
@@ -272,7 +283,10 @@ def _match_field(pairs: MatchInteraction, stem: str, weight: int, lang: str) -> 
 
 
 def _cloze_field(weight: int, kind: str, rows: Iterable[tuple[str, float, Markup]]) -> Markup:
-    """A field of a cloze: ``{2:NUMERICAL:=3.5:0.1~%0%7:0.2#Halved twice.}``."""
+    """Return a cloze field such as ``{2:NUMERICAL:=3.5:0.1~%0%7:0.2#Halved twice.}``.
+
+    ``rows`` are answer, percentage of the marks and feedback.
+    """
     texts = [
         f"%{percent:.9g}%{typed}" + (f"#{_escape_cloze(str(feedback))}" if feedback else "")
         for typed, percent, feedback in rows
@@ -284,5 +298,5 @@ _SIGNS = {ord("&"): "&amp;"} | {ord(sign): f"&#{ord(sign)};" for sign in "~#{}=%
 
 
 def _escape_cloze(text: str) -> str:
-    """A text in a field: signs of the field's grammar as entities, which are read once."""
+    """Return a text with the signs of the cloze grammar as entities, which are read once."""
     return text.translate(_SIGNS)

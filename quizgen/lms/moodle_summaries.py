@@ -90,7 +90,7 @@ def check_letter(letter: str, known: Collection[str]) -> str:
 
 
 def _split_cloze(text: str, count: int) -> list[str]:
-    """The answers in ``part 1: 3.5; part 2: B. black``, with any word in place of ``part``.
+    """Return the ``count`` answers in ``part 1: 3.5; part 2: B. black``, for any word as ``part``.
 
     Raises
     ------
@@ -111,11 +111,13 @@ def _split_cloze(text: str, count: int) -> list[str]:
 
 
 def _head_pattern(first: re.Match[str], number: int) -> str:
+    """Return the pattern of the heading of part ``number``, written as the first heading is."""
     sign = re.escape(first["sign"].strip())
     return rf";\s+{re.escape(first['word'])}{number}\s?{sign}(?:\s|$)"
 
 
 def _summary_values(field: ResponseField, text: str) -> FieldValues:
+    """Return the values of one field from its text in a report; empty without a response."""
     if not text.strip():
         return []
     match field.kind:
@@ -137,7 +139,7 @@ def append_unit(text: str, unit: str) -> str:
 
 
 def _with_letters(options: Mapping[str, list[str]]) -> dict[str, list[str]]:
-    """Options as they stand after their letter, or without one."""
+    """Return the texts of each option, with its letter before them and without."""
     return {
         letter: [form for text in texts for form in (text, f"{letter}. {text}")]
         for letter, texts in options.items()
@@ -145,7 +147,7 @@ def _with_letters(options: Mapping[str, list[str]]) -> dict[str, list[str]]:
 
 
 def _pair_texts(field: ResponseField) -> dict[str, list[str]]:
-    """Every pair as Moodle writes it, by the letters of both sides."""
+    """Return the texts that Moodle may write for every pair, by the letters of both sides."""
     return {
         f"{left} {right}": [
             f"{stem}{ARROW}{target}" for stem in stems for target in field.targets[right]
@@ -156,18 +158,18 @@ def _pair_texts(field: ResponseField) -> dict[str, list[str]]:
 
 
 def _bare_text(text: str) -> str:
-    """A text without blanks and layout."""
+    """Return a text without blanks and layout, to be compared."""
     return _IGNORED.sub("", unicodedata.normalize("NFKC", text))
 
 
 @lru_cache(maxsize=8192)
 def _bare_option(text: str) -> str:
-    """The same of an option, which is compared with every response."""
+    """Return the same for an option; cached, as each is compared with every response."""
     return _bare_text(text)
 
 
 def _find_option(options: Mapping[str, Iterable[str]], text: str) -> str:
-    """The letter of the one option with this text.
+    """Return the letter of the one option with this text; capitals matter only between options.
 
     Raises
     ------
@@ -186,7 +188,7 @@ def _find_option(options: Mapping[str, Iterable[str]], text: str) -> str:
 
 
 def _list_options(options: Mapping[str, Iterable[str]], text: str) -> FieldValues:
-    """The letters of options whose texts are listed, as ``dark; light``.
+    """Return the letters of options whose texts are listed, as ``dark; light``.
 
     Texts may hold semicolons themselves, so longer runs of pieces are tried as well.
     """
@@ -209,13 +211,16 @@ def _list_options(options: Mapping[str, Iterable[str]], text: str) -> FieldValue
 
 
 def _targets_by_stem(field: ResponseField, text: str) -> FieldValues:
-    """The target of each stem, in the order of the stems."""
+    """Return the target of each stem, in the order of the stems; empty where none was chosen."""
     chosen = dict(pair.split(" ") for pair in _list_options(_pair_texts(field), text))
     return [chosen.get(mark, "") for mark in field.options]
 
 
 def _steps_in_order(field: ResponseField, text: str) -> FieldValues:
-    """The letters of steps; a report has only the first few characters of each step."""
+    """Return the letters of the steps in a response.
+
+    A report has only the first few characters of each step, so the texts cannot be compared.
+    """
     found = _LETTER.findall(text)
     if sorted(found) != sorted(field.options):
         raise FormulaReadError("steps-apart", 1, safe_echo(text))
@@ -223,7 +228,7 @@ def _steps_in_order(field: ResponseField, text: str) -> FieldValues:
 
 
 def _drop_down_values(field: ResponseField, pieces: Sequence[str]) -> FieldValues:
-    """Pairs or an order from a drop-down for each stem, which has the letters of the targets."""
+    """Return the targets or the order chosen in a drop-down for each stem."""
     if not any(pieces):
         return []
     letters = [piece and check_letter(piece, field.targets) for piece in pieces]

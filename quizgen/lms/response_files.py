@@ -53,6 +53,7 @@ def read_attempts(
 
 
 def _read_files(path: Path) -> Iterator[tuple[Path, bytes]]:
+    """Yield path and bytes of a file, or of each file in an archive."""
     data = read_bytes(path, KeyFileError, LARGEST_REPORT)
     return _unpack(path, data) if path.suffix.lower() == ".zip" else iter([(path, data)])
 
@@ -60,6 +61,7 @@ def _read_files(path: Path) -> Iterator[tuple[Path, bytes]]:
 def _read_report(
     path: Path, data: bytes, known: Collection[str], lost: ReportLoss
 ) -> Iterator[QuizAttempt]:
+    """Yield the attempts in one file; report it as lost if it cannot be read."""
     try:
         yield from _reader_for(path)(decode_text(data, path, KeyFileError), path, known, lost)
     except KeyFileError as error:
@@ -67,6 +69,7 @@ def _read_report(
 
 
 def _reader_for(path: Path) -> ResponseReader:
+    """Return the reader for the suffix of a file; ``KeyFileError`` if there is none."""
     found = RESPONSE_READERS.get(path.suffix.lower())
     if found is None:
         raise KeyFileError(f"{path}: no file of responses (known: {KNOWN_SUFFIXES} and .zip)")
@@ -74,7 +77,7 @@ def _reader_for(path: Path) -> ResponseReader:
 
 
 def _unpack(path: Path, data: bytes) -> Iterator[tuple[Path, bytes]]:
-    """The files of an archive that can be read, unless they are too large together."""
+    """Yield the readable files of an archive; ``KeyFileError`` if they are too large together."""
     left = LARGEST_REPORT
     try:
         with zipfile.ZipFile(BytesIO(data)) as archive:
@@ -175,6 +178,7 @@ def attempts_from_json(
 def _read_rows(
     rows: Sequence[TableRow], where: Path, known: Collection[str], lost: ReportLoss
 ) -> Iterator[QuizAttempt]:
+    """Yield an attempt for each row of a table; report rows that cannot be read."""
     head = [cell.strip() for cell in rows[0][1]] if rows else []
     with error_context(where, KeyFileError):
         columns = _find_columns(rows, head, known)
@@ -196,7 +200,7 @@ def _read_rows(
 def _find_columns(
     rows: Sequence[TableRow], head: Sequence[str], known: Collection[str]
 ) -> list[ResponseColumn]:
-    """The questions of the quiz, in their order.
+    """Return the columns of the quiz's questions, in their order.
 
     Their columns have one name, that of most tokens: somebody may type a token.
     """
@@ -218,19 +222,19 @@ def _find_columns(
 
 
 def _split_number(cell: str) -> tuple[str, str]:
-    """The name of a column, and the number of the question that it belongs to."""
+    """Return the name of a column, and the number of the question that it belongs to."""
     found = next(filter(None, (shape.fullmatch(cell) for shape in _COLUMN_NAMES)), None)
     return (found[1].strip(), found[2]) if found else (cell, "")
 
 
 def _find_token(cells: Sequence[str], place: int) -> str:
-    """The last token in a cell, since a story may have brackets, too."""
+    """Return the last token in a cell (a story may have brackets, too); empty if it has none."""
     marks = _TOKEN.findall(cells[place]) if place < len(cells) else []
     return str(marks[-1]) if marks else ""
 
 
 def _response_column(named: Sequence[tuple[str, str]], question: int) -> int:
-    """The column after that of a question, if it has the same number.
+    """Return the index of the response column, which follows that of its question.
 
     Raises
     ------
@@ -251,6 +255,7 @@ def _response_column(named: Sequence[tuple[str, str]], question: int) -> int:
 def _read_attempt(
     where: str, cells: Sequence[str], columns: Sequence[ResponseColumn], people: Sequence[str]
 ) -> QuizAttempt:
+    """Return the attempt in a row; ``people`` are the names of the columns about the person."""
     responses = tuple(
         Response(column.number, _find_token(cells, column.question), cells[column.response])
         for column in columns
@@ -266,11 +271,12 @@ def _read_attempt(
 
 
 def _is_id_or_email(name: str) -> bool:
+    """Return whether a column holds an id or an address rather than a name."""
     return bool(_ID.search(name) or _EMAIL.search(name))
 
 
 def _find_cell(wanted: re.Pattern[str], people: Sequence[str], cells: Sequence[str]) -> str:
-    """The cell of the first column of that name."""
+    """Return the cell of the first column whose name matches; empty if none does."""
     found = (cells[place].strip() for place, name in enumerate(people) if wanted.search(name))
     return next(found, "")
 

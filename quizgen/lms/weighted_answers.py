@@ -67,12 +67,15 @@ def weighted_answers(interaction: Interaction, lang: str) -> Iterator[WeightedAn
 
 
 def _escape_star(typed: str) -> str:
-    """A star would stand for anything without a backslash before it."""
+    """Return a typed text in which a star is literal: without a backslash it matches anything."""
     return typed.replace("*", "\\*")
 
 
 def _option_percents(interaction: ChoiceInteraction) -> list[float]:
-    """The percentage of each option: a wrong one takes away what a right one gives."""
+    """Return the percentage of each option: a wrong one takes away what a right one gives.
+
+    Rounded to those that Moodle knows.
+    """
     if not interaction.many:
         return [100 * option.right for option in interaction.options]
     share = Fraction(100, max(len(interaction.right), 1))

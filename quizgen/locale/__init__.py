@@ -19,7 +19,7 @@ web            the pages of ``quizgen serve``
 
 A template has one ``<lang>.md``, too.
 
-A bank may be written in any other language: ``brought`` reads what it says of it, and English
+A bank may be written in any other language: its own files are read by `custom`, and English
 stands for the rest.
 """
 
@@ -57,7 +57,7 @@ What has several (12.5.2024) is no number, and 1.000,50 is one as it is written 
 
 SHIPPED = Path(__file__).parent
 PLACES = [SHIPPED]
-"""Folders that hold languages; ``take_up`` makes one from outside known."""
+"""Folders that hold languages; ``register_languages`` adds one."""
 
 _HEARD: list[str] = []
 """Languages that something is written in and no folder is about."""
@@ -67,7 +67,7 @@ LAST = 1000
 
 
 class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """What ``language.toml`` says.
+    """What ``language.toml`` says of a language, each field with what stands for it if left out.
 
     ``name`` is the language in itself, ``english`` in English, ``order`` its place in lists,
     ``script`` the ISO 15924 code of its letters, ``line_height`` the lines that its letters need on
@@ -83,19 +83,19 @@ class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 def list_languages() -> tuple[str, ...]:
-    """Every language there is, English first, then by ``order``."""
+    """Return the tags of all languages (``en``, ``bn``, ...), English first, then by ``order``."""
     return _find_languages(tuple(PLACES), tuple(_HEARD))
 
 
 def register_languages(langs: Iterable[str] = (), place: Path | None = None) -> None:
-    """Make languages known that something is written in, or a folder of their words.
+    """Add languages to those that can be chosen: by their tags, or by a folder of their words.
 
     Parameters
     ----------
     langs : iterable of str
-        What names no language is passed over.
+        BCP 47 tags, such as those of a bank's templates; anything else is passed over.
     place : pathlib.Path, optional
-        Holds a folder for each of its languages.
+        Folder of a bank that holds one folder for each of its languages.
     """
     new = [lang for lang in langs if lang not in list_languages() and custom.is_language_tag(lang)]
     _HEARD.extend(dict.fromkeys(new))
@@ -106,12 +106,12 @@ def register_languages(langs: Iterable[str] = (), place: Path | None = None) -> 
 
 
 def list_language_choices() -> tuple[str, ...]:
-    """What can be chosen as the language of a paper: one, or all that the bank has."""
+    """Return what a paper's language may be: any language, or ``both`` for all of a bank."""
     return (*list_languages(), BOTH)
 
 
 def resolve_language_choice(choice: str, held: tuple[str, ...]) -> tuple[str, ...]:
-    """Languages of a choice, the leading one first.
+    """Return the languages that a choice stands for, the leading one first.
 
     Parameters
     ----------
@@ -131,12 +131,13 @@ def resolve_language_choice(choice: str, held: tuple[str, ...]) -> tuple[str, ..
 
 
 def default_language(held: tuple[str, ...]) -> str:
-    """The language that is meant where none is chosen: English if a bank has it, else its first."""
+    """Return the language where none is chosen: English if the bank has it, else its first."""
     return FIRST if FIRST in held or not held else held[0]
 
 
 @cache
 def _find_languages(places: tuple[Path, ...], heard: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the tags of all languages in folders, and of those registered by tag, sorted."""
     found = {
         entry.name
         for place in places
@@ -149,7 +150,7 @@ def _find_languages(places: tuple[Path, ...], heard: tuple[str, ...]) -> tuple[s
 
 @cache
 def get_language(lang: str) -> Language:
-    """Name, order and script of a language; one that nothing says more of is called as it is named.
+    """Return name, order and script of a language; one without a file is called by its tag.
 
     Raises
     ------
@@ -170,13 +171,13 @@ def get_language(lang: str) -> Language:
 
 
 def localise_numbers(lang: str, text: str) -> str:
-    """A text for people with the decimal sign of a language in its numbers.
+    """Return a text for people with the decimal sign of a language in its numbers.
 
     Examples
     --------
-    >>> numbers_in("de", "3 Punkte: 27.25 mm"), numbers_in("en", "27.25 mm")
+    >>> localise_numbers("de", "3 Punkte: 27.25 mm"), localise_numbers("en", "27.25 mm")
     ('3 Punkte: 27,25 mm', '27.25 mm')
-    >>> numbers_in("de", "am 12.5.2024 für 1.000,50 Euro")
+    >>> localise_numbers("de", "am 12.5.2024 für 1.000,50 Euro")
     'am 12.5.2024 für 1.000,50 Euro'
     """
     sign = get_language(lang).decimal
@@ -184,17 +185,17 @@ def localise_numbers(lang: str, text: str) -> str:
 
 
 def is_right_to_left(lang: str) -> bool:
-    """Whether a language is written from right to left."""
+    """Return whether a language is written from right to left."""
     return get_language(lang).script in custom.RIGHT_TO_LEFT
 
 
 def languages_in_script(script: str) -> tuple[str, ...]:
-    """Languages that are written in a script, such as ``Beng``: those that need its fonts."""
+    """Return the languages written in a script (ISO 15924, ``Beng``), which need its fonts."""
     return tuple(lang for lang in list_languages() if get_language(lang).script == script)
 
 
 def language_css(rule: str, within: str = "") -> str:
-    """The style of languages that need one: for the height of lines, and for their direction.
+    """Return CSS for the languages that need a line height or a direction of their own.
 
     Parameters
     ----------
@@ -203,11 +204,11 @@ def language_css(rule: str, within: str = "") -> str:
     within : str
         A selector of what alone is styled.
     """
-    return _line_heights(rule) + _build_direction_selectors(within)
+    return _build_line_height_css(rule) + _build_direction_css(within)
 
 
-def _build_direction_selectors(within: str) -> str:
-    """Languages from right to left, and what is none in them; nothing if there are no such."""
+def _build_direction_css(within: str) -> str:
+    """Return CSS for languages from right to left and for what is not in them; "" without any."""
     found = [
         f'{within} [lang="{lang}"]'.strip() for lang in list_languages() if is_right_to_left(lang)
     ]
@@ -223,7 +224,8 @@ def _build_direction_selectors(within: str) -> str:
     )
 
 
-def _line_heights(rule: str) -> str:
+def _build_line_height_css(rule: str) -> str:
+    """Return one CSS rule for each language with a line height of its own; see `language_css`."""
     heights = {lang: get_language(lang).line_height for lang in list_languages()}
     return "".join(
         f"{rule.format(lang)} {{ line-height: {height:g}; }}\n"
@@ -233,40 +235,41 @@ def _line_heights(rule: str) -> str:
 
 
 def is_written_in(lang: str, text: str) -> bool:
-    """Whether a text is written in a language's letters: those of its own name.
+    """Return whether a text is written in a language's letters, judged by those of its own name.
 
     Latin words, digits and symbols stand in texts of every script; a text that holds nothing else
     belongs to a language with Latin letters.
     """
-    own = _letters_of(lang)
+    own = _find_own_scripts(lang)
     if own:
         return bool(own & _find_scripts(text))
-    return not any(_letters_of(other) & _find_scripts(text) for other in list_languages())
+    return not any(_find_own_scripts(other) & _find_scripts(text) for other in list_languages())
 
 
 @cache
-def _letters_of(lang: str) -> frozenset[str]:
+def _find_own_scripts(lang: str) -> frozenset[str]:
+    """Return the scripts, Latin left out, in which a language writes its own name."""
     return _find_scripts(get_language(lang).name) - {"LATIN"}
 
 
 def _find_scripts(text: str) -> frozenset[str]:
-    """Scripts of a text's letters, as Unicode calls them: ``LATIN``, ``BENGALI``."""
+    """Return the scripts of a text's letters by their Unicode names: ``LATIN``, ``BENGALI``."""
     return frozenset(unicodedata.name(c, "").partition(" ")[0] for c in text if c.isalpha())
 
 
 def fallback_language(lang: str) -> str:
-    """The language itself if there is one of this name, else English."""
+    """Return the language itself if it exists, else English."""
     return lang if lang in list_languages() else FIRST
 
 
 @cache
 def load_words(lang: str, name: str = "interface") -> dict[str, Any]:
-    """All words of one file of a language.
+    """Return all words of one file of a language, with English where a translation is missing.
 
     Parameters
     ----------
     lang : str
-        One of ``languages()``.
+        One of ``list_languages()``.
     name : str
         One of its files without the suffix, such as ``interface``.
 
@@ -288,7 +291,7 @@ def load_words(lang: str, name: str = "interface") -> dict[str, Any]:
 
 
 def _with_english(own: Mapping[str, Any], english: Mapping[str, Any]) -> dict[str, Any]:
-    """Words of a language, and English ones where it has none yet."""
+    """Return a language's words with English ones where it has none, in nested tables, too."""
     merged = {**english, **own}
     for key, value in own.items():
         if isinstance(value, dict) and isinstance(english.get(key), dict):
@@ -297,12 +300,12 @@ def _with_english(own: Mapping[str, Any], english: Mapping[str, Any]) -> dict[st
 
 
 def untranslated_languages(langs: Iterable[str]) -> list[str]:
-    """Languages in which neither quizgen nor a bank says anything around a question."""
+    """Return those of the languages that have no words of the interface, from quizgen or a bank."""
     return [lang for lang in langs if _find_words_file(lang, "interface") is None]
 
 
 def translatable_files() -> list[Path]:
-    """The files that a language may have, apart from ``language.toml``, in English."""
+    """Return the English files that a translation may have, ``language.toml`` left out."""
     return sorted(path for path in (SHIPPED / FIRST).glob("*.toml") if path.stem != "language")
 
 
@@ -311,7 +314,7 @@ OPEN = frozenset({"letters", "greek", "names"})
 
 
 def check_translations(place: Path) -> Iterator[Diagnostic]:
-    """What is wrong with the words that a bank brings.
+    """Yield a diagnostic for everything wrong with the words that a bank brings.
 
     Parameters
     ----------
@@ -340,13 +343,13 @@ def check_translations(place: Path) -> Iterator[Diagnostic]:
 
 
 def _find_words_file(lang: str, name: str) -> Path | None:
-    """Where a language has its words of a kind: the first folder that has some."""
+    """Return the file of a language's words in the first folder that has one, else None."""
     files = (place / lang / f"{name}.toml" for place in PLACES)
     return next(filter(Path.is_file, files), None)
 
 
 def _read_words(file: Path | None) -> dict[str, Any]:
-    """What a file of words says; our own ones need no checks."""
+    """Return the table of a file of words; {} for None. Only files from outside are checked."""
     if file is None:
         return {}
     if file.is_relative_to(SHIPPED):
@@ -355,19 +358,19 @@ def _read_words(file: Path | None) -> dict[str, Any]:
 
 
 def translate(lang: str, key: str, **values: object) -> str:
-    """One word or sentence of the interface, ``section.name``, with its blanks filled in."""
+    """Return one text of the interface by its key ``section.name``, with its blanks filled in."""
     section, _, name = key.partition(".")
     text: str = load_words(lang)[section][name]
     return text.format(**values) if values else text
 
 
 def format_amount(value: Fraction | float, lang: str) -> str:
-    """Marks as a number, with the decimal sign of a language: ``2.5``."""
+    """Return marks as a number with the decimal sign of a language: ``2.5``, ``2,5``."""
     return localise_numbers(lang, f"{float(value):g}")
 
 
 def format_marks(points: Fraction, lang: str) -> str:
-    """Marks with their word: ``1 point``, ``2.5 points``."""
+    """Return marks with their word in a language: ``1 point``, ``2.5 points``."""
     return (
         f"{format_amount(points, lang)} "
         f"{translate(lang, 'paper.point' if points == 1 else 'paper.points')}"

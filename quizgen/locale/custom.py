@@ -33,18 +33,18 @@ Translation = dict[str, Any]
 
 
 def is_language_tag(text: str) -> bool:
-    """Whether a text names a language.
+    """Return whether a text is a language tag of BCP 47.
 
     Examples
     --------
-    >>> is_tag("fr"), is_tag("pt-BR"), is_tag("French"), is_tag("../fr")
+    >>> tuple(map(is_language_tag, ("fr", "pt-BR", "French", "../fr")))
     (True, True, False, False)
     """
     return re.fullmatch(TAG, text) is not None
 
 
 def script_of(tag: str) -> str:
-    """The script of a language: as its tag says, else the usual one.
+    """Return the ISO 15924 script of a language tag: the one it names, else the usual one.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def script_of(tag: str) -> str:
 
 
 def normalise_language_tag(text: str) -> str:
-    """A language as BCP 47 writes it, whatever the size of its letters.
+    """Return a language tag with upper and lower case as BCP 47 writes it.
 
     Examples
     --------
@@ -69,7 +69,7 @@ def normalise_language_tag(text: str) -> str:
 
 
 def read_translation(file: Path) -> Translation:
-    """A TOML file of words that a bank brings.
+    """Return the table of a TOML file of words that a bank brings.
 
     Raises
     ------
@@ -80,11 +80,11 @@ def read_translation(file: Path) -> Translation:
 
 
 def merge_translation(english: Translation, own: Mapping[str, Any]) -> Translation:
-    """English words with a language's own in their places.
+    """Return English words with a language's own in their places.
 
-    What has no place among them stays: letters and names that are spoken are open lists. What
-    stands where English has something of another kind is left out, and so is a sentence with
-    other blanks: it would be filled with more than the words that are meant. ``unsound`` tells it.
+    Keys that English lacks stay: letters and names that are spoken are open lists. A value of
+    another type than the English one is left out, and so is a sentence with other blanks, which
+    would be filled with more than was meant. ``check_translation`` reports both.
     """
     found = dict(english)
     for key, value in own.items():
@@ -97,7 +97,10 @@ def merge_translation(english: Translation, own: Mapping[str, Any]) -> Translati
 
 
 def _can_be_filled(english: object, own: object) -> bool:
-    """Whether something can stand in the place of what English has there, if it has anything."""
+    """Return whether a value can replace the English one: same type, no other blanks.
+
+    ``english`` is None where English has nothing there.
+    """
     if english is not None and type(english) is not type(own):
         return False
     if isinstance(own, dict):
@@ -109,13 +112,13 @@ def _can_be_filled(english: object, own: object) -> bool:
         return all(_can_be_filled(there, value) for there, value in pairs)
     if not isinstance(own, str):
         return True
-    return not any(_blanks_amiss(english if isinstance(english, str) else "", own))
+    return not any(_iter_placeholder_errors(english if isinstance(english, str) else "", own))
 
 
 def check_translation(
     english: Translation, own: Translation, open_lists: frozenset[str]
 ) -> Iterator[tuple[str, str]]:
-    """What a file of words says wrongly: its key, and what is the matter with it.
+    """Yield (dotted key, message) for every word of a translation that cannot be used.
 
     Parameters
     ----------
@@ -137,16 +140,17 @@ def check_translation(
             inner = check_translation(there, value, frozenset())
             yield from ((f"{key}.{name}", what) for name, what in inner)
         elif isinstance(value, str):
-            yield from ((key, what) for what in _blanks_amiss(there, value))
+            yield from ((key, what) for what in _iter_placeholder_errors(there, value))
 
 
 def _name_type(value: object) -> str:
+    """Return the type of a TOML value in an author's words."""
     names = {"dict": "a table", "str": "a text", "list": "a list"}
     return names.get(type(value).__name__, "a number")
 
 
-def _blanks_amiss(english: str, own: str) -> Iterator[str]:
-    """What is wrong with the blanks of a sentence: each is a name alone, that English has, too.
+def _iter_placeholder_errors(english: str, own: str) -> Iterator[str]:
+    """Yield what is wrong with the blanks of a sentence: each is a bare name that English has, too.
 
     ``str.format`` would look into a value at ``{page.__class__}``, and make one of gigabytes at
     ``{page:>99999999}``.
@@ -165,7 +169,7 @@ def _blanks_amiss(english: str, own: str) -> Iterator[str]:
 
 
 def _parse_blanks(text: str) -> tuple[set[str], list[str]]:
-    """Names of a sentence's blanks, and the blanks in which more stands than a name."""
+    """Return the names in a sentence's blanks, and the blanks that hold more than a name."""
     names, more = set(), []
     for _, name, form, conversion in Formatter().parse(text):
         if name is None:

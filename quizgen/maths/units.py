@@ -1,4 +1,4 @@
-"""The closed list of units: SI lengths and times, light, and the units of imaging.
+"""The closed list of units: SI and what is used with it, information, money, and imaging.
 
 A unit is a product of powers of base units times an exact factor, so ``um/px``, ``lx*s`` and
 ``mm^2`` work without a units library. Names that are not listed are refused, never guessed
@@ -12,7 +12,7 @@ the system in use, which is the list itself unless somebody says ``with system.i
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
@@ -109,6 +109,7 @@ class Unit(msgspec.Struct, frozen=True):
 
 
 PREFIXES = {
+    "p": Fraction(1, 10**12),
     "n": Fraction(1, 10**9),
     "u": Fraction(1, 10**6),
     "µ": Fraction(1, 10**6),
@@ -116,62 +117,169 @@ PREFIXES = {
     "m": Fraction(1, 10**3),
     "c": Fraction(1, 10**2),
     "d": Fraction(1, 10),
+    "h": Fraction(10**2),
     "k": Fraction(10**3),
     "M": Fraction(10**6),
     "G": Fraction(10**9),
+    "T": Fraction(10**12),
 }
 
-_PREFIXED = {
-    # unit: (base, factor, prefixes allowed)
-    "m": ("m", 1, "nuµμmcdkM"),
-    "s": ("s", 1, "nuµμm"),
-    "Hz": ("Hz", 1, "kMG"),
-    "W": ("W", 1, "uµμmk"),
-    "eV": ("eV", 1, "mkM"),
-    "lm": ("lm", 1, "mk"),
-    "lx": ("lx", 1, "mk"),
-    "px": ("px", 1, "kM"),
-    "bit": ("bit", 1, "kMG"),
-    "B": ("bit", 8, "kMG"),
+_SMALL, _LARGE = "pnuµμm", "kMGT"
+_ALL = _SMALL + _LARGE
+
+_BASE = {
+    # unit: prefixes that are in use with it
+    "m": "pnuµμmcdkM",
+    "g": "nuµμmkM",
+    "s": _SMALL,
+    "A": _ALL,
+    "K": "uµμmk",
+    "mol": "nuµμmk",
+    "lm": "mk",
+    "rad": "uµμm",
+    "px": "kMG",
+    "bit": _LARGE,
+    "deg": "",
+    "°C": "",
+    "°F": "",
+    "stop": "",
+    "dB": "",
+    "DN": "",
+    "e-": "",
+    "photon": "",
+    "row": "",
+    "frame": "",
+    "lp": "",
+    "€": "",
+    "$": "",
+    "£": "",
+    "৳": "",
+    "CHF": "",
 }
+"""Units of a kind of their own: those of SI, and what is counted. Nobody can add 3 °C to 3 K or
+3 € to 3 $ without knowing a zero or a rate, so these are kinds as well."""
 
-_PLAIN = {
-    "": ("", Fraction(1)),
-    "1": ("", Fraction(1)),
-    "%": ("", Fraction(1, 100)),
-    "deg": ("deg", Fraction(1)),
-    "°": ("deg", Fraction(1)),
-    "stop": ("stop", Fraction(1)),
-    "EV": ("stop", Fraction(1)),
-    "dB": ("dB", Fraction(1)),
-    "DN": ("DN", Fraction(1)),
-    "e-": ("e-", Fraction(1)),
-    "photon": ("photon", Fraction(1)),
-    "row": ("row", Fraction(1)),
-    "frame": ("frame", Fraction(1)),
-    "lp": ("lp", Fraction(1)),
-    "KiB": ("bit", Fraction(8 * 2**10)),
-    "MiB": ("bit", Fraction(8 * 2**20)),
-    "GiB": ("bit", Fraction(8 * 2**30)),
+_DERIVED = {
+    # unit: (its size, the units it is made of, prefixes that are in use with it)
+    "Hz": ("1", "1/s", _LARGE),
+    "N": ("1", "kg*m/s^2", _ALL),
+    "Pa": ("1", "N/m^2", f"{_ALL}h"),
+    "bar": ("100000", "Pa", "m"),
+    "J": ("1", "N*m", _ALL),
+    "eV": ("1.602176634e-19", "J", "mkMG"),
+    "W": ("1", "J/s", _ALL),
+    "Wh": ("3600", "J", "mkMGT"),
+    "C": ("1", "A*s", _SMALL),
+    "Ah": ("3600", "C", "mk"),
+    "V": ("1", "W/A", _ALL),
+    "ohm": ("1", "V/A", "uµμmkMG"),
+    "Ω": ("1", "V/A", "uµμmkMG"),
+    "S": ("1", "A/V", "nuµμm"),
+    "F": ("1", "C/V", _SMALL),
+    "H": ("1", "V*s/A", "nuµμm"),
+    "Wb": ("1", "V*s", "nuµμm"),
+    "T": ("1", "Wb/m^2", "pnuµμm"),
+    "lx": ("1", "lm/m^2", "mk"),
+    "cd": ("1", "lm", "mk"),
+    "Bq": ("1", "1/s", _LARGE),
+    "Gy": ("1", "J/kg", "uµμm"),
+    "Sv": ("1", "J/kg", "uµμm"),
+    "kat": ("1", "mol/s", "nuµμm"),
+    "l": ("0.001", "m^3", "uµμmcdh"),
+    "L": ("0.001", "m^3", "uµμmcdh"),
+    "ha": ("10000", "m^2", ""),
+    "t": ("1000", "kg", "kM"),
+    "min": ("60", "s", ""),
+    "h": ("3600", "s", ""),
+    "d": ("86400", "s", ""),
+    "in": ("0.0254", "m", ""),
+    "ft": ("0.3048", "m", ""),
+    "mi": ("1609.344", "m", ""),
+    "lb": ("0.45359237", "kg", ""),
+    "B": ("8", "bit", _LARGE),
+    "KiB": ("1024", "B", ""),
+    "MiB": ("1048576", "B", ""),
+    "GiB": ("1073741824", "B", ""),
+    "TiB": ("1099511627776", "B", ""),
+    "%": ("0.01", "", ""),
+    "‰": ("0.001", "", ""),
+    "ppm": ("0.000001", "", ""),
+    "°": ("1", "deg", ""),
+    "EV": ("1", "stop", ""),
+    "EUR": ("1", "€", ""),
+    "ct": ("0.01", "€", ""),
+    "USD": ("1", "$", ""),
+    "GBP": ("1", "£", ""),
+    "BDT": ("1", "৳", ""),
 }
+"""Units that are others times a number, each over those above it: the factors of the SI brochure
+(9th edition, tables 4 and 8; the electronvolt is exact since 2019), of the international yard and
+pound, and of IEC 80000-13."""
+
+_KILOGRAM = Fraction(1, 1000)
+"""The gram in base units: SI is coherent with the kilogram (1 W is 1 kg·m²/s³)."""
 
 
-_MADE_OF = {"lx": (("lm", 1), ("m", -2)), "Hz": (("s", -1),)}
-"""Units with a name of their own for a product of others."""
+class _SimpleUnit(NamedTuple):
+    """A unit of one name: its exact factor to base units, and its powers of base units."""
+
+    factor: Fraction
+    dimension: Dimension
 
 
-def _simple_units() -> dict[str, tuple[str, Fraction]]:
-    table = dict(_PLAIN)
-    for name, (base, factor, prefixes) in _PREFIXED.items():
-        table[name] = (base, Fraction(factor))
-        table.update({p + name: (base, factor * PREFIXES[p]) for p in prefixes})
+def _list_simple_units() -> dict[str, _SimpleUnit]:
+    """Every listed unit with every prefix in use, by the name as it is written."""
+    table = {"": _SimpleUnit(Fraction(1), ()), "1": _SimpleUnit(Fraction(1), ())}
+    for name, prefixes in _BASE.items():
+        size = _KILOGRAM if name == "g" else Fraction(1)
+        base = "kg" if name == "g" else name
+        _add_prefixed(table, name, prefixes, _SimpleUnit(size, ((base, 1),)))
+    for name, (times, made_of, prefixes) in _DERIVED.items():
+        unit = _multiply_out(made_of, table)
+        if unit is None:
+            raise AssertionError(f"{name} is made of what is not above it")
+        _add_prefixed(table, name, prefixes, unit._replace(factor=unit.factor * Fraction(times)))
     return table
 
 
-SIMPLE = _simple_units()
-"""Every listed simple unit: written name to (base unit, exact factor)."""
+def _add_prefixed(
+    table: dict[str, _SimpleUnit], name: str, prefixes: str, unit: _SimpleUnit
+) -> None:
+    table[name] = unit
+    for prefix in prefixes:
+        table[prefix + name] = unit._replace(factor=unit.factor * PREFIXES[prefix])
+
 
 _PART = re.compile(r"(?P<op>[*/·]?)(?P<name>e-|[^*/·^]+)(?:\^(?P<power>-?\d))?")
+_BELOW = re.compile(r"/\(([^()]*)\)")
+
+
+def _multiply_out(text: str, table: Mapping[str, _SimpleUnit]) -> _SimpleUnit | None:
+    """Multiply ``um/px`` or ``J/(kg*K)`` out; None if a name in it is not in the table."""
+    compact = _BELOW.sub(_write_without_brackets, text.replace(" ", ""))
+    factor, powers = Fraction(1), dict[str, int]()
+    position = 0
+    while position < len(compact):
+        match = _PART.match(compact, position)
+        if match is None or match["name"] not in table:
+            return None
+        size, dimension = table[match["name"]]
+        power = int(match["power"] or 1) * (-1 if match["op"] == "/" else 1)
+        factor *= size**power
+        for base, times in dimension:
+            powers[base] = powers.get(base, 0) + power * times
+        position = match.end()
+    return _SimpleUnit(factor, tuple(sorted((b, p) for b, p in powers.items() if p)))
+
+
+def _write_without_brackets(match: re.Match[str]) -> str:
+    """``/kg/K`` for ``/(kg*K)``: in a unit, as in SI, what follows a stroke is divided by alone."""
+    swapped = match[1].translate(str.maketrans("*·/", "//*"))
+    return f"/{swapped}"
+
+
+SIMPLE = _list_simple_units()
+"""Every listed simple unit by its written name."""
 
 
 class UnitRegistry:
@@ -192,7 +300,6 @@ class UnitRegistry:
         self.definitions = definitions
         self.simple = dict(SIMPLE)
         self.words: dict[str, tuple[str, ...]] = {}
-        self._made_of: dict[str, Dimension] = dict(_MADE_OF)
         self._known: dict[str, Unit] = {}
         self._factors: dict[str, fmpq] = {}
         for line in definitions:
@@ -203,16 +310,18 @@ class UnitRegistry:
         taken = {new.symbol, *new.words} & {*self.simple, *spelt}
         if taken:
             raise FormulaError(f"unit {new.text!r}: there is a unit {min(taken)!r} already")
-        size = Fraction(1)
+        unit = _SimpleUnit(Fraction(1), ((new.symbol, 1),))
         if new.made_of is not None:
             try:
                 whole = self.unit(new.made_of)
             except FormulaError as error:
                 raise FormulaError(f"unit {new.text!r}: {error}") from error
-            size = new.size * whole.factor
-            self._made_of[new.symbol] = whole.dimension
-        prefixed = {p + new.symbol: (new.symbol, size * f) for p, f in PREFIXES.items()}
-        self.simple = {**prefixed, **self.simple, new.symbol: (new.symbol, size)}
+            unit = _SimpleUnit(new.size * whole.factor, whole.dimension)
+        prefixed = {
+            prefix + new.symbol: unit._replace(factor=unit.factor * size)
+            for prefix, size in PREFIXES.items()
+        }
+        self.simple = {**prefixed, **self.simple, new.symbol: unit}
         self.words[new.symbol] = new.words
         self._known.clear()
 
@@ -225,25 +334,11 @@ class UnitRegistry:
             If a name is not known.
         """
         if text not in self._known:
-            self._known[text] = self._look_up(text)
+            product = _multiply_out(text, self.simple)
+            if product is None:
+                raise FormulaError(f"unknown unit {text!r}", 1)
+            self._known[text] = Unit(text, *product)
         return self._known[text]
-
-    def _look_up(self, text: str) -> Unit:
-        compact = text.replace(" ", "")
-        factor, powers = Fraction(1), dict[str, int]()
-        position = 0
-        while position < len(compact):
-            match = _PART.match(compact, position)
-            if match is None or match["name"] not in self.simple:
-                raise FormulaError(f"unknown unit {text!r}", position + 1)
-            name, size = self.simple[match["name"]]
-            power = int(match["power"] or 1) * (-1 if match["op"] == "/" else 1)
-            factor *= size**power
-            for base, times in self._made_of.get(name, ((name, 1),)):
-                powers[base] = powers.get(base, 0) + power * times
-            position = match.end()
-        powers.pop("", None)
-        return Unit(text, factor, tuple(sorted((b, p) for b, p in powers.items() if p)))
 
     def factor(self, text: str) -> fmpq:
         """Exact factor from a unit to base units: 1/1000 for ``mm``.
@@ -306,7 +401,17 @@ def unit_factor(text: str) -> fmpq:
     return active_units().factor(text)
 
 
-SHOWN = {"um": "µm", "deg": "°", "us": "µs", "uW": "µW", "e-": "e⁻"}
+SHOWN = {
+    **{name: f"µ{name[1:]}" for name in SIMPLE if name[:1] == "u" and f"µ{name[1:]}" in SIMPLE},
+    **{f"{prefix}ohm": f"{prefix}Ω" for prefix in ("", "m", "k", "M", "G")},
+    **dict.fromkeys(("uohm", "µohm", "μohm"), "µΩ"),
+    "deg": "°",
+    "e-": "e⁻",
+}
+"""Names that are typed on any keyboard, and how they are printed."""
+
+
+_SHOWN_PARTS = re.compile(r"([/*·^()])")
 
 
 @lru_cache(maxsize=1024)
@@ -319,4 +424,4 @@ def format_unit(text: str) -> str:
         return ""
     if text.startswith("1/") and text.count("/") == 1:
         return f"{format_unit(text[2:])}⁻¹"
-    return "/".join(SHOWN.get(part, part) for part in text.split("/"))
+    return "".join(SHOWN.get(part, part) for part in _SHOWN_PARTS.split(text))

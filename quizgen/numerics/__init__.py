@@ -5,9 +5,9 @@ arguments, else arrays. Must never know: a question, a picture, SymPy.
 
 One module per family of formulas, and below them:
 
-* ``aliases``: the types that pass between the functions
+* ``typing``: the types that pass between the functions
 * ``domain``: where there is an answer, and what happens where there is none
-* ``kernel``: how a formula is run over blocks, and by fractions where it is not to be trusted
+* ``ufunc``: how a formula is run over blocks, and by fractions where it is not to be trusted
 * ``double_double``, ``rational``, ``tables``, ...: more digits where they are needed
 
 The policy is the same everywhere, so the functions do not repeat it:

@@ -23,7 +23,7 @@ _LARGEST = 2.0**200
 
 
 def _compute_relative_change(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, Array]:
-    """k1 r**2 + k2 r**4, and r**2."""
+    """Return k1 r**2 + k2 r**4, the relative change of the radius, and r**2 = x**2 + y**2."""
     r2, square = x * x, y * y
     r2 = np.add(r2, square, out=r2 if r2.size >= square.size else square)
     change = k2 * r2
@@ -32,8 +32,8 @@ def _compute_relative_change(x: Array, y: Array, k1: Array, k2: Array) -> tuple[
     return change, r2
 
 
-def _distort_plainly(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, ...]:
-    """Plain doubles where the change is small.
+def _distort_in_doubles(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, ...]:
+    """Return x_d and y_d in plain doubles; NaN, which asks for fractions, where they are not safe.
 
     In units of 2**-53 times x, the change is off by at most 5 |change| + 3 |k2| r**4, also where
     its terms cancel; adding it to x and y costs one more.
@@ -44,8 +44,11 @@ def _distort_plainly(x: Array, y: Array, k1: Array, k2: Array) -> tuple[Array, .
     return tuple(np.where(sure, place * change + place, np.nan) for place in (x, y))
 
 
-def _distort_all(x_d: Array, y_d: Array, x: Array, y: Array, k1: Array, k2: Array) -> bool:
-    """The same in place, if one look tells that all is small; what is not finite is not."""
+def _distort_block(x_d: Array, y_d: Array, x: Array, y: Array, k1: Array, k2: Array) -> bool:
+    """Fill x_d and y_d of a block in place, and return whether one bound trusts all of it.
+
+    The shortcut of a `StableUfunc`: most blocks hold small, finite changes only.
+    """
     change, r2 = _compute_relative_change(x, y, k1, k2)
     least, most, top = change.min(), change.max(), r2.max()
     off = 5 * max(most, -least) + 3 * max(k2.max(), -k2.min()) * top * top
@@ -63,7 +66,10 @@ _ALLOWED = 3.0
 
 
 def _distort_exact(x: fmpq, y: fmpq, k1: fmpq, k2: fmpq) -> tuple[float, float]:
-    """In whole numbers over powers of two, which need no common divisors."""
+    """Return x_d and y_d of one point, each rounded once from the exact fraction.
+
+    Whole numbers over powers of two need no common divisors, unlike fractions.
+    """
     (X, a), (Y, b), (K1, c), (K2, d) = map(to_dyadic, (x, y, k1, k2))
     s = max(a, b)
     R = (X << s - a) ** 2 + (Y << s - b) ** 2
@@ -75,12 +81,15 @@ def _distort_exact(x: fmpq, y: fmpq, k1: fmpq, k2: fmpq) -> tuple[float, float]:
 
 
 def _compute_binary_exponent(value: Array) -> Counts:
-    """Exponent e with value below 2**e; of zero, one below all others."""
+    r"""Return the exponent e for which abs(value) < 2**e; for zero -3000, below all others."""
     return np.where(value == 0, -3000, np.frexp(value)[1]).astype(np.int64)
 
 
 def _scale_equation(r_d: Array, k1: Array, k2: Array) -> tuple[QuinticSolver, Counts]:
-    """The equation without units, and j; coefficients beyond the fold are cut off."""
+    """Return A x + B x**3 + C x**5 = m without units, and the j with r = 2**j x.
+
+    Coefficients that put m far beyond the fold are cut off at ``_LARGEST``.
+    """
     r_d = np.broadcast_to(r_d, max(r_d.size, k1.size, k2.size))
     square = r_d.max() ** 2
     if (
@@ -98,19 +107,22 @@ def _scale_equation(r_d: Array, k1: Array, k2: Array) -> tuple[QuinticSolver, Co
 
 
 def _find_largest_magnitude(coefficient: Array) -> float:
+    """Return the largest absolute value of a block."""
     return float(np.abs(coefficient).max())
 
 
 def _is_cubic(r_d: Array, k1: Array, k2: Array) -> bool:
-    """Whether the closed form of a cubic will do for a block as it stands."""
+    """Return whether k2 = 0 and all magnitudes are moderate: Cardano's form needs no scaling."""
     return not k2.any() and _is_moderate(r_d) and _is_moderate(np.abs(k1))
 
 
 def _is_moderate(sizes: Array) -> bool:
+    """Return whether all nonzero magnitudes lie between 1/``_REACH`` and ``_REACH``."""
     return float(sizes.max()) < _REACH and smallest_nonzero(sizes) > 1 / _REACH
 
 
 def _invert_radius(r_d: Array, k1: Array, k2: Array) -> Array:
+    """Return the undistorted radius of each distorted one, below the fold."""
     if _is_cubic(r_d, k1, k2):
         whole = QuinticSolver(np.ones(1), k1, np.zeros(1), r_d)
         return whole.refine_root(solve_cubic(r_d, k1)).round_to_double()
@@ -121,7 +133,7 @@ def _invert_radius(r_d: Array, k1: Array, k2: Array) -> Array:
 
 
 def _is_beyond_fold(r_d: Array, k1: Array, k2: Array) -> Flags:
-    """Whether r_d exceeds every distorted radius, decided exactly next to the fold."""
+    """Return where r_d exceeds every distorted radius; next to the fold decided by fractions."""
     if _is_cubic(r_d, k1, k2):
         if k1.min() >= 0:
             return np.zeros(1, dtype=bool)
@@ -135,7 +147,7 @@ def _is_beyond_fold(r_d: Array, k1: Array, k2: Array) -> Flags:
 
 
 def _fold_of_barrel(radius: Array, k1: Array, k2: Array) -> bool:
-    """Fold radius of one coefficient, and whether all of them are finite and below 0."""
+    """Fill the fold radii of k1 alone, and return whether all of them exist and are moderate."""
     if k2.size > 1 or k2.item() != 0:
         return False
     np.sqrt(-3 * k1, out=radius)
@@ -144,11 +156,11 @@ def _fold_of_barrel(radius: Array, k1: Array, k2: Array) -> bool:
 
 
 def _compute_fold_radius(k1: Array, k2: Array) -> Array:
-    """Fold radius, in a unit of 2**j in which the terms that decide it are near 1.
+    """Return the fold radius, computed in a unit 2**j in which the deciding terms are near 1.
 
     With r = 2**j x the slope is 1 + 3 k1 4**j x**2 + 5 k2 16**j x**4, here times 2**s. Mostly 1 and
     the larger coefficient decide. Where k1 > 0 lets the slope grow first and a far smaller k2 < 0
-    ends that, it is the two coefficients, and 1 is nothing beside them.
+    ends that, it is the two coefficients, and 1 is negligible.
     """
     if not k2.any() and (k1 > -_LARGEST).all():
         alone: Array = 1 / np.sqrt(-3 * np.minimum(k1, -0.0))
@@ -163,8 +175,8 @@ def _compute_fold_radius(k1: Array, k2: Array) -> Array:
 
 
 _DISTORT = StableUfunc(
-    _distort_plainly, (REAL,) * 4, exact=_distort_exact, reach=_FAR, tiny=True, outputs=2,
-    shortcut=_distort_all,
+    _distort_in_doubles, (REAL,) * 4, exact=_distort_exact, reach=_FAR, tiny=True, outputs=2,
+    shortcut=_distort_block,
 )  # fmt: skip
 _FOLD = StableUfunc(_compute_fold_radius, (REAL, REAL), shortcut=_fold_of_barrel)
 _INVERSE = StableUfunc(
@@ -175,7 +187,7 @@ _INVERSE = StableUfunc(
 def distort(
     x: Numbers, y: Numbers, k1: Numbers, k2: Numbers = 0.0
 ) -> tuple[FloatOrArray, FloatOrArray]:
-    """Distorted position of an undistorted point.
+    """Return the distorted position (x_d, y_d) of an undistorted point.
 
     Parameters
     ----------
@@ -194,7 +206,9 @@ def distort(
 
 
 def fold_radius(k1: Numbers, k2: Numbers = 0.0) -> FloatOrArray:
-    """Radius at which the distorted radius stops growing (beyond it the picture folds over).
+    """Return the radius at which the distorted radius stops growing.
+
+    Beyond it the picture folds over.
 
     Parameters
     ----------
@@ -210,7 +224,7 @@ def fold_radius(k1: Numbers, k2: Numbers = 0.0) -> FloatOrArray:
 
 
 def inverse_radius(r_d: Numbers, k1: Numbers, k2: Numbers = 0.0) -> FloatOrArray:
-    """Undistorted radius of a distorted radius, on the branch that starts at the centre.
+    """Return the undistorted radius of a distorted one, on the branch that starts at the centre.
 
     Parameters
     ----------

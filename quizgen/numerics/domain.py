@@ -7,7 +7,7 @@ Policy, the same for every function of this package:
 * No answer (beyond the fold, hue of a grey, empty range, ...) raises ``DomainError`` when all
   arguments are scalars. With arrays the result is a ``numpy.ma.MaskedArray``, masked exactly
   where there is no answer (NaN lies under the mask). When every element has an answer, the
-  result is a plain array. ``answered(result)`` is the mask to ask for in both cases.
+  result is a plain array. ``is_defined(result)`` is the mask to ask for in both cases.
 * Arguments that are not finite have no answer (reason ``not-finite``), nor have those outside
   the range that a function states.
 """
@@ -25,7 +25,7 @@ from quizgen.numerics.typing import Array, FloatOrArray
 
 
 class DomainError(ValueError):
-    """There is no answer for these arguments.
+    """A function has no answer for scalar arguments; arrays are masked instead.
 
     Parameters
     ----------
@@ -47,14 +47,14 @@ class Interval(msgspec.Struct, frozen=True):
     closed: bool = False
 
     def contains(self, low: float | Array, high: float | Array) -> Any:
-        """Whether values from ``low`` to ``high`` all lie inside (false for NaN)."""
+        """Return whether values from ``low`` to ``high`` all lie inside, by element; no for NaN."""
         finite = (low > -math.inf) & (high < math.inf)
         if self.closed:
             return finite & (low >= self.low) & (high <= self.high)
         return finite & (low > self.low) & (high < self.high)
 
     def explain(self, value: float) -> str:
-        """Name what is wrong with a value outside."""
+        """Return the reason why a value outside has no answer."""
         return self.reason if math.isfinite(value) else "not-finite"
 
 
@@ -64,7 +64,9 @@ NONNEGATIVE = Interval(low=0.0, reason="negative", closed=True)
 
 
 class Constraint(msgspec.Struct, frozen=True):
-    """A relation between arguments that must not occur.
+    """A relation between arguments for which there is no answer, such as z = 0.
+
+    ``broken(*args)`` flags the elements that have it, and ``reason`` names it.
 
     ``possible`` takes the limits of the arguments: when it is false, no element breaks the rule
     and none is looked at.
@@ -76,5 +78,5 @@ class Constraint(msgspec.Struct, frozen=True):
 
 
 def is_defined(result: FloatOrArray) -> Any:
-    """Tell which elements of an array result have an answer (True for a scalar)."""
+    """Return which elements of an array result have an answer; True for a scalar."""
     return ~np.ma.getmaskarray(result) if isinstance(result, np.ndarray) else True

@@ -1,6 +1,6 @@
 """Numbers of twice the working precision on arrays: an unevaluated sum of two doubles.
 
-Formulas written with ``+ - * /`` run unchanged on ``Pair`` arrays, good to about 2**-100, and on
+Formulas written with ``+ - * /`` run unchanged on `DoubleDouble`, good to about 2**-100, and on
 fractions, which are exact and decide the doubtful rest.
 
 Sources: Dekker, Numer. Math. 18 (1971) 224; Knuth, TAOCP 2, 4.2.2. NumPy has no fused
@@ -26,14 +26,17 @@ _SPLITTER = 134217729.0
 
 
 def two_sum(a: Double, b: Double) -> tuple[Any, Any]:
-    """Sum of two doubles and its rounding error, exactly."""
+    """Return the rounded sum of two doubles and its rounding error: together they are exact."""
     s = a + b
     t = s - a
     return s, (a - (s - t)) + (b - t)
 
 
 def split_double(a: Double) -> tuple[Any, Any]:
-    """Upper and lower half of a double, exactly."""
+    """Return two halves of a double of 26 bits each, whose sum it is exactly.
+
+    Products of halves are exact, which stands for a fused multiply-add.
+    """
     c = a * _SPLITTER
     high = c - a
     high = np.subtract(c, high, out=high) if isinstance(high, np.ndarray) else c - high
@@ -41,13 +44,14 @@ def split_double(a: Double) -> tuple[Any, Any]:
 
 
 def two_product(a: Double, b: Double) -> tuple[Any, Any]:
-    """Product of two doubles and its rounding error, exactly."""
+    """Return the rounded product of two doubles and its rounding error: together they are exact."""
     return _multiply_halves(a, split_double(a), b, split_double(b))
 
 
 def _multiply_halves(
     a: Double, a_halves: tuple[Double, Double], b: Double, b_halves: tuple[Double, Double]
 ) -> tuple[Any, Any]:
+    """Return what `two_product` does, from halves of both factors that were split before."""
     p = a * b
     a_high, a_low = a_halves
     b_high, b_low = b_halves
@@ -78,13 +82,13 @@ class DoubleDouble:
 
     @property
     def halves(self) -> Any:
-        """The split of ``high``, made once."""
+        """The two halves of ``high``, split when first needed."""
         if self._halves is None:
             self._halves = split_double(self.high)
         return self._halves
 
     def round_to_double(self) -> Array:
-        """The nearest double (up to 2**-100)."""
+        """Return the nearest double, up to a relative 2**-100."""
         result = self.high if self.low is None else self.high + self.low
         return np.asarray(result, dtype=np.float64)
 
@@ -114,7 +118,7 @@ class DoubleDouble:
         return as_pair(other) + (-self)
 
     def __mul__(self, other: Operand) -> DoubleDouble:
-        """Product."""
+        """Product, to about 2**-100."""
         other = as_pair(other)
         p, e = _multiply_halves(self.high, self.halves, other.high, other.halves)
         if other.low is not None:
@@ -138,7 +142,7 @@ class DoubleDouble:
         return DoubleDouble(q, rest / other.high)
 
     def __rtruediv__(self, other: Operand) -> DoubleDouble:
-        """Quotient."""
+        """Quotient with a double or an array above the line."""
         return as_pair(other) / self
 
 
@@ -146,17 +150,18 @@ Operand = DoubleDouble | Double
 
 
 def _normalise_pair(s: Double, e: Double) -> DoubleDouble:
+    """Return s + e as a pair whose low part is below half a last place of the high one."""
     high = s + e
     return DoubleDouble(high, e - (high - s))
 
 
 def as_pair(value: Operand) -> DoubleDouble:
-    """Wrap a number or an array."""
+    """Return a number or an array as a `DoubleDouble`; one that is a pair already stays."""
     return value if isinstance(value, DoubleDouble) else DoubleDouble(value)
 
 
 def as_pairs(*values: Double) -> tuple[DoubleDouble, ...]:
-    """Wrap several."""
+    """Return several numbers or arrays as `DoubleDouble` each."""
     return tuple(DoubleDouble(value) for value in values)
 
 
@@ -168,7 +173,7 @@ _LEAST = 5e-324
 
 
 def power_with_remainder(x: Array, exponent: Exponent) -> Array:
-    """Raise to a power with the exponent carried to twice the working precision."""
+    """Return x**(high + low) for x >= 0, the exponent carried to twice the working precision."""
     high, low = exponent
     y: Array = x**high
     least = x.min()
@@ -179,13 +184,13 @@ def power_with_remainder(x: Array, exponent: Exponent) -> Array:
 
 
 def split_exponent(exponent: Fraction) -> Exponent:
-    """Nearest double of an exponent, and what that lost."""
+    """Return the nearest double of an exponent, and the difference that rounding lost."""
     high = float(exponent)
     return high, float(exponent - Fraction(high))
 
 
 def evaluate_polynomial(coefficients: Sequence[float], x: Array) -> Array:
-    """Polynomial with at least two coefficients in ascending order."""
+    """Return a polynomial in x by Horner's rule; at least two coefficients, in ascending order."""
     *rest, second, last = coefficients
     total = x * last
     total += second

@@ -33,7 +33,8 @@ _KNEE = 0.04045
 _OVERFLOWS = 2.0**600
 
 
-def _srgb_decode(x: Array) -> Array:
+def _decode_srgb(x: Array) -> Array:
+    """Return linear intensities of encoded ones >= 0: the formula of `srgb_decode` on a block."""
     base, lost = two_sum(np.minimum(x, _OVERFLOWS), _OFFSET.high)
     lost += _OFFSET.low
     lost /= base
@@ -44,11 +45,11 @@ def _srgb_decode(x: Array) -> Array:
     return bright
 
 
-_SRGB_DECODE = StableUfunc(_srgb_decode, (_INTENSITY,))
+_SRGB_DECODE = StableUfunc(_decode_srgb, (_INTENSITY,))
 
 
 def srgb_decode(encoded: Numbers) -> FloatOrArray:
-    """Decode sRGB to linear intensities.
+    """Return the linear intensities (1 = white) of sRGB-encoded ones.
 
     Parameters
     ----------

@@ -51,14 +51,14 @@ _QUANTILE_FAR = (
 
 
 def mills_ratio(k: Array) -> tuple[Array, Array]:
-    """Q(k) exp(k**2/2) for k >= 0, and the relative error of its denominator."""
+    """Return Mills' ratio Q(k) exp(k**2/2), k >= 0, and the relative error of its denominator."""
     shaped = evaluate_polynomial(MILLS, (k - MILLS_SCALE) / (k + MILLS_SCALE))
     below, lost = two_sum(k, MILLS_SHIFT)
     return shaped / below, lost / below
 
 
-def _inverse_tail(p: Array) -> Array:
-    """Solve Q(k) = p by fractions, of the share from the centre or of the logarithm of p.
+def _invert_upper_tail(p: Array) -> Array:
+    """Return the k with Q(k) = p, by rational functions of the distance from 1/2 or of ln p.
 
     The fractions are good to one part in 10**16; all coefficients are positive, so that nothing
     cancels.
@@ -73,6 +73,7 @@ def _inverse_tail(p: Array) -> Array:
 
 
 def _quantile_of_tail(less: Array) -> Array:
+    """Return the k > 0 with Q(k) = p for small p (AS 241), improved by a Newton step far out."""
     log = np.log(less)
     root = np.sqrt(-log)
     k = _evaluate_rational(_QUANTILE_NEAR, root - _NEAR_WAY)
@@ -85,7 +86,10 @@ def _quantile_of_tail(less: Array) -> Array:
 
 
 def _improve_quantile(k: Array, log: Array) -> Array:
-    """One step of Newton for ln Q(k) = ln p, whose slope is minus the hazard."""
+    """Return k after one Newton step for ln Q(k) = ln p, whose slope is minus the hazard.
+
+    ``log`` is ln p.
+    """
     square, lost = two_product(k, k)
     ratio, skew = mills_ratio(k)
     miss: Array = np.log(ratio) - (skew + 0.5 * lost) - 0.5 * square - log
@@ -93,15 +97,18 @@ def _improve_quantile(k: Array, log: Array) -> Array:
 
 
 def _evaluate_rational(parts: tuple[tuple[float, ...], tuple[float, ...]], x: Array) -> Array:
+    """Return the quotient of two polynomials in x, each with ascending coefficients."""
     above, below = parts
     return evaluate_polynomial(above, x) / evaluate_polynomial(below, x)
 
 
-_INVERSE = StableUfunc(_inverse_tail, (Interval(low=0.0, high=1.0, reason="not-a-probability"),))
+_INVERSE = StableUfunc(
+    _invert_upper_tail, (Interval(low=0.0, high=1.0, reason="not-a-probability"),)
+)
 
 
 def inverse_upper_tail(p: Numbers) -> FloatOrArray:
-    """The k with Q(k) = p.
+    """Return the k that a standard normal value exceeds with probability p, in standard deviations.
 
     Parameters
     ----------

@@ -14,7 +14,8 @@ from quizgen.numerics.typing import Array, FloatOrArray, Numbers
 from quizgen.numerics.ufunc import StableUfunc
 
 
-def _to_rgb(H: Array, S: Array, V: Array) -> tuple[Array, ...]:
+def _hsv_to_rgb_block(H: Array, S: Array, V: Array) -> tuple[Array, ...]:
+    """Return R, G and B of a block; NaN, which asks for fractions, where doubles cancel."""
     turned = np.fmod(H, 360.0)
     mirrored = turned < 0
     size = np.abs(turned)
@@ -41,7 +42,10 @@ def _to_rgb(H: Array, S: Array, V: Array) -> tuple[Array, ...]:
 
 
 def _complement_fraction(S: Array, degrees: DoubleDouble) -> Array:
-    """1 - S degrees/60 to twice the working precision; NaN, which asks for fractions, near 0."""
+    """Return 1 - S degrees/60 to twice the working precision.
+
+    Near 0 it is NaN, which asks for fractions.
+    """
     left: Array = (60 - S * degrees).round_to_double() / 60
     return np.where(np.abs(left) < _CLOSE, np.nan, left)
 
@@ -51,7 +55,8 @@ def _complement_fraction(S: Array, degrees: DoubleDouble) -> Array:
 _CLOSE = 2.0**-50
 
 
-def _to_rgb_exact(H: fmpq, S: fmpq, V: fmpq) -> tuple[fmpq, ...]:
+def _hsv_to_rgb_exact(H: fmpq, S: fmpq, V: fmpq) -> tuple[fmpq, ...]:
+    """Return R, G and B of one colour as fractions, H in degrees."""
     sixths, depth = H / 60, V * S
     sector = sixths.floor()
     along = sixths - sector
@@ -65,13 +70,15 @@ def _to_rgb_exact(H: fmpq, S: fmpq, V: fmpq) -> tuple[fmpq, ...]:
 _CHANNELS = ((0, 1, 2), (1, 0, 2), (2, 0, 1), (2, 1, 0), (1, 2, 0), (0, 2, 1))
 """Which of the highest, the changing and the lowest value is red, green and blue, by sector."""
 
-_TO_RGB = StableUfunc(_to_rgb, (REAL,) * 3, exact=_to_rgb_exact, reach=2.0**400, outputs=3)
+_TO_RGB = StableUfunc(
+    _hsv_to_rgb_block, (REAL,) * 3, exact=_hsv_to_rgb_exact, reach=2.0**400, outputs=3
+)
 
 
 def hsv_to_rgb(
     H: Numbers, S: Numbers, V: Numbers
 ) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
-    """Red, green and blue of a hue, saturation and value.
+    """Return red, green and blue of a hue, saturation and value.
 
     Parameters
     ----------

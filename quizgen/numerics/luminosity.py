@@ -23,7 +23,10 @@ class EfficiencyTable(NamedTuple):
     values: Array
 
     def interpolate(self, wavelength: Array) -> Array:
-        """Between two points t nm apart from the first: two positive terms, exact factors."""
+        """Return the efficiency (0 to 1) at wavelengths in nm, linear between points, 0 outside.
+
+        Two positive terms with exact factors: nothing cancels.
+        """
         last = self.step * (self.values.size - 1)
         above = np.clip(wavelength - self.first, 0, last)
         # Differences of whole numbers and wavelengths are exact; a quotient by the step is not.
@@ -37,8 +40,8 @@ class EfficiencyTable(NamedTuple):
 _CIE, _STEP, _PEAK = read_numeric_table("cie.json"), 5, 507
 
 
-def _by_night() -> EfficiencyTable:
-    """Every nanometre, since the peak stands between two points of the table."""
+def _build_night_table() -> EfficiencyTable:
+    """Return V'(lambda) at every nanometre, as its peak lies between two points of the table."""
     values = _CIE["night"]
     at = 380 + _STEP * np.arange(len(values))
     peak = np.searchsorted(at, _PEAK)
@@ -50,18 +53,18 @@ def _by_night() -> EfficiencyTable:
 DAY = EfficiencyTable(360, _STEP, np.array(_CIE["day"]))
 """V(lambda), CIE 1924: every 5 nm from 360 to 830 nm."""
 
-NIGHT = _by_night()
+NIGHT = _build_night_table()
 """V'(lambda), CIE 1951: every 5 nm from 380 to 780 nm, and the peak at 507 nm."""
 
 
 def luminous_efficiency(wavelength: Numbers, curve: EfficiencyTable = DAY) -> FloatOrArray:
-    """Luminous efficiency of light of one wavelength.
+    """Return the luminous efficiency, 0 to 1, of light of one wavelength.
 
     Parameters
     ----------
     wavelength : array_like
         Nanometres, >= 0.
-    curve : Curve
+    curve : EfficiencyTable
         The table, by default that of the eye by day.
 
     Returns

@@ -14,6 +14,7 @@ from quizgen.numerics.ufunc import StableUfunc, all_within
 
 
 def _compute_pixel(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Array:
+    """Return u = o + f x/(pitch z) of a block in doubles, scaled where a product could overflow."""
     u: Array = o + f * x / (pitch * z)
     odd = np.zeros(u.size, dtype=bool)
     for arg in (f, pitch, x, z, o):
@@ -22,12 +23,12 @@ def _compute_pixel(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Arra
     where = np.flatnonzero(odd)
     if where.size:
         parts = (arg.take(where) if arg.size > 1 else arg for arg in (f, pitch, x, z, o))
-        u[where] = _pixel_of_mantissas(*parts)
+        u[where] = _compute_scaled_pixel(*parts)
     return u
 
 
-def _pixel_of_mantissas(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Array:
-    """The formula with powers of two taken out, so that only the result can leave the range."""
+def _compute_scaled_pixel(f: Array, pitch: Array, x: Array, z: Array, o: Array) -> Array:
+    """Return u with powers of two taken out, so that only the result can leave the range."""
     (f, f2), (pitch, pitch2), (x, x2), (z, z2), (o, o2) = map(np.frexp, (f, pitch, x, z, o))
     shift2 = np.where(x == 0, o2, f2 + x2 - pitch2 - z2)
     most = np.maximum(shift2, o2)
@@ -36,12 +37,14 @@ def _pixel_of_mantissas(f: Array, pitch: Array, x: Array, z: Array, o: Array) ->
     return result
 
 
-def _pixel_of_decimals(*args: fmpq) -> fmpq:
+def _compute_decimal_pixel(*args: fmpq) -> fmpq:
+    """Return u exactly, with each argument read as the shortest decimal that it prints as."""
     f, pitch, x, z, o = (shortest_decimal(nearest_double(arg)) for arg in args)
     return o + f * x / (pitch * z)
 
 
-def _to_be_read(*_args: Array) -> Array:
+def _request_exact(*_args: Array) -> Array:
+    """Return a NaN, which has `StableUfunc` compute the element by fractions."""
     return np.full(1, np.nan)
 
 
@@ -49,8 +52,8 @@ _REACH = 2.0**300
 """Products of two such numbers neither overflow nor lose digits."""
 
 
-def _pixel_at_once(u: Array, f: Array, pitch: Array, x: Array, z: Array, o: Array) -> bool:
-    """The formula, and whether all numbers are moderate and z is not 0.
+def _fill_pixels(u: Array, f: Array, pitch: Array, x: Array, z: Array, o: Array) -> bool:
+    """Fill u of a block, and return whether all numbers are moderate and z is never 0.
 
     A finite sum has finite summands, so x is finite and nothing overflowed. A tiny x may lose its
     digits, but not next to an o that is not.
@@ -73,14 +76,14 @@ _ON_PLANE = Constraint(
     lambda _f, _pitch, _x, z, _o: z == 0,
     lambda _f, _pitch, _x, z, _o: bool(z[0] <= 0 <= z[1]),
 )
-_PIXEL = StableUfunc(_compute_pixel, _SPANS, (_ON_PLANE,), shortcut=_pixel_at_once)
-_PIXEL_ALONE = StableUfunc(_to_be_read, _SPANS, (_ON_PLANE,), exact=_pixel_of_decimals)
+_PIXEL = StableUfunc(_compute_pixel, _SPANS, (_ON_PLANE,), shortcut=_fill_pixels)
+_PIXEL_ALONE = StableUfunc(_request_exact, _SPANS, (_ON_PLANE,), exact=_compute_decimal_pixel)
 
 
 def pixel_coordinate(
     f: Numbers, pitch: Numbers, x: Numbers, z: Numbers, o: Numbers
 ) -> FloatOrArray:
-    """Pixel coordinate u = o + f x/(pitch z) of a point.
+    """Return the pixel coordinate u = o + f x/(pitch z) of a point seen by a pinhole camera.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ Function = Callable[[Array], tuple[Array, Array]]
 
 
 def solve_cubic(m: Array, B: Array) -> Array:
-    """Closed form of x + B x**3 = m below the fold, good to a few units in the last place."""
+    """Return the root of x + B x**3 = m below the fold: closed form, good to a few last places."""
     size = np.sqrt(3 * np.abs(B))
     size = np.where(size == 0, 1.0, size)
     if B.max() < 0:
@@ -49,28 +49,34 @@ def solve_cubic(m: Array, B: Array) -> Array:
 
 
 def _solve_barrel_cubic(m: Array, B: Array, size: Array) -> Array:
-    """2/sqrt(-3 B) sin(asin(m/fold)/3), the arc sine from both its legs."""
+    """Return the root for B < 0: 2/sqrt(-3 B) sin(asin(m/fold)/3), ``size`` being sqrt(-3 B).
+
+    The arc sine is taken from both its legs, since next to the fold it is ill-conditioned.
+    """
     leg = np.sqrt(np.maximum(cubic_discriminant(m, B).round_to_double(), 0.0))
     result: Array = 2 / size * np.sin(np.arctan2(3 * size * m, leg) / 3)
     return result
 
 
 def cubic_discriminant(m: Array, B: Array) -> DoubleDouble:
-    """4 + 27 B m**2: positive below the fold of a cubic."""
+    """Return 4 + 27 B m**2: positive below the fold of a cubic, zero at it."""
     m_pair, B_pair = as_pairs(m, B)
     return 4 + m_pair * m_pair * (27 * B_pair)
 
 
 class QuinticSolver(msgspec.Struct, frozen=True):
-    """The equations of a block; A > 0, m > 0."""
+    """The equations A x + B x**3 + C x**5 = m of a block, with A > 0 and m > 0."""
 
     A: Array
     B: Array
     C: Array
     m: Array
 
-    def inside(self) -> Array:
-        """9 B**2 - 20 A C, exact where it cancels: negative when the slope never vanishes."""
+    def discriminant(self) -> Array:
+        """Return 9 B**2 - 20 A C, by fractions where it cancels.
+
+        It is negative when the slope never vanishes.
+        """
         square, product = 9 * self.B * self.B, 20 * self.A * self.C
         value, size = square - product, square + np.abs(product)
         close = np.flatnonzero(np.abs(value) < _CLOSE * size)
@@ -84,8 +90,8 @@ class QuinticSolver(msgspec.Struct, frozen=True):
         return value
 
     def fold(self) -> Array:
-        """Smallest positive x where the slope A + 3 B x**2 + 5 C x**4 vanishes, or infinity."""
-        inside = self.inside()
+        """Return the smallest x > 0 where the slope A + 3 B x**2 + 5 C x**4 is 0, or infinity."""
+        inside = self.discriminant()
         root = np.sqrt(np.maximum(inside, 0.0))
         falling = 2 * self.A / np.where(self.B < 0, root - 3 * self.B, 1.0)
         rising = (3 * self.B + root) / (-10 * np.where(self.C < 0, self.C, -1.0))
@@ -93,9 +99,9 @@ class QuinticSolver(msgspec.Struct, frozen=True):
         return np.where(inside < 0, math.inf, np.sqrt(square))
 
     def beyond(self) -> Flags:
-        """Whether m is larger than every value up to the fold.
+        """Return where m is larger than every value up to the fold, so that there is no root.
 
-        The value there does not change with its place, so that a rounded place will do.
+        The value at the fold hardly changes with x, so that a rounded fold will do.
         """
         fold = self.fold()
         folds = np.isfinite(fold)
@@ -108,25 +114,25 @@ class QuinticSolver(msgspec.Struct, frozen=True):
             left = some.residual(np.broadcast_to(fold, self.m.size)[close])
             beyond[close] = left < 0
             for i in np.flatnonzero(np.abs(left) < _TIE * some.m):
-                beyond[close[i]] = _is_beyond_fold(
+                beyond[close[i]] = _exceeds_fold(
                     *exact_arguments((some.A, some.B, some.C, some.m), i)
                 )
         return beyond
 
     def take(self, where: Indices) -> QuinticSolver:
-        """Some of the equations."""
+        """Return the equations at the given indices."""
         parts = (self.A, self.B, self.C, self.m)
         return QuinticSolver(*(part.take(where) if part.size > 1 else part for part in parts))
 
     def residual(self, x: Array) -> Array:
-        """What the left side exceeds m by, to twice the working precision."""
+        """Return A x + B x**3 + C x**5 - m, computed to twice the working precision."""
         A, B, C, x_pair = as_pairs(self.A, self.B, self.C, x)
         square = x_pair * x_pair
         bend = B if not self.C.any() else B + C * square
         return (x_pair * (square * bend) + (x_pair * A - self.m)).round_to_double()
 
     def root(self) -> Array:
-        """The root to about twelve digits, less next to the fold."""
+        """Return the root to about twelve digits, fewer next to the fold."""
         fold = self.fold()
         ends = np.zeros(self.m.size), np.minimum(fold, _HIGHEST * self.m)
         return _find_bracketed_root(
@@ -134,14 +140,14 @@ class QuinticSolver(msgspec.Struct, frozen=True):
         )
 
     def value_and_slope(self, x: Array) -> tuple[Array, Array]:
-        """What the left side exceeds m by, and its slope."""
+        """Return A x + B x**3 + C x**5 - m in doubles, and its derivative."""
         square = x * x
         linear = square * self.B
         fifth = square * square * self.C
         return x * (self.A + linear + fifth) - self.m, self.A + 3 * linear + 5 * fifth
 
     def refine_root(self, x: Array) -> DoubleDouble:
-        """The root next to x, with a residual of twice the working precision."""
+        """Return the root next to x by a Newton step with a residual of twice the precision."""
         residual, square = self.residual(x), x * x
         slope = self.A + square * (3 * self.B + 5 * self.C * square)
         flat = slope * x <= _FLAT * self.m
@@ -152,9 +158,10 @@ class QuinticSolver(msgspec.Struct, frozen=True):
         return DoubleDouble(x, step)
 
     def small_root(self, x: Array, residual: Array) -> Array:
-        """Root of the polynomial around x, whose coefficients may cancel where folds meet.
+        """Return the step from x to the root, where the slope is too flat for Newton's.
 
-        Two such folds lie next to one another: the root is looked for up to the first.
+        It is a root of the polynomial around x, whose coefficients may cancel where folds meet. Two
+        such folds lie next to one another: the root is looked for up to the first.
         """
         A, B, C, x_pair = as_pairs(self.A, self.B, self.C, x)
         square = x_pair * x_pair
@@ -177,7 +184,9 @@ _FOLD_OFF = 2.0**-50
 def _find_bracketed_root(
     function: Function, ends: tuple[Array, Array], x: Array, fold: Array, noise: Array
 ) -> Array:
-    """Newton steps from x, kept inside a bracket; the function grows up to its fold.
+    """Return the root by Newton steps from x, kept inside a bracket.
+
+    The function grows up to its fold.
 
     A value below its noise has arrived. What has not after those steps is halved: 64 times take the
     bracket, at most 64 times as wide as the root lies from 0, to less than 2**-50 of it.
@@ -202,9 +211,13 @@ def _find_bracketed_root(
 
 
 def _make_polynomial(terms: Sequence[Array]) -> Function:
-    """Value and slope by Horner's rule."""
+    """Return a function that gives value and slope of a polynomial by Horner's rule.
+
+    ``terms`` are the coefficients in ascending order.
+    """
 
     def evaluate(x: Array) -> tuple[Array, Array]:
+        """Return value and slope at x."""
         *rest, value = terms
         slope = np.zeros(x.size)
         for term in reversed(rest):
@@ -215,8 +228,10 @@ def _make_polynomial(terms: Sequence[Array]) -> Function:
     return evaluate
 
 
-def _is_beyond_fold(A: fmpq, B: fmpq, C: fmpq, m: fmpq) -> bool:
-    """Whether m**2 > u (A + B u + C u**2)**2 with u the square of the fold, by exact fractions.
+def _exceeds_fold(A: fmpq, B: fmpq, C: fmpq, m: fmpq) -> bool:
+    """Return whether m exceeds the value at the fold of one equation, by exact fractions.
+
+    Tested is m**2 > u (A + B u + C u**2)**2, with u the square of the fold.
 
     With s = sqrt(9 B**2 - 20 A C) it is u = -(3 B + s)/(10 C) and, there, 5 C u**2 = -A - 3 B u.
     """

@@ -16,7 +16,7 @@ _BITS = 53
 
 
 def nearest_double(value: fmpq | float) -> float:
-    """Round a fraction (or a float that stands for itself) to the nearest float."""
+    """Return the float nearest to a fraction, infinity beyond the range; a float stays as it is."""
     if isinstance(value, float):
         return value
     try:
@@ -26,13 +26,13 @@ def nearest_double(value: fmpq | float) -> float:
 
 
 def to_dyadic(value: fmpq) -> tuple[fmpz, int]:
-    """A double's fraction as a whole number of at most 53 bits over a power of two."""
+    """Return (n, p) with value = n / 2**p for a double's fraction; n has at most 53 bits."""
     spare = value.p.bit_length() - _BITS
     return (value.p >> spare, -spare) if spare > 0 else (value.p, value.q.bit_length() - 1)
 
 
 def from_dyadic(number: fmpz, power: int) -> float:
-    """The nearest double of ``number / 2**power``."""
+    """Return the double nearest to ``number / 2**power``, rounded once."""
     spare = number.bit_length() - _KEPT
     if spare > 0:  # the bits left out are one, that tells a tie from more
         tail = int(number != (number >> spare) << spare)
@@ -51,17 +51,17 @@ _NORMAL, _NOTHING = -1020, 1300
 
 
 def exact_fraction(value: float) -> fmpq:
-    """The fraction that a double is."""
+    """Return the fraction that a finite double is exactly."""
     part, exponent = math.frexp(value)
     whole, exponent = fmpz(int(math.ldexp(part, _BITS))), exponent - _BITS
     return fmpq(whole << exponent) if exponent >= 0 else fmpq(whole, ONE << -exponent)
 
 
 def shortest_decimal(value: float) -> fmpq:
-    """The decimal that a double prints as: the shortest whose nearest double it is."""
+    """Return the decimal that a double prints as: the shortest that rounds to it."""
     return fmpq(*Fraction(repr(value)).as_integer_ratio())
 
 
 def exact_arguments(args: Sequence[Array], i: SupportsIndex) -> list[fmpq]:
-    """Element i of every argument; a single number stands for all elements."""
+    """Return element i of every argument as a fraction; an array of one stands for all elements."""
     return [exact_fraction(arg.item(i if arg.size > 1 else 0)) for arg in args]

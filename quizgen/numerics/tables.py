@@ -16,7 +16,7 @@ Row = tuple[float, ...]
 
 
 def read_numeric_table(name: str) -> dict[str, Any]:
-    """One of the files beside this module."""
+    """Return the content of a JSON file in this folder, such as ``cie.json``."""
     found: dict[str, Any] = json.loads((files(__package__) / name).read_text("utf-8"))
     return found
 

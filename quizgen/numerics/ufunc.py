@@ -28,24 +28,24 @@ REACH = 2.0**120
 
 @cache
 def warm_allocator(size: int) -> None:
-    """Let the C library see a larger array of so many bytes come and go, once.
+    """Allocate and free an array of ``size`` bytes, once: later temporaries are then reused.
 
-    Until then it gives temporaries from 128 KiB on back to the system one by one, which can cost
-    as much as the computation. The array is never written to and takes no memory.
+    Until then the C library returns temporaries from 128 KiB on to the system one by one, which can
+    cost as much as the computation. The array is never written to and takes no memory.
     """
     np.empty(size, np.uint8)
 
 
 class StableUfunc(msgspec.Struct, frozen=True):
-    """A formula, where it has an answer, and where it is trusted.
+    """A formula on arrays, where it has an answer and where doubles are trusted.
 
     Parameters
     ----------
     formula : callable
         Takes blocks, returns a block or one per output. A NaN asks for ``exact``.
-    spans : sequence of Span
+    spans : sequence of Interval
         Where each argument must lie to have an answer.
-    rules : sequence of Rule
+    rules : sequence of Constraint
         Relations without an answer.
     exact : callable, optional
         The same quantity for fractions, one element at a time (microseconds).
@@ -71,7 +71,10 @@ class StableUfunc(msgspec.Struct, frozen=True):
     shortcut: Callable[..., bool] | None = None
 
     def __call__(self, *args: Numbers) -> FloatOrArray:
-        """Run the kernel on scalars or arrays that broadcast together."""
+        """Return the formula's value for scalars or arrays that broadcast together.
+
+        It is a float for scalars and an array for others, masked where there is no answer.
+        """
         shape, columns = broadcast_flat(*args)
         with np.errstate(all="ignore"):
             results = (
@@ -80,7 +83,8 @@ class StableUfunc(msgspec.Struct, frozen=True):
         return results if self.outputs > 1 else results[0]
 
     def _evaluate_scalar(self, args: list[Array]) -> tuple[float, ...]:
-        reason = self._why_not(args)
+        """Return the results for one element; raise ``DomainError`` if there is no answer."""
+        reason = self._find_domain_error(args)
         if reason is not None:
             raise DomainError(reason)
         return tuple(
@@ -88,13 +92,15 @@ class StableUfunc(msgspec.Struct, frozen=True):
             for value in self._evaluate_values(args, list(map(_find_value_limits, args)))
         )
 
-    def _why_not(self, args: list[Array]) -> str | None:
+    def _find_domain_error(self, args: list[Array]) -> str | None:
+        """Return the reason why one element has no answer, or None."""
         for span, arg in zip(self.spans, args, strict=True):
             if not span.contains(arg[0], arg[0]):
                 return span.explain(float(arg[0]))
         return next((rule.reason for rule in self.rules if np.any(rule.broken(*args))), None)
 
     def _evaluate_blocks(self, args: list[Array], shape: tuple[int, ...]) -> tuple[Array, ...]:
+        """Return the results for arrays of ``shape``, block by block."""
         warm_allocator(_SETTLED)
         columns = [np.empty(math.prod(shape)) for _ in range(self.outputs)]
         masks: list[tuple[int, Flags]] = []
@@ -108,19 +114,19 @@ class StableUfunc(msgspec.Struct, frozen=True):
             ]
             bad = self._flag_undefined(block, limits)
             if bad is None:
-                _fill_masked(parts, self._evaluate_values(block, limits), slice(None))
+                _assign_where(parts, self._evaluate_values(block, limits), slice(None))
                 continue
             masks.append((start, bad))
-            _fill_masked(parts, [np.full(1, np.nan)] * self.outputs, bad)
+            _assign_where(parts, [np.full(1, np.nan)] * self.outputs, bad)
             if not bad.all():
                 some = [arg[~bad] if arg.size > 1 else arg for arg in block]
-                _fill_masked(
+                _assign_where(
                     parts, self._evaluate_values(some, list(map(_find_value_limits, some))), ~bad
                 )
         return tuple(_with_mask(column, masks).reshape(shape) for column in columns)
 
     def _flag_undefined(self, args: list[Array], limits: list[Limits]) -> Flags | None:
-        """Flag the elements without an answer, if there are any."""
+        """Return flags of the elements without an answer, or None if all have one."""
         if all(
             span.contains(*limit) for span, limit in zip(self.spans, limits, strict=True)
         ) and not any(rule.possible(*limits) and np.any(rule.broken(*args)) for rule in self.rules):
@@ -136,7 +142,7 @@ class StableUfunc(msgspec.Struct, frozen=True):
         return bad
 
     def _evaluate_values(self, args: list[Array], limits: list[Limits]) -> tuple[Array, ...]:
-        """Blocks of the results, exact where the formula is not to be trusted."""
+        """Return the results of a block, by fractions where the formula is not to be trusted."""
         values = self.formula(*args)
         columns = values if isinstance(values, tuple) else (values,)
         if self.exact is None:
@@ -149,7 +155,10 @@ class StableUfunc(msgspec.Struct, frozen=True):
         return columns if flags is None else _replace_flagged(columns, flags, self.exact, args)
 
     def _flag_out_of_reach(self, args: list[Array], limits: list[Limits]) -> Flags | None:
-        """Flag the elements with an argument that is out of reach; zero never is."""
+        """Return flags of the elements with an argument beyond ``reach``, or None.
+
+        Zero is within it.
+        """
         least = 0.0 if self.tiny else 1 / self.reach
         flags: Flags | None = None
         for arg, (low, high) in zip(args, limits, strict=True):
@@ -163,23 +172,28 @@ class StableUfunc(msgspec.Struct, frozen=True):
 
 
 def smallest_nonzero(sizes: Array) -> float:
-    """The least of numbers that are not negative, but for zeros."""
+    """Return the smallest of the values > 0, infinity without any; none may be negative."""
     least = float(sizes.min())
     return least or float(np.min(sizes, where=sizes > 0, initial=math.inf))
 
 
 def _find_value_limits(arg: Array) -> Limits:
+    """Return the least and the largest value of a block."""
     return float(arg.min()), float(arg.max())
 
 
 def all_within(arg: Array, low: float, high: float) -> bool:
-    """Whether all numbers lie between two limits; one number is asked without a reduction."""
+    """Return whether all values lie between two limits.
+
+    One value is compared without a reduction.
+    """
     if arg.size == 1:
         return bool(low <= arg.item() <= high)
     return bool(low <= arg.min()) and bool(arg.max() <= high)
 
 
-def _fill_masked(parts: Sequence[Array], values: Sequence[Array], where: Flags | slice) -> None:
+def _assign_where(parts: Sequence[Array], values: Sequence[Array], where: Flags | slice) -> None:
+    """Write each result into its part of the output, at the flagged elements or a slice."""
     for part, value in zip(parts, values, strict=True):
         part[where] = value
 
@@ -187,7 +201,7 @@ def _fill_masked(parts: Sequence[Array], values: Sequence[Array], where: Flags |
 def _replace_flagged(
     columns: tuple[Array, ...], flags: Flags, exact: Exact, args: list[Array]
 ) -> tuple[Array, ...]:
-    """The values, exact where they are flagged."""
+    """Return the results with the flagged elements computed by exact fractions."""
     size = max(arg.size for arg in args)
     columns = tuple(column if column.size == size else np.full(size, column) for column in columns)
     for i in np.flatnonzero(np.broadcast_to(flags, size)):
@@ -199,13 +213,14 @@ def _replace_flagged(
 
 
 def broadcast_flat(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
-    """Common shape of the arguments and their values in a row.
+    """Return the common shape of the arguments, and each as a flat array of doubles.
 
-    What is the same number throughout, like the one camera of a picture, becomes one value.
+    One that is the same number throughout, like the one camera of a picture, becomes an array of
+    one.
     """
     arrays = list(map(_to_doubles, args))
     shape = np.broadcast_shapes(*[array.shape for array in arrays])
-    single = [_is_one_number(array) for array in arrays]
+    single = [_is_constant(array) for array in arrays]
     if all(single) and math.prod(shape) > 1:
         return shape, [np.full(math.prod(shape), array.flat[0]) for array in arrays]
     return shape, [
@@ -217,7 +232,10 @@ def broadcast_flat(*args: Numbers) -> tuple[tuple[int, ...], list[Array]]:
 
 
 def _to_doubles(arg: Numbers) -> Array:
-    """Doubles; a masked element becomes NaN, which has no answer, and a huge integer infinity."""
+    """Return an argument as doubles: masked elements are NaN, huge integers infinity.
+
+    Raises ``TypeError`` for complex numbers.
+    """
     array = np.asarray(arg)
     if array.dtype.kind == "c":  # NumPy would warn, and drop what is imaginary
         raise TypeError("the array functions take real numbers, not complex ones")
@@ -227,17 +245,19 @@ def _to_doubles(arg: Numbers) -> Array:
         with np.errstate(over="ignore"):
             return array.astype(np.float64, copy=False)
     except OverflowError:
-        return np.vectorize(_as_double, otypes=[np.float64])(array)
+        return np.vectorize(_round_integer, otypes=[np.float64])(array)
 
 
-def _as_double(value: int) -> float:
+def _round_integer(value: int) -> float:
+    """Return an integer as the nearest double, infinity if it is too large."""
     try:
         return float(value)
     except OverflowError:
         return math.inf
 
 
-def _is_one_number(array: Array) -> bool:
+def _is_constant(array: Array) -> bool:
+    """Return whether an array holds one number throughout; an empty one does not."""
     if array.size < 2:
         return array.size == 1
     first = array.flat[0]
@@ -245,12 +265,13 @@ def _is_one_number(array: Array) -> bool:
 
 
 def _iter_blocks(args: list[Array], size: int) -> Iterator[tuple[int, list[Array]]]:
+    """Yield the start of each block and its part of every argument; arrays of one stay whole."""
     for start in range(0, size, BLOCK):
         yield start, [arg if arg.size == 1 else arg[start : start + BLOCK] for arg in args]
 
 
 def _with_mask(column: Array, masks: list[tuple[int, Flags]]) -> Array:
-    """The column, masked where there is no answer."""
+    """Return the column, masked where flags (each with its start) say there is no answer."""
     if not masks:
         return column
     mask = np.zeros(column.size, dtype=bool)

@@ -19,7 +19,7 @@ FRESH = 5
 
 
 class Mastery(msgspec.Struct, frozen=True):
-    """How far something with several templates is known: a topic, a formula.
+    """How well a learner knows several templates together: those of a topic or a formula.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class Mastery(msgspec.Struct, frozen=True):
 
 
 class Agenda:
-    """What a learner has to do.
+    """What a learner should practise now, by the bank and the learner's review cards.
 
     Parameters
     ----------
@@ -60,21 +60,24 @@ class Agenda:
         self.names = {bank.origin(name): name for name in bank.template_paths}
 
     def due(self, card: ReviewCard) -> float:
-        """When a card is to be asked again."""
+        """Return when a card should be reviewed next, as seconds since 1970; before the exam."""
         return due_time(card, self.now, self.left)
 
     def card(self, name: str) -> ReviewCard | None:
-        """The card of a template."""
+        """Return the review card of a template, or None if it was never finished."""
         return self.cards.get(("template", self.bank.origin(name)))
 
     @property
     def mistakes(self) -> list[ReviewCard]:
-        """Cards of mistakes in templates of this bank, those that are due first before others."""
+        """Return the review cards of mistakes, the earliest due first.
+
+        Only of templates that are in this bank: cards outlive the bank they were made with.
+        """
         found = [c for c in self.cards.values() if c.kind == "mistake" and c.template in self.names]
         return sorted(found, key=lambda card: (self.due(card), card.name))
 
     def due_templates(self, names: Iterable[str]) -> list[str]:
-        """Templates that are due, or have a mistake that is; the longest due first."""
+        """Return those of ``names`` that are due, themselves or by a mistake; longest due first."""
         wanted = set(names)
         since: dict[str, float] = {}
         for card in self.cards.values():
@@ -84,11 +87,14 @@ class Agenda:
         return sorted(since, key=lambda name: (since[name], name))
 
     def unseen(self, names: Iterable[str]) -> list[str]:
-        """Templates that were never finished."""
+        """Return those of ``names`` that have no review card, in the order given."""
         return [name for name in names if self.card(name) is None]
 
     def new_per_day(self, names: Sequence[str]) -> int:
-        """How many new templates today asks for, so that all come up before the exam."""
+        """Return how many unseen templates to begin today, so that all come up before the exam.
+
+        Those begun today are already subtracted; without an exam ``FRESH`` a day are enough.
+        """
         today = local_date(self.now)
         begun = sum(
             card.kind == "template" and card.state == LEARNING and local_date(card.last) == today
@@ -99,7 +105,7 @@ class Agenda:
         return max(0, min(count, whole - begun))
 
     def mastery_of(self, names: Sequence[str]) -> Mastery:
-        """How far templates are known together."""
+        """Return counts, the least stability and the first due time of templates together."""
         cards = [card for name in names if (card := self.card(name)) is not None]
         return Mastery(
             len(names),
@@ -113,13 +119,15 @@ class Agenda:
         self, names: Sequence[str], outcomes: Sequence[PartOutcome], times: Mapping[str, int],
         latest: str = "", seed: str = "",
     ) -> str:  # fmt: skip
-        """Which template to ask now.
+        """Return the template to ask now: one that is due, else a weak topic's, else an unseen one.
+
+        If all were seen, the one that becomes due first.
 
         Parameters
         ----------
         names : sequence of str
             Those that fit, at least one.
-        outcomes : sequence of Outcome
+        outcomes : sequence of PartOutcome
             How parts went, the latest last: they say which topics are weak.
         times : mapping
             Template to how often it was begun.
@@ -142,14 +150,16 @@ class Agenda:
         return min(others, key=lambda name: (self._find_due_time(name), name))
 
     def _find_due_time(self, name: str) -> float:
+        """Return when a template is due, in seconds since 1970; now if it was never finished."""
         card = self.card(name)
         return self.due(card) if card else self.now
 
 
 def _choose_least_attempted(names: Sequence[str], times: Mapping[str, int], seed: str) -> str:
-    """One of those that were begun the fewest times."""
+    """Return the template that was begun the fewest times; ``seed`` decides between equals."""
 
     def rank(name: str) -> tuple[int, bytes]:
+        """Return how often a template was begun, then a random but repeatable key."""
         return times.get(name, 0), hashlib.sha256(f"next/{seed}/{name}".encode()).digest()
 
     return min(names, key=rank)

@@ -10,7 +10,9 @@ _BETWEEN = "; "
 
 
 def join_fields(control: InputControl, values: Sequence[str], marks: Sequence[str] = ()) -> str:
-    """What the fields of a part say, in one line; empty if nothing stands in them.
+    """Return the values of a part's fields as one typed answer; empty if all are blank.
+
+    Pages have several fields for a part, and grading reads one line, the same as in a terminal.
 
     Parameters
     ----------
@@ -34,7 +36,7 @@ def join_fields(control: InputControl, values: Sequence[str], marks: Sequence[st
 
 
 def _locate_values(control: InputControl, filled: Sequence[str]) -> list[tuple[int, str, str]]:
-    """Place of each field that counts, what is typed before its value, and the value."""
+    """Return index, prefix (such as ``x = ``) and value of each field that is joined."""
     if not control.named:
         return [(place, "", value) for place, value in enumerate(filled)]
     named = enumerate(zip(control.boxes, filled, strict=False))
@@ -42,7 +44,9 @@ def _locate_values(control: InputControl, filled: Sequence[str]) -> list[tuple[i
 
 
 def locate_in_fields(control: InputControl, values: Sequence[str], column: int) -> tuple[int, int]:
-    """Place of the field and column in it, both where the line that was joined has a column.
+    """Return the index of a field and the column in it for a column of the joined line.
+
+    An error is located in the joined line, and a page marks the field that it is in.
 
     Parameters
     ----------
@@ -66,7 +70,7 @@ def locate_in_fields(control: InputControl, values: Sequence[str], column: int) 
 
 
 def is_complete(control: InputControl, values: Sequence[str], marks: Sequence[str] = ()) -> bool:
-    """Whether something stands in every field of a part that wants something.
+    """Return whether all fields of a part are filled, of one with a single field that one.
 
     Parameters
     ----------
@@ -83,15 +87,18 @@ def is_complete(control: InputControl, values: Sequence[str], marks: Sequence[st
 
 
 def _join_as_list(filled: list[str], _marks: Sequence[str]) -> str:
+    """Return marks as they are typed for a choice: ``A, C``."""
     return ", ".join(filter(None, filled))
 
 
 def _join_as_pairs(filled: list[str], marks: Sequence[str]) -> str:
+    """Return pairs as they are typed: ``1:B, 2:A``; options without a target are left out."""
     pairs = zip(marks, filled, strict=False)
     return ", ".join(f"{mark}:{chosen}" for mark, chosen in pairs if chosen)
 
 
-def _in_order(filled: list[str], _marks: Sequence[str]) -> str:
+def _join_as_order(filled: list[str], _marks: Sequence[str]) -> str:
+    """Return marks as they are typed for an order: ``B A C``."""
     return " ".join(filter(None, filled))
 
 
@@ -100,6 +107,6 @@ _JOINED: dict[str, Callable[[list[str], Sequence[str]], str]] = {
     "many": _join_as_list,
     "truth": _join_as_list,
     "pairs": _join_as_pairs,
-    "order": _in_order,
+    "order": _join_as_order,
 }
 """Forms whose fields hold marks, and how these are typed."""

@@ -32,7 +32,7 @@ class NextStep(Enum):
 
 
 class AnswerFeedback(msgspec.Struct, frozen=True):
-    """What is said to an answer.
+    """The verdict on one answer, what happens next and how many tries are left.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class AnswerFeedback(msgspec.Struct, frozen=True):
 
 
 class HintSource(Protocol):
-    """A worked solution, whose lines can be told little by little: the hints."""
+    """A worked solution whose lines carry hints, shown one by one."""
 
     @property
     def lines(self) -> Sequence[Any]:
@@ -62,7 +62,7 @@ S = TypeVar("S", bound=HintSource)
 
 
 class PartAttempt(Generic[P, S]):
-    """One part, asked until it is right, given up, or out of tries.
+    """One attempt at a part: it lasts until it is right, given up, skipped or out of tries.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ class PartAttempt(Generic[P, S]):
     part : P
         What is shown.
     solved : S
-        Its worked solution, to be shown when the task is done.
+        Its worked solution, shown when the part has ended.
     keyed : KeyPart
         What it is marked by.
     state : PartState
@@ -78,14 +78,14 @@ class PartAttempt(Generic[P, S]):
     marker : QuestionGrader
         Of the whole question: it carries errors forward to the parts that follow.
 
-    MisconceptionNotes
+    Notes
     -----
-    Once a task has an outcome, whatever would change it raises ``AttemptFinishedError``.
+    Once a part has an outcome, whatever would change it raises ``AttemptFinishedError``.
     """
 
     @property
     def kind(self) -> str:
-        """Kind of the answer, such as ``number``."""
+        """Return the answer kind, such as ``number``."""
         return str(self._keyed.spec["kind"])
 
     def __init__(
@@ -105,11 +105,11 @@ class PartAttempt(Generic[P, S]):
 
     @property
     def outcome(self) -> PartOutcome | None:
-        """How it went, once it is done."""
+        """Return how the part went; None while it is open."""
         return self.state.outcome
 
     def next_hint(self) -> Any:
-        """The next hint, a rung of a step of the solution; None if there is no more."""
+        """Count one more hint as used and return it; None if all were given."""
         if not self.more_hints:
             return None
         self.state.hints += 1
@@ -117,7 +117,7 @@ class PartAttempt(Generic[P, S]):
 
     @property
     def hints(self) -> Sequence[Any]:
-        """The hints that were given."""
+        """Return the hints given so far."""
         return self._available_hints[: self.state.hints]
 
     @property
@@ -127,19 +127,20 @@ class PartAttempt(Generic[P, S]):
 
     @property
     def _available_hints(self) -> list[Any]:
+        """Return all hints of the solution, in the order they are given."""
         return [hint for line in self.solved.lines for hint in line.hints]
 
     def give_up(self) -> None:
-        """End the task as not right."""
+        """End the part as wrong; raise ``AttemptFinishedError`` if it has ended."""
         self._finish_part(right=False)
 
     def skip(self) -> None:
-        """End the task as neither right nor wrong."""
+        """End the part as neither right nor wrong."""
         self._require_unfinished()
         self.state.outcome = PartOutcome(self.topic, right=False, first=False, skipped=True)
 
     def answer(self, typed: str) -> AnswerFeedback:
-        """Mark an answer; what cannot be read costs nothing.
+        """Grade an answer and return the feedback; an unreadable one costs no try.
 
         Raises
         ------
@@ -158,10 +159,11 @@ class PartAttempt(Generic[P, S]):
         return AnswerFeedback(verdict, then, TRIES - self.state.tries)
 
     def explain_verdict(self, verdict: Verdict) -> Verdict:
-        """A verdict on this part with its message, in the language of the learner."""
+        """Return the verdict with its sentence, in the language of the learner."""
         return self._marker.explain_part(self._keyed, verdict)
 
     def _decide_next_step(self, verdict: Verdict) -> NextStep:
+        """Return what follows a verdict; count a try unless it could not be read."""
         self_marked = verdict.needs_self_marking
         if not verdict.is_graded and not self_marked:
             return NextStep.ASK_BACK
@@ -173,15 +175,17 @@ class PartAttempt(Generic[P, S]):
         return NextStep.AGAIN if self.state.tries < TRIES else NextStep.OUT_OF_TRIES
 
     def self_mark(self, *, right: bool) -> None:
-        """End the task with the learner's own judgement."""
+        """End the part as right or wrong by the learner's own judgement."""
         self._finish_part(right=right)
 
     def _require_unfinished(self) -> None:
+        """Raise ``AttemptFinishedError`` if the part has an outcome."""
         # A second request, or a page left open, must not turn a solution read into marks.
         if self.outcome is not None:
             raise AttemptFinishedError("this part has ended; what follows does not count")
 
     def _finish_part(self, *, right: bool) -> None:
+        """Record the outcome; ``first`` is set for a right first try without hints."""
         self._require_unfinished()
         first = right and self.state.tries == 1 and not self.state.hints
         self.state.outcome = PartOutcome(self.topic, right, first)

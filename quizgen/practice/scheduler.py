@@ -33,7 +33,7 @@ Moment: TypeAlias = Annotated[float, msgspec.Meta(ge=0, le=2.0**33)]
 
 
 class ReviewRating(IntEnum):
-    """How a question went, in numbers as FSRS counts them."""
+    """How a question went, with the numbers that FSRS counts by."""
 
     AGAIN = 1
     """Wrong, or given up."""
@@ -44,7 +44,7 @@ class ReviewRating(IntEnum):
 
 
 class ReviewCard(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """How well a template is known, or how far a mistake is overcome.
+    """How well a template is known, or how far a mistake is overcome, as FSRS models it.
 
     Parameters
     ----------
@@ -68,17 +68,17 @@ class ReviewCard(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     @property
     def template(self) -> str:
-        """Origin of its template."""
+        """Return the origin of the card's template."""
         return self.name.partition("/")[0]
 
     @property
     def note(self) -> str:
-        """Which mistake it is; empty for a template."""
+        """Return the note of the mistake, such as ``trap:swapped``; empty for a template."""
         return self.name.partition("/")[2]
 
 
 def rate_outcomes(outcomes: Iterable[PartOutcome]) -> ReviewRating | None:
-    """What the parts of a question say together; None if all were skipped."""
+    """Return the rating of a question from its parts; None if all were skipped."""
     tried = [outcome for outcome in outcomes if not outcome.skipped]
     if not tried:
         return None
@@ -88,17 +88,21 @@ def rate_outcomes(outcomes: Iterable[PartOutcome]) -> ReviewRating | None:
 
 
 def days_left(exam: date | None, today: date) -> int | None:
-    """Days until an exam; None without one, or when it is over."""
+    """Return the days until an exam; None without one, or if it is today or over."""
     return (exam - today).days if exam is not None and exam > today else None
 
 
 def local_date(now: float) -> date:
-    """The day on the clock of this machine."""
+    """Return the date of a time (seconds since 1970) in this machine's time zone."""
     return datetime.fromtimestamp(now, UTC).astimezone().date()
 
 
 def due_time(card: ReviewCard, now: float, left: int | None) -> float:
-    """When a card is to be asked again: before the exam, also if its date was set later."""
+    """Return when a card should be reviewed, in seconds since 1970: before the exam.
+
+    ``left`` is the days until the exam, None without one. The stored due time may lie after an exam
+    whose date was set later, so it is limited here; one day passes between two reviews.
+    """
     if left is None:
         return card.due
     return min(card.due, max(now + (left - 1) * DAY, card.last + DAY))
@@ -107,7 +111,7 @@ def due_time(card: ReviewCard, now: float, left: int | None) -> float:
 def review_card(
     card: ReviewCard | None, name: Name, grade: ReviewRating, now: float, left: int | None = None
 ) -> ReviewCard:
-    """A card after a question, a new one if there was none.
+    """Return the card as FSRS leaves it after a review; a new one if there was none.
 
     Parameters
     ----------
@@ -135,12 +139,17 @@ def review_card(
 
 @cache
 def _load_scheduler(most: int) -> fsrs.Scheduler:
+    """Return the FSRS scheduler with a longest interval in days.
+
+    Without fuzz, so that equal reviews give equal due times.
+    """
     import fsrs
 
     return fsrs.Scheduler(maximum_interval=most, enable_fuzzing=False)
 
 
 def _to_fsrs_card(card: ReviewCard) -> fsrs.Card:
+    """Return the card as the package ``fsrs`` takes it."""
     import fsrs
 
     return fsrs.Card(
@@ -155,7 +164,7 @@ def _to_fsrs_card(card: ReviewCard) -> fsrs.Card:
 
 
 class ReviewEvent(msgspec.Struct, frozen=True):
-    """A question that was finished: its template's origin, how it went, which mistakes it had."""
+    """A finished question: its template's origin, the rating and the notes of its mistakes."""
 
     origin: str
     grade: ReviewRating
@@ -163,7 +172,7 @@ class ReviewEvent(msgspec.Struct, frozen=True):
 
 
 def make_review_event(origin: str, parts: Sequence[PartState], level: str) -> ReviewEvent | None:
-    """What a finished question says of its template; None if all of it was skipped.
+    """Return what a finished question means for its cards; None if all parts were skipped.
 
     Parameters
     ----------
@@ -201,6 +210,7 @@ def iter_reviewed_cards(
 def _select_mistake_cards(
     cards: Iterable[ReviewCard], origin: str, but: Collection[str]
 ) -> list[ReviewCard]:
+    """Return the cards of a template's mistakes but those named in ``but``."""
     return [
         card
         for card in cards

@@ -10,7 +10,7 @@ from quizgen.practice.session_state import PracticeRequest
 
 
 def matching_templates(bank: Bank, wish: PracticeRequest) -> tuple[str, ...]:
-    """Names of the templates that fit topic, tier and language."""
+    """Return the names of the templates that have the topic, tier and language requested."""
     return tuple(
         name for name in bank.template_paths
         if wish.topic in (None, bank.rules(name).topic)
@@ -20,15 +20,19 @@ def matching_templates(bank: Bank, wish: PracticeRequest) -> tuple[str, ...]:
 
 
 def template_at(bank: Bank, names: Sequence[str], seed: str, number: int) -> str:
-    """Template of a session's question, counted from 1."""
-    turn, place = divmod(number - 1, len(names))
+    """Return the template of question ``number`` (from 1) of a session.
+
+    In each round every template comes once, in an order that the seed decides.
+    """
+    cycle, index = divmod(number - 1, len(names))
 
     def rank(name: str) -> bytes:
-        return hashlib.sha256(f"practice/{seed}/{turn}/{bank.origin(name)}".encode()).digest()
+        """Return the key that orders templates within a round."""
+        return hashlib.sha256(f"practice/{seed}/{cycle}/{bank.origin(name)}".encode()).digest()
 
-    return sorted(names, key=rank)[place]
+    return sorted(names, key=rank)[index]
 
 
 def question_seed(seed: str, number: int) -> str:
-    """Seed of a session's question, counted from 1."""
+    """Return the seed of question ``number`` (from 1) of a session: 8 hexadecimal digits."""
     return hashlib.sha256(f"{seed}/{number}".encode()).hexdigest()[:8]

@@ -31,7 +31,7 @@ QuestionChooser: TypeAlias = Callable[[Sequence[str]], tuple[str, str]]
 
 
 class QuestionAttempt(msgspec.Struct, frozen=True):
-    """One question of a session and its tasks, in order."""
+    """One attempt at a question: its number (from 1), its seed and its part attempts."""
 
     number: int
     seed: str
@@ -41,22 +41,22 @@ class QuestionAttempt(msgspec.Struct, frozen=True):
 
     @property
     def outcomes(self) -> tuple[PartOutcome, ...]:
-        """Outcomes of the tasks that are done."""
+        """Return the outcomes of the parts that have ended."""
         return tuple(task.outcome for task in self.tasks if task.outcome is not None)
 
     @property
     def parts(self) -> dict[str, PartState]:
-        """Label of each part and how far it has got."""
+        """Return the state of each part by its label."""
         return {task.part.label: task.state for task in self.tasks}
 
     @property
     def is_finished(self) -> bool:
-        """Whether every task is done."""
+        """Whether every part has ended."""
         return len(self.outcomes) == len(self.tasks)
 
 
 class Session:
-    """Questions one after another, as a wish and a seed fix them or as somebody else chooses.
+    """A practice session: one question after another, chosen by its seed or by ``choose``.
 
     Parameters
     ----------
@@ -76,17 +76,17 @@ class Session:
         self, bank: Bank, state: SessionState, choose: QuestionChooser | None = None
     ) -> None:
         require_one_of("language", state.wish.lang, list_languages())
-        self.bank, self.state, self._choose = bank, state, choose or self._by_seed
+        self.bank, self.state, self._choose = bank, state, choose or self._choose_by_seed
         self.templates = matching_templates(bank, state.wish)
         """Names of the templates that fit the wish; without any the session is finished."""
 
     @property
     def is_finished(self) -> bool:
-        """Whether there is nothing more to ask."""
+        """Whether the requested number of questions is done, or no template fits."""
         return not self.templates or self.state.done >= self.state.wish.count
 
     def current_question(self) -> QuestionAttempt:
-        """The question that is due, as far as it has got; the same until it is finished.
+        """Return the open question with its progress; the same one until ``finish``.
 
         Raises
         ------
@@ -112,25 +112,28 @@ class Session:
         tasks = (PartAttempt(question.topic, *one, marker=marker) for one in parts)
         return QuestionAttempt(number, seed, key.level, question, tuple(tasks))
 
-    def _by_seed(self, names: Sequence[str]) -> tuple[str, str]:
-        """Every template once, in an order of the session's seed, before one returns."""
+    def _choose_by_seed(self, names: Sequence[str]) -> tuple[str, str]:
+        """Return template and question seed that the session's seed gives: the default chooser."""
         seed, number = self.state.seed, self.state.done + 1
         return template_at(self.bank, names, seed, number), question_seed(seed, number)
 
     def _restore_part_states(self, key: QuestionKey) -> list[PartState]:
-        """How far the parts have got; nowhere, if they are not those that were kept."""
+        """Return the stored progress of the parts, or new states if the question has changed.
+
+        A bank may change between two runs; progress in another question must not count.
+        """
         kept = self.state.question, len(self.state.parts)
         if kept != (key.identity, len(key.specs)):
             self.state.question = key.identity
             self.state.parts = [PartState() for _ in key.specs]
         return self.state.parts
 
-    def finish(self, turn: QuestionAttempt) -> None:
-        """Write down how a question went, and go on to the next."""
-        self.state.outcomes = [*self.state.outcomes, *turn.outcomes]
-        self.state.done = turn.number
+    def finish(self, attempt: QuestionAttempt) -> None:
+        """Record the outcomes of a question, and advance to the next."""
+        self.state.outcomes = [*self.state.outcomes, *attempt.outcomes]
+        self.state.done = attempt.number
         self.state.due, self.state.question, self.state.parts = None, "", []
 
     def summary(self) -> tuple[TopicResult, ...]:
-        """Results by topic, in alphabetical order."""
+        """Return the results by topic, in alphabetical order."""
         return summarise_by_topic(self.state.outcomes)

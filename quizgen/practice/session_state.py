@@ -10,7 +10,7 @@ from quizgen.bank.levels import EXAM
 
 
 class PracticeRequest(msgspec.Struct, frozen=True):
-    """What to practise.
+    """What a learner asked to practise.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class PracticeRequest(msgspec.Struct, frozen=True):
 
 
 class PartOutcome(msgspec.Struct, frozen=True):
-    """How one part went: right at all, right at the first try without help, or skipped."""
+    """How one part went: ``right`` at all, right at the ``first`` try without hints, or skipped."""
 
     topic: str
     right: bool
@@ -46,7 +46,7 @@ class PartOutcome(msgspec.Struct, frozen=True):
 
 
 class PartState(msgspec.Struct):
-    """How far one part of the question that is due has got.
+    """Progress of one part of the open question.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class PartState(msgspec.Struct):
         The last answer that could be read.
     tries, hints : int
         How many have been used.
-    outcome : Outcome, optional
+    outcome : PartOutcome, optional
         How it went, once it is done.
     wrong, note : str
         The last answer that was not right, and which mistake it was.
@@ -85,5 +85,5 @@ class SessionState(msgspec.Struct):
 
 
 def new_session(wish: PracticeRequest) -> SessionState:
-    """The state of a session that begins."""
+    """Return the state of a new session; its seed is random if the request has none."""
     return SessionState(wish, wish.seed or secrets.token_hex(3))

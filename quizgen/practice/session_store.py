@@ -14,7 +14,7 @@ from quizgen.practice.session_state import PracticeRequest, SessionState
 
 
 class SessionStore:
-    """A folder of sessions. One wish never touches the session of another.
+    """A folder with one file for each unfinished session, named by its request.
 
     Parameters
     ----------
@@ -26,20 +26,20 @@ class SessionStore:
         self.folder = folder
 
     def path(self, wish: PracticeRequest) -> Path:
-        """File of the session that a wish has begun."""
+        """Return the file of a request's session, whether it exists or not."""
         return self.folder / f"{_compute_request_digest(wish)}.json"
 
     def figure(self, wish: PracticeRequest) -> Path:
-        """File of the picture of the question that is due."""
+        """Return the file for the figure of the open question, named like the session's file."""
         return self.path(wish).with_suffix(".svg")
 
     def load(self, wish: PracticeRequest) -> SessionState | None:
-        """The session that a wish has begun, if it can be read."""
+        """Return the stored session of a request; None if there is none that can be read."""
         state = _read_state(self.path(wish))
         return state if state is not None and state.wish == wish else None
 
     def save(self, state: SessionState) -> None:
-        """Keep a session, whole or not at all.
+        """Write the session atomically, so that an interruption leaves the old one.
 
         Raises
         ------
@@ -51,12 +51,13 @@ class SessionStore:
         write_all(path.parent, {path.name: text})
 
     def delete(self, wish: PracticeRequest) -> None:
-        """Give up the session that a wish has begun."""
+        """Delete the session of a request and its figure; nothing happens if there is none."""
         self.path(wish).unlink(missing_ok=True)
         self.figure(wish).unlink(missing_ok=True)
 
 
 def _compute_request_digest(wish: PracticeRequest) -> str:
+    """Return 16 hexadecimal digits that name a request's file."""
     told = msgspec.to_builtins(wish)
     if wish.level == EXAM:  # wishes were kept before there were levels
         del told["level"]
@@ -64,6 +65,7 @@ def _compute_request_digest(wish: PracticeRequest) -> str:
 
 
 def _read_state(path: Path) -> SessionState | None:
+    """Return the state in a file; None if it is missing or damaged: practice then begins again."""
     try:
         return decode_json(path.read_bytes(), SessionState)
     except (OSError, msgspec.MsgspecError, RecursionError):

@@ -39,11 +39,11 @@ class TopicResult(msgspec.Struct, frozen=True):
 def summarise_by_topic(
     outcomes: Sequence[PartOutcome], latest: int = sys.maxsize
 ) -> tuple[TopicResult, ...]:
-    """Results by topic, in alphabetical order.
+    """Return the results of each topic, in alphabetical order.
 
     Parameters
     ----------
-    outcomes : sequence of Outcome
+    outcomes : sequence of PartOutcome
         In the order in which they came.
     latest : int
         How many parts of each topic count: ``RECENT`` says how well it is known now.
@@ -56,13 +56,14 @@ def summarise_by_topic(
 
 
 def weak_topics(results: Iterable[TopicResult]) -> tuple[str, ...]:
-    """Topics where not everything was right at once, the weakest first."""
+    """Return up to ``MOST`` topics in which not all was right at once, the weakest first."""
     weak = [row for row in results if row.right < row.count or row.skipped]
     weak.sort(key=lambda row: row.right / (row.count + row.skipped))
     return tuple(row.topic for row in weak[:MOST])
 
 
 def _summarise_topic(topic: str, outcomes: list[PartOutcome]) -> TopicResult:
+    """Return the counts of one topic; all outcomes are of that topic."""
     tried = [outcome for outcome in outcomes if not outcome.skipped]
     right = sum(outcome.first for outcome in tried)
     later = sum(outcome.right and not outcome.first for outcome in tried)

@@ -24,15 +24,15 @@ RENDERERS = ("html", "pdf")
 
 
 class Renderer(Protocol):
-    """What a format's module is to offer."""
+    """A function that renders papers in one format; each format's module has one."""
 
     def __call__(self, paper: Paper, kind: str) -> bytes:
-        """Bytes of a whole file; the same paper gives the same bytes on any day and machine."""
+        """Return a whole file; the same paper gives the same bytes on any day and machine."""
         ...
 
 
 def load_renderer(output: str) -> Renderer:
-    """The function that renders a paper in one format, loaded when it is asked for.
+    """Return the function that renders a paper in one format, imported when first needed.
 
     Raises
     ------
@@ -51,7 +51,7 @@ def load_renderer(output: str) -> Renderer:
 
 
 def render_paper(paper: Paper, kind: str, output: str) -> bytes:
-    """Render a paper.
+    """Return the file of a paper in one format.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def render_paper(paper: Paper, kind: str, output: str) -> bytes:
 
 
 def render_sheet(sheet: FormulaSheet, output: str) -> bytes:
-    """Render a formula sheet in one of ``RENDERERS``.
+    """Return the file of a formula sheet in one of ``RENDERERS``.
 
     Raises
     ------

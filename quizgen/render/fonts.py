@@ -43,7 +43,7 @@ BANGLA = {"Regular": "hind-siliguri-400", "Bold": "hind-siliguri-700"}
 
 
 def package_folder(package: str) -> Path:
-    """Folder of an installed package, without importing it.
+    """Return the folder of an installed package, without importing it.
 
     Raises
     ------
@@ -58,23 +58,23 @@ def package_folder(package: str) -> Path:
 
 @cache
 def bangla_folder() -> Path:
-    """Folder with the Hind Siliguri fonts."""
+    """Return the folder with the Hind Siliguri fonts."""
     return next(package_folder("fontpkg_hind_siliguri").rglob("*Regular*.ttf")).parent
 
 
 def bangla_file(weight: str = "Regular") -> Path:
-    """Hind Siliguri in one weight."""
+    """Return the font file of Hind Siliguri in one weight."""
     return next(bangla_folder().glob(f"*{weight}.ttf"))
 
 
 @cache
 def bangla_uri(weight: str = "Regular") -> str:
-    """Bangla font for a page, as a data address."""
+    """Return the Bangla font in one weight as a data address for a page."""
     return _build_font_uri(BANGLA[weight])
 
 
 def bangla_faces(langs: Iterable[str], text: str = "") -> dict[int, str]:
-    """Bangla fonts that a page needs, by weight: for its languages, or for what stands on it."""
+    """Return the Bangla fonts that a page needs for its languages or its text, by weight."""
     if not (set(langs) & set(languages_in_script("Beng")) or any(map(_is_bangla, text))):
         return {}
     return {400: bangla_uri(), 700: bangla_uri("Bold")}
@@ -82,7 +82,7 @@ def bangla_faces(langs: Iterable[str], text: str = "") -> dict[int, str]:
 
 @cache
 def maths_uri() -> str:
-    """Maths font for a page, as a data address."""
+    """Return the font of formulas as a data address for a page."""
     return _build_font_uri(MATHS)
 
 
@@ -98,16 +98,17 @@ def has_rare_signs(page: str) -> bool:
 
 
 def _build_font_uri(name: str) -> str:
+    """Return a packed font as a data address."""
     return f"data:font/woff2;base64,{base64.b64encode(read_web_font(name)).decode()}"
 
 
 def packed_font_path(name: str) -> Path:
-    """File of a packed font."""
+    """Return the file of a packed font, which may be missing."""
     return WEB / f"{name}.woff2"
 
 
 def read_web_font(name: str) -> bytes:
-    """A packed font.
+    """Return the bytes of a packed font.
 
     Raises
     ------
@@ -121,7 +122,7 @@ def read_web_font(name: str) -> bytes:
 
 
 def missing_characters(text: str) -> set[str]:
-    """Bangla characters of a text that the font cannot show."""
+    """Return the Bangla characters of a text that the font cannot show."""
     from fontTools.ttLib import TTFont
 
     with TTFont(bangla_file(), lazy=True) as font:
@@ -130,4 +131,5 @@ def missing_characters(text: str) -> set[str]:
 
 
 def _is_bangla(character: str) -> bool:
+    """Return whether a character is in Unicode's block of Bangla letters."""
     return 0x0980 <= ord(character) < 0x0A00

@@ -26,6 +26,7 @@ _HERE = Path(__file__).parent
 
 @cache
 def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
+    """Return Jinja's environment for pages, writing formulas in a dialect of HTML."""
     layouts = jinja_environment("quizgen.render")
     layouts.globals.update(
         inline=partial(inlines_to_html, way=way),
@@ -44,19 +45,20 @@ def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
 
 @cache
 def _build_paper_css() -> str:
+    """Return the style sheet of papers."""
     page = (_HERE / "pages" / "paper.css").read_text(encoding="utf-8")
     return language_css(":lang({})") + write_theme_css() + page
 
 
 def _read_board_file(name: str) -> Markup:
-    """A file that a page needs to be drawn in."""
+    """Return a file that a page needs to be drawn in, as markup."""
     return Markup((_HERE / "board" / name).read_text(encoding="utf-8"))
 
 
 def render_html_page(
     layout: str, langs: tuple[str, ...], style: str = "", **content: object
 ) -> bytes:
-    """A whole page with its fonts.
+    """Return a whole HTML page with its fonts, in UTF-8.
 
     Parameters
     ----------
@@ -86,12 +88,12 @@ def render_html_page(
 
 
 def render_html_fragment(layout: str, way: HtmlDialect, **content: object) -> Markup:
-    """A piece of a page, without its head, in the manner of the page."""
+    """Return a piece of a page, without its head, in a dialect of HTML."""
     return Markup(_build_environment(way).get_template(layout).render(**content))
 
 
 def render_paper_html(paper: Paper, kind: str) -> bytes:
-    """Render a paper as an HTML page.
+    """Return a paper as an HTML page.
 
     Parameters
     ----------

@@ -26,31 +26,34 @@ FIRST, EACH, MOST = 2, 2, 14
 
 
 def answer_rows(points: Fraction) -> int:
-    """Rows of squares to work in: few for half a point, and no whole page for many."""
+    """Return the rows of squares to work in: few for half a point, and no whole page for many."""
     return min(MOST, math.ceil(FIRST + EACH * points))
 
 
 _KIND = "layouts"
 
 
-class _Loader(jinja2.PackageLoader):
-    """Layouts that go by their names: bytecode says nothing of the folder that it was made in."""
+class _LayoutLoader(jinja2.PackageLoader):
+    """Jinja's loader of a package, which names layouts without their folder.
+
+    So their bytecode, which holds that name, fits any machine.
+    """
 
     def get_source(
         self, environment: jinja2.Environment, template: str
     ) -> tuple[str, str, Callable[[], bool] | None]:
-        """The layout, its name, and whether it is still the same."""
+        """Return source and name of a layout, and a test whether it is still the same."""
         source, _, fresh = super().get_source(environment, template)
         return source, template, fresh
 
 
-class _Kept(BytecodeCache):
-    """Bytecode under the digest of its layout, of how Jinja is used here, and of Python."""
+class _BytecodeStore(BytecodeCache):
+    """Jinja's bytecode in the cache, keyed by the layout, Jinja's settings and Python's version."""
 
     def get_bucket(
         self, environment: jinja2.Environment, name: str, filename: str | None, source: str
     ) -> Bucket:
-        """What is kept of a layout, or room for it."""
+        """Return the bytecode stored for a layout, or an empty bucket for it."""
         del filename
         key = compute_digest(_compute_compiler_digest(), name.encode(), source.encode())
         bucket = Bucket(environment, key, "")
@@ -58,28 +61,31 @@ class _Kept(BytecodeCache):
         return bucket
 
     def load_bytecode(self, bucket: Bucket) -> None:
-        """Find it."""
+        """Fill a bucket from the cache, if the bytecode is there."""
         with suppress(EOFError, ValueError, TypeError):
             found = marshal.loads(read_cached(_KIND, bucket.key) or b"")  # noqa: S302 (as Python's own)
             bucket.code = found if isinstance(found, CodeType) else None
 
     def dump_bytecode(self, bucket: Bucket) -> None:
-        """Keep it."""
+        """Write a bucket's bytecode to the cache."""
         write_cached(_KIND, bucket.key, marshal.dumps(bucket.code))
 
 
 @cache
 def _compute_compiler_digest() -> bytes:
-    """Digest of what makes bytecode of a layout."""
+    """Return a digest of all that makes bytecode of a layout, besides the layout."""
     own = Path(__file__).read_bytes()
     return compute_digest(own, jinja2.__version__.encode(), MAGIC_NUMBER).encode()
 
 
 def jinja_environment(*packages: str) -> jinja2.Environment:
-    """The layouts in the folders ``pages`` of packages: texts are escaped, unknown names fail."""
+    """Return Jinja's environment for the ``pages`` of packages.
+
+    Texts are escaped, unknown names fail.
+    """
     return jinja2.Environment(
-        loader=jinja2.ChoiceLoader([_Loader(name, "pages") for name in packages]),
-        bytecode_cache=_Kept(),
+        loader=jinja2.ChoiceLoader([_LayoutLoader(name, "pages") for name in packages]),
+        bytecode_cache=_BytecodeStore(),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -88,7 +94,7 @@ def jinja_environment(*packages: str) -> jinja2.Environment:
 
 
 def precompile_layouts(package: str) -> None:
-    """Have all layouts of a package compiled and kept."""
+    """Compile all layouts of a package and store their bytecode."""
     layouts = jinja_environment(package)
     for name in layouts.list_templates(extensions=("j2",)):
         layouts.get_template(name)

@@ -32,8 +32,8 @@ SURE_TO_FIT = 80
 """Characters of a typed formula that is no wider than the page: none takes more than 5.5 pt."""
 
 
-class _Sheet:
-    """Typst source of one sheet, and the pictures it refers to."""
+class _TypstPaper:
+    """Typst source of one paper or its solutions, and the pictures that it refers to."""
 
     def __init__(self, paper: Paper, kind: str) -> None:
         self.paper, self.kind, self.langs = paper, kind, paper.langs
@@ -41,7 +41,7 @@ class _Sheet:
         self.pictures: dict[str, bytes] = {}
 
     def source(self) -> str:
-        """The whole document."""
+        """Return the whole document."""
         cover = self._typeset_cover()
         body = "\n\n".join(self._typeset_question(item) for item in self.paper.items)
         if self.kind == "exam":
@@ -49,6 +49,7 @@ class _Sheet:
         return f"{self._typeset_opening()}\n{cover}\n{body}\n"
 
     def _typeset_opening(self) -> str:
+        """Return the Typst rules that set title, code, language and page numbers."""
         of = translate(self.main, "paper.page", page="{page}", pages="{pages}")
         title = self._build_title(self.main)
         return (
@@ -58,12 +59,14 @@ class _Sheet:
         )
 
     def _build_title(self, lang: str) -> str:
+        """Return the title in one language."""
         title = self.paper.title(lang)
         if self.kind == "solutions":
             return f"{title} - {translate(lang, 'paper.solutions')}"
         return title
 
     def _typeset_cover(self) -> str:
+        """Return the cover page of an exam."""
         main = self.main
         head = (
             f"#heading(level: "
@@ -102,17 +105,18 @@ class _Sheet:
         )
 
     def _typeset_printing_note(self) -> list[str]:
-        """Which questions have to be printed in colour."""
+        """Return a note that names the questions to be printed in colour; none without such."""
         if not self.paper.printing(self.main):
             return []
         said = [f"#hint[#{typst_literal(self.paper.printing(lang))};]" for lang in self.langs]
         return ["#v(0.6em)", stack_languages(self.langs, said)]
 
     def _typeset_paper_word(self, name: str, lang: str) -> str:
+        """Return a word of the section ``paper`` of the interface, as Typst markup."""
         return f"#{typst_literal(translate(lang, f'paper.{name}'))};"
 
     def _typeset_facts(self) -> str:
-        """Code, points and minutes; before an exam also what may lie on the desk."""
+        """Return code, points and minutes; before an exam also what may lie on the desk."""
         paper, main = self.paper, self.main
         minutes = translate(main, "paper.minutes")
         more = f" + {paper.holder.extra} {minutes}" if paper.holder and paper.holder.extra else ""
@@ -143,7 +147,7 @@ class _Sheet:
         return f"#facts({', '.join(named)})"
 
     def _typeset_citation_note(self) -> list[str]:
-        """What the numbers beside steps are."""
+        """Return a note on what the numbers next to steps refer to; none without such numbers."""
         if not self.paper.cited_formula:
             return []
         said = {
@@ -157,7 +161,7 @@ class _Sheet:
         ]
 
     def _typeset_mark_table(self) -> str:
-        """Table of questions and marks, with room for the marks given."""
+        """Return the table of questions and points, with room for the points given."""
         rows = [
             f"([{item.number}], [{self._join_question_titles(item)}"
             f"], [{format_amount(item.points, self.main)}])"
@@ -180,9 +184,11 @@ class _Sheet:
         )
 
     def _join_question_titles(self, item: PaperItem) -> str:
+        """Return a question's titles in all languages of the paper, in one line."""
         return join_languages(self.langs, [f"#{typst_literal(q.title)};" for q in item.questions])
 
     def _typeset_question(self, item: PaperItem) -> str:
+        """Return one question with its parts; in solutions, with what follows them."""
         stem = stack_languages(
             self.langs, [blocks_to_typst(q.stem, q.lang) for q in item.questions]
         )
@@ -207,11 +213,15 @@ class _Sheet:
     def _typeset_drawing_field(
         self, name: str, drawn: list[AnswerField] | list[PartSolution]
     ) -> str:
-        """The field of a drawing, empty or solved."""
+        """Return the field of a drawing, empty or solved."""
         figures = [one.drawing.figure for one in drawn if one.drawing]
         return self._typeset_picture(name, figures)
 
     def _typeset_picture(self, name: str, figures: list[Any]) -> str:
+        """Return a figure with its description, or "" without one.
+
+        Its file is noted under ``name`` among the pictures of the paper.
+        """
         if not figures or figures[0] is None:
             return ""
         name = f"figure-{name}.svg"
@@ -221,6 +231,7 @@ class _Sheet:
         return f"#v(0.4em)\n#image({typst_literal(name)}, width: {width}, alt: {alt})\n"
 
     def _typeset_part(self, item: PaperItem, index: int) -> str:
+        """Return one part of a question, as it is asked or solved."""
         questions = item.questions
         first = questions[0].parts[index]
         label = f"({first.label}) " if first.label else ""
@@ -235,10 +246,10 @@ class _Sheet:
         if self.kind == "solutions":
             return f"#whole[{body}]\n{rows}\n{self._typeset_part_solution(item, index)}"
         field = self._typeset_answer_space(questions, index)
-        return f"#part[{body}\n{rows}\n{field}]\n{_left_over(first)}"
+        return f"#part[{body}\n{rows}\n{field}]\n{_typeset_notes_area(first)}"
 
     def _typeset_answer_space(self, questions: tuple[Question, ...], index: int) -> str:
-        """What stands below a part and its options: hints, room to work in, lines to write on."""
+        """Return what stands below a part and its options: hints, room to work in, answer lines."""
         part = questions[0].parts[index]
         control = part.field.control
         fields = [q.parts[index].field for q in questions]
@@ -259,7 +270,7 @@ class _Sheet:
         return "\n".join(shown)
 
     def _typeset_options(self, questions: tuple[Question, ...], index: int) -> str:
-        """Lettered options and right sides; the first and the last row stand by what is around."""
+        """Return lettered options and right sides of a part, kept with the text around them."""
         fields = [q.parts[index].field for q in questions]
         rows = [
             *self._typeset_option_rows(fields, "options"),
@@ -271,6 +282,7 @@ class _Sheet:
         )
 
     def _typeset_option_rows(self, fields: list[AnswerField], side: str) -> list[str]:
+        """Return the rows of options of one side, in all languages."""
         rows = []
         for place, (mark, _) in enumerate(getattr(fields[0], side)):
             texts = [
@@ -282,13 +294,14 @@ class _Sheet:
         return rows
 
     def _choose_option_style(self, field: AnswerField, side: str) -> str:
-        """How a row of options looks: with a box to tick, with one for a number, or plain."""
+        """Return how a row of options looks: with a box to tick, a box for a number, or plain."""
         if self.kind == "exam" and field.control.is_ticked:
             return "tick"
         paired = field.control.form == "pairs" and side == "options"
         return "pair" if self.kind == "exam" and paired else "option"
 
     def _typeset_part_solution(self, item: PaperItem, index: int) -> str:
+        """Return answer, steps and reasons of one part."""
         parts = [key.solution.parts[index] for key in item.keys]
         steps = [
             self._typeset_step([p.lines[i] for p in parts]) for i in range(len(parts[0].lines))
@@ -303,9 +316,11 @@ class _Sheet:
         )
 
     def _with_lang(self, parts: list[PartSolution]) -> list[tuple[PartSolution, str]]:
+        """Return each solution with the language that it is written in."""
         return list(zip(parts, self.langs, strict=True))
 
     def _typeset_step(self, lines: list[SolutionStep]) -> str:
+        """Return one worked line: its formula once, its sentence in each language."""
         why = stack_languages(
             self.langs,
             [
@@ -321,6 +336,7 @@ class _Sheet:
         return f"#step([{shown}], [{why}], {cite})"
 
     def _typeset_answer(self, part: PartSolution, lang: str) -> str:
+        """Return the answer of a part in a language."""
         name = translate(lang, "solution.answer")
         said = f"#strong({typst_literal(name + ':')}); {inlines_to_typst(part.shown, lang)}"
         options = [inlines_to_typst(option, lang) for option in part.options]
@@ -330,7 +346,7 @@ class _Sheet:
         return f"{said}#list({', '.join(f'[{o}]' for o in options)});" if options else said
 
     def _typeset_remarks(self, item: PaperItem) -> str:
-        """What follows the parts: explanation, sanity check, common mistakes, remark."""
+        """Return what follows the parts: explanation, sanity check, common mistakes, remark."""
         solutions = [key.solution for key in item.keys]
         texts = [
             self._typeset_mistakes(s) if section == "mistakes" else self._typeset_remark(s, section)
@@ -340,6 +356,7 @@ class _Sheet:
         return "\n" + "\n".join(filter(None, texts))
 
     def _typeset_remark(self, solution: Solution, section: str) -> str:
+        """Return one section of a solution with its heading; "" if it is empty."""
         body, lang = getattr(solution, section), solution.lang
         return (
             in_language(lang, f"{_typeset_heading(section, lang)}\n{blocks_to_typst(body, lang)}")
@@ -348,6 +365,7 @@ class _Sheet:
         )
 
     def _typeset_mistakes(self, solution: Solution) -> str:
+        """Return the known misconceptions of a question, each with its sentence."""
         rows = [
             _typeset_mistake(part.label, mistake, solution.lang)
             for part in solution.parts
@@ -361,18 +379,18 @@ class _Sheet:
 
 
 def _format_holder(paper: Paper) -> str:
-    """Whose paper it is, at the foot of every page."""
+    """Return whose paper it is, for the foot of every page."""
     known = (paper.holder.name, paper.holder.id) if paper.holder else ()
     return " · ".join(map(replace_unprintable, filter(None, known)))
 
 
-def _left_over(part: QuestionPart) -> str:
-    """What of the page is left goes to calculations, by points; without any it is for notes."""
+def _typeset_notes_area(part: QuestionPart) -> str:
+    """Return Typst for the rest of the page: squares for calculations by points, or notes."""
     return f"#more-room({float(part.points):g})" if part.field.control.needs_working else "#rest"
 
 
 def _typeset_reasons(part: PartSolution, lang: str) -> str:
-    """Why the answer of a part is right, and why each other choice is wrong."""
+    """Return why the answer of a part is right, and why each other choice is wrong."""
     why = (
         [f"#block(inset: (left: 0.7em))[{typst_passage(inlines_to_typst(part.why, lang))}]"]
         if part.why
@@ -383,6 +401,7 @@ def _typeset_reasons(part: PartSolution, lang: str) -> str:
 
 
 def _typeset_mistake(label: str, mistake: SolvedMisconception, lang: str) -> str:
+    """Return one misconception: the wrong answer with its label, and what is wrong with it."""
     name = typst_literal(f"({label}) " if label else "")
     shown, sentence = (
         typst_passage(inlines_to_typst(one, lang)) for one in (mistake.shown, mistake.sentence)
@@ -391,18 +410,19 @@ def _typeset_mistake(label: str, mistake: SolvedMisconception, lang: str) -> str
 
 
 def _typeset_heading(section: str, lang: str) -> str:
+    """Return the heading of a section of the solution in a language."""
     key = "precision.title" if section == "precision" else f"solution.{section}"
     return f"#heading(level: 3)[#{typst_literal(translate(lang, key))};]"
 
 
 def typst_sources(paper: Paper, kind: str) -> dict[str, bytes]:
-    """Typst files of a sheet, and its pictures."""
-    sheet = _Sheet(paper, kind)
+    """Return the Typst files of a paper and its pictures, by file name."""
+    sheet = _TypstPaper(paper, kind)
     return {**document_files("paper.typ", sheet.source()), **sheet.pictures}
 
 
 def render_paper_pdf(paper: Paper, kind: str) -> bytes:
-    """Render a paper as a PDF file.
+    """Return a paper as a PDF file.
 
     Raises
     ------

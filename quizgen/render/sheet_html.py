@@ -11,10 +11,10 @@ from quizgen.render.html import render_html_page
 
 @cache
 def sheet_css() -> str:
-    """How formulas look, added to what all pages have; the pages of the browser show them alike."""
+    """Return the style of formulas, which pages of a server add to their own, too."""
     return (files("quizgen.render") / "pages" / "sheet.css").read_text(encoding="utf-8")
 
 
 def render_sheet_html(sheet: FormulaSheet) -> bytes:
-    """Render a formula sheet as an HTML page."""
+    """Return a formula sheet as an HTML page."""
     return render_html_page("sheet.html.j2", sheet.langs, sheet_css(), sheet=sheet, notes=NOTES)

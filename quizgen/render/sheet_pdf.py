@@ -25,7 +25,7 @@ PRINTED = ("holds", "limits")
 
 
 def render_sheet_pdf(sheet: FormulaSheet) -> bytes:
-    """Render a formula sheet as a PDF file.
+    """Return a formula sheet as a PDF file.
 
     Raises
     ------
@@ -42,11 +42,12 @@ def render_sheet_pdf(sheet: FormulaSheet) -> bytes:
 
 
 def _name_sketch_file(line: SheetFormula) -> str:
-    """Name of the file that a formula's sketch is in."""
+    """Return the file name of a formula's sketch."""
     return f"sketch-{line.id}.svg"
 
 
 def _build_typst_source(sheet: FormulaSheet) -> str:
+    """Return the Typst source of a formula sheet."""
     langs, main = sheet.langs, sheet.langs[0]
     titles = {lang: f"{sheet.titles[lang]} - {translate(lang, 'sheet.title')}" for lang in langs}
     head = join_languages(langs, [f"#{typst_literal(titles[lang])};" for lang in langs])
@@ -58,6 +59,7 @@ def _build_typst_source(sheet: FormulaSheet) -> str:
 
 
 def _typeset_group(group: SheetTopic, langs: tuple[str, ...]) -> str:
+    """Return the formulas of one topic under its heading."""
     titles = join_languages(langs, [f"#{typst_literal(group.titles[lang])};" for lang in langs])
     return f"#topic[{titles}]\n" + "\n".join(
         _typeset_sheet_line(line, langs) for line in group.lines
@@ -65,6 +67,7 @@ def _typeset_group(group: SheetTopic, langs: tuple[str, ...]) -> str:
 
 
 def _typeset_sheet_line(line: SheetFormula, langs: tuple[str, ...]) -> str:
+    """Return one formula with its name, sketch and notes."""
     title = join_languages(langs, [inlines_to_typst(said.title, said.lang) for said in line.said])
     section = f"§ {line.section}" if line.section else ""
     lines = "".join(f"[{typst_equation(maths, langs[0], block=True)}], " for maths in line.lines)
@@ -80,6 +83,7 @@ def _typeset_sheet_line(line: SheetFormula, langs: tuple[str, ...]) -> str:
 
 
 def _typeset_sketch(line: SheetFormula) -> str:
+    """Return a formula's sketch as Typst; "" without one."""
     if not line.figures:
         return "none"
     alt = typst_literal(" / ".join(figure.alt for figure in line.figures))
@@ -88,7 +92,7 @@ def _typeset_sketch(line: SheetFormula) -> str:
 
 
 def _typeset_notes(said: FormulaText) -> str:
-    """What the letters mean, where the formula holds and where it ends, in one paragraph."""
+    """Return what the letters mean and where the formula holds, in one paragraph."""
     rest = [
         f"#label({typst_literal(translate(said.lang, f'sheet.{name}') + ':')}"
         f"); {_typeset_inline_passage(body, said.lang)}"
@@ -99,7 +103,7 @@ def _typeset_notes(said: FormulaText) -> str:
 
 
 def _typeset_inline_passage(parts: tuple[Block, ...], lang: str) -> str:
-    """A passage of one paragraph within a line."""
+    """Return a passage of one paragraph as Typst within a line."""
     if len(parts) == 1 and isinstance(parts[0], Paragraph):
         return say_in_language(lang, inlines_to_typst(parts[0].children, lang))
     return blocks_to_typst(parts, lang)

@@ -17,62 +17,71 @@ from quizgen.question.solution import PartSolution
 
 @singledispatch
 def inlines_to_plain_text(part: markdown.Inline | tuple[markdown.Inline, ...]) -> str:
-    """Inlines as text; formulas as Unicode can write them."""
+    """Return inlines as plain text, formulas as Unicode can write them."""
     raise TypeError(type(part).__name__)
 
 
 @inlines_to_plain_text.register(tuple)
 def _join_inlines(parts: tuple[markdown.Inline, ...]) -> str:
+    """Return several inlines as one text."""
     return "".join(map(inlines_to_plain_text, parts))
 
 
 @inlines_to_plain_text.register
 def _get_part_text(part: markdown.PlainText | markdown.InlineCode) -> str:
+    """Return words or code as they are."""
     return part.text
 
 
 @inlines_to_plain_text.register
 def _format_styled(part: markdown.Emphasis) -> str:
+    """Return emphasised words without their emphasis."""
     return inlines_to_plain_text(part.children)
 
 
 @inlines_to_plain_text.register
 def _get_printed_text(part: TypesetMaths | PlacedPicture) -> str:
+    """Return the plain text of a formula, or the description of a picture."""
     return part.text
 
 
 def blocks_to_plain_text(parts: Iterable[markdown.Block]) -> Iterator[str]:
-    """Blocks as lines."""
+    """Yield the lines of blocks."""
     return chain.from_iterable(map(_reject_block, parts))
 
 
 @singledispatch
 def _reject_block(part: markdown.Block) -> Iterable[str]:
+    """Raise ``TypeError``: no writer is registered for this type of block."""
     raise TypeError(type(part).__name__)
 
 
 @_reject_block.register
 def _format_paragraph(part: markdown.Paragraph) -> Iterable[str]:
+    """Return a paragraph as one line."""
     return [inlines_to_plain_text(part.children)]
 
 
 @_reject_block.register
-def _code_block(part: markdown.CodeBlock) -> Iterable[str]:
+def _format_code_block(part: markdown.CodeBlock) -> Iterable[str]:
+    """Return the lines of code, indented."""
     return [f"    {line}" for line in part.text.splitlines()]
 
 
 @_reject_block.register
 def _format_list(part: markdown.ListBlock) -> Iterable[str]:
+    """Return one line for each item of a list."""
     return [f"  - {line}" for item in part.items for line in blocks_to_plain_text(item)]
 
 
 @_reject_block.register
 def _format_table(part: markdown.TableBlock) -> Iterable[str]:
+    """Return one line for each row of a table, its cells parted by bars."""
     return [" | ".join(map(inlines_to_plain_text, row)) for row in (part.head, *part.rows)]
 
 
 def format_question(item: PaperItem, *, solved: bool = True) -> str:
-    """Question and, unless it is to be seen as by a learner, key and solution."""
+    """Return a question as text; ``solved`` adds its key and solution."""
     question, key = item.questions[0], item.keys[0]
     head = f"{question.template}: {question.title}  [{key.identity}]" if solved else question.title
     lines = [head, *blocks_to_plain_text(question.stem)]
@@ -90,7 +99,7 @@ def format_question(item: PaperItem, *, solved: bool = True) -> str:
 
 
 def _iter_remark_lines(key: QuestionKey, lang: str) -> Iterator[str]:
-    """What stands behind all parts of a solution."""
+    """Yield what follows all parts of a solution."""
     titles = {"why": "solution.why", "check": "solution.check", "precision": "precision.title",
               "note": "solution.note"}  # fmt: skip
     for name, title in titles.items():
@@ -99,6 +108,7 @@ def _iter_remark_lines(key: QuestionKey, lang: str) -> Iterator[str]:
 
 
 def _iter_solution_lines(part: PartSolution, lang: str) -> Iterator[str]:
+    """Yield the steps and reasons of one part."""
     yield f"{translate(lang, 'solution.steps')}:"
     for line in part.lines:
         cite = f"  [{line.formula}]" if line.formula else ""

@@ -28,58 +28,63 @@ MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
 
 
 def typst_literal(text: str) -> str:
-    """A Typst string literal: nothing in it is ever read as markup."""
+    """Return a Typst string literal, in which nothing is read as markup."""
     return _LITERAL.encode(text)
 
 
 @singledispatch
 def inlines_to_typst(part: markdown.Inline | tuple[markdown.Inline, ...], lang: str) -> str:
-    """Inlines as Typst markup."""
+    """Return inlines as Typst markup."""
     raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
 
 
 @inlines_to_typst.register(tuple)
 @lru_cache(maxsize=1 << 13)
 def _join_inlines(parts: tuple[markdown.Inline, ...], lang: str) -> str:
-    """A sentence: most stand in the exam and its solutions, or in the next paper too."""
+    """Return several inlines as Typst markup, cached: most sentences occur in several papers."""
     return "".join(_keep_together(group, lang) for group in unbreakable_groups(parts))
 
 
 def _keep_together(group: tuple[markdown.Inline, ...], lang: str) -> str:
+    """Return inlines as Typst markup between which no line ends."""
     body = "".join(inlines_to_typst(part, lang) for part in group)
     return f"#box[{body}];" if len(group) > 1 else body
 
 
 @inlines_to_typst.register
 def _format_words(part: markdown.PlainText, _lang: str) -> str:
+    """Return words as Typst markup."""
     return f"#{typst_literal(part.text)};"
 
 
 @inlines_to_typst.register
 def _format_maths(part: TypesetMaths, lang: str) -> str:
+    """Return an inline formula as Typst markup, with its words for screen readers."""
     return typst_equation(part, lang, block=False)
 
 
 @inlines_to_typst.register
 def _format_code(part: markdown.InlineCode, _lang: str) -> str:
+    """Return inline code as Typst markup."""
     return f"#raw({typst_literal(part.text)});"
 
 
 @inlines_to_typst.register
 def _format_styled(part: markdown.Emphasis, lang: str) -> str:
+    """Return emphasised words as Typst markup."""
     name = "emph" if part.style == "em" else "strong"
     return f"#{name}[{inlines_to_typst(part.children, lang)}];"
 
 
 @inlines_to_typst.register
 def _format_picture(part: PlacedPicture, _lang: str) -> str:
-    """A picture with its file in it, as what is read from a string knows no files."""
+    """Return a picture as Typst markup that contains its file: a string can refer to none."""
     file = f'bytes({typst_literal(part.picture.svg)}), format: "svg"'
     return f"#box(baseline: 40%, image({file}, alt: {typst_literal(part.alt)}));"
 
 
 def typst_passage(body: str) -> str:
-    """Markup that reads markup of one passage out of a string.
+    """Return Typst that evaluates the markup of one passage from a string.
 
     Typst remembers how it laid a passage out, but takes its place in a file as part of it. What is
     read from a string has none: it is laid out once for all papers that say it.
@@ -89,7 +94,7 @@ def typst_passage(body: str) -> str:
 
 @lru_cache(maxsize=1 << 12)
 def typst_equation(maths: TypesetMaths, lang: str, *, block: bool) -> str:
-    """A formula with its spoken alternative."""
+    """Return a formula as Typst markup, with its words for screen readers."""
     spoken = typst_literal(typeset.to_speech(maths.node, lang))
     space = " " if block else ""
     body = f"${space}{typeset.to_typst(maths.node, lang)}{space}$"
@@ -97,33 +102,38 @@ def typst_equation(maths: TypesetMaths, lang: str, *, block: bool) -> str:
 
 
 def blocks_to_typst(parts: Iterable[markdown.Block], lang: str) -> str:
-    """Blocks as Typst markup."""
+    """Return blocks as Typst markup."""
     return "\n\n".join(_reject_block(part, lang) for part in parts)
 
 
 @singledispatch
 def _reject_block(part: markdown.Block, lang: str) -> str:
+    """Raise ``TypeError``: no writer is registered for this type of block."""
     raise TypeError(f"no Typst for {type(part).__name__} ({lang})")
 
 
 @_reject_block.register
 def _format_paragraph(part: markdown.Paragraph, lang: str) -> str:
+    """Return a paragraph as Typst markup."""
     return typst_passage(inlines_to_typst(part.children, lang))
 
 
 @_reject_block.register
-def _code_block(part: markdown.CodeBlock, _lang: str) -> str:
+def _format_code_block(part: markdown.CodeBlock, _lang: str) -> str:
+    """Return a block of code as Typst markup."""
     return f"#raw({typst_literal(part.text)}, block: true);"
 
 
 @_reject_block.register
 def _format_list(part: markdown.ListBlock, lang: str) -> str:
+    """Return a list as Typst markup."""
     name = "enum" if part.ordered else "list"
     return f"#{name}({', '.join(f'[{blocks_to_typst(item, lang)}]' for item in part.items)});"
 
 
 @_reject_block.register
 def _format_table(part: markdown.TableBlock, lang: str) -> str:
+    """Return a table as Typst markup."""
     cells = [cell for row in (part.head, *part.rows) for cell in row]
     head = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in part.head)
     rest = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in cells[len(part.head) :])
@@ -131,30 +141,30 @@ def _format_table(part: markdown.TableBlock, lang: str) -> str:
 
 
 def in_language(lang: str, body: str) -> str:
-    """Paragraphs in a language."""
+    """Return paragraphs marked as written in a language."""
     return f"#spoken({typst_literal(lang)})[{body}];"
 
 
 def say_in_language(lang: str, body: str) -> str:
-    """Words in a language, within a line."""
+    """Return words within a line, marked as written in a language."""
     return f"#say({typst_literal(lang)})[{typst_passage(body)}];"
 
 
 def stack_languages(langs: Iterable[str], bodies: Iterable[str]) -> str:
-    """The same thing in each language: the second one set off by a rule."""
+    """Return the same paragraphs in each language, the second one set off by a rule."""
     spoken = [in_language(lang, body) for lang, body in zip(langs, bodies, strict=True) if body]
     return "\n".join([*spoken[:1], *(f"#bilingual[{body}];" for body in spoken[1:])])
 
 
 def join_languages(langs: tuple[str, ...], texts: Iterable[str]) -> str:
-    """The same words in each language, in one line."""
+    """Return the same words in each language, in one line."""
     return '#" / ";'.join(
         say_in_language(lang, text) for lang, text in zip(langs, texts, strict=True)
     )
 
 
 def translate_all(langs: tuple[str, ...], key: str, **values: object) -> str:
-    """Words of the interface in each language, in one line."""
+    """Return words of the interface in each language, in one line."""
     return join_languages(
         langs, [f"#{typst_literal(translate(lang, key, **values))};" for lang in langs]
     )
@@ -162,7 +172,7 @@ def translate_all(langs: tuple[str, ...], key: str, **values: object) -> str:
 
 @cache
 def _load_font_collection() -> Any:
-    """One font collection per process: only pinned fonts, never the machine's own."""
+    """Return the fonts that Typst may use: pinned ones, never the machine's own."""
     import typst
 
     return typst.Fonts(
@@ -173,12 +183,13 @@ def _load_font_collection() -> Any:
 
 
 def replace_unprintable(text: str) -> str:
-    """A text with ``?`` for each character that no font here has: one alone would stop the page."""
+    """Return a text with ``?`` for each character that no font has, as one alone stops the page."""
     return "".join(c if _has_glyph(c) else "?" for c in text)
 
 
 @cache
 def _has_glyph(character: str) -> bool:
+    """Return whether a character can be printed, found out by typesetting it."""
     if character in _KNOWN or unicodedata.category(character) in {"Mn", "Mc", "Cf"}:
         return True  # a mark is printed with the letter before it
     page = f'#set document(title: [x])\n#text(lang: "en", {typst_literal(character)})'
@@ -191,14 +202,14 @@ def _has_glyph(character: str) -> bool:
 
 @cache
 def _make_scratch_compiler() -> Any:
-    """A compiler for documents that nobody reads."""
+    """Return a Typst compiler for documents that nobody reads."""
     import typst
 
     return typst.Compiler(b"", font_paths=_load_font_collection())
 
 
 def evict_cache(documents: int) -> None:
-    """Free memory: Typst keeps what it typeset until ten more documents have not needed it.
+    """Free memory: Typst keeps what it typeset until ten more documents did not need it.
 
     Parameters
     ----------
@@ -211,7 +222,7 @@ def evict_cache(documents: int) -> None:
 
 
 def document_files(layout: str, body: str, package: str = "quizgen.render") -> dict[str, bytes]:
-    """Files of a document: the layouts stand in files of their own, the same for all documents.
+    """Return the files of a document by name: its body, and the layouts that all documents share.
 
     Parameters
     ----------
@@ -230,6 +241,7 @@ def document_files(layout: str, body: str, package: str = "quizgen.render") -> d
 
 @cache
 def _build_layout_source(name: str, package: str) -> bytes:
+    """Return the Typst source of a layout, with the values from Python that it needs."""
     before = '#import "common.typ": *'
     if name == "common.typ":
         before = (
@@ -241,7 +253,7 @@ def _build_layout_source(name: str, package: str) -> bytes:
 
 
 def compile_pdf(sources: Mapping[str, bytes]) -> bytes:
-    """Typeset a document, with the pictures among its files, as a tagged PDF.
+    """Return a document with its pictures as a tagged PDF.
 
     Raises
     ------
@@ -268,7 +280,7 @@ def compile_pdf(sources: Mapping[str, bytes]) -> bytes:
 
 
 def _check_not_forked() -> None:
-    """Refuse what would wait for ever: the threads of Typst do not come along in a fork."""
+    """Raise an error in a forked process: Typst's threads are missing there, and it would hang."""
     if _get_first_process_id() != os.getpid():
         raise RenderError(
             "PDF: this process was forked from one that had made a PDF, and Typst does not survive "
@@ -278,5 +290,5 @@ def _check_not_forked() -> None:
 
 @cache
 def _get_first_process_id() -> int:
-    """The process that typeset first."""
+    """Return the id of the process that typeset first."""
     return os.getpid()

@@ -32,12 +32,12 @@ SESSION_DAYS, INVITATION_DAYS = 30, 7
 
 
 def fold_user_name(name: str) -> str:
-    """A name as it is compared: not by capitals, nor by how its letters are put together."""
+    """Return a name in the form in which names are compared: NFKC, without case."""
     return unicodedata.normalize("NFKC", name).casefold()
 
 
 class Accounts:
-    """People in a database.
+    """Accounts, invitations and sessions of the people who use a server, in its database.
 
     Parameters
     ----------
@@ -48,13 +48,13 @@ class Accounts:
         self.database = database
 
     def has_manager(self) -> bool:
-        """Whether there is anybody who manages."""
+        """Return whether anybody manages this server."""
         with self.database.reading() as connection:
             query = select(ACCOUNT.c.learner).where(ACCOUNT.c.manages).limit(1)
             return connection.execute(query).first() is not None
 
     def invite(self, learner: int | None = None, *, manages: bool = False) -> str:
-        """A token that is good once.
+        """Return the token of a new invitation, which is good once.
 
         Parameters
         ----------
@@ -71,24 +71,24 @@ class Accounts:
         return token
 
     def find_valid_invitation(self, token: str) -> Invitation | None:
-        """What a token invites to; None if it was used or withdrawn, or is too old."""
+        """Return what a token invites to; None if it was used, withdrawn or is too old."""
         with self.database.reading() as connection:
             return _find_invitation(connection, token)
 
     def invitations(self) -> list[Invitation]:
-        """Invitations of somebody new that are still good."""
+        """Return the invitations of new people that are still good."""
         place = (INVITATION.c.until > time.time(), INVITATION.c.learner.is_(None))
         query = select(INVITATION).where(*place).order_by(INVITATION.c.until)
         with self.database.reading() as connection:
             return [row_to_record(row, Invitation) for row in connection.execute(query).mappings()]
 
     def withdraw(self, name: str) -> None:
-        """Take an invitation back, by its hash."""
+        """Delete an invitation; ``name`` is the hash of its token."""
         with self.database.writing() as connection:
             connection.execute(delete(INVITATION).where(INVITATION.c.hash == name))
 
     def join(self, token: str, name: str, password: str, settings: Mapping[str, Any]) -> int | None:
-        """Make an account, once for each invitation.
+        """Return the id of a new account made by an invitation, which is then used up.
 
         Parameters
         ----------
@@ -108,7 +108,7 @@ class Accounts:
             return None
         try:
             with self.database.writing() as connection:
-                invitation = _use_up_invitation(connection, token)
+                invitation = _consume_invitation(connection, token)
                 if invitation is None or invitation.learner:
                     return None
                 new = insert(LEARNER).values(name=name, settings=settings, since=time.time())
@@ -125,28 +125,31 @@ class Accounts:
         return int(made[0])
 
     def renew(self, token: str, password: str) -> int | None:
-        """Choose a new password by an invitation to do so: who did, if the token is good."""
+        """Replace a password hash by an invitation.
+
+        Return the learner, or None if it is no good.
+        """
         with self.database.writing() as connection:
-            invitation = _use_up_invitation(connection, token)
+            invitation = _consume_invitation(connection, token)
             if invitation is None or invitation.learner is None:
                 return None
             _set_password(connection, invitation.learner, password)
         return invitation.learner
 
     def password_hash_of(self, name: str) -> tuple[int, str] | None:
-        """The learner and the password's hash of a name."""
+        """Return learner id and password hash of a name; None if nobody has it."""
         query = select(ACCOUNT.c.learner, ACCOUNT.c.password)
         with self.database.reading() as connection:
             row = connection.execute(query.where(ACCOUNT.c.key == fold_user_name(name))).first()
         return (int(row[0]), str(row[1])) if row else None
 
     def set_password(self, learner: int, password: str) -> None:
-        """Change a password's hash; who is signed in has to sign in again."""
+        """Replace a password's hash; all sessions of the learner end."""
         with self.database.writing(learner) as connection:
             _set_password(connection, learner, password)
 
     def start_session(self, learner: int) -> str:
-        """Sign somebody in: the token of a new session."""
+        """Return the token of a new session of a learner."""
         token, now = secrets.token_urlsafe(24), time.time()
         row = {"hash": _hash_token(token), "learner": learner, "until": now + SESSION_DAYS * DAY}
         with self.database.writing(learner) as connection:
@@ -155,12 +158,12 @@ class Accounts:
         return token
 
     def end_session(self, token: str) -> None:
-        """Sign somebody out."""
+        """Delete the session of a token: its learner is signed out."""
         with self.database.writing() as connection:
             connection.execute(delete(SESSION).where(SESSION.c.hash == _hash_token(token)))
 
     def signed_in(self, token: str) -> Learner | None:
-        """Whose session a token is of."""
+        """Return the learner whose session a token is of; None if there is none."""
         query = _select_people(LEARNER.c.settings, ACCOUNT.c.manages).join(SESSION)
         query = query.where(SESSION.c.hash == _hash_token(token), SESSION.c.until > time.time())
         with self.database.reading() as connection:
@@ -168,20 +171,20 @@ class Accounts:
         return row_to_record(row, Learner) if row else None
 
     def is_session(self, token: str, learner: int) -> bool:
-        """Whether a token is of a browser that was let in as a learner, who may have no account."""
+        """Return whether a token is a session of this learner, who may have no account."""
         place = (SESSION.c.hash == _hash_token(token), SESSION.c.learner == learner)
         query = select(SESSION.c.hash).where(*place, SESSION.c.until > time.time())
         with self.database.reading() as connection:
             return connection.execute(query).first() is not None
 
     def people(self) -> list[Person]:
-        """Everybody who can sign in, by name."""
+        """Return everybody who can sign in, sorted by name."""
         query = _select_people(ACCOUNT.c.manages, LEARNER.c.since).order_by(ACCOUNT.c.key)
         with self.database.reading() as connection:
             return [row_to_record(row, Person) for row in connection.execute(query).mappings()]
 
     def rename(self, learner: int, name: str) -> bool:
-        """Give somebody another name; False if somebody else has it."""
+        """Change a learner's name; return False, changing nothing, if it is taken or reserved."""
         if fold_user_name(name) == ALONE:
             return False
         try:
@@ -196,7 +199,7 @@ class Accounts:
         return True
 
     def remove(self, learner: int) -> None:
-        """Remove somebody and everything that they did, and papers that nobody else sat."""
+        """Delete a learner with all that they did, and papers that nobody else sat."""
         with self.database.writing(learner) as connection:
             connection.execute(delete(LEARNER).where(LEARNER.c.id == learner))
             sat = select(SITTING.c.paper).where(SITTING.c.paper.is_not(None))
@@ -204,33 +207,43 @@ class Accounts:
 
 
 def _select_people(*more: ColumnElement[Any]) -> Select[Any]:
+    """Return the query of learners with accounts: id, name, and more columns."""
     query = select(LEARNER.c.id, LEARNER.c.name, *more)
     return query.select_from(LEARNER).join(ACCOUNT)
 
 
 def _match_learner(table: Table, learner: int) -> ColumnElement[bool]:
+    """Return the condition that a row of a table belongs to a learner."""
     return table.c.learner == learner
 
 
 def _hash_token(token: str) -> str:
-    """Tokens are random and long, so that nothing slower is needed."""
+    """Return the SHA-256 of a token, in hexadecimal digits.
+
+    Tokens are random and long, so that no slow password hash is needed.
+    """
     return hashlib.sha256(token.encode()).hexdigest()
 
 
 def _find_invitation(connection: Connection, token: str) -> Invitation | None:
+    """Return the invitation of a token that is still good, or None."""
     good = (INVITATION.c.hash == _hash_token(token), INVITATION.c.until > time.time())
     row = connection.execute(select(INVITATION).where(*good)).mappings().first()
     return row_to_record(row, Invitation) if row else None
 
 
-def _use_up_invitation(connection: Connection, token: str) -> Invitation | None:
-    """An invitation, which is no good from now on; of two hands only one gets it."""
+def _consume_invitation(connection: Connection, token: str) -> Invitation | None:
+    """Return the invitation of a token and delete it, or return None.
+
+    Of two requests at once only one gets it.
+    """
     found = _find_invitation(connection, token)
     gone = connection.execute(delete(INVITATION).where(INVITATION.c.hash == _hash_token(token)))
     return found if gone.rowcount else None
 
 
 def _set_password(connection: Connection, learner: int, password: str) -> None:
+    """Replace a password's hash, and delete the learner's sessions and invitations."""
     new = {"password": password}
     connection.execute(update(ACCOUNT).where(_match_learner(ACCOUNT, learner)).values(new))
     for table in (SESSION, INVITATION):

@@ -39,11 +39,11 @@ Settings: TypeAlias = dict[Literal["lang", "exam"], Part]
 
 
 class StrictStruct(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A part of the file; what nobody knows is an error."""
+    """A part of an archive file, in which unknown keys are errors."""
 
 
 class ArchivedPart(StrictStruct, frozen=True):
-    """How far a part has got."""
+    """How far a practised part has got: its state and what stands in its fields."""
 
     state: PartState
     values: Annotated[list[Typed], msgspec.Meta(max_length=400)] = []
@@ -51,7 +51,7 @@ class ArchivedPart(StrictStruct, frozen=True):
 
 
 class ArchivedState(StrictStruct, frozen=True, omit_defaults=True):
-    """How far a question has got."""
+    """How far a practised question has got, part by part."""
 
     parts: dict[Part, ArchivedPart] = {}
     ended: list[Part] = []
@@ -60,7 +60,7 @@ class ArchivedState(StrictStruct, frozen=True, omit_defaults=True):
 
 
 class ArchivedAttempt(StrictStruct, frozen=True):
-    """A question that was practised."""
+    """One question that was practised."""
 
     id: Id
     template: Short
@@ -73,7 +73,7 @@ class ArchivedAttempt(StrictStruct, frozen=True):
 
 
 class ArchivedOutcome(StrictStruct, frozen=True):
-    """How a part went."""
+    """How one part went, practised or in an exam."""
 
     template: Short
     topic: Short
@@ -85,7 +85,7 @@ class ArchivedOutcome(StrictStruct, frozen=True):
 
 
 class ArchivedAnswer(StrictStruct, frozen=True):
-    """What stands in the fields of a part."""
+    """What stands in the fields of one part of an exam, and since when."""
 
     part: Part
     fields: Annotated[list[Typed], msgspec.Meta(max_length=400)]
@@ -93,7 +93,7 @@ class ArchivedAnswer(StrictStruct, frozen=True):
 
 
 class ArchivedExam(StrictStruct, frozen=True):
-    """An exam that was sat."""
+    """One exam that was sat, with its answers, flags and pauses."""
 
     id: Id
     code: Short
@@ -112,7 +112,7 @@ class ArchivedExam(StrictStruct, frozen=True):
 
 
 class LearnerArchive(StrictStruct, frozen=True):
-    """Everything of a learner."""
+    """All data of one learner: the content of an archive file."""
 
     format: Literal["quizgen learning"]
     version: Literal[1]
@@ -124,7 +124,7 @@ class LearnerArchive(StrictStruct, frozen=True):
 
 
 def read_archive(data: bytes) -> LearnerArchive:
-    """Read a file.
+    """Return the checked content of an archive file.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def read_archive(data: bytes) -> LearnerArchive:
 
 
 class ArchiveStore:
-    """Writes and takes in what learners did.
+    """Exports the data of learners to archive files and imports such files.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ class ArchiveStore:
         self.database = database
 
     def write(self, learner: int) -> bytes:
-        """Everything of a learner."""
+        """Return the archive file of a learner, in JSON."""
         with self.database.reading() as connection:
             whole = {
                 "format": FORMAT,
@@ -180,50 +180,58 @@ class ArchiveStore:
         return msgspec.json.encode(whole)
 
     def import_archive(self, learner: int, archive: LearnerArchive) -> int:
-        """Add what a learner does not have yet; how many questions and exams came.
+        """Add what a learner does not have yet; return how many questions and exams were added.
 
         SQLite has one writer at a time, and a long file takes many seconds: it is written in
         slices, between which answers of others are saved. What a file that was interrupted has
         brought stays; taken in again it brings the rest, and nothing twice.
         """
         count = 0
-        for step in _steps(learner, archive):
+        for step in _iter_import_steps(learner, archive):
             count += self.database.write(learner, step)
             time.sleep(_PAUSE)
         return count
 
 
-def _steps(learner: int, archive: LearnerArchive) -> Iterator[Callable[[Connection], int]]:
-    """The slices of a file; each says how many questions and exams came."""
+def _iter_import_steps(
+    learner: int, archive: LearnerArchive
+) -> Iterator[Callable[[Connection], int]]:
+    """Yield functions that each import a slice of an archive and return how much it added.
+
+    Added questions and exams are counted, nothing else.
+    """
     yield partial(_merge_settings, learner=learner, settings=archive.settings)
-    for attempts in _chunks(archive.attempts):
+    for attempts in _split_chunks(archive.attempts):
         yield partial(_add_attempts, learner=learner, attempts=attempts)
-    for seen in _chunks(archive.seen):
+    for seen in _split_chunks(archive.seen):
         yield partial(_add_seen, learner=learner, coming=seen)
-    for cards in _chunks(archive.cards):
+    for cards in _split_chunks(archive.cards):
         yield partial(_add_cards, learner=learner, coming=cards)
     for sitting in archive.sittings:
         yield partial(_add_sitting, learner=learner, sitting=sitting)
 
 
-def _chunks(rows: Sequence[T]) -> Iterator[Sequence[T]]:
+def _split_chunks(rows: Sequence[T]) -> Iterator[Sequence[T]]:
+    """Return consecutive pieces of ``CHUNK`` rows."""
     return (rows[first : first + CHUNK] for first in range(0, len(rows), CHUNK))
 
 
 def _select_columns(names: tuple[str, ...], table: Mapping[str, Any]) -> dict[str, Any]:
-    """What the file has of a table, which may hold more."""
+    """Return the values of these columns that a record of the database has."""
     return {name: table[name] for name in names if name in table}
 
 
 def _iter_learner_rows(
     connection: Connection, table: Table, learner: int, *but: str
 ) -> Iterator[dict[str, Any]]:
+    """Yield a learner's rows of a table as dicts, without the columns ``learner`` and ``but``."""
     columns = [c for c in table.c if c.name not in {"learner", *but}]
     for row in connection.execute(select(*columns).where(table.c.learner == learner)).mappings():
         yield {str(name): cell for name, cell in row.items()}
 
 
 def _read_sitting_contents(connection: Connection, sitting: str) -> dict[str, Any]:
+    """Return answers and flags of an exam, by the names of an archive's fields."""
     answers = select(ANSWER.c.part, ANSWER.c.fields, ANSWER.c.at).where(ANSWER.c.sitting == sitting)
     flags = select(FLAG.c.number).where(FLAG.c.sitting == sitting)
     return {
@@ -233,7 +241,7 @@ def _read_sitting_contents(connection: Connection, sitting: str) -> dict[str, An
 
 
 def _merge_settings(connection: Connection, learner: int, settings: Settings) -> int:
-    """Take over what was chosen where nothing is chosen yet."""
+    """Set those settings that the learner has not chosen; return 0, as nothing is counted."""
     place = LEARNER.c.id == learner
     mine = connection.execute(select(LEARNER.c.settings).where(place)).scalar_one()
     whole = {**settings, **mine}
@@ -241,12 +249,13 @@ def _merge_settings(connection: Connection, learner: int, settings: Settings) ->
     return 0
 
 
-def _free_names(
+def _choose_free_names(
     connection: Connection, table: Table, learner: int, names: Iterable[str]
 ) -> dict[str, str]:
-    """The names under which something comes in: others if somebody else has them, none if known.
+    """Return archived ids to the ids to import under; those already imported are left out.
 
-    The same file always gives the same ones, so that it does not come in twice.
+    An id that somebody else has is replaced by one that follows from it, so that the same file
+    never adds anything twice.
     """
     others = {name: hashlib.sha256(f"{learner}/{name}".encode()).hexdigest()[:24] for name in names}
     query = select(table.c.id, table.c.learner)
@@ -260,8 +269,9 @@ def _free_names(
 
 
 def _add_attempts(connection: Connection, learner: int, attempts: Sequence[ArchivedAttempt]) -> int:
+    """Add practised questions that the learner lacks; return how many."""
     named = {one.id: one for one in reversed(attempts)}
-    free = _free_names(connection, ATTEMPT, learner, named)
+    free = _choose_free_names(connection, ATTEMPT, learner, named)
     rows = [
         {**msgspec.to_builtins(named[name]), "id": one, "learner": learner}
         for name, one in free.items()
@@ -272,6 +282,7 @@ def _add_attempts(connection: Connection, learner: int, attempts: Sequence[Archi
 
 
 def _add_seen(connection: Connection, learner: int, coming: Sequence[ArchivedOutcome]) -> int:
+    """Add outcomes that the learner lacks; return 0, as they are not counted."""
     times = {one.at for one in coming}
     place = (SEEN.c.learner == learner, SEEN.c.at >= min(times), SEEN.c.at <= max(times))
     columns = [SEEN.c[name] for name in ArchivedOutcome.__struct_fields__]
@@ -288,6 +299,10 @@ def _add_seen(connection: Connection, learner: int, coming: Sequence[ArchivedOut
 
 
 def _add_cards(connection: Connection, learner: int, coming: Sequence[ReviewCard]) -> int:
+    """Add review cards, or replace those last reviewed earlier.
+
+    Return 0, as they are not counted.
+    """
     cards = read_cards(connection, learner)
     for card in coming:
         mine = cards.get((card.kind, card.name))
@@ -296,17 +311,18 @@ def _add_cards(connection: Connection, learner: int, coming: Sequence[ReviewCard
     return 0
 
 
-def _open_papers(connection: Connection, learner: int) -> set[str]:
-    """What a learner has begun and not handed in, each by what the same papers have in common."""
+def _list_open_numbers(connection: Connection, learner: int) -> set[str]:
+    """Return `numbers_of` each exam that a learner has begun and not handed in."""
     mine = (SITTING.c.learner == learner, SITTING.c.handed.is_(None))
     return set(map(numbers_of, connection.execute(select(SITTING.c.code).where(*mine)).scalars()))
 
 
 def _add_sitting(connection: Connection, learner: int, sitting: ArchivedExam) -> int:
+    """Add an exam with answers and flags; return 1, or 0 if it was there or the same is open."""
     # As handed in by a file, a paper would show the key of the same that is open here.
-    if numbers_of(sitting.code) in _open_papers(connection, learner):
+    if numbers_of(sitting.code) in _list_open_numbers(connection, learner):
         return 0
-    name = _free_names(connection, SITTING, learner, [sitting.id]).get(sitting.id)
+    name = _choose_free_names(connection, SITTING, learner, [sitting.id]).get(sitting.id)
     if name is None:
         return 0
     row = {**msgspec.to_builtins(sitting), "id": name, "learner": learner}

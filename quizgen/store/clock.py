@@ -14,13 +14,13 @@ _LOG = logging.getLogger("quizgen.clock")
 
 
 def steady() -> float:
-    """Seconds since the machine was started, those in which it slept among them."""
+    """Return seconds since the machine was started, time asleep included; it never jumps."""
     name = getattr(time, "CLOCK_BOOTTIME", None)
     return time.monotonic() if name is None else time.clock_gettime(name)
 
 
 def since_boot() -> str:
-    """What is the same until the machine is restarted; empty where it does not say."""
+    """Return a name for this run of the machine, the same until it restarts; "" if unknown."""
     try:
         return f"clock-{_BOOT.read_text().strip()[:23]}"
     except OSError:
@@ -28,7 +28,7 @@ def since_boot() -> str:
 
 
 class Clock:
-    """Seconds since 1970 by a beginning and by the steady clock from there.
+    """A clock that cannot be set: seconds since 1970 at a beginning, counted on steadily.
 
     Parameters
     ----------
@@ -49,7 +49,10 @@ class Clock:
         self._apart = 0.0
 
     def now(self) -> float:
-        """The time; a jump of the machine's clock is not followed, but logged once."""
+        """Return the time in seconds since 1970.
+
+        Jumps of the machine's clock are ignored, logged once.
+        """
         at, began = self.anchor
         found = began + self._even() - at
         apart = self._wall() - found

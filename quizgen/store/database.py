@@ -46,7 +46,7 @@ _WRITES = "writes"
 
 
 class Database:
-    """A database.
+    """Connections to an SQLite or PostgreSQL database, with grouped commits.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ class Database:
 
     def __init__(self, address: str) -> None:
         url = _parse_database_url(address)
-        _keep_private(url)
+        _restrict_access(url)
         if url.get_backend_name() != "sqlite":
             require_extra("postgres", "a database of PostgreSQL")
         self._reader = _create_engine_for(url)
@@ -82,11 +82,11 @@ class Database:
             failing.pop_all()
 
     def close(self) -> None:
-        """Give the connections back."""
+        """Close all connections."""
         self._reader.dispose()
 
     def reading(self) -> Connection:
-        """Open a connection to read with, to be closed by ``with``.
+        """Return a connection for reading, to be closed by ``with``.
 
         On SQLite everything that it reads is of one moment; on PostgreSQL each statement is.
         """
@@ -94,7 +94,9 @@ class Database:
 
     @contextlib.contextmanager
     def writing(self, learner: int | None = None) -> Iterator[Connection]:
-        """A connection to write with: all is written, or nothing where an error is raised.
+        """Give a connection for a ``with`` block.
+
+        All is committed, or nothing if an error is raised.
 
         Of two hands of one learner the second sees what the first has written: SQLite has one
         writer at a time, PostgreSQL holds the learner's row.
@@ -114,7 +116,7 @@ class Database:
             yield connection
 
     def write(self, learner: int, work: Callable[[Connection], T]) -> T:
-        """What some writing of a learner gives, once it is on the disk.
+        """Return what ``work`` returns, once all that it wrote is on the disk.
 
         A disk takes some milliseconds for each commit, however little it holds. So all that waits
         while one is under way is committed together: the first writes for those who wait.
@@ -142,7 +144,7 @@ class Database:
         return found
 
     def _commit_batch(self, together: Sequence[_Write]) -> None:
-        """Do all that waits; nobody is told before it is on the disk."""
+        """Do all waiting writes in one commit; their futures are set when it is on the disk."""
         try:
             with self._writer.begin() as connection:
                 ends = [one.run(connection) for one in together]
@@ -156,21 +158,21 @@ class Database:
 
 
 def _check_open(connection: Connection) -> None:
-    """Refuse to commit what is undone: where the disk is full SQLite rolls everything back."""
+    """Raise an error if SQLite has rolled the transaction back, as it does on a full disk."""
     raw = connection.connection.dbapi_connection
     if isinstance(raw, sqlite3.Connection) and not raw.in_transaction:
         raise SQLAlchemyError("nothing was written")
 
 
 class _Write(Future[Any]):
-    """Some writing that waits for its turn."""
+    """A write of one learner that waits for the next commit, as a future."""
 
     def __init__(self, work: Callable[[Connection], Any]) -> None:
         super().__init__()
         self.work = work
 
     def run(self, connection: Connection) -> Callable[[], None]:
-        """Do it; what to call once it is on the disk."""
+        """Do the work, and return what sets the future once the commit is on the disk."""
         try:
             with connection.begin_nested():
                 found = self.work(connection)
@@ -182,7 +184,7 @@ class _Write(Future[Any]):
 def back_up(address: str, file: Path) -> None:
     """Copy a database to a file of its own, also while a server writes to it.
 
-    The copy is of one moment, is one file without a log beside it, and is there whole or not at
+    The copy is of one moment, is one file without a separate log, and is there whole or not at
     all; only its owner reads it.
 
     Parameters
@@ -205,7 +207,7 @@ def back_up(address: str, file: Path) -> None:
         raise StoreError(f"{place}: there is no such database")
     fresh = file.with_name(f".{file.name}.new")
     try:
-        open_private(fresh, anew=True).close()
+        open_private(fresh, truncate=True).close()
         with (
             contextlib.closing(sqlite3.connect(place, timeout=PATIENCE)) as source,
             contextlib.closing(sqlite3.connect(fresh)) as copy,
@@ -227,7 +229,7 @@ def upsert(
     key: Sequence[str],
     changed: Sequence[str] = (),
 ) -> None:
-    """Write a row; where one of its key stands, some columns of it, or none.
+    """Insert a row; if one with its key exists, update the columns in ``changed``, or nothing.
 
     Parameters
     ----------
@@ -247,7 +249,7 @@ def upsert(
 def _build_upsert(
     dialect: str, table: Table, key: tuple[str, ...], changed: tuple[str, ...]
 ) -> Executable:
-    """The statement, built once."""
+    """Return the statement of `upsert`, cached by table and columns."""
     query: sqlite.Insert | PostgreSQL
     if dialect == "sqlite":
         query = sqlite.insert(table)
@@ -262,6 +264,7 @@ def _build_upsert(
 
 
 def _create_engine_for(url: URL) -> Engine:
+    """Return the SQLAlchemy engine of an address, with SQLite set up for several readers."""
     if url.get_backend_name() != "sqlite":
         wait = {"connect_timeout": PATIENCE}
         return create_engine(url, pool_pre_ping=True, hide_parameters=True, connect_args=wait)
@@ -270,24 +273,26 @@ def _create_engine_for(url: URL) -> Engine:
 
     @event.listens_for(engine, "connect")
     def _set_up(connection: sqlite3.Connection, _record: object) -> None:
+        """Set a new SQLite connection up: write-ahead log, synchronous commits, foreign keys."""
         connection.isolation_level = None  # ``_begin`` says when something begins
-        _to_wal(connection)
+        _enable_wal(connection)
         # In a log NORMAL waits for no disk: a power cut would take back what was acknowledged.
         for setting in ("synchronous=FULL", "foreign_keys=ON"):
             connection.execute(f"PRAGMA {setting}")
 
     @event.listens_for(engine, "begin")
     def _begin(connection: Connection) -> None:
+        """Begin a transaction on SQLite, which its driver would delay."""
         writes = connection.get_execution_options().get(_WRITES)
         connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
 
     return engine
 
 
-def _keep_private(url: URL) -> None:
-    """Let nobody but its owner read the file; SQLite makes the log beside it alike.
+def _restrict_access(url: URL) -> None:
+    """Create an SQLite file that only its owner may read, or restrict the one there is.
 
-    It holds answers and names, and the person who serves it chooses where: the umask is not asked.
+    It holds answers and names. SQLite gives its log the same mode; the umask is not asked.
     """
     if url.get_backend_name() != "sqlite" or url.database in {None, "", ":memory:"}:
         return
@@ -299,8 +304,8 @@ def _keep_private(url: URL) -> None:
                 one.chmod(PRIVATE)
 
 
-def _to_wal(connection: sqlite3.Connection) -> None:
-    """Keep a write-ahead log: readers wait for no writer.
+def _enable_wal(connection: sqlite3.Connection) -> None:
+    """Switch SQLite to a write-ahead log, with which readers wait for no writer.
 
     Of several that ask a new file for it at once SQLite refuses all but one, without waiting.
     """
@@ -317,7 +322,7 @@ def _to_wal(connection: sqlite3.Connection) -> None:
 
 
 def _parse_database_url(address: str) -> URL:
-    """The address; what is wrong with one is said without it, for it may hold a password."""
+    """Return the parsed address; errors do not quote it, as it may hold a password."""
     try:
         url = make_url(address)
     except (ArgumentError, ValueError) as error:
@@ -328,11 +333,11 @@ def _parse_database_url(address: str) -> URL:
 
 
 def _format_url_safely(url: URL) -> str:
-    """The address without its password, which may stand among its settings, too."""
+    """Return the address without its password, which may stand among its settings, too."""
     return url.set(query={}).render_as_string()
 
 
 def _format_database_error(error: Exception) -> str:
-    """What went wrong, as the database says it."""
+    """Return what went wrong, in the database's own words."""
     cause = error.orig if isinstance(error, DBAPIError) else error
     return str(cause).strip().partition("\n")[0]

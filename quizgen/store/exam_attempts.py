@@ -27,7 +27,7 @@ _OWN = select(SITTING).where(
 
 
 class ExamStore:
-    """Exams in a database.
+    """Exams that learners sit, with answers, flags, pauses and self-marks.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class ExamStore:
         paper: Packed | None = None,
         practice: bool = False,
     ) -> ExamRecord | None:
-        """Begin an exam, or go on with the one of the same numbers that is open.
+        """Return a new exam, or the open one of this learner with the same numbers.
 
         Parameters
         ----------
@@ -71,14 +71,15 @@ class ExamStore:
         name, now = paper.id if paper else None, self.clock.now()
 
         def work(connection: Connection) -> ExamRecord | None:
-            known = _twins(connection, learner, code)
+            """Insert the exam unless an open one exists; None if its key was shown."""
+            known = _find_exams_with_numbers(connection, learner, code)
             for one in known:
                 if one.handed is None:
                     return one
             if known and not practice:
                 return None
             if paper:
-                _put_paper(connection, paper)
+                _insert_paper(connection, paper)
             made = ExamRecord(secrets.token_urlsafe(12), learner, code, now, limit, pauses,
                            paper=name, practice=bool(known))  # fmt: skip
             connection.execute(insert(SITTING).values(msgspec.to_builtins(made)))
@@ -87,46 +88,47 @@ class ExamStore:
         return self.database.write(learner, work)
 
     def paper(self, name: str) -> bytes:
-        """What an exam shows, as it is kept."""
+        """Return the packed paper of an id, as `Packed.data`."""
         with self.database.reading() as connection:
             query = select(PAPER.c.data).where(PAPER.c.id == name)
             return bytes(connection.execute(query).scalar_one())
 
     def attach(self, sitting: ExamRecord, paper: Packed) -> None:
-        """Keep the paper of an exam that was begun before papers were kept."""
+        """Store the paper of an exam that has none."""
 
         def work(connection: Connection) -> None:
-            _put_paper(connection, paper)
+            """Insert the paper and link it."""
+            _insert_paper(connection, paper)
             _update_sitting(connection, sitting, paper=paper.id)
 
         self.database.write(sitting.learner, work)
 
     def without_paper(self) -> list[ExamRecord]:
-        """Exams that were begun before papers were kept."""
+        """Return the exams that have no stored paper, of any learner."""
         with self.database.reading() as connection:
             rows = connection.execute(select(SITTING).where(SITTING.c.paper.is_(None)))
             return [row_to_record(row, ExamRecord) for row in rows.mappings()]
 
     def find(self, learner: int, name: str) -> ExamRecord | None:
-        """A learner's own exam; None if there is none of this name, or it is another's."""
+        """Return a learner's own exam; None if there is none of this id, or it is another's."""
         with self.database.reading() as connection:
             return _find_sitting(connection, learner, name)
 
     def latest(self, learner: int, most: int = 30) -> list[ExamRecord]:
-        """A learner's exams, the latest first."""
+        """Return a learner's exams, the latest first, ``most`` at most."""
         query = select(SITTING).where(SITTING.c.learner == learner)
         query = query.order_by(SITTING.c.begun.desc()).limit(most)
         with self.database.reading() as connection:
             return [row_to_record(row, ExamRecord) for row in connection.execute(query).mappings()]
 
     def answers(self, sitting: ExamRecord) -> dict[str, list[str]]:
-        """Part to what stands in its fields."""
+        """Return what stands in the fields of each answered part."""
         query = select(ANSWER.c.part, ANSWER.c.fields).where(ANSWER.c.sitting == sitting.id)
         with self.database.reading() as connection:
             return {str(part): list(fields) for part, fields in connection.execute(query)}
 
     def flags(self, sitting: ExamRecord) -> frozenset[str]:
-        """Questions to come back to."""
+        """Return the numbers of the questions that the learner flagged to come back to."""
         query = select(FLAG.c.number).where(FLAG.c.sitting == sitting.id)
         with self.database.reading() as connection:
             return frozenset(map(str, connection.execute(query).scalars()))
@@ -134,7 +136,7 @@ class ExamStore:
     def save(
         self, learner: int, name: str, answers: Mapping[str, list[str]]
     ) -> tuple[ExamRecord | None, bool]:
-        """Keep what stands in the fields of parts.
+        """Store what stands in the fields of some parts, while the exam runs.
 
         Returns
         -------
@@ -146,6 +148,7 @@ class ExamStore:
         now = self.clock.now()
 
         def work(connection: Connection) -> tuple[ExamRecord | None, bool]:
+            """Write the answers if the exam is the learner's, runs and has these parts."""
             known = _find_sitting(connection, learner, name)
             if known is None or known.resting is not None or known.is_over(now - GRACE):
                 return known, False
@@ -159,14 +162,14 @@ class ExamStore:
         return self.database.write(learner, work)
 
     def flag(self, sitting: ExamRecord, number: str) -> None:
-        """Mark a question to come back to, or take the mark away."""
+        """Flag a question to come back to, or remove its flag."""
         place = (FLAG.c.sitting == sitting.id, FLAG.c.number == number)
         with self.database.writing(sitting.learner) as connection:
             if not connection.execute(delete(FLAG).where(*place)).rowcount:
                 connection.execute(insert(FLAG).values(sitting=sitting.id, number=number))
 
     def set_pause(self, sitting: ExamRecord, *, on: bool) -> None:
-        """Begin or end a pause, where pauses are allowed."""
+        """Begin or end a pause; nothing happens where pauses are not allowed."""
         now = self.clock.now()
         with self.database.writing(sitting.learner) as connection:
             known = _find_sitting(connection, sitting.learner, sitting.id)
@@ -180,10 +183,11 @@ class ExamStore:
                 )
 
     def hand_in(self, sitting: ExamRecord) -> bool:
-        """Hand an exam in, once; False if it was."""
+        """Hand an exam in; return False if it had been handed in."""
         now = self.clock.now()
 
         def work(connection: Connection) -> bool:
+            """Write the time, ending a pause."""
             known = _find_sitting(connection, sitting.learner, sitting.id)
             if known is None or known.handed is not None:
                 return False
@@ -193,9 +197,10 @@ class ExamStore:
         return self.database.write(sitting.learner, work)
 
     def count(self, sitting: ExamRecord, seen: tuple[OutcomeRecord, ...]) -> bool:
-        """Keep how the parts of an exam that was handed in went, once; False if it was."""
+        """Record how the parts of an exam went, once; return False if that was done before."""
 
         def work(connection: Connection) -> bool:
+            """Insert the outcomes and mark the exam as counted."""
             known = _find_sitting(connection, sitting.learner, sitting.id)
             if known is None or known.handed is None or known.counted:
                 return False
@@ -208,7 +213,7 @@ class ExamStore:
         return self.database.write(sitting.learner, work)
 
     def save_self_mark(self, sitting: ExamRecord, part: str, share: float) -> None:
-        """Keep the share of the points that a learner gave to a sentence."""
+        """Store the share of the points (0 to 1) that a learner gave to an own sentence."""
         with self.database.writing(sitting.learner) as connection:
             known = _find_sitting(connection, sitting.learner, sitting.id)
             if known is not None and known.handed is not None:
@@ -216,20 +221,21 @@ class ExamStore:
 
 
 def _find_sitting(connection: Connection, learner: int, name: str) -> ExamRecord | None:
+    """Return a learner's own exam of an id, or None."""
     row = connection.execute(_OWN, {"name": name, "whose": learner}).mappings().first()
     return row_to_record(row, ExamRecord) if row else None
 
 
-def _put_paper(connection: Connection, paper: Packed) -> None:
+def _insert_paper(connection: Connection, paper: Packed) -> None:
+    """Insert a packed paper unless it is stored already."""
     row = {"id": paper.id, "code": paper.code, "parts": paper.parts, "data": paper.data}
     upsert(connection, PAPER, row, ["id"])
 
 
 def _has_parts(connection: Connection, sitting: ExamRecord, answers: Mapping[str, object]) -> bool:
-    """Whether the paper of an exam has all these parts.
+    """Return whether the paper of an exam has all these parts.
 
-    One of before papers were kept has none until it is made again; what arrives before that is
-    kept, up to more parts than any paper has.
+    An exam without a stored paper takes any, up to more parts than any paper has.
     """
     if sitting.paper is not None:
         query = select(PAPER.c.parts).where(PAPER.c.id == sitting.paper)
@@ -239,11 +245,12 @@ def _has_parts(connection: Connection, sitting: ExamRecord, answers: Mapping[str
 
 
 def _update_sitting(connection: Connection, sitting: ExamRecord, **values: object) -> None:
+    """Set some columns of an exam."""
     connection.execute(update(SITTING).where(SITTING.c.id == sitting.id).values(values))
 
 
-def _twins(connection: Connection, learner: int, code: str) -> list[ExamRecord]:
-    """A learner's exams with the same numbers, in whatever language."""
+def _find_exams_with_numbers(connection: Connection, learner: int, code: str) -> list[ExamRecord]:
+    """Return a learner's exams with the same numbers as a code, in whatever language."""
     start = numbers_of(code)
     query = select(SITTING).where(
         SITTING.c.learner == learner, SITTING.c.code.startswith(start, autoescape=True)
@@ -253,7 +260,10 @@ def _twins(connection: Connection, learner: int, code: str) -> list[ExamRecord]:
 
 
 def numbers_of(code: str) -> str:
-    """What papers with the same numbers have in common."""
+    """Return blueprint and seed of a paper's code, which papers with the same numbers share.
+
+    What is no code is returned as it is.
+    """
     try:
         found = parse_code(code)
     except PaperCodeError:

@@ -18,7 +18,7 @@ from quizgen.store import AttemptRecord, Learner, OutcomeRecord, QuestionRef, St
 
 
 class LearnerProgress(msgspec.Struct, frozen=True):
-    """What a learner does with a bank, kept in a database."""
+    """One learner's practice with one bank: the schedule, and a database that records it."""
 
     store: Store
     bank: Bank
@@ -26,27 +26,27 @@ class LearnerProgress(msgspec.Struct, frozen=True):
 
     @property
     def exam(self) -> date | None:
-        """The day of the exam that was set."""
+        """The day of the learner's exam, if one is set."""
         try:
             return date.fromisoformat(str(self.learner.settings.get("exam", "")))
         except ValueError:
             return None
 
     def agenda(self) -> Agenda:
-        """What there is to do."""
+        """Return what is due for review today, and what is new."""
         return Agenda(self.bank, self.store.cards.all(self.learner.id), time.time(), self.exam)
 
     def outcomes(self) -> list[PartOutcome]:
-        """How the latest parts went, the latest last."""
+        """Return how the latest parts went, the latest last."""
         return [
             PartOutcome(one.topic, one.right, one.first)
             for one in self.store.list_outcomes(self.learner.id)
         ]
 
     def next_question(self, names: Sequence[str]) -> QuestionRef:
-        """The question of these templates that is to be done next."""
+        """Return which of these templates is due next, with seed and level."""
         latest = self.store.latest(self.learner.id, 1)
-        seed = _seed_after(latest)
+        seed = _choose_next_seed(latest)
         template = self.agenda().choose_next(
             names,
             self.outcomes(),
@@ -57,11 +57,11 @@ class LearnerProgress(msgspec.Struct, frozen=True):
         return QuestionRef(template, seed)
 
     def seed_of_next(self) -> str:
-        """Seed of the question that is begun next."""
-        return _seed_after(self.store.latest(self.learner.id, 1))
+        """Return the seed of the question that will be begun next."""
+        return _choose_next_seed(self.store.latest(self.learner.id, 1))
 
     def save_practice(self, which: QuestionRef, topic: str, parts: Mapping[str, PartState]) -> None:
-        """Keep a whole question that is finished.
+        """Record a question that was finished outside of a browser, part by part.
 
         Parameters
         ----------
@@ -81,31 +81,35 @@ class LearnerProgress(msgspec.Struct, frozen=True):
         self.finish_attempt(attempt, list(parts.values()))
 
     def finish_attempt(self, attempt: AttemptRecord, parts: Sequence[PartState]) -> None:
-        """Take a question into the schedule; the same numbers again say nothing new."""
+        """Schedule the template of a finished question; the same numbers again change nothing."""
         asked = make_review_event(self.bank.origin(attempt.template), parts, attempt.level)
         if asked is not None and not self.store.was_finished(attempt):
             self.apply_reviews([asked])
 
     def apply_reviews(self, asked: Iterable[ReviewEvent]) -> None:
-        """Take finished questions into the schedule."""
+        """Take finished questions into the schedule of their templates."""
         now = time.time()
         left = days_left(self.exam, local_date(now))
         self.store.cards.review(self.learner.id, asked, now, left)
 
 
 def outcome_record(which: QuestionRef, topic: str, label: str, part: PartState) -> OutcomeRecord:
-    """How a part went."""
+    """Return the record of how a part went, dated now; ``label`` names the part."""
     outcome = part.outcome
     right, first = (outcome.right, outcome.first) if outcome else (False, False)
     return OutcomeRecord(which.template, topic, label, part.note, right, first, time.time())
 
 
 def _is_skipped(part: PartState) -> bool:
+    """Return whether a part was skipped, which counts neither as right nor as wrong."""
     return part.outcome is not None and part.outcome.skipped
 
 
-def _seed_after(latest: Sequence[AttemptRecord]) -> str:
-    """By chance; the same until another is begun, so that it can be made before it is asked."""
+def _choose_next_seed(latest: Sequence[AttemptRecord]) -> str:
+    """Return a random seed that stays the same until another attempt is begun.
+
+    So the next question can be built before it is asked for.
+    """
     if not latest:
         return secrets.token_hex(4)
     return hashlib.sha256(latest[0].id.encode()).hexdigest()[:8]

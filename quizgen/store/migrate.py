@@ -32,7 +32,7 @@ _VERSIONS = Table(
 
 
 def upgrade(connection: Connection) -> None:
-    """Take the steps that a database lacks; none are taken where it is up to date.
+    """Run the migrations that a database lacks, none if it is up to date.
 
     Raises
     ------
@@ -63,13 +63,14 @@ def upgrade(connection: Connection) -> None:
 
 
 def _create_all_tables(connection: Connection) -> None:
-    """Make all tables at once: the steps lead to the same, but loading them takes a while."""
+    """Create all tables of a new database: the migrations give the same, but load slowly."""
     METADATA.create_all(connection)
     _VERSIONS.create(connection)
     connection.execute(insert(_VERSIONS).values(version_num=NEWEST))
 
 
 def _read_schema_version(connection: Connection) -> str | None:
+    """Return the revision of the last migration; None for a new database."""
     if not inspect(connection).has_table(_VERSIONS.name):
         return None
     return connection.execute(select(_VERSIONS.c.version_num)).scalar()

@@ -11,7 +11,7 @@ from quizgen.core.decoding import convert
 
 
 class Learner(msgspec.Struct, frozen=True):
-    """Who learns."""
+    """One learner: id, name and settings."""
 
     id: int
     name: str
@@ -20,7 +20,7 @@ class Learner(msgspec.Struct, frozen=True):
 
 
 class Person(msgspec.Struct, frozen=True):
-    """Who can sign in, as those who manage see it."""
+    """A learner with an account, as managers see it."""
 
     id: int
     name: str
@@ -29,7 +29,7 @@ class Person(msgspec.Struct, frozen=True):
 
 
 class Invitation(msgspec.Struct, frozen=True):
-    """A link that is good once.
+    """An invitation that is good once: to a new account, or to a new password.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class Invitation(msgspec.Struct, frozen=True):
 
 
 class QuestionRef(msgspec.Struct, frozen=True):
-    """Which question: its template, the seed of its numbers, how it is asked."""
+    """Which question: its template, the seed of its numbers, the level it is asked at."""
 
     template: str
     seed: str
@@ -57,7 +57,7 @@ class QuestionRef(msgspec.Struct, frozen=True):
 
 
 class AttemptRecord(msgspec.Struct):
-    """One question that somebody practises.
+    """One attempt at a question in practice, as a row of the database.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ class AttemptRecord(msgspec.Struct):
 
 
 class OutcomeRecord(msgspec.Struct, frozen=True):
-    """How a part went."""
+    """How one part went, as a row of the database; ``at`` in seconds since 1970."""
 
     template: str
     topic: str
@@ -103,7 +103,7 @@ class OutcomeRecord(msgspec.Struct, frozen=True):
 
 
 class Packed(msgspec.Struct, frozen=True):
-    """A paper as it is kept, see ``web.papers``.
+    """A packed paper as it is stored once for all who sit it, see ``web.papers``.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ class Packed(msgspec.Struct, frozen=True):
 
 
 class ExamRecord(msgspec.Struct, frozen=True):
-    """An exam that somebody sits.
+    """One exam of a learner, as a row of the database; times in seconds since 1970.
 
     Parameters
     ----------
@@ -172,7 +172,7 @@ class ExamRecord(msgspec.Struct, frozen=True):
 
     @property
     def ends(self) -> float | None:
-        """When its time is over; None without a limit, or while it rests."""
+        """When its time is over; None without a limit, or during a pause."""
         if self.limit is None or self.resting is not None:
             return None
         return self.begun + self.limit + self.rested
@@ -183,7 +183,7 @@ class ExamRecord(msgspec.Struct, frozen=True):
         return self.handed is not None and self.ends is not None and self.handed >= self.ends
 
     def is_over(self, now: float) -> bool:
-        """Whether it was handed in, or its time is over."""
+        """Return whether it was handed in, or its time is over."""
         return self.handed is not None or (self.ends is not None and now > self.ends)
 
 
@@ -191,5 +191,5 @@ T = TypeVar("T")
 
 
 def row_to_record(row: RowMapping, kind: type[T]) -> T:
-    """A row as a value; names of columns are a kind of text of their own."""
+    """Return a row of the database as a checked record of a type."""
     return convert({str(name): cell for name, cell in row.items()}, kind)

@@ -14,7 +14,7 @@ from quizgen.store.schema import CARD
 
 
 class ReviewCardStore:
-    """Cards in a database.
+    """The review cards of learners: how well they know each template.
 
     Parameters
     ----------
@@ -25,14 +25,14 @@ class ReviewCardStore:
         self.database = database
 
     def all(self, learner: int) -> dict[Name, ReviewCard]:
-        """A learner's cards."""
+        """Return a learner's cards by kind and name."""
         with self.database.reading() as connection:
             return read_cards(connection, learner)
 
     def review(
         self, learner: int, asked: Iterable[ReviewEvent], now: float, left: int | None = None
     ) -> None:
-        """Take questions that were finished into the schedule.
+        """Update the cards of templates whose questions were finished.
 
         Parameters
         ----------
@@ -51,14 +51,14 @@ class ReviewCardStore:
 
 
 def read_cards(connection: Connection, learner: int) -> dict[Name, ReviewCard]:
-    """A learner's cards."""
+    """Return a learner's cards by kind and name, within a transaction."""
     rows = connection.execute(select(CARD.c.data).where(CARD.c.learner == learner)).scalars()
     found = (convert(row, ReviewCard) for row in rows)
     return {(card.kind, card.name): card for card in found}
 
 
 def write_card(connection: Connection, learner: int, card: ReviewCard) -> None:
-    """Write a card in place of the one of its name."""
+    """Insert a card, or replace the one of its name."""
     row = {"learner": learner, "kind": card.kind, "name": card.name, "due": card.due}
     whole = {**row, "data": msgspec.to_builtins(card)}
     upsert(connection, CARD, whole, ["learner", "kind", "name"], ["data", "due"])

@@ -22,7 +22,7 @@ from quizgen.store.schema import ATTEMPT, LEARNER, SEEN, SERVER
 
 
 class Store:
-    """A database.
+    """All records of a server or of one learner, in one database.
 
     Parameters
     ----------
@@ -51,11 +51,11 @@ class Store:
         """Everything of a learner, as a file."""
 
     def close(self) -> None:
-        """Give the connections back."""
+        """Close all connections."""
         self.database.close()
 
     def check(self) -> None:
-        """Ask the database something.
+        """Raise an error if the database does not answer.
 
         Raises
         ------
@@ -66,7 +66,7 @@ class Store:
             connection.execute(select(LEARNER.c.id).limit(1))
 
     def _begin_clock(self) -> Clock:
-        """Go on with the time of the first server since the machine was started."""
+        """Return a clock that all servers of this database share until the machine restarts."""
         began, name = Clock(), since_boot()
         if not name:
             return began
@@ -75,18 +75,21 @@ class Store:
         return Clock((at, then))
 
     def shared_value(self, name: str, value: str) -> str:
-        """What servers of this database have in common under a name: the first one's value."""
+        """Return the value that all servers of this database share under a name.
+
+        The first server's ``value`` is stored, and returned to the others.
+        """
         query = select(SERVER.c.value).where(SERVER.c.name == name)
         with self.database.writing() as connection:
             upsert(connection, SERVER, {"name": name, "value": value}, ["name"])
             return str(connection.execute(query).scalar_one())
 
     def cached_learner(self, name: str = ALONE) -> Learner | None:
-        """A learner who has asked before; None where the database has to say."""
+        """Return a learner who has asked before, without the database; None if it must be asked."""
         return self._learners.get(name)
 
     def learner(self, name: str = ALONE) -> Learner:
-        """A learner by name; a new one if nobody has it yet."""
+        """Return the learner of a name; a new one if nobody has it yet."""
         with self._one:
             with self.database.writing() as connection:
                 row = {"name": name, "settings": {}, "since": time.time()}
@@ -96,7 +99,7 @@ class Store:
         return found
 
     def update_settings(self, learner: int, changed: Mapping[str, Any]) -> None:
-        """Change some settings of a learner."""
+        """Change some settings of a learner; the others stay."""
         with self._one, self.database.writing(learner) as connection:
             self._learners.clear()
             query = select(LEARNER.c.settings).where(LEARNER.c.id == learner)
@@ -108,7 +111,7 @@ class Store:
     def start_attempt(
         self, learner: int, which: QuestionRef, wish: Mapping[str, Any]
     ) -> AttemptRecord:
-        """Begin a question."""
+        """Return a new attempt at a question; ``wish`` is the request that it was chosen by."""
         attempt = AttemptRecord(
             secrets.token_urlsafe(12), learner, which.template, which.seed, which.level,
             dict(wish), {}, time.time(),
@@ -118,14 +121,14 @@ class Store:
         return attempt
 
     def attempt(self, learner: int, name: str) -> AttemptRecord | None:
-        """A learner's own attempt; None if there is none of this name, or it is another's."""
+        """Return a learner's own attempt; None if there is none of this id, or it is another's."""
         query = select(ATTEMPT).where(ATTEMPT.c.id == name, ATTEMPT.c.learner == learner)
         with self.database.reading() as connection:
             row = connection.execute(query).mappings().first()
         return row_to_record(row, AttemptRecord) if row else None
 
     def latest(self, learner: int, most: int = 50) -> list[AttemptRecord]:
-        """A learner's attempts, the latest first."""
+        """Return a learner's attempts, the latest first, ``most`` at most."""
         query = (
             select(ATTEMPT)
             .where(ATTEMPT.c.learner == learner)
@@ -137,7 +140,7 @@ class Store:
         return [row_to_record(row, AttemptRecord) for row in rows]
 
     def save_attempt(self, attempt: AttemptRecord, seen: tuple[OutcomeRecord, ...] = ()) -> None:
-        """Keep how far an attempt has got, and how parts of it went."""
+        """Store how far an attempt has got, and how parts of it went."""
         values = {"state": attempt.state, "ended": attempt.ended}
         with self.database.writing(attempt.learner) as connection:
             connection.execute(update(ATTEMPT).where(ATTEMPT.c.id == attempt.id).values(values))
@@ -146,7 +149,7 @@ class Store:
                 connection.execute(insert(SEEN).values(row))
 
     def list_outcomes(self, learner: int, most: int = 2000) -> list[OutcomeRecord]:
-        """How the parts went that a learner has ended, the latest last."""
+        """Return how a learner's finished parts went, the latest last, ``most`` at most."""
         names = [SEEN.c[name] for name in OutcomeRecord.__struct_fields__]
         query = select(*names).where(SEEN.c.learner == learner)
         query = query.order_by(SEEN.c.at.desc(), SEEN.c.id.desc()).limit(most)
@@ -155,7 +158,7 @@ class Store:
         return [OutcomeRecord(*row) for row in reversed(rows)]
 
     def was_finished(self, attempt: AttemptRecord) -> bool:
-        """Whether a learner has finished the same question with the same numbers before."""
+        """Return whether a learner has finished the same question with the same numbers before."""
         query = select(ATTEMPT.c.id).where(
             ATTEMPT.c.learner == attempt.learner,
             ATTEMPT.c.template == attempt.template,
@@ -167,7 +170,7 @@ class Store:
             return connection.execute(query.limit(1)).first() is not None
 
     def count_asked(self, learner: int) -> dict[str, int]:
-        """Template to how often a learner was asked it."""
+        """Return how often each template was begun by a learner."""
         query = (
             select(ATTEMPT.c.template, func.count())
             .where(ATTEMPT.c.learner == learner)
@@ -178,5 +181,6 @@ class Store:
 
 
 def _get_learner(connection: Connection, name: str) -> Learner:
+    """Return the learner of a name, who must exist."""
     query = select(LEARNER.c.id, LEARNER.c.name, LEARNER.c.settings).where(LEARNER.c.name == name)
     return row_to_record(connection.execute(query).mappings().one(), Learner)

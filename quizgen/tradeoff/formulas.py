@@ -31,7 +31,7 @@ _HARDEST = 1e-15
 
 @dataclass(frozen=True)
 class Shown:
-    """What moves under the slider, and both formulas as HTML."""
+    """What the slider of a formula moves, and both ways of writing it as HTML."""
 
     symbol: str
     unit: str
@@ -42,7 +42,7 @@ class Shown:
 
 @dataclass(frozen=True)
 class Formula:
-    """One formula of the page.
+    """One formula of the page: how it is printed, stably computed and made difficult.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ class Formula:
 
     @cached_property
     def tree(self) -> Expr:
-        """The printed formula; for a chain one formula from what is given."""
+        """The printed formula; for a chain, one formula from what is given."""
         if isinstance(self.source, str):
             return parse_formula(self.source)
         from quizgen.bank.bank import builtin_bank
@@ -99,7 +99,7 @@ class Formula:
         return known[quantity]
 
     def compute(self, columns: Columns, bits: int = 64) -> Column:
-        """The printed formula in floating point."""
+        """Return the printed formula in floating point of 64 or 32 bits."""
         number = np.float32 if bits == 32 else np.float64
         given = [column.astype(number) for column in columns]
         if self.printed is not None:
@@ -109,15 +109,17 @@ class Formula:
         return found
 
     def places(self, count: int) -> Column:
-        """Distances along the path, from easy to hard."""
+        """Return distances to the difficulty along the path, from easy to hard."""
         return np.geomspace(self.easiest, _HARDEST, count)
 
 
 def _fill_column(value: float, like: Column) -> Column:
+    """Return a column of one value, as long as another column."""
     return np.full(like.size, value)
 
 
 def _pick_values(rng: Random, values: tuple[float, ...], count: int) -> Column:
+    """Return random picks of the values."""
     return rng.choice(np.array(values), count)
 
 
@@ -131,44 +133,50 @@ _H = 50 + 2500 / 0.24
 
 
 def _draw_lens_inputs(rng: Random, n: int) -> Columns:
+    """Return random f and z (mm) of a thin lens, as an exam draws them."""
     f = _pick_values(rng, _FOCAL, n)
     return [f, f * rng.integers(3, 40, n) / 2]
 
 
 def _draw_blur_inputs(rng: Random, n: int) -> Columns:
+    """Return random f, N, s and z (mm) of a blur disc, as an exam draws them."""
     s = 100.0 * rng.integers(10, 60, n)
     z = s * rng.integers(3, 19, n) / 10 + 50
     return [_pick_values(rng, _FOCAL, n), _pick_values(rng, _STOPS, n), s, z]
 
 
 def _draw_field_inputs(rng: Random, n: int) -> Columns:
+    """Return random f, N, c and s (mm) of a depth of field, as an exam draws them."""
     f = _pick_values(rng, _FOCAL, n)
     return [f, _pick_values(rng, _STOPS, n), _fill_column(0.03, f), f * rng.integers(10, 40, n) / 2]
 
 
 def _draw_colour_inputs(rng: Random, n: int) -> Columns:
+    """Return random R, G and B, different tenths from 0 to 1, as an exam draws them."""
     return list((np.array([rng.permutation(11)[:3] for _ in range(n)]) / 10).T.copy())
 
 
 def _draw_range_inputs(rng: Random, n: int) -> Columns:
+    """Return random grey levels with the range they are stretched from, and that to, -1 to 1."""
     low, high = 10.0 * rng.integers(0, 6, n), 10.0 * rng.integers(15, 26, n)
     level = low + rng.integers(5, 95, n)
     return [level, low, high, _fill_column(-1, low), _fill_column(1, low)]
 
 
 def _draw_pixel_inputs(rng: Random, n: int) -> Columns:
-    """Points that are in the picture."""
+    """Return random f, pitch, x, z (m) and o (px) of points that are in the picture."""
     x, z = rng.integers(-6, 21, n) / 20, rng.integers(10, 60, n) / 10
     return [_fill_column(0.004, x), _fill_column(5e-6, x), x, z, _fill_column(320, x)]
 
 
 def _draw_count_inputs(rng: Random, n: int) -> Columns:
+    """Return random Poisson counts and their means, as an exam draws them."""
     lam = rng.integers(1, 21, n) * 5.0
     return [rng.poisson(lam).astype(np.float64), lam]
 
 
-def _mean_count(left: Column) -> Column:
-    """Solve 1 = left m ln m for whole m."""
+def _solve_mean_count(left: Column) -> Column:
+    """Return the whole m for which left m ln m = 1: the count whose logarithms lose so much."""
     mean = 1 / left
     for _ in range(60):
         mean = 1 / (left * np.log(mean))
@@ -176,6 +184,7 @@ def _mean_count(left: Column) -> Column:
 
 
 def _textbook_poisson(k: Column, lam: Column) -> Column:
+    """Return the Poisson probability of k for mean lam, as textbooks write it."""
     return np.exp(k * np.log(lam) - lam - _log_gamma(k + 1).astype(k.dtype))
 
 
@@ -183,25 +192,30 @@ _log_gamma = np.vectorize(math.lgamma, otypes=[np.float64])
 
 
 def _make_blur_inputs(left: Column) -> Columns:
+    """Return f, N, s, z with z ever closer to s: ``left`` is the distance to the difficulty."""
     f, N, s = (_fill_column(value, left) for value in (50, 2.8, 3000))
     return [f, N, s, f * s * (1 - left) / (f - left * s)]
 
 
 def _make_grey_inputs(left: Column) -> Columns:
+    """Return R, G, B ever closer to a grey."""
     R, B = _fill_column(0.5, left), 0.5 * (1 - left)
     return [R, (R + B) / 2, B]
 
 
-def _gap_of(left: Column) -> Columns:
+def _make_gap_inputs(left: Column) -> Columns:
+    """Return two intensities ever closer to each other."""
     d = np.sqrt(left / 0.15)
     return [0.5 * (1 - d), 0.5 * (1 + d)]
 
 
 def _make_loss_inputs(left: Column) -> Columns:
+    """Return N and s with an ever smaller loss of signal-to-noise ratio."""
     return [25 / np.expm1(-2 * np.log1p(-left)), _fill_column(5, left)]
 
 
 def _make_corner_inputs(left: Column) -> Columns:
+    """Return r and f with an ever smaller fall-off of light."""
     p = left / (1 + np.sqrt(1 - left))
     return [50 * np.sqrt(p / (1 - p)), _fill_column(50, left)]
 
@@ -293,7 +307,7 @@ FORMULAS = (
         "((a + b)/2)^(5/11) - (a^(5/11) + b^(5/11))/2",
         lambda rng, n: [rng.integers(1, 5, n) / 10, rng.integers(5, 10, n) / 10],
         lambda a, b: lines.gamma_gap(a, b) / ((a + b) / 2) ** (5 / 11),
-        _gap_of,
+        _make_gap_inputs,
         0.1,
         stable=lines.gamma_gap,
         shown=Shown(
@@ -377,7 +391,7 @@ FORMULAS = (
         "",
         _draw_count_inputs,
         lambda k, lam: 1 / np.maximum(k * np.log(lam), 1),
-        lambda u: [_mean_count(u), _mean_count(u)],
+        lambda u: [_solve_mean_count(u), _solve_mean_count(u)],
         0.2,
         printed=_textbook_poisson,
     ),

@@ -20,7 +20,7 @@ Column = npt.NDArray[np.floating[Any]]
 
 
 def two_sided_tail(k: Column) -> Column:
-    """Probability beyond k sigma on either side, without a subtraction from 1."""
+    """Return the probability beyond k sigma on either side, without a subtraction from 1."""
     tail: Column = _erfc(k * 0.5**0.5)
     return tail
 
@@ -29,29 +29,32 @@ _erfc = np.vectorize(math.erfc, otypes=[np.float64])
 
 
 def image_distance(f: Column, z: Column) -> Column:
-    """Image distance of a thin lens; z - f is exact where the digits are at stake."""
+    """Return the image distance of a thin lens; z - f is exact where digits are at stake."""
     return f * (z / (z - f))
 
 
 def blur_disc(f: Column, N: Column, s: Column, z: Column) -> Column:
-    """Diameter of the blur disc of a point at z, focused at s."""
+    """Return the diameter of the blur disc of a point at z, focused at s."""
     return (f / N) * (f / (s - f)) * (np.abs(z - s) / z)
 
 
 def far_limit(f: Array, N: Array, c: Array, s: Array) -> Array:
-    """Far limit of the depth of field; only the difference that cancels has twice the digits."""
+    """Return the far limit of the depth of field.
+
+    The difference that cancels has twice the digits.
+    """
     f2, N2, c2, s2 = as_pairs(f, N, c, s)
     rest = (f2 * f2 - N2 * c2 * (s2 - f2)).round_to_double()
     return s * (f * f / rest)
 
 
 def snr_loss(N: Column, s: Column) -> Column:
-    """Share of the signal-to-noise ratio lost to read noise."""
+    """Return the share of the signal-to-noise ratio lost to read noise s, at N electrons."""
     return -np.expm1(-0.5 * np.log1p(s * s / N))
 
 
 def gamma_gap(a: Column, b: Column) -> Column:
-    """Encoded mean less mean of the encoded, exponent 5/11, of two intensities with a mean > 0.
+    """Return encoded mean minus mean of the encoded, exponent 5/11, of two intensities.
 
     With d = (b - a)/(a + b) and e the exponent, (1 + d)**e and (1 - d)**e are exp(e (p +- q)),
     where 2 p = ln(1 - d**2) and q = artanh d: 1 less their mean has no small difference.
@@ -64,14 +67,14 @@ def gamma_gap(a: Column, b: Column) -> Column:
 
 
 def falloff(r: Column, f: Column) -> Column:
-    """Light lost at r from the centre: 1 - cos^4."""
+    """Return the share of light lost at r from the centre, 1 - cos^4."""
     q = r * r
     p = q / (q + f * f)
     return p * (2 - p)
 
 
 def hue(R: Column, G: Column, B: Column) -> Column:
-    """Hue in degrees, as textbooks write it; a grey has none."""
+    """Return the hue in degrees, as textbooks write it; a grey has none."""
     most = np.maximum(np.maximum(R, G), B)
     span = most - np.minimum(np.minimum(R, G), B)
     sector = np.where(most == R, (G - B) / span, (B - R) / span + 2)
@@ -80,7 +83,7 @@ def hue(R: Column, G: Column, B: Column) -> Column:
 
 
 def fixed_point(r_d: Column, k1: Column, steps: int = 5) -> Column:
-    """Undistorted radius by repeating r := r_d/(1 + k1 r**2), five times as OpenCV does."""
+    """Return the undistorted radius by repeating r := r_d/(1 + k1 r**2), as OpenCV does."""
     r = r_d
     for _ in range(steps):
         r = r_d / (1 + k1 * r * r)
@@ -88,7 +91,7 @@ def fixed_point(r_d: Column, k1: Column, steps: int = 5) -> Column:
 
 
 def newton(r_d: Column, k1: Column, steps: int = 4) -> Column:
-    """Undistorted radius by Newton's method on r + k1 r**3 = r_d, from r_d."""
+    """Return the undistorted radius by Newton's method on r + k1 r**3 = r_d, from r_d."""
     r = r_d
     for _ in range(steps):
         square = k1 * r * r

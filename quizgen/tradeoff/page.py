@@ -38,7 +38,10 @@ Pieces = tuple[str, str, str]
 
 
 def write_page(report: TradeoffReport, folder: Path, command: str) -> list[Path]:
-    """Write the page, its plot, and all that was measured (seconds; what fails is null)."""
+    """Write the page, its plot and all measurements (seconds; a failure is null).
+
+    Return the files.
+    """
     made = {
         "digits.svg": draw_digits(report, words("en")["plot"]["alt"], "en").standalone_svg,
         "tradeoff.json": msgspec.json.format(msgspec.json.encode(report)) + b"\n",
@@ -48,7 +51,7 @@ def write_page(report: TradeoffReport, folder: Path, command: str) -> list[Path]
 
 
 def whole_page(report: TradeoffReport, command: str) -> str:
-    """The page on its own, with all languages in it; one is seen."""
+    """Return the page on its own, with all languages in it; one is shown."""
     known = {lang: get_language(lang) for lang in list_languages()}
     return _build_environment().get_template("page.html.j2").render(
         languages=known, title=words("en")["page"]["title"], style=tradeoff_css(), script=script(),
@@ -59,7 +62,7 @@ def whole_page(report: TradeoffReport, command: str) -> str:
 
 
 def render_tradeoff_fragment(report: TradeoffReport, command: str, lang: str) -> str:
-    """What is said in one language, for the frame of a page."""
+    """Return the content of the page in one language, for a page that frames it."""
     text = words(lang)
     return _build_environment().get_template("measured.html.j2").render(
         text=text, lang=lang, start=START, lines=LINES, command=command, report=report,
@@ -72,6 +75,7 @@ def render_tradeoff_fragment(report: TradeoffReport, command: str, lang: str) ->
 
 @cache
 def _build_environment() -> jinja2.Environment:
+    """Return Jinja's environment for the layouts of this page."""
     return jinja_environment("quizgen.tradeoff")
 
 
@@ -79,7 +83,7 @@ def _build_environment() -> jinja2.Environment:
 
 
 def describe_formulas(report: TradeoffReport, lang: str) -> list[dict[str, Any]]:
-    """What the slider shows of each of its formulas."""
+    """Return what the slider shows of each of its formulas."""
     sweeps = {one.name: one for one in report.sweeps}
     return [
         {
@@ -97,7 +101,7 @@ def describe_formulas(report: TradeoffReport, lang: str) -> list[dict[str, Any]]
 
 
 def _build_slider_positions(sweep: FormulaSweep, moved: str, lang: str) -> list[list[Any]]:
-    """Each position: where, whether an exam goes so far, in words, and the numbers in pieces."""
+    """Return for each position: its value, whether exams go so far, a text, and the results."""
     text, sign = words(lang)["slider"], get_language(lang).decimal
     found = []
     for i, left in enumerate(sweep.left):
@@ -111,7 +115,7 @@ def _build_slider_positions(sweep: FormulaSweep, moved: str, lang: str) -> list[
 
 
 def pieces(value: float, right: float, failed: str = "–") -> Pieces:
-    """A number of seventeen digits: those that are right, the rest, its power of ten.
+    """Return a number of 17 digits in pieces: those that are right, the rest, its power of ten.
 
     Examples
     --------
@@ -132,7 +136,7 @@ def pieces(value: float, right: float, failed: str = "–") -> Pieces:
 
 
 def short(value: float) -> str:
-    """A number in three figures, as people write it.
+    """Return a number in three figures, as people write it.
 
     Examples
     --------
@@ -146,7 +150,7 @@ def short(value: float) -> str:
 
 
 def time_text(seconds: float) -> str:
-    r"""A time in two figures, with its unit on the same line.
+    r"""Return a time in two figures, with its unit on the same line.
 
     Examples
     --------
@@ -158,7 +162,7 @@ def time_text(seconds: float) -> str:
 
 
 def _format_two_figures(value: float) -> str:
-    """Two figures, written out."""
+    """Return a number in two figures, without a power of ten."""
     return f"{float(f'{value:.2g}'):g}"
 
 
@@ -166,7 +170,7 @@ def _format_two_figures(value: float) -> str:
 
 
 def describe_questions(report: TradeoffReport, lang: str) -> dict[str, Any]:
-    """What a question costs in each arithmetic: sentences, and rows of a name, a remark, cells."""
+    """Return what a question costs in each arithmetic: sentences, and rows of a table."""
     found, text = report.questions, words(lang)["questions"]
     counted, exact = found.counted, found.costs["exact"]
     careful = counted.wrong["rounded"]
@@ -197,6 +201,7 @@ def describe_questions(report: TradeoffReport, lang: str) -> dict[str, Any]:
 
 
 def _format_cost_ratio(cost: Cost) -> str:
+    """Return how many times as long as float64 an arithmetic takes, with its quartiles."""
     if cost.high == cost.low:
         return "1"
     return (
@@ -206,7 +211,7 @@ def _format_cost_ratio(cost: Cost) -> str:
 
 
 def _format_wrong_keys(report: TradeoffReport, name: str) -> str:
-    """Wrong keys, and of how many templates."""
+    """Return the number of wrong keys of an arithmetic, and of how many templates."""
     counted = report.questions.counted
     wrong, hit = counted.questions(name), len(counted.wrong[name])
     return f"{wrong} ({hit})" if wrong else "0"
@@ -216,7 +221,7 @@ def _format_wrong_keys(report: TradeoffReport, name: str) -> str:
 
 
 def describe_digits(report: TradeoffReport, lang: str) -> str:
-    """How many printed formulas keep how many digits in an exam."""
+    """Return a sentence: how many printed formulas keep how many digits in an exam."""
     kept, digits = report.formulas_keeping_digits
     left = next(int(one.exam_digits) for one in report.sweeps if one.name == ITERATED)
     said: str = words(lang)["plot"]["sentence"]
@@ -224,7 +229,7 @@ def describe_digits(report: TradeoffReport, lang: str) -> str:
 
 
 def describe_arrays(report: TradeoffReport, lang: str) -> dict[str, Any]:
-    """Every formula's title with the rows of its ways, and what one value costs."""
+    """Return every formula's title with the rows of its ways, and what one value costs."""
     text, alone = words(lang)["arrays"], [one.least for one in report.questions.alone]
     return {
         "groups": [
@@ -238,7 +243,11 @@ def describe_arrays(report: TradeoffReport, lang: str) -> dict[str, Any]:
 
 
 def _build_rival_rows(match: Match, lang: str) -> list[tuple[str, ...]]:
-    """Name, no remark, time with the median, times the first's, digits in an exam, hard ones."""
+    """Return rows of a table, one for each way to compute a formula.
+
+    Name, empty remark, time with its median, times the first's, digits in an exam, digits of hard
+    inputs.
+    """
     names, first = words(lang)["way"], match.rivals[0].time.least
     return [
         (
@@ -258,6 +267,7 @@ def _build_rival_rows(match: Match, lang: str) -> list[tuple[str, ...]]:
 
 
 def _format_digit_count(digits: float) -> str:
+    """Return the number of right digits as text."""
     return str(min(int(digits), 16))
 
 
@@ -266,9 +276,10 @@ ITERATED = "inverse-distortion"  # loses its digits by its steps, not by a subtr
 
 
 def draw_digits(report: TradeoffReport, alt: str, lang: str) -> Figure:
-    """The printed formulas with their exam inputs, and the stable forms."""
+    """Return the plot of right digits: printed formulas with exam inputs, and stable forms."""
 
     def draw(ax: Any) -> None:
+        """Draw the curves and points."""
         ax.set_xscale("log")
         ax.set_xlim(1, 1e-15)
         ax.set_ylim(0, MOST_DIGITS + 0.6)
@@ -291,5 +302,5 @@ def draw_digits(report: TradeoffReport, alt: str, lang: str) -> Figure:
 
 
 def _compute_running_minimum(digits: Sequence[float]) -> list[float]:
-    """The fewest digits up to each place: a result that is right by chance is no promise."""
+    """Return the fewest digits up to each place: a result right by chance is no promise."""
     return list(accumulate((min(count, MOST_DIGITS) for count in digits), min))

@@ -36,7 +36,7 @@ _ALONE: tuple[Callable[[], object], ...] = (
 
 @dataclass(frozen=True)
 class Cost:
-    """One arithmetic over all questions: seconds, and how many times those of float64.
+    """What one arithmetic costs over all questions: seconds, and how many times float64's.
 
     Parameters
     ----------
@@ -74,13 +74,13 @@ class Counted(msgspec.Struct, frozen=True):
     wrong: dict[str, dict[str, int]]
 
     def questions(self, system: str) -> int:
-        """How many questions an arithmetic gets wrong."""
+        """Return how many questions an arithmetic gets wrong."""
         return sum(self.wrong.get(system, {}).values())
 
 
 @dataclass(frozen=True)
 class Questions:
-    """Questions timed, one of each template that computes; cost by arithmetic; what was counted."""
+    """Timed questions, one of each template that computes: costs, and recorded wrong keys."""
 
     count: int
     costs: dict[str, Cost]
@@ -89,7 +89,7 @@ class Questions:
 
 
 def measure_questions(bank: Bank) -> Questions:
-    """Time the built-in questions; the counts are those recorded."""
+    """Return the times of a bank's questions in each arithmetic, and the recorded counts."""
     computing = [one for one in map(bank.template, bank.template_paths) if one.chain.steps]
     drawn = [one for one in map(draw_variant, computing, repeat(0)) if _is_solved(one, "balls")]
     systems = [name for name in ARITHMETICS if name != "rounded"]  # float64, rounded afterwards
@@ -103,7 +103,7 @@ def measure_questions(bank: Bank) -> Questions:
 
 
 def _is_solved(drawn: Variant, system: str) -> bool:
-    """Whether an arithmetic has an answer at all: balls cannot tell that two colours are equal."""
+    """Return whether an arithmetic has an answer: balls cannot tell that two colours are equal."""
     try:
         solve_in(drawn, system)
     except FAILURES:
@@ -112,16 +112,19 @@ def _is_solved(drawn: Variant, system: str) -> bool:
 
 
 def _prepare_solving(drawn: Variant, system: str) -> Callable[[], object]:
+    """Return a function that solves the question once, to be timed."""
     way, chain = ARITHMETICS[system], drawn.template.chain
     given = way.convert_given({quantity: drawn.values[quantity] for quantity in chain.given})
     return partial(_solve_chain, way, chain, given)
 
 
 def _solve_chain(way: Arithmetic, chain: Chain, given: dict[str, AnyNumber]) -> object:
+    """Return every quantity of a chain, computed in an arithmetic from a copy of what is given."""
     return way.run(chain, dict(given))
 
 
 def _summarise_cost(seconds: Sequence[float], doubles: Sequence[float]) -> Cost:
+    """Return the cost of one arithmetic from seconds per question, and those of float64."""
     ratios = [one / other for one, other in zip(seconds, doubles, strict=True)]
     low, times, high = statistics.quantiles(ratios, n=4, method="inclusive")
     more = statistics.median(one - other for one, other in zip(seconds, doubles, strict=True))
@@ -129,5 +132,5 @@ def _summarise_cost(seconds: Sequence[float], doubles: Sequence[float]) -> Cost:
 
 
 def load_recorded_counts() -> Counted:
-    """What was counted when it was last counted in full."""
+    """Return the wrong keys as they were last counted in full."""
     return decode_json((files("quizgen.tradeoff") / "counted.json").read_bytes(), Counted)

@@ -19,7 +19,7 @@ from quizgen.tradeoff.sweeps import FormulaSweep, sweep_formula
 
 @dataclass(frozen=True)
 class TradeoffReport:
-    """Everything the page shows, and where and when it was measured."""
+    """Everything that the page shows, with where and when it was measured."""
 
     sweeps: tuple[FormulaSweep, ...]
     questions: Questions
@@ -30,7 +30,7 @@ class TradeoffReport:
 
     @property
     def formulas_keeping_digits(self) -> tuple[int, int]:
-        """Printed formulas that keep their digits in an exam: all but the worst, and how many."""
+        """How many printed formulas keep how many digits in an exam: all but the worst one."""
         worst = sorted(int(one.exam_digits) for one in self.sweeps)
         return len(worst) - 1, worst[1]
 
@@ -41,7 +41,7 @@ class TradeoffReport:
 
 
 def measure_tradeoff(bank: Bank) -> TradeoffReport:
-    """Measure digits, questions and arrays.
+    """Return the report, measured now: digits, questions and arrays.
 
     Parameters
     ----------

@@ -33,12 +33,12 @@ class Timing:
     median: float
 
     def per(self, count: float) -> Timing:
-        """The same for one of so many."""
+        """Return the timing of one of ``count`` equal pieces of work."""
         return Timing(self.least / count, self.median / count)
 
 
 def in_turns(calls: Sequence[Callable[[], Any]], runs: int) -> list[Timing]:
-    """Time calls, one after the other and all over again; the first round warms up."""
+    """Return the timing of each call, all called in turn ``runs`` times after a warm-up."""
     spent: list[list[float]] = [[] for _ in calls]
     for turn in range(runs + 1):
         for call, seconds in zip(calls, spent, strict=True):
@@ -61,7 +61,7 @@ Ready = Callable[..., Call]
 
 @dataclass(frozen=True)
 class Rival:
-    """One way: seconds a value, and digits of its worst result on exam and on hard inputs."""
+    """One way to compute a formula: seconds a value, worst digits on exam and hard inputs."""
 
     name: str
     time: Timing
@@ -78,16 +78,19 @@ class Match:
 
 
 def _prepare_plain_call(call: Callable[..., Any]) -> Ready:
+    """Return a function from columns to a call on them, without preparation."""
     return lambda *columns: partial(call, *columns)
 
 
 def _iter_undistortion_rivals() -> Iterator[tuple[str, Ready]]:
+    """Yield name and preparation of each way to undo lens distortion."""
     yield "fixed-point", _prepare_plain_call(lines.fixed_point)
     yield "newton", _prepare_plain_call(lines.newton)
     yield "quizgen", lambda r, k: partial(inverse_radius, r, k[0])
     import cv2
 
     def opencv(r: Column, k: Column) -> Call:
+        """Return OpenCV's call."""
         points = np.stack([r, np.zeros_like(r)], axis=-1)[:, None, :]
         lens = np.array([k[0], 0.0, 0.0, 0.0])
         return lambda: cv2.undistortPoints(points, np.eye(3), lens)[:, 0, 0]
@@ -96,14 +99,17 @@ def _iter_undistortion_rivals() -> Iterator[tuple[str, Ready]]:
 
 
 def _stack_channels(*rgb: Column) -> Column:
+    """Return R, G and B as a picture of one row, shape (1, N, 3)."""
     return np.stack(rgb, axis=-1)[None]
 
 
 def _iter_hue_rivals() -> Iterator[tuple[str, Ready]]:
+    """Yield name and preparation of each way to compute a hue."""
     yield "printed", _prepare_plain_call(lines.hue)
     from matplotlib.colors import rgb_to_hsv
 
     def matplotlib(*rgb: Column) -> Call:
+        """Return matplotlib's call."""
         picture = _stack_channels(*rgb)
         return lambda: 360 * rgb_to_hsv(picture)[0, :, 0]
 
@@ -111,6 +117,7 @@ def _iter_hue_rivals() -> Iterator[tuple[str, Ready]]:
     import cv2
 
     def opencv(*rgb: Column) -> Call:
+        """Return OpenCV's call."""
         picture = _stack_channels(*rgb).astype(np.float32)
         return lambda: cv2.cvtColor(picture, cv2.COLOR_RGB2HSV)[0, :, 0]
 
@@ -118,11 +125,13 @@ def _iter_hue_rivals() -> Iterator[tuple[str, Ready]]:
 
 
 def _iter_falloff_rivals() -> Iterator[tuple[str, Ready]]:
+    """Yield name and preparation of each way to compute the fall-off of light."""
     yield "printed", _prepare_plain_call(lambda r, f: 1 - (1 / (1 + (r / f) ** 2)) ** 2)
     yield "line", _prepare_plain_call(lines.falloff)
 
 
 def _iter_tail_rivals() -> Iterator[tuple[str, Ready]]:
+    """Yield name and preparation of each way to compute a Gaussian tail."""
     from scipy import special
 
     yield "printed", _prepare_plain_call(lambda k: 1 - special.erf(k / 2**0.5))
@@ -138,7 +147,7 @@ _MATCHES = {
 
 
 def matches() -> list[Match]:
-    """Measure every formula that an array is computed of, with the libraries that are installed."""
+    """Return the measured ways of every formula that is computed on arrays."""
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
         found = [
@@ -148,11 +157,13 @@ def matches() -> list[Match]:
 
 
 def _iter_installed(ways: Iterator[tuple[str, Ready]]) -> Iterator[tuple[str, Ready]]:
+    """Yield the ways up to the first whose library is not installed."""
     with suppress(ImportError):
         yield from ways
 
 
 def _measure_match(name: str, ways: list[tuple[str, Ready]]) -> Match:
+    """Return times and digits of all ways to compute one formula."""
     formula = BY_NAME[name]
     exam = formula.exam(np.random.default_rng(SEED), EXAMS)
     hard = formula.path(formula.places(PLACES))
@@ -171,6 +182,7 @@ def _measure_match(name: str, ways: list[tuple[str, Ready]]) -> Match:
 
 
 def _find_fewest_digits(name: str, ready: Ready, columns: Columns) -> float:
+    """Return the fewest right digits that a way gives on some inputs."""
     formula = BY_NAME[name]
     found = np.ma.filled(ready(*columns)(), np.nan)
     right = truths(formula, columns)

@@ -23,7 +23,7 @@ FIGURES = 12
 
 @dataclass(frozen=True)
 class Arithmetic:
-    """A way to solve a chain: numbers go in, are computed with, and come out as a key takes them.
+    """One way to solve a chain: its number system, and the conversions in and out.
 
     Parameters
     ----------
@@ -40,39 +40,45 @@ class Arithmetic:
     leave: Callable[[AnyNumber], Value]
 
     def convert_given(self, values: Values) -> dict[str, AnyNumber]:
-        """What is given, as numbers of the system."""
+        """Return the given quantities as numbers of the system."""
         return {name: self.enter(value) for name, value in values.items()}
 
     @working_precision()
     def run(self, chain: Chain, given: dict[str, AnyNumber]) -> dict[str, AnyNumber]:
-        """Every quantity of a chain: this is what is timed."""
+        """Return every quantity of a chain; this is what is timed."""
         for name, compiled in chain.compile_steps(self.system()).items():
             given[name] = compiled(given)
         return given
 
     def values(self, found: Mapping[str, AnyNumber]) -> dict[str, Value]:
-        """What came out, as a key takes it."""
+        """Return results as rationals or balls, as a key takes them."""
         return {name: self.leave(value) for name, value in found.items()}
 
 
 def _return_unchanged(value: AnyNumber) -> Value:
+    """Return a value as it is, where the key takes what the system computes."""
     kept: Value = value
     return kept
 
 
-def _as_it_is(value: float) -> fmpq:
+def _to_exact_fraction(value: float) -> fmpq:
+    """Return the fraction that a float is exactly."""
     return fmpq(*Fraction(value).as_integer_ratio())
 
 
-def _to_figures(value: float) -> fmpq:
+def _round_to_figures(value: float) -> fmpq:
+    """Return a float rounded to ``FIGURES`` significant figures.
+
+    Raise `MathError` if not finite.
+    """
     if not math.isfinite(value):
         raise MathError("no finite value")
     return to_rational(f"{value:.{FIGURES}g}")
 
 
 ARITHMETICS: Mapping[str, Arithmetic] = {
-    "float64": Arithmetic(float64_system, to_float, _as_it_is),
-    "rounded": Arithmetic(float64_system, to_float, _to_figures),
+    "float64": Arithmetic(float64_system, to_float, _to_exact_fraction),
+    "rounded": Arithmetic(float64_system, to_float, _round_to_figures),
     "balls": Arithmetic(exact_system, arb, _return_unchanged),
     "exact": Arithmetic(exact_system, _return_unchanged, _return_unchanged),
 }
@@ -83,7 +89,7 @@ FAILURES = (QuizgenError, ZeroDivisionError, OverflowError, ValueError)
 
 
 def solve_in(drawn: Variant, name: str) -> Variant:
-    """The same question, its values as an arithmetic gives them."""
+    """Return the same variant with the values that an arithmetic of this name gives."""
     way, chain = ARITHMETICS[name], drawn.template.chain
     given = way.convert_given({quantity: drawn.values[quantity] for quantity in chain.given})
     return replace(drawn, values=way.values(way.run(chain, given)))

@@ -18,7 +18,7 @@ SEED = 20240404
 
 @dataclass(frozen=True)
 class Way:
-    """A way of computing at the places of a path: what it gives, and how many digits are right."""
+    """One way of computing along a path: its results, and how many of their digits are right."""
 
     values: tuple[float, ...]
     digits: tuple[float, ...]
@@ -26,7 +26,7 @@ class Way:
 
 @dataclass(frozen=True)
 class FormulaSweep:
-    """A formula from easy to hard.
+    """Results of one formula along its path from easy to hard.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class FormulaSweep:
 
 
 def sweep_formula(formula: Formula) -> FormulaSweep:
-    """Follow a formula along its path, and draw its exam inputs."""
+    """Return a formula's results along its path, and how it does on exam inputs."""
     rng = np.random.default_rng(SEED)
     exam = [np.asarray(column, np.float64) for column in formula.exam(rng, EXAMS)]
     path = [np.asarray(column, np.float64) for column in formula.path(formula.places(PLACES))]
@@ -75,6 +75,7 @@ def sweep_formula(formula: Formula) -> FormulaSweep:
 
 
 def _compute_by_system(formula: Formula, columns: Columns) -> dict[str, Column]:
+    """Return the results as printed in float64 and float32, and those of the stable form."""
     found = {"float64": formula.compute(columns), "float32": formula.compute(columns, 32)}
     if formula.stable is not None:
         found["stable"] = np.ma.filled(formula.stable(*columns), np.nan)
@@ -82,5 +83,6 @@ def _compute_by_system(formula: Formula, columns: Columns) -> dict[str, Column]:
 
 
 def _count_digits_per_point(formula: Formula, found: Column, right: Column) -> tuple[float, ...]:
+    """Return the number of right digits of each result."""
     pairs = zip(found.tolist(), right.tolist(), strict=True)
     return tuple(correct_digits(value, truth, formula.turn) for value, truth in pairs)

@@ -9,19 +9,20 @@ from quizgen.locale import load_words
 
 
 def words(lang: str) -> dict[str, Any]:
-    """All sentences of the page in one language."""
+    """Return all sentences of the page in one language."""
     return load_words(lang, "tradeoff")
 
 
 def tradeoff_css() -> str:
-    """The style of what is measured."""
+    """Return the style sheet of the page's content."""
     return _read_page_file("tradeoff.css")
 
 
 def script() -> str:
-    """What moves the slider."""
+    """Return the JavaScript of the slider."""
     return _read_page_file("tradeoff.js")
 
 
 def _read_page_file(name: str) -> str:
+    """Return the text of a file in ``pages``."""
     return (files("quizgen.tradeoff") / "pages" / name).read_text("utf-8")

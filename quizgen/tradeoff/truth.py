@@ -24,7 +24,7 @@ Inputs = Mapping[str, Any]
 
 
 def truths(formula: Formula, columns: Columns) -> Column:
-    """Correctly rounded values.
+    """Return the correctly rounded values of a formula.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def truths(formula: Formula, columns: Columns) -> Column:
     compute = _choose_exact_function(formula)
     rows = zip(*(column.tolist() for column in columns), strict=True)
     names = formula.names.split()
-    read = _as_decimal if formula.decimal else _as_it_is
+    read = _to_printed_decimal if formula.decimal else _to_exact_fraction
     return np.array(
         [
             _round_to_nearest_double(compute, dict(zip(names, map(read, row), strict=True)))
@@ -50,20 +50,23 @@ def truths(formula: Formula, columns: Columns) -> Column:
 
 
 def _choose_exact_function(formula: Formula) -> Callable[[Inputs], Any]:
+    """Return a function that computes the formula in balls (arb) or fractions."""
     special = {"inverse-distortion": _evaluate_inverse_radius, "poisson": _evaluate_poisson}
     return special.get(formula.name) or compile_expr(formula.tree, exact_system())
 
 
-def _as_it_is(value: float) -> fmpq:
+def _to_exact_fraction(value: float) -> fmpq:
+    """Return the fraction that a float is exactly."""
     return fmpq(*value.as_integer_ratio())
 
 
-def _as_decimal(value: float) -> fmpq:
+def _to_printed_decimal(value: float) -> fmpq:
+    """Return the decimal that a float prints as."""
     return to_rational(repr(value))
 
 
 def _round_to_nearest_double(compute: Callable[[Inputs], Any], given: Inputs) -> float:
-    """The nearest double, with as much precision as that takes."""
+    """Return the nearest double of what is computed, with as much precision as that takes."""
     precision = 80
     while precision <= _MOST_BITS:
         with working_precision(precision):
@@ -80,12 +83,13 @@ def _round_to_nearest_double(compute: Callable[[Inputs], Any], given: Inputs) ->
 
 
 def _evaluate_inverse_radius(given: Inputs) -> arb:
-    """Closed form of the cubic: 2/sqrt(-3 k) sin(asin(r/fold)/3)."""
+    """Return the root of the cubic in closed form: 2/sqrt(-3 k) sin(asin(r/fold)/3)."""
     size = (-3 * arb(given["k"])).sqrt()
     return 2 / size * ((3 * size * given["r"] / 2).asin() / 3).sin()
 
 
 def _evaluate_poisson(given: Inputs) -> arb:
+    """Return the Poisson probability of a count."""
     k, lam = arb(given["k"]), arb(given["lam"])
     return (k * lam.log() - lam - (k + 1).lgamma()).exp()
 
@@ -96,7 +100,7 @@ ALL_DIGITS = 17.0
 
 
 def correct_digits(value: float, truth: float, turn: float = 0.0) -> float:
-    """Correct decimal digits of a result: 0 to 16, or 17 if it is the nearest double."""
+    """Return the correct decimal digits of a result: 0 to 16, or 17 if it is the nearest double."""
     if math.isnan(value) or math.isinf(value) != math.isinf(truth):
         return 0.0
     if value == truth:
@@ -108,4 +112,5 @@ def correct_digits(value: float, truth: float, turn: float = 0.0) -> float:
 
 
 def _convert_error_to_digits(relative: float) -> float:
+    """Return -log10 of a relative error, between 0 and `MOST_DIGITS`."""
     return min(max(0.0, -math.log10(relative)), float(MOST_DIGITS))

@@ -23,7 +23,7 @@ TIGHT = frozenset({"deg", "°"})
 _PART = re.compile(r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹]))?")
 
 
-_NAME = re.compile(r"[^\W\d_]+|e-|[%°1]")
+_NAME = re.compile(r"[^\W\d_]+|e-|°[CF]?|[%‰€$£৳1]")
 
 
 class UnitPart(NamedTuple):

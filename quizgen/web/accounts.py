@@ -43,7 +43,7 @@ BROWSER_DAYS = 365
 
 @dataclass(frozen=True)
 class AccountLink:
-    """A link that was just made, to be handed to somebody."""
+    """A link that was just issued and is shown once, to be handed to somebody."""
 
     address: str
     person: Person | None = None
@@ -51,41 +51,53 @@ class AccountLink:
 
 
 def _get_accounts(request: Request) -> Accounts:
+    """Return the accounts of the server that a request came to."""
     site: ServerState = request.app.state.site
     return site.store.accounts
 
 
-def _address(request: Request) -> str:
+def _get_client_address(request: Request) -> str:
+    """Return the IP address that a request came from; empty if it is unknown."""
     return request.client.host if request.client else ""
 
 
-def _proof(request: Request, learner: int, number: str) -> str:
-    """What the cookie of a browser says in which a learner has signed in."""
+def _sign_browser_proof(request: Request, learner: int, number: str) -> str:
+    """Return the value of the cookie that marks a browser in which this learner signed in before.
+
+    An HMAC under the server's secret, so that nobody can make one; ``number`` is random.
+    """
     site: ServerState = request.app.state.site
     text, secret = f"{learner}.{number}".encode(), site.browser_secret.encode()
     return f"{number}.{hmac.new(secret, text, hashlib.sha256).hexdigest()}"
 
 
-def _known_browser(request: Request, learner: int | None) -> str:
-    """What tells a browser in which a learner has signed in before; empty for any other."""
+def _read_browser_proof(request: Request, learner: int | None) -> str:
+    """Return the proof cookie if it is valid for this learner; else an empty string."""
     given = request.cookies.get(BROWSER, "")
-    right = _proof(request, learner or 0, given.partition(".")[0])
+    right = _sign_browser_proof(request, learner or 0, given.partition(".")[0])
     return given if learner and secrets.compare_digest(given.encode(), right.encode()) else ""
 
 
 async def _try_password(
     request: Request, name: str, known: tuple[int, str] | None, password: str
 ) -> tuple[int, bool]:
-    """The seconds to wait where it may not be tried yet, and whether a password is right."""
+    """Return the seconds to wait before a try is allowed, and whether the password is right.
+
+    ``known`` is the learner's id and password hash, None for a name that nobody has. Tries are
+    limited and counted by name, address and browser.
+    """
     site: ServerState = request.app.state.site
-    limits, browser = site.password_limits, _known_browser(request, known[0] if known else None)
-    who = (fold_user_name(name[:LONGEST_NAME]), _address(request), browser)
+    limits, browser = (
+        site.password_limits,
+        _read_browser_proof(request, known[0] if known else None),
+    )
+    who = (fold_user_name(name[:LONGEST_NAME]), _get_client_address(request), browser)
     wait = limits.begin(*who)
     learner = known[0] if known else 0
     if wait:
         log_event("password not tried yet", learner=learner, address=who[1], seconds=wait)
         return wait, False
-    async with limits.turns.turn(browser or _address(request)):
+    async with limits.turns.turn(browser or _get_client_address(request)):
         right = await verify_password(known[1] if known else None, password)
     if right:
         limits.count_right(*who)
@@ -94,18 +106,22 @@ async def _try_password(
 
 
 async def _begin_session(request: Request, learner: int, address: str) -> Response:
-    """Begin a session of its own, whatever the browser had before."""
+    """Start a new session and redirect to ``address``.
+
+    The old session ends, so that a token planted in the browser before is worth nothing.
+    """
     accounts = _get_accounts(request)
     await run_in_threadpool(accounts.end_session, request.state.token)
     token = await run_in_threadpool(accounts.start_session, learner)
     answer = set_session_cookie(request.scope, redirect(safe_redirect_target(address)), token)
-    proof = _proof(request, learner, secrets.token_urlsafe(12))
+    proof = _sign_browser_proof(request, learner, secrets.token_urlsafe(12))
     return set_cookie(request.scope, answer, BROWSER, proof, BROWSER_DAYS * DAY)
 
 
 def _render_sign_in_page(
     request: Request, status: int = 200, problem: str = "", name: str = ""
 ) -> Response:
+    """Return the sign-in page, with a problem and the typed name if there was a try."""
     kept = {"to": safe_redirect_target(request.query_params.get("to", "/"))}
     return page_response(
         request, "sign_in.html.j2", status, kept=kept, problem=problem, name=name[:LONGEST_NAME]
@@ -113,7 +129,7 @@ def _render_sign_in_page(
 
 
 async def show_sign_in(request: Request) -> Response:
-    """Where one signs in."""
+    """Return the sign-in page; somebody signed in is redirected to the start page."""
     if request.state.learner.id:
         return redirect("/")
     ended = (
@@ -125,7 +141,7 @@ async def show_sign_in(request: Request) -> Response:
 
 
 async def sign_in(request: Request) -> Response:
-    """Sign in by name and password."""
+    """Sign in by name and password; return a redirect, or the page with the problem."""
     form = await read_form(request)
     name = field_text(form, "name")
     known = await run_in_threadpool(_get_accounts(request).password_hash_of, name)
@@ -143,13 +159,14 @@ async def sign_in(request: Request) -> Response:
 
 
 async def sign_out(request: Request) -> Response:
-    """End the session."""
+    """End the session and redirect to the sign-in page."""
     await read_form(request)
     await run_in_threadpool(_get_accounts(request).end_session, request.state.token)
     return redirect(SIGN_IN)
 
 
 async def _find_invitation(request: Request) -> Invitation:
+    """Return the invitation that the link's key names; HTTP 410 if it is used or expired."""
     key = request.query_params.get("key", "")
     found = await run_in_threadpool(_get_accounts(request).find_valid_invitation, key)
     if found is None:
@@ -160,6 +177,10 @@ async def _find_invitation(request: Request) -> Invitation:
 def _render_invitation_page(
     request: Request, invitation: Invitation, problem: str = "", name: str = ""
 ) -> Response:
+    """Return the page of an invitation; ``problem`` is the key of its message, if any.
+
+    ``name`` is what was typed before, so that nobody types it twice.
+    """
     return page_response(
         request,
         "invited.html.j2",
@@ -172,16 +193,16 @@ def _render_invitation_page(
 
 
 async def show_invitation(request: Request) -> Response:
-    """Where an invitation leads."""
+    """Return the page on which an invited person chooses name and password."""
     return _render_invitation_page(request, await _find_invitation(request))
 
 
 async def accept_invitation(request: Request) -> Response:
-    """Choose a name and a password, or a new password."""
+    """Create the account, or set the new password, of an invitation; begin a session."""
     form = await read_form(request)
     invitation = await _find_invitation(request)
     typed, key = field_text(form, "name"), request.query_params["key"]
-    problem, name = _wrong_password(form), normalise_user_name(typed)
+    problem, name = _find_password_problem(form), normalise_user_name(typed)
     if invitation.learner is None and name is None:
         problem = "no_name"
     if problem:
@@ -194,30 +215,31 @@ async def accept_invitation(request: Request) -> Response:
         learner = await run_in_threadpool(accounts.join, key, str(name), kept, settings)
     if learner is None:
         return _render_invitation_page(request, await _find_invitation(request), "taken", typed)
-    log_event("invitation used", learner=learner, address=_address(request))
+    log_event("invitation used", learner=learner, address=_get_client_address(request))
     return await _begin_session(request, learner, "/")
 
 
-def _wrong_password(form: FormData) -> str:
-    """What is wrong with a new password, typed twice."""
+def _find_password_problem(form: FormData) -> str:
+    """Return the key of what is wrong with a new password, typed twice; empty if nothing."""
     if not is_acceptable(field_text(form, "password")):
         return "no_password"
     return "" if field_text(form, "password") == field_text(form, "again") else "not_again"
 
 
 def _render_own_account(request: Request, status: int = 200, problem: str = "") -> Response:
+    """Return the account page; ``problem`` is the key of its message."""
     told = problem and translate_page(request_language(request), f"account.{problem}")
     changed = bool(request.query_params.get("changed"))
     return page_response(request, "account.html.j2", status, problem=told, changed=changed)
 
 
 async def show_account(request: Request) -> Response:
-    """One's own account."""
+    """Return the page of the learner's own account."""
     return _render_own_account(request)
 
 
 async def set_password(request: Request) -> Response:
-    """Change one's own password, by the old one; other browsers have to sign in again."""
+    """Change the learner's own password by the old one; all other sessions end."""
     form = await read_form(request)
     learner = request.state.learner
     known = await run_in_threadpool(_get_accounts(request).password_hash_of, learner.name)
@@ -226,7 +248,7 @@ async def set_password(request: Request) -> Response:
         raise HTTPException(429)
     if not right:
         return _render_own_account(request, 403, "wrong_old")
-    problem = _wrong_password(form)
+    problem = _find_password_problem(form)
     if problem:
         return _render_own_account(request, 400, problem)
     kept = await hash_password(field_text(form, "password"))
@@ -236,11 +258,13 @@ async def set_password(request: Request) -> Response:
 
 
 def _require_manager(request: Request) -> None:
+    """Raise HTTP 403 unless the learner manages accounts."""
     if not request.state.learner.manages:
         raise HTTPException(403)
 
 
 def _render_people_page(request: Request, link: AccountLink | None = None) -> Response:
+    """Return the page of all accounts and invitations, with a link just issued if any."""
     accounts = _get_accounts(request)
     return page_response(
         request, "people.html.j2", here="/people", link=link, people=accounts.people(),
@@ -249,7 +273,7 @@ def _render_people_page(request: Request, link: AccountLink | None = None) -> Re
 
 
 async def list_people(request: Request) -> Response:
-    """Everybody, and who is invited."""
+    """Return the page of all accounts and open invitations, for managers."""
     _require_manager(request)
     return await run_in_threadpool(_render_people_page, request)
 
@@ -257,6 +281,7 @@ async def list_people(request: Request) -> Response:
 def _make_invitation_link(
     request: Request, learner: Person | None, *, manages: bool = False
 ) -> AccountLink:
+    """Return a new link: an invitation, or for ``learner`` one to choose a new password."""
     token = _get_accounts(request).invite(learner.id if learner else None, manages=manages)
     whose = learner.id if learner else "new"
     log_event("link made", by=request.state.learner.id, learner=whose, manages=manages)
@@ -264,19 +289,23 @@ def _make_invitation_link(
 
 
 async def invite(request: Request) -> Response:
-    """Make a link that lets somebody in, once; it is shown, and nowhere kept."""
+    """Issue an invitation link, valid once, and return the page that shows it.
+
+    The database has only a hash of its key, so the link cannot be shown again.
+    """
     form = await read_form(request)
     _require_manager(request)
     manages = bool(field_text(form, "manages"))
 
     def create_invitation() -> Response:
+        """Issue the link and render the page, in a thread: both use the database."""
         return _render_people_page(request, _make_invitation_link(request, None, manages=manages))
 
     return await run_in_threadpool(create_invitation)
 
 
 async def revoke_invitation(request: Request) -> Response:
-    """Take an invitation back."""
+    """Revoke an invitation and redirect to the page of all accounts."""
     form = await read_form(request)
     _require_manager(request)
     await run_in_threadpool(_get_accounts(request).withdraw, field_text(form, "invitation"))
@@ -284,7 +313,7 @@ async def revoke_invitation(request: Request) -> Response:
 
 
 async def _find_person(request: Request) -> Person:
-    """Whom a page of those who manage is about."""
+    """Return the account that a manager's page is about; HTTP 404 if there is none."""
     _require_manager(request)
     name = request.path_params["person"]
     for found in await run_in_threadpool(_get_accounts(request).people):
@@ -296,18 +325,19 @@ async def _find_person(request: Request) -> Person:
 def _render_person_page(
     request: Request, found: Person, status: int = 200, problem: str = ""
 ) -> Response:
+    """Return a manager's page of an account; ``problem`` is the key of its message, if any."""
     told = problem and translate_page(request_language(request), f"account.{problem}")
     here = f"/people/{found.id}"
     return page_response(request, "person.html.j2", status, here=here, person=found, problem=told)
 
 
 async def show_person(request: Request) -> Response:
-    """Somebody's account."""
+    """Return the page of an account, for managers."""
     return _render_person_page(request, await _find_person(request))
 
 
 async def rename(request: Request) -> Response:
-    """Give somebody another name."""
+    """Rename an account; return a redirect, or the page with the problem."""
     form = await read_form(request)
     found = await _find_person(request)
     name = normalise_user_name(field_text(form, "name"))
@@ -319,7 +349,7 @@ async def rename(request: Request) -> Response:
 
 
 async def issue_password_link(request: Request) -> Response:
-    """Make a link with which somebody chooses a new password."""
+    """Issue a link to choose a new password, and return the page that shows it."""
     await read_form(request)
     found = await _find_person(request)
     return await run_in_threadpool(
@@ -328,7 +358,7 @@ async def issue_password_link(request: Request) -> Response:
 
 
 async def remove(request: Request) -> Response:
-    """Remove somebody else and all that they did, where that is meant."""
+    """Delete another account and its data, if the deletion was confirmed."""
     form = await read_form(request)
     found = await _find_person(request)
     if found.id == request.state.learner.id or not field_text(form, "sure"):

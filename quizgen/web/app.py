@@ -45,11 +45,11 @@ PAGES = (*practice.ROUTES, *exam.ROUTES, *progress.ROUTES, *formula_sheet.ROUTES
 
 
 def create_app(settings: ServerSettings) -> Starlette:
-    """The application.
+    """Return the web application, with its database open.
 
     Parameters
     ----------
-    settings : Settings
+    settings : ServerSettings
 
     Raises
     ------
@@ -60,6 +60,7 @@ def create_app(settings: ServerSettings) -> Starlette:
 
     @contextlib.asynccontextmanager
     async def lifespan(_app: Starlette) -> AsyncIterator[None]:
+        """Start the workers before the first request, and close everything after the last."""
         try:
             site.workers.warm()
             attaching = asyncio.ensure_future(site.papers.attach_all())
@@ -87,6 +88,7 @@ def create_app(settings: ServerSettings) -> Starlette:
 
 
 def _build_routes(settings: ServerSettings) -> list[BaseRoute]:
+    """Return the routes; those for authors, classes and accounts only where they are in use."""
     return [
         *PAGES,
         *(author.ROUTES if settings.examine else ()),
@@ -101,14 +103,14 @@ def _build_routes(settings: ServerSettings) -> list[BaseRoute]:
 
 
 def _load_classroom_routes() -> list[Route]:
-    """Pages for who marks a class; they load what nobody else waits for."""
+    """Return the pages for grading a class, imported only where there is one."""
     from quizgen.web import manual_grading
 
     return manual_grading.ROUTES
 
 
 async def set_language(request: Request) -> Response:
-    """Choose the language, and go back."""
+    """Store the learner's language and redirect to the page they came from."""
     form = await read_form(request)
     lang = field_text(form, "lang")
     site: ServerState = request.app.state.site
@@ -120,12 +122,12 @@ async def set_language(request: Request) -> Response:
 
 
 async def serve_language_css(_request: Request) -> Response:
-    """The style of languages with lines of their own height."""
+    """Return the style sheet of languages that need another line height."""
     return Response(page_language_css(), media_type="text/css")
 
 
 async def handle_http_error(request: Request, error: Exception) -> Response:
-    """A page for what is not there or not allowed."""
+    """Return the error page of an HTTP status, in the learner's language."""
     status = error.status_code if isinstance(error, HTTPException) else 500
     name = f"error.{status}" if status in {400, 403, 404, 405, 410, 413, 429} else "error.400"
     if isinstance(error, GoneError):
@@ -140,21 +142,21 @@ async def handle_http_error(request: Request, error: Exception) -> Response:
 
 
 async def handle_store_error(request: Request, error: Exception) -> Response:
-    """A page for a database that does not answer."""
-    return _failure(request, error, 503, "error.503")
+    """Return the page for a database that does not answer (HTTP 503)."""
+    return _render_failure_page(request, error, 503, "error.503")
 
 
 async def handle_bank_error(request: Request, error: Exception) -> Response:
-    """A page for a template that is wrong; authors are told what is."""
+    """Return the page for a faulty template (HTTP 500); authors see the message."""
     site: ServerState = request.app.state.site
     wrong = str(error) if site.settings.examine else ""
-    return _failure(request, error, 500, "error.500", wrong)
+    return _render_failure_page(request, error, 500, "error.500", wrong)
 
 
-def _failure(
+def _render_failure_page(
     request: Request, error: Exception, status: int, text: str, wrong: str = ""
 ) -> Response:
-    """A page with the id by which it is found in the log, where it says why."""
+    """Return an error page with the request's id, and record the cause for the log."""
     request.state.cause = find_cause(error)
     return page_response(
         request,

@@ -33,12 +33,12 @@ SIGN_IN, INVITED = "/sign-in", "/invited"
 
 
 def csrf_token(token: str) -> str:
-    """What every form of a browser holds, so that no other site can post one."""
+    """Return the token that every form of a session holds: other sites cannot post one."""
     return hmac.new(token.encode(), b"form", hashlib.sha256).hexdigest()
 
 
 class AuthMiddleware:
-    """Lets in who may, and puts beside the request who that is.
+    """Admits requests of known learners and sets ``learner`` and ``token`` in their state.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class AuthMiddleware:
         """Tokens that the database has said to be good, so that not each request asks it."""
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer at once, or hand on."""
+        """Answer a request that is not admitted, or pass it to the application."""
         if scope["type"] != "http" or scope["path"].startswith(OPEN):
             await self.app(scope, receive, send)
             return
@@ -72,7 +72,7 @@ class AuthMiddleware:
         await self.app(scope, receive, _with_cookie(scope, send))
 
     async def _health(self) -> Response:
-        """Whether the database answers, and how many processes make questions."""
+        """Return as JSON whether the database answers and how many workers are alive."""
         try:
             await asyncio.wait_for(run_in_threadpool(self.site.store.check), LONGEST_CHECK)
             is_well = True
@@ -83,7 +83,7 @@ class AuthMiddleware:
         return JSONResponse(told, 200 if is_well else 503)
 
     async def _admit_sole_learner(self, scope: Scope) -> Response | None:
-        """Whose browser was let in by a key is the one learner there is."""
+        """Admit the sole learner; return HTTP 403 for a browser without a key."""
         store = self.site.store
         if scope["path"] == ENTRANCE:
             return await self._begin_keyed_session(scope)
@@ -99,12 +99,13 @@ class AuthMiddleware:
         return None
 
     async def _find_learner(self) -> Learner:
+        """Return the sole learner, from memory if it was read before."""
         store = self.site.store
         found: Learner | None = store.cached_learner()
         return found if found is not None else await run_in_threadpool(store.learner)
 
     async def _begin_keyed_session(self, scope: Scope) -> Response:
-        """Begin a session of a browser that has a key."""
+        """Start a session for a browser that brings a valid key."""
         store = self.site.store
         if not self.site.keys.is_good(QueryParams(scope["query_string"]).get("key", "")):
             return plain_error("entrance", 403)
@@ -115,7 +116,7 @@ class AuthMiddleware:
         return set_session_cookie(scope, RedirectResponse("/", 303), token)
 
     async def _signed_in(self, scope: Scope) -> Response | None:
-        """Who has a session; anybody else is sent to where one signs in."""
+        """Admit a learner who has a session; else return the way to the sign-in page."""
         token = _read_session_cookie(scope)
         accounts = self.site.store.accounts
         learner = await run_in_threadpool(accounts.signed_in, token) if token else None
@@ -129,10 +130,10 @@ class AuthMiddleware:
 
 
 def set_session_cookie(scope: Scope, response: Response, token: str) -> Response:
-    """Give a browser another token, instead of the one that it had.
+    """Return the response with another session token in its cookie.
 
-    Not ``samesite=strict``: the way in begins in a file, which browsers take for another site.
-    Posts are held off by the token in each form and by ``guard``.
+    Not ``samesite=strict``: the entrance is a local file, which browsers take for another site.
+    Forged posts are rejected by the token in each form and by ``SecurityMiddleware``.
     """
     scope["state"].pop("new_token", None)
     return set_cookie(scope, response, COOKIE, token)
@@ -141,7 +142,10 @@ def set_session_cookie(scope: Scope, response: Response, token: str) -> Response
 def set_cookie(
     scope: Scope, response: Response, name: str, value: str, seconds: float | None = None
 ) -> Response:
-    """The response with a cookie that no script reads, kept for some seconds or until it closes."""
+    """Return the response with a cookie that no script can read.
+
+    It lasts ``seconds``, or until the browser closes if None.
+    """
     response.set_cookie(
         name, value, max_age=None if seconds is None else int(seconds),
         httponly=True, samesite="lax", secure=scope["scheme"] == "https",
@@ -150,9 +154,13 @@ def set_cookie(
 
 
 def _with_cookie(scope: Scope, send: Send) -> Send:
-    """Give a browser that has no token one for its forms, which lets nobody in."""
+    """Return ``send`` extended by the cookie of a new token.
+
+    A browser without a session needs one for its forms; it admits to nothing.
+    """
 
     async def sending(message: Message) -> None:
+        """Send a message, with the cookie added to the head of the response."""
         token = scope.get("state", {}).get("new_token")
         if token and message["type"] == "http.response.start":
             given = set_session_cookie(scope, Response(), token).headers["set-cookie"]
@@ -163,7 +171,7 @@ def _with_cookie(scope: Scope, send: Send) -> Send:
 
 
 def _make_visitor(scope: Scope, spoken: tuple[str, ...]) -> Learner:
-    """Somebody unknown, who has said in which language to be spoken to, or whose browser has."""
+    """Return a learner without account, in the language that the address or browser asks for."""
     asked = [QueryParams(scope["query_string"]).get("lang", "")]
     asked += [
         one.partition(";")[0].strip()
@@ -176,12 +184,15 @@ def _make_visitor(scope: Scope, spoken: tuple[str, ...]) -> Learner:
 
 
 def _strip_country(lang: str) -> str:
-    """A language without its country: ``pt`` of ``pt-BR``."""
+    """Return a language without its country: ``pt`` of ``pt-BR``."""
     return lang.partition("-")[0].lower()
 
 
 def _to_sign_in(scope: Scope) -> Response:
-    """Ask somebody to sign in, and lead back to the page where they were."""
+    """Return a redirect to the sign-in page that leads back to the page of the request.
+
+    A script gets a header instead, and what is no page a plain error.
+    """
     headers = Headers(scope=scope)
     by_script = "hx-request" in headers
     if scope["method"] in {"GET", "HEAD"} and not by_script:
@@ -197,6 +208,7 @@ def _to_sign_in(scope: Scope) -> Response:
 
 
 def _read_session_cookie(scope: Scope) -> str:
+    """Return the session token in the cookie; empty if there is none."""
     try:
         found = SimpleCookie(Headers(scope=scope).get("cookie", "")).get(COOKIE)
     except CookieError:

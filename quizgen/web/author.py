@@ -32,7 +32,7 @@ DIGITS = 9
 
 @dataclass(frozen=True)
 class PreviewJob:
-    """A template in all its languages, as the files were when they had this stamp."""
+    """Renders a template in all its languages; ``stamp`` is that of the bank's files."""
 
     template: str
     seed: str
@@ -40,7 +40,7 @@ class PreviewJob:
     stamp: str
 
     def run(self, bank: Bank) -> bytes:
-        """Make it."""
+        """Return the rendered questions as JSON."""
         template = _reload_bank(bank).template(self.template)
         drawn = draw_instance(template, self.seed)
         found = []
@@ -52,25 +52,25 @@ class PreviewJob:
 
 @dataclass(frozen=True)
 class LintJob:
-    """What is wrong with a template."""
+    """Checks a template; ``stamp`` is that of the bank's files, so a saved file makes a new job."""
 
     template: str
     examine: Callable[[Bank, str], list[str]]
     stamp: str
 
     def run(self, bank: Bank) -> bytes:
-        """Find it."""
+        """Return the messages as JSON."""
         return msgspec.json.encode(self.examine(*_reload_bank(bank).owner_of(self.template)))
 
 
 def _reload_bank(bank: Bank) -> Bank:
-    """The same bank, its files, solvers, figures and what figures say read again."""
+    """Return the bank with files, solvers and figures read again."""
     clear_alt_words()
     return bank.reload()
 
 
 def bank_stamp(bank: Bank) -> str:
-    """What changes when a file of a bank is saved."""
+    """Return a digest of paths and times of the bank's files: it changes when one is saved."""
     folders = [part.root / name for part in bank.members for name in FOLDERS]
     files = sorted(path for folder in folders for path in folder.rglob("*"))
     seen = [
@@ -82,7 +82,7 @@ def bank_stamp(bank: Bank) -> str:
 
 
 async def list_templates(request: Request) -> Response:
-    """All templates by topic."""
+    """Return the page of all templates by topic, with those that cannot be read."""
     site: ServerState = request.app.state.site
     bank, lang = site.bank.reload(), request_language(request)
     found, broken = dict[str, list[tuple[str, str]]](), list[tuple[str, str]]()
@@ -98,7 +98,10 @@ async def list_templates(request: Request) -> Response:
 
 
 def _get_requested_template(request: Request) -> str:
-    """The template that is asked for; the bank may have got it just now."""
+    """Return the name of the template requested; HTTP 404 if the bank has none.
+
+    The bank is read again, since the template may be new.
+    """
     site: ServerState = request.app.state.site
     name: str = request.path_params["name"]
     if name not in site.bank.reload().template_paths:
@@ -107,7 +110,7 @@ def _get_requested_template(request: Request) -> str:
 
 
 async def show_template(request: Request) -> Response:
-    """A template: its question and solution in all languages."""
+    """Return the preview of a template in all languages; HTTP 204 if nothing was saved since."""
     site: ServerState = request.app.state.site
     name, asked = _get_requested_template(request), request.query_params
     seed = asked.get("seed", "")
@@ -136,7 +139,7 @@ async def show_template(request: Request) -> Response:
 
 
 async def lint_template_page(request: Request) -> Response:
-    """What is wrong with a template."""
+    """Return the page of what is wrong with a template."""
     site: ServerState = request.app.state.site
     name, examine = _get_requested_template(request), site.settings.examine
     stamp = await run_in_threadpool(bank_stamp, site.bank)

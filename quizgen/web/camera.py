@@ -37,14 +37,14 @@ SIGNED = ("exposure", "k1")
 
 
 def slider_position(request: Request, slider: CameraSlider) -> int:
-    """Where a slider stands; where the scene has it, if it was not touched or is nowhere."""
+    """Return the index of a slider's stop: the one requested, else that of the scene."""
     sent = request.query_params.get(slider.name, "")
     place = int(sent) if sent.isascii() and sent.isdecimal() and len(sent) < 3 else slider.own
     return place if place < len(slider.stops) else slider.own
 
 
 def format_setting(lang: str, name: str, value: float) -> str:
-    """A value of a setting, for people."""
+    """Return the value of a camera setting in the words of a language."""
     if math.isnan(value):
         return translate_page(lang, "camera.off")
     if math.isinf(value):
@@ -54,7 +54,7 @@ def format_setting(lang: str, name: str, value: float) -> str:
 
 
 async def show_camera(request: Request) -> Response:
-    """The photograph that the sliders ask for."""
+    """Return the page with the photograph for the slider positions requested."""
     site: ServerState = request.app.state.site
     lang, asked = request_language(request), request.query_params
     scene = asked.get("scene", "") if asked.get("scene") in SCENES else SCENES[0]
@@ -84,20 +84,20 @@ async def show_camera(request: Request) -> Response:
         told=lambda name, value: format_setting(lang, name, value),
         shot=shot,
         pictures=_list_picture_urls(shot) if shot else [],
-        time=lambda seconds: _told_time(lang, seconds),
+        time=lambda seconds: _format_exposure_time(lang, seconds),
     )
 
 
 def _list_picture_urls(shot: CameraView) -> list[tuple[str, str]]:
-    """Name of each picture and its address."""
+    """Return name and data address of each picture of a photograph."""
     found = [("taken", shot.taken)]
     if shot.scale:
         found += [("plain", shot.plain), ("difference", shot.difference)]
     return [(name, f"data:image/png;base64,{b64encode(data).decode()}") for name, data in found]
 
 
-def _told_time(lang: str, seconds: float) -> str:
-    """An exposure time as photographers write it."""
+def _format_exposure_time(lang: str, seconds: float) -> str:
+    """Return an exposure time as photographers write it: ``1/125 s``."""
     told = f"{seconds:.2g}" if seconds >= 0.5 else f"1/{1.0 / seconds:.3g}"
     return translate_page(lang, "camera.seconds", value=told)
 
@@ -130,7 +130,7 @@ STOPS: dict[str, tuple[float, ...]] = {
 
 
 class CameraSlider(msgspec.Struct, frozen=True):
-    """A setting, where it can stand, and where the scene has it."""
+    """A camera setting with its stops; ``own`` is the index of the scene's own value."""
 
     name: str
     stops: tuple[float, ...]
@@ -138,7 +138,7 @@ class CameraSlider(msgspec.Struct, frozen=True):
 
 
 class CameraView(msgspec.Struct, frozen=True):
-    """A photograph with and without what is asked, and what was measured; pictures as PNG."""
+    """A photograph with and without the chosen effect, as PNG, and what was measured."""
 
     taken: bytes
     plain: bytes
@@ -168,14 +168,14 @@ class CameraView(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class CameraJob:
-    """What to photograph: a shipped scene with other settings of its camera."""
+    """Renders a shipped scene with changed camera settings."""
 
     scene: str
     changes: tuple[tuple[str, float], ...]
     effect: str = ""
 
     def run(self, bank: Bank) -> bytes:
-        """Take it with and without what is asked.
+        """Return the photograph with and without the chosen effect, as JSON.
 
         Raises
         ------
@@ -198,7 +198,7 @@ class CameraJob:
             CameraView(
                 taken=_encode_picture(taken.photo.values),
                 plain=_encode_picture(taken.without.values),
-                difference=_png_of(apart),
+                difference=_encode_png(apart),
                 scale=scale if apart.any() else 0,
                 asked=list(taken.plan.asked),
                 chosen=chosen,
@@ -217,7 +217,7 @@ class CameraJob:
     def _take_photo(
         self, scene: Scene, camera: Camera, found: list[str], chosen: str
     ) -> QuestionPhoto:
-        """What was set runs as well as what is asked; without a question the first effect is."""
+        """Return the photograph with the chosen effect and those whose settings were changed."""
         from quizgen.camera.planner import EffectSelection
         from quizgen.camera.question_photo import take_question_photo
 
@@ -229,7 +229,7 @@ class CameraJob:
         return take_question_photo(scene, camera, chosen=EffectSelection(only, plus))
 
     def _set_effects(self) -> Iterator[str]:
-        """Effects whose settings were changed."""
+        """Yield the effects whose settings were changed."""
         from quizgen.camera import effects
 
         changed = dict(self.changes)
@@ -241,6 +241,7 @@ class CameraJob:
                 yield one.name
 
     def _apply_changes(self, camera: Camera) -> Camera:
+        """Return the camera with the changed settings."""
         changes: dict[str, object] = dict(self.changes)
         if "bit_depth" in changes:
             bits = dict(self.changes)["bit_depth"]
@@ -249,6 +250,7 @@ class CameraJob:
 
 
 def _find_scene_file(scene: str) -> Path:
+    """Return the file of a shipped scene."""
     return Path(str(files("quizgen.camera") / "scenes" / f"{scene}.toml"))
 
 
@@ -257,13 +259,17 @@ _EFFECTS = {"f_number": "defocus", "focus_distance": "defocus", "full_well": "sh
 
 
 def _iter_run_effects(taken: QuestionPhoto) -> Iterator[tuple[str, str]]:
+    """Yield each effect that ran and why: ``asked``, ``set`` or ``needed``."""
     why = {"asked": "asked", "wanted": "set"}
     for step in taken.plan.steps:
         yield step.effect, why.get(step.why, "needed")
 
 
 def _find_exposure_time(own: Camera, camera: Camera) -> tuple[float, float] | None:
-    """Exposure time that lets in as much light as the scene's own f-number and time."""
+    """Return the time (s) that keeps the exposure at a changed f-number, and the present one.
+
+    None if the aperture is unchanged or a setting is missing.
+    """
     from quizgen.camera.setup.settings import F_NUMBER, SHUTTER
 
     before, after, time = own[F_NUMBER], camera[F_NUMBER], own[SHUTTER]
@@ -273,14 +279,16 @@ def _find_exposure_time(own: Camera, camera: Camera) -> tuple[float, float] | No
 
 
 def _encode_picture(values: Image) -> bytes:
+    """Return a linear picture (0 to 1) as PNG bytes."""
     import numpy as np
 
     from quizgen.camera.pixels.codes import to_8bit
 
-    return _png_of(to_8bit(values * np.float32(255)))
+    return _encode_png(to_8bit(values * np.float32(255)))
 
 
-def _png_of(codes: NDArray[np.uint8]) -> bytes:
+def _encode_png(codes: NDArray[np.uint8]) -> bytes:
+    """Return 8-bit codes as PNG bytes."""
     from quizgen.camera.pixels.codecs import encode_photo
 
     return encode_photo(codes)
@@ -288,7 +296,7 @@ def _png_of(codes: NDArray[np.uint8]) -> bytes:
 
 @cache
 def camera_sliders(scene: str) -> tuple[CameraSlider, ...]:
-    """What can be changed of a scene's camera."""
+    """Return the sliders that make sense for a scene's camera."""
     from quizgen.camera import effects
     from quizgen.camera.scene_file import load_scene
 
@@ -308,4 +316,5 @@ def camera_sliders(scene: str) -> tuple[CameraSlider, ...]:
 
 
 def _find_stop_index(stops: tuple[float, ...], value: float) -> int:
+    """Return the index of a value among the stops; NaN (off) is the first."""
     return 0 if math.isnan(value) else stops.index(value)

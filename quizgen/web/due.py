@@ -16,7 +16,7 @@ from quizgen.web.views import request_language
 
 @dataclass(frozen=True)
 class DueToday:
-    """What today asks for.
+    """What is due today, for the start page.
 
     Parameters
     ----------
@@ -35,19 +35,19 @@ class DueToday:
 
 
 def progress_of(request: Request) -> LearnerProgress:
-    """What the learner has done and is to do."""
+    """Return the progress of the learner who sent a request."""
     site: ServerState = request.app.state.site
     return LearnerProgress(site.store, site.bank, request.state.learner)
 
 
 def readable_templates(request: Request) -> tuple[str, ...]:
-    """Templates in the language of who asks."""
+    """Return the templates that are written in the learner's language."""
     site: ServerState = request.app.state.site
     return matching_templates(site.bank, PracticeRequest(request_language(request)))
 
 
 def due_today(request: Request) -> DueToday:
-    """What today asks for."""
+    """Return how many templates are due or new today, and about how long they take."""
     agenda, names = progress_of(request).agenda(), readable_templates(request)
     ready, fresh = agenda.due_templates(names), agenda.new_per_day(names)
     minutes = {name: suggested_minutes(agenda.bank.rules(name)) for name in names}

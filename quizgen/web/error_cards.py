@@ -42,37 +42,38 @@ SAT = 5
 
 @dataclass(frozen=True)
 class ErrorCardsJob:
-    """Cards of what went wrong, the latest first."""
+    """Builds flashcards of mistakes, the latest first."""
 
     lang: str
     sat: tuple[FinishedExam, ...]
     practised: tuple[PracticedQuestion, ...] = ()
 
     def run(self, bank: Bank) -> bytes:
-        """Make them: a package for Anki, or nothing."""
+        """Return an Anki package; empty bytes if there is nothing to learn."""
         return pack_error_cards(bank, self.lang, self.sat, self.practised)
 
 
 async def download_exam_cards(request: Request) -> Response:
-    """Cards of an exam that was handed in."""
+    """Return the flashcards of a submitted exam's mistakes."""
     site: ServerState = request.app.state.site
     store, learner = site.store.sittings, request.state.learner.id
-    sitting = await run_in_threadpool(store.find, learner, request.path_params["sitting"])
-    if sitting is None or sitting.handed is None:
+    exam = await run_in_threadpool(store.find, learner, request.path_params["sitting"])
+    if exam is None or exam.handed is None:
         raise HTTPException(404)
     return await _send_cards(
-        request, ErrorCardsJob(request_language(request), (_read_sitting(site, sitting),))
+        request, ErrorCardsJob(request_language(request), (_read_exam_answers(site, exam),))
     )
 
 
 async def download_all_cards(request: Request) -> Response:
-    """Cards of the latest that was practised and sat."""
+    """Return the flashcards of the latest mistakes in practice and exams."""
 
     def collect_mistakes() -> ErrorCardsJob:
+        """Return the job for the latest exams and questions, read in a thread."""
         site: ServerState = request.app.state.site
         learner = request.state.learner.id
         handed = [one for one in site.store.sittings.latest(learner) if one.handed is not None]
-        sat = tuple(_read_sitting(site, one) for one in handed[:SAT])
+        sat = tuple(_read_exam_answers(site, one) for one in handed[:SAT])
         latest = site.store.latest(learner, LOOKED_AT)
         return ErrorCardsJob(
             request_language(request), sat, tuple(_iter_wrong_attempts(latest))[:PRACTISED]
@@ -81,15 +82,14 @@ async def download_all_cards(request: Request) -> Response:
     return await _send_cards(request, await run_in_threadpool(collect_mistakes))
 
 
-def _read_sitting(site: ServerState, sitting: ExamRecord) -> FinishedExam:
-    answers = site.store.sittings.answers(sitting)
-    return FinishedExam(
-        sitting.code, tuple((part, tuple(fields)) for part, fields in answers.items())
-    )
+def _read_exam_answers(site: ServerState, exam: ExamRecord) -> FinishedExam:
+    """Return an exam's code and answers."""
+    answers = site.store.sittings.answers(exam)
+    return FinishedExam(exam.code, tuple((part, tuple(fields)) for part, fields in answers.items()))
 
 
 def _iter_wrong_attempts(attempts: Iterable[AttemptRecord]) -> Iterator[PracticedQuestion]:
-    """Questions where something was not right, each mistake once."""
+    """Yield questions with a mistake that no later attempt had; the latest come first."""
     known: set[tuple[str, str, str]] = set()
     for attempt in attempts:
         kept = convert(attempt.state.get("parts", {}), dict[str, PartProgress])
@@ -103,13 +103,14 @@ def _iter_wrong_attempts(attempts: Iterable[AttemptRecord]) -> Iterator[Practice
 
 
 def _make_card_part(name: str, state: PartState) -> PracticedPart:
-    """The wrong answer that was given, or the one at which it was given up."""
+    """Return the answer of a part: the wrong one, or the last before it was given up."""
     outcome = state.outcome
     given_up = outcome is not None and not (outcome.right or outcome.skipped)
     return PracticedPart(name, state.wrong or state.typed, bool(state.wrong) or given_up)
 
 
 async def _send_cards(request: Request, job: ErrorCardsJob) -> Response:
+    """Return the Anki package of a job as a download, or a page that there is nothing."""
     site: ServerState = request.app.state.site
     data = await site.workers.get_result(job, request.state.learner.id)
     if not data:
@@ -127,7 +128,7 @@ ROUTES = [
 
 
 class PracticedPart(msgspec.Struct, frozen=True):
-    """What was typed at a part of a question, and whether that was wrong."""
+    """What was typed at a part, and whether it was wrong."""
 
     id: str
     typed: str
@@ -135,14 +136,14 @@ class PracticedPart(msgspec.Struct, frozen=True):
 
 
 class PracticedQuestion(msgspec.Struct, frozen=True):
-    """A question that was practised."""
+    """A practised question with the answers to its parts."""
 
     which: QuestionRef
     parts: tuple[PracticedPart, ...]
 
 
 class FinishedExam(msgspec.Struct, frozen=True):
-    """An exam that was handed in: what stood in the fields of its parts."""
+    """A submitted exam: the code of its paper and the fields of its parts."""
 
     code: str
     answers: tuple[tuple[str, tuple[str, ...]], ...]
@@ -178,12 +179,14 @@ def pack_error_cards(
 def _iter_missed_parts(
     bank: Bank, one: FinishedExam | PracticedQuestion, lang: str
 ) -> list[MissedPart]:
+    """Return the parts of an exam or a question that were not right."""
     if isinstance(one, FinishedExam):
-        return _of_exam(bank, one, lang)
-    return _of_question(bank, one, lang)
+        return _find_missed_in_exam(bank, one, lang)
+    return _find_missed_in_question(bank, one, lang)
 
 
-def _of_exam(bank: Bank, sat: FinishedExam, lang: str) -> list[MissedPart]:
+def _find_missed_in_exam(bank: Bank, sat: FinishedExam, lang: str) -> list[MissedPart]:
+    """Return the parts of an exam that were not right, graded again from its code."""
     from quizgen.cards.error_deck import GradedPaper, find_missed
 
     paper, answers = rebuild_paper(bank, sat.code), dict(sat.answers)
@@ -200,7 +203,10 @@ def _of_exam(bank: Bank, sat: FinishedExam, lang: str) -> list[MissedPart]:
     return list(find_missed(GradedPaper(sat.code, tuple(parts)), paper))
 
 
-def _of_question(bank: Bank, practised: PracticedQuestion, lang: str) -> list[MissedPart]:
+def _find_missed_in_question(
+    bank: Bank, practised: PracticedQuestion, lang: str
+) -> list[MissedPart]:
+    """Return the parts of a practised question that were not right, graded again."""
     from quizgen.cards.error_deck import MissedPart
 
     which = practised.which
@@ -215,7 +221,7 @@ def _of_question(bank: Bank, practised: PracticedQuestion, lang: str) -> list[Mi
 def _iter_graded_parts(
     item: PaperItem, typed: Mapping[str, str], lang: str
 ) -> Iterator[GradedPart]:
-    """The parts of a question, marked one after another as a paper's are."""
+    """Yield the parts of a question graded in order, as a paper's are."""
     from quizgen.cards.error_deck import GradedPart
 
     keyed = make_key_question(item)

@@ -18,7 +18,7 @@ _FIELDS = "event_fields"
 
 
 def log_event(name: str, level: int = logging.INFO, **fields: object) -> None:
-    """Write that something happened.
+    """Log an event with its fields.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def log_event(name: str, level: int = logging.INFO, **fields: object) -> None:
 
 
 def find_cause(error: BaseException) -> dict[str, object]:
-    """What an error is and where it was raised, without its message, which may hold answers."""
+    """Return type and place of an error, without its message: that may hold answers."""
     found: dict[str, object] = {"error": type(error).__name__}
     database = getattr(error, "orig", None)  # SQLAlchemy's: what the database said, by its code
     code = getattr(database, "sqlite_errorname", None) or getattr(database, "sqlstate", None)
@@ -44,7 +44,7 @@ def find_cause(error: BaseException) -> dict[str, object]:
 
 
 def set_up_log(form: str) -> None:
-    """Write to the standard error what quizgen and uvicorn have to say.
+    """Log events of quizgen and uvicorn to standard error.
 
     Parameters
     ----------
@@ -60,36 +60,43 @@ def set_up_log(form: str) -> None:
 
 
 class _Plain(logging.Formatter):
-    """A line of names and values."""
+    """Formats a record as a line of names and values."""
 
     def format(self, record: logging.LogRecord) -> str:
-        """The line."""
-        fields = _fields_of(record)
-        told = [f"{name}={_in_one_word(value)}" for name, value in fields.items()]
-        return " ".join([_time(record), record.levelname, record.getMessage(), *told])
+        """Return the line."""
+        fields = _get_event_fields(record)
+        told = [f"{name}={_quote_value(value)}" for name, value in fields.items()]
+        return " ".join([_format_time(record), record.levelname, record.getMessage(), *told])
 
 
 class _Json(logging.Formatter):
-    """A line of JSON."""
+    """Formats a record as a line of JSON."""
 
     def format(self, record: logging.LogRecord) -> str:
-        """The line."""
-        head = {"time": _time(record), "level": record.levelname, "event": record.getMessage()}
-        return json.dumps({**head, **_fields_of(record)}, ensure_ascii=False, default=str)
+        """Return the line."""
+        head = {
+            "time": _format_time(record),
+            "level": record.levelname,
+            "event": record.getMessage(),
+        }
+        return json.dumps({**head, **_get_event_fields(record)}, ensure_ascii=False, default=str)
 
 
-def _fields_of(record: logging.LogRecord) -> dict[str, Any]:
+def _get_event_fields(record: logging.LogRecord) -> dict[str, Any]:
+    """Return the fields of an event, with the cause of its error if it has one."""
     fields: dict[str, Any] = dict(getattr(record, _FIELDS, {}))
     if record.exc_info and record.exc_info[1] is not None:
         fields |= find_cause(record.exc_info[1])
     return fields
 
 
-def _time(record: logging.LogRecord) -> str:
+def _format_time(record: logging.LogRecord) -> str:
+    """Return the time of a record in UTC, as ISO 8601 with milliseconds."""
     return datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds")
 
 
-def _in_one_word(value: object) -> str:
+def _quote_value(value: object) -> str:
+    """Return a value as text without blanks; quoted if it has any."""
     if isinstance(value, list):
         return ",".join(map(str, value))
     text = str(value)

@@ -51,12 +51,12 @@ LONGEST_MINUTES = 300
 
 
 class GoneError(HTTPException):
-    """An exam from before papers were kept; its paper cannot be made any more."""
+    """HTTP 410: an exam without a stored paper, which cannot be built any more."""
 
 
 @dataclass(frozen=True)
 class ExamChoice:
-    """A paper that can be chosen."""
+    """A paper that a learner can choose."""
 
     name: str
     title: str
@@ -65,7 +65,7 @@ class ExamChoice:
 
 
 async def list_exams(request: Request) -> Response:
-    """Which exams there are, and those that were sat."""
+    """Return the page of exams to choose from and of those taken."""
     site: ServerState = request.app.state.site
     store = site.store.sittings
     sittings = await run_in_threadpool(store.latest, request.state.learner.id)
@@ -84,13 +84,14 @@ async def list_exams(request: Request) -> Response:
 
 
 def _list_exam_choices(request: Request) -> list[ExamChoice]:
-    """The bank's blueprints, then its topics."""
+    """Return the bank's blueprints, then its topics."""
     bank = request.app.state.site.bank
     names = (*bank.blueprints, EVERYTHING, *bank.topics)
     return [found for name in names if (found := _find_exam_choice(request, name)) is not None]
 
 
 def _find_exam_choice(request: Request, name: str) -> ExamChoice | None:
+    """Return the choice of a blueprint's name; None if there is none."""
     plan = find_blueprint(name, request.app.state.site.bank)
     if plan is None:
         return None
@@ -100,7 +101,7 @@ def _find_exam_choice(request: Request, name: str) -> ExamChoice | None:
 
 
 def _find_exam_title(request: Request, sitting: ExamRecord) -> str:
-    """Title of a paper; its code, if its blueprint or its language is gone."""
+    """Return the title of an exam; its code if its blueprint or language is gone."""
     try:
         found = _find_exam_choice(request, parse_code(sitting.code).blueprint)
     except PaperCodeError:
@@ -137,6 +138,7 @@ async def start_exam(request: Request) -> Response:
 
 
 def _parse_wanted_paper(request: Request, form: FormData) -> MakePaper:
+    """Return which paper a form asks for, by code or by blueprint and minutes."""
     code = field_text(form, "code").strip()
     if code:
         parsed = parse_code(code)
@@ -151,7 +153,7 @@ def _parse_wanted_paper(request: Request, form: FormData) -> MakePaper:
 
 
 def _refuse_long(name: str) -> None:
-    """Make nobody wait for a paper that nobody sits.
+    """Reject a paper of more than ``LONGEST_MINUTES``: building it would block a worker.
 
     Raises
     ------
@@ -164,6 +166,7 @@ def _refuse_long(name: str) -> None:
 
 
 async def _get_sitting(request: Request) -> ExamRecord:
+    """Return the learner's exam that the address names; HTTP 404 if there is none."""
     site: ServerState = request.app.state.site
     name = request.path_params["sitting"]
     found = await run_in_threadpool(site.store.sittings.find, request.state.learner.id, name)
@@ -173,6 +176,7 @@ async def _get_sitting(request: Request) -> ExamRecord:
 
 
 async def _make_paper(request: Request, sitting: ExamRecord) -> PaperView:
+    """Return the paper of an exam in the learner's language; ``GoneError`` if it is gone."""
     site: ServerState = request.app.state.site
     try:
         return await site.papers.of(sitting, request_language(request))
@@ -181,7 +185,7 @@ async def _make_paper(request: Request, sitting: ExamRecord) -> PaperView:
 
 
 async def show_exam(request: Request) -> Response:
-    """The paper, or its results once it is handed in or its time is over."""
+    """Return the paper, or the results once it is submitted or its time is over."""
     sitting = await _get_sitting(request)
     if sitting.handed is None and sitting.is_over(request.app.state.site.store.clock.now()):
         await _hand_in(request, sitting)
@@ -200,7 +204,7 @@ async def show_exam(request: Request) -> Response:
 
 
 def _read_changed_fields(form: FormData) -> dict[str, list[str]]:
-    """What was changed, by part.
+    """Return the fields of each part that was changed on this page.
 
     Parts that were not on the form are left as they are, and so are those that still hold what the
     page was made with: another page of the same exam may have changed them since. The store knows
@@ -220,7 +224,10 @@ def _read_changed_fields(form: FormData) -> dict[str, list[str]]:
 
 
 def _decode_shown_fields(sent: str) -> list[str] | None:
-    """What a part held when the page was made; None where a script sends only what was changed."""
+    """Return the fields that a part had when its page was rendered.
+
+    None where a script sends only what was changed.
+    """
     try:
         return _normalise_fields(decode_json(sent, list[str]))
     except msgspec.DecodeError:
@@ -228,12 +235,15 @@ def _decode_shown_fields(sent: str) -> list[str] | None:
 
 
 def _normalise_fields(values: list[str]) -> list[str]:
-    """Fields as they compare: browsers end lines in their own way, and none filled is none."""
+    """Return fields in the form they are compared in.
+
+    Browsers end lines in their own way, and fields that are all blank equal none.
+    """
     return [value.replace("\r\n", "\n") for value in values] if any(values) else []
 
 
 async def save_answers(request: Request) -> Response:
-    """Keep what was typed; a script is told when, a form leads back to the paper."""
+    """Store the answers of a page; a script gets the time, a form a redirect to the paper."""
     form = await read_form(request)
     site: ServerState = request.app.state.site
     store: ExamStore = site.store.sittings
@@ -256,7 +266,7 @@ async def save_answers(request: Request) -> Response:
 
 
 async def submit_exam(request: Request) -> Response:
-    """Ask before a paper is handed in, naming what is not answered and what was flagged."""
+    """Return the page that asks before submitting, with unanswered and flagged questions."""
     sitting = await _get_sitting(request)
     if sitting.resting is not None or sitting.is_over(request.app.state.site.store.clock.now()):
         return redirect(f"/exam/{sitting.id}")
@@ -273,7 +283,7 @@ async def submit_exam(request: Request) -> Response:
 def _list_unfinished_questions(
     paper: PaperView, answers: Mapping[str, list[str]]
 ) -> list[tuple[QuestionView, list[PartView]]]:
-    """Questions with the parts at which a field is empty."""
+    """Return the questions with parts of which a field is empty."""
     found = [
         (item, [part for part in item.parts if not _is_answered(part, answers)])
         for item in paper.items
@@ -282,12 +292,16 @@ def _list_unfinished_questions(
 
 
 def _is_answered(part: PartView, answers: Mapping[str, list[str]]) -> bool:
+    """Return whether every field of a part is filled."""
     field = part.field
     return is_complete(field.control, answers.get(field.id, ()), field.marks)
 
 
 async def _hand_in(request: Request, sitting: ExamRecord) -> None:
-    """Hand in, for good; marked after that, so that nobody's hand-in waits for another's marks."""
+    """Submit the exam for good.
+
+    It is graded later, so that no submission waits for another's grading.
+    """
     store = request.app.state.site.store.sittings
     await run_in_threadpool(store.hand_in, sitting)
 
@@ -295,7 +309,7 @@ async def _hand_in(request: Request, sitting: ExamRecord) -> None:
 async def _count(
     request: Request, sitting: ExamRecord, paper: PaperView, answers: Mapping[str, list[str]]
 ) -> ExamResults:
-    """The results; the first time they are counted in what the learner has done."""
+    """Return the results; the first time, they are added to the learner's progress."""
     site: ServerState = request.app.state.site
     results = await grade_exam(site.workers, paper, answers, sitting.marks, sitting.learner)
     if not sitting.counted:
@@ -309,7 +323,7 @@ async def _count(
 
 
 async def toggle_flag(request: Request) -> Response:
-    """Mark a question to come back to, or take the mark away."""
+    """Flag a question to come back to, or remove the flag."""
     await read_form(request)
     sitting = await _get_sitting(request)
     paper = await _make_paper(request, sitting)
@@ -321,6 +335,7 @@ async def toggle_flag(request: Request) -> Response:
 
 
 def _get_part(paper: PaperView, name: str) -> tuple[PartView, int]:
+    """Return a part of a paper and the index of its question; HTTP 404 if there is none."""
     for place, item in enumerate(paper.items):
         for part in item.parts:
             if part.field.id == name:
@@ -329,7 +344,7 @@ def _get_part(paper: PaperView, name: str) -> tuple[PartView, int]:
 
 
 async def preview_exam_answer(request: Request) -> Response:
-    """How what stands in the fields is read; never whether it is right."""
+    """Return how the typed answer is read, typeset; never whether it is right."""
     form = await read_form(request)
     paper = await _make_paper(request, await _get_sitting(request))
     part, place = _get_part(paper, request.path_params["part"])
@@ -340,7 +355,7 @@ async def preview_exam_answer(request: Request) -> Response:
 
 
 async def save_self_mark(request: Request) -> Response:
-    """Keep what a learner gives to a sentence, compared with the key points."""
+    """Store the share of marks that a learner gives to a sentence, by its key points."""
     form = await read_form(request)
     sitting = await _get_sitting(request)
     part, _ = _get_part(await _make_paper(request, sitting), request.path_params["part"])

@@ -29,7 +29,7 @@ WRONG = frozenset({"wrong", "partial"})
 
 @dataclass(frozen=True)
 class ExamPartResult:
-    """One part of a paper that was handed in."""
+    """One part of a submitted exam."""
 
     part: PartView
     values: Sequence[str]
@@ -41,19 +41,19 @@ class ExamPartResult:
 
     @property
     def verdict(self) -> Verdict:
-        """What the checker says."""
+        """Return the verdict of grading."""
         return self.result.verdict
 
     @property
     def unread(self) -> ReadErrorView | None:
-        """Why it could not be read, if it could not."""
+        """Return why the answer could not be read; None if it could."""
         if self.verdict.is_graded or self.verdict.needs_self_marking:
             return None
         return explain_read_error(self.part.field, self.values, self.verdict, self.lang)
 
     @property
     def marks(self) -> Fraction | None:
-        """Its marks; None while nobody has decided."""
+        """Return the marks; None while undecided."""
         if self.result.is_blank:
             return Fraction(0)
         if self.result.marks is None and self.own is not None:
@@ -62,7 +62,7 @@ class ExamPartResult:
 
     @property
     def status(self) -> str:
-        """``blank``, ``open``, ``judged`` or the verdict."""
+        """Return ``blank``, ``open``, ``judged`` (by the learner) or the verdict."""
         if self.result.status == "open":
             return "open" if self.own is None else "judged"
         return self.result.status
@@ -70,50 +70,50 @@ class ExamPartResult:
 
 @dataclass(frozen=True)
 class ExamQuestionResult:
-    """One question of a paper that was handed in."""
+    """One question of a submitted exam."""
 
     made: QuestionView
     parts: tuple[ExamPartResult, ...]
 
     @property
     def marks(self) -> Fraction:
-        """Marks so far."""
+        """Return the marks decided so far."""
         return sum((part.marks or Fraction(0) for part in self.parts), Fraction(0))
 
     @property
     def points(self) -> Fraction:
-        """Marks that can be had."""
+        """Return the most marks the question can have."""
         return sum((part.result.points for part in self.parts), Fraction(0))
 
     @property
     def weak(self) -> bool:
-        """Whether it is worth practising."""
+        """Whether marks were lost, so that the question is worth practising."""
         return self.marks < self.points
 
 
 @dataclass(frozen=True)
 class ExamResults:
-    """A paper that was handed in."""
+    """The results of a submitted exam."""
 
     questions: tuple[ExamQuestionResult, ...]
 
     @property
     def marks(self) -> Fraction:
-        """Marks so far."""
+        """Return the marks decided so far."""
         return sum((question.marks for question in self.questions), Fraction(0))
 
     @property
     def points(self) -> Fraction:
-        """Marks that can be had."""
+        """Return the most marks the paper can have."""
         return sum((question.points for question in self.questions), Fraction(0))
 
     @property
     def to_judge(self) -> int:
-        """Sentences that nobody has decided on."""
+        """Return the number of sentences that the learner has yet to grade."""
         return sum(part.status == "open" for q in self.questions for part in q.parts)
 
     def mistakes(self) -> list[tuple[str, list[QuestionView]]]:
-        """What was said of wrong parts, with the questions, those of most questions first."""
+        """Return each feedback on wrong parts with its questions, the most frequent first."""
         found: dict[str, list[QuestionView]] = {}
         for question in self.questions:
             for part in question.parts:
@@ -125,14 +125,14 @@ class ExamResults:
 
 @dataclass(frozen=True)
 class MarkPaper:
-    """A paper to mark: the keys of its questions, as JSON, and what was typed at each part."""
+    """Grades a paper in a worker: keys of its questions as JSON, typed answers by part."""
 
     lang: str
     keys: bytes
     typed: tuple[tuple[str, ...], ...]
 
     def run(self, bank: Bank) -> bytes:
-        """Mark it; the results of the parts of each question, for ``marked``."""
+        """Return the results of each question's parts as JSON."""
         del bank
         found = []
         for key, typed in zip(decode_json(self.keys, list[KeyQuestion]), self.typed, strict=True):
@@ -147,12 +147,13 @@ class MarkPaper:
 
 
 def _strip_numbers(result: PartResult) -> PartResult:
-    """A result without the numbers that only the parts after it need."""
-    return replace(result, verdict=_bare(result.verdict))
+    """Return a result without the values that only later parts of its question need."""
+    return replace(result, verdict=_strip_values(result.verdict))
 
 
-def _bare(verdict: Verdict) -> Verdict:
-    return replace(verdict, values=(), cells=tuple(map(_bare, verdict.cells)))
+def _strip_values(verdict: Verdict) -> Verdict:
+    """Return a verdict without values, and so its cells."""
+    return replace(verdict, values=(), cells=tuple(map(_strip_values, verdict.cells)))
 
 
 async def grade_exam(
@@ -162,7 +163,7 @@ async def grade_exam(
     own: Mapping[str, float],
     learner: int,
 ) -> ExamResults:
-    """Mark a paper, in a process of its own.
+    """Return the results of a paper, graded in a worker process.
 
     Parameters
     ----------
@@ -196,7 +197,7 @@ async def grade_exam(
 
 
 def review_events(bank: Bank, results: ExamResults) -> list[ReviewEvent]:
-    """What a paper says of its templates; nothing of questions that a person has to mark."""
+    """Return the review of each template by a paper; undecided parts do not count."""
     found = []
     for question in results.questions:
         parts = [part for part in question.parts if part.status != "open"]
@@ -211,7 +212,7 @@ def review_events(bank: Bank, results: ExamResults) -> list[ReviewEvent]:
 
 
 def outcome_records(results: ExamResults) -> tuple[OutcomeRecord, ...]:
-    """How the parts went, for what to practise next; blank ones were not right."""
+    """Return the outcome of each part, for progress; blank parts count as not right."""
     now = time.time()
     return tuple(
         OutcomeRecord(

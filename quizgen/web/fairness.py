@@ -21,7 +21,7 @@ REMEMBERED = 10_000
 
 
 class FairQueue:
-    """Lets some do heavy work at the same time, and all who ask in turn.
+    """Limits concurrent work and serves askers in turn, however many requests each has.
 
     A hundred requests of one asker hold up another's by one of them, not by a hundred.
 
@@ -40,7 +40,7 @@ class FairQueue:
 
     @contextlib.asynccontextmanager
     async def turn(self, asker: Hashable) -> AsyncIterator[None]:
-        """Wait for a turn, and have it while the block runs."""
+        """Wait for a slot, and hold it during the body of ``async with``."""
         mine = asyncio.get_running_loop().create_future()
         self._waiting.setdefault(asker, deque()).append(mine)
         self._start_next()
@@ -55,7 +55,7 @@ class FairQueue:
                 self._start_next()
 
     def _start_next(self) -> None:
-        """Give the turn that may have come free to who has waited longest for one."""
+        """Start waiting work while slots are free, the longest waiting asker first."""
         for asker, queue in list(self._waiting.items()):
             while queue and queue[0].cancelled():
                 queue.popleft()
@@ -69,7 +69,7 @@ class FairQueue:
 
 
 class Allowance:
-    """How often something may be done: so many times at once, then one more every so often.
+    """A rate limit for each asker: ``most`` times at once, then once every ``every`` seconds.
 
     Parameters
     ----------
@@ -88,11 +88,11 @@ class Allowance:
         self._used: OrderedDict[Hashable, tuple[float, float]] = OrderedDict()
 
     def seconds_to_wait(self, asker: Hashable) -> int:
-        """Seconds until it may be done; 0 if it may be done now."""
+        """Return the seconds until the asker may do it; 0 if at once."""
         return max(0, math.ceil((self._used_now(asker) + 1 - self._most) * self._every))
 
     def spend(self, asker: Hashable) -> None:
-        """Count that it is done."""
+        """Count one use by the asker."""
         used = self._used_now(asker) + 1
         self._used.pop(asker, None)
         self._used[asker] = used, self._clock()
@@ -100,10 +100,11 @@ class Allowance:
             self._used.popitem(last=False)
 
     def give_back(self, asker: Hashable) -> None:
-        """Take back that it was done."""
+        """Take one use by the asker back."""
         if asker in self._used:
             self._used[asker] = max(0.0, self._used_now(asker) - 1), self._clock()
 
     def _used_now(self, asker: Hashable) -> float:
+        """Return the uses that still count; they decay by one every ``every`` seconds."""
         used, since = self._used.get(asker, (0.0, 0.0))
         return max(0.0, used - (self._clock() - since) / self._every)

@@ -19,7 +19,7 @@ LONGEST_ANSWER = 20_000
 
 
 async def read_form(request: Request) -> FormData:
-    """The form that was sent.
+    """Return the form of a request, after checking its token and size.
 
     Raises
     ------
@@ -35,7 +35,7 @@ async def read_form(request: Request) -> FormData:
 
 
 async def read_upload(request: Request, name: str) -> bytes:
-    """The file that was sent in a form; empty if there is none.
+    """Return the uploaded file of a form; empty bytes if there is none.
 
     Raises
     ------
@@ -49,24 +49,25 @@ async def read_upload(request: Request, name: str) -> bytes:
 
 
 def _check_form_token(request: Request, form: FormData) -> None:
+    """Raise HTTP 403 unless the form holds the session's token."""
     expected = csrf_token(request.state.token)
     if not secrets.compare_digest(field_text(form, "token").encode(), expected.encode()):
         raise HTTPException(403)
 
 
 def field_text(form: FormData, name: str) -> str:
-    """A field's text; empty if there is none."""
+    """Return the text of a field; empty if there is none."""
     value = form.get(name, "")
     return value if isinstance(value, str) else ""
 
 
 def field_texts(form: FormData, name: str) -> list[str]:
-    """All texts of a field, in order."""
+    """Return all texts of fields with a name, in order."""
     return [value for value in form.getlist(name) if isinstance(value, str)]
 
 
 def read_answer(form: FormData, name: str) -> list[str]:
-    """All texts of the fields of a part, in order.
+    """Return all texts of the fields of a part, in order.
 
     Raises
     ------

@@ -25,7 +25,7 @@ from quizgen.web.views import page_response, request_language
 
 
 class FormulaView(msgspec.Struct, frozen=True):
-    """A formula as markup."""
+    """A formula as HTML."""
 
     id: str
     title: Html
@@ -40,7 +40,7 @@ class FormulaView(msgspec.Struct, frozen=True):
 
 
 class FormulaTopicView(msgspec.Struct, frozen=True):
-    """The formulas of a topic."""
+    """The formulas of one topic."""
 
     topic: str
     title: str
@@ -56,27 +56,28 @@ class SheetView(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class SheetPageJob:
-    """The sheet as markup."""
+    """Renders the formula sheet as HTML."""
 
     lang: str
 
     def run(self, bank: Bank) -> bytes:
-        """Make it."""
+        """Return the sheet as JSON of HTML pieces."""
         return msgspec.json.encode(_build_sheet(compose_sheet(bank, self.lang)))
 
 
 @dataclass(frozen=True)
 class SheetFileJob:
-    """The sheet as a PDF file."""
+    """Renders the formula sheet as PDF."""
 
     lang: str
 
     def run(self, bank: Bank) -> bytes:
-        """Make it."""
+        """Return the bytes of the PDF."""
         return render_sheet(compose_sheet(bank, self.lang), "pdf")
 
 
 def _build_sheet(one: FormulaSheet) -> SheetView:
+    """Return the sheet in its first language as HTML pieces."""
     lang = one.langs[0]
     groups = [
         FormulaTopicView(
@@ -90,6 +91,7 @@ def _build_sheet(one: FormulaSheet) -> SheetView:
 
 
 def _build_sheet_formula(line: SheetFormula, lang: str) -> FormulaView:
+    """Return one formula of the sheet as HTML."""
     said = line.said[0]
     return FormulaView(
         line.id,
@@ -111,13 +113,13 @@ def _build_sheet_formula(line: SheetFormula, lang: str) -> FormulaView:
 
 
 def _render_spoken_line(maths: TypesetMaths, lang: str) -> Html:
-    """A line that is read aloud in the language of the page."""
+    """Return a formula as MathML with its speech in the language of the page."""
     aloud = Markup('<math aria-label="{}"').format(typeset.to_speech(maths.node, lang))
     return str(display_to_html(maths, lang)).replace("<math", aloud, 1)
 
 
 async def show_formulas(request: Request) -> Response:
-    """All formulas of the chapter."""
+    """Return the page of all formulas."""
     site: ServerState = request.app.state.site
     if "formulas" not in site.bank.cards:
         return _render_not_found(request)
@@ -130,7 +132,7 @@ async def show_formulas(request: Request) -> Response:
 
 
 async def download_sheet(request: Request) -> Response:
-    """The sheet to print."""
+    """Return the printable formula sheet (PDF)."""
     site: ServerState = request.app.state.site
     if "formulas" not in site.bank.cards:
         return _render_not_found(request)
@@ -139,11 +141,12 @@ async def download_sheet(request: Request) -> Response:
 
 
 async def show_formula_css(_request: Request) -> Response:
-    """The style that the page shares with the sheet as a file."""
+    """Return the style sheet that the page shares with the printable sheet."""
     return Response(sheet_css(), media_type="text/css")
 
 
 def _render_not_found(request: Request) -> Response:
+    """Return the page for a bank without formulas (HTTP 404)."""
     return page_response(request, "message.html.j2", 404, title="error.title", text="error.404")
 
 

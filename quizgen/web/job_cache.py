@@ -34,7 +34,7 @@ V = TypeVar("V")
 
 
 class ResultCache(Generic[K, V]):
-    """The latest of what was made, as much of it as there is room for.
+    """A least-recently-used cache limited by bytes.
 
     Parameters
     ----------
@@ -47,14 +47,14 @@ class ResultCache(Generic[K, V]):
         self._found: OrderedDict[K, tuple[V, int]] = OrderedDict()
 
     def get(self, wanted: K) -> V | None:
-        """What was kept; None where nothing is."""
+        """Return what is stored; None if nothing is."""
         if wanted not in self._found:
             return None
         self._found.move_to_end(wanted)
         return self._found[wanted][0]
 
     def store_result(self, wanted: K, found: V, size: int) -> None:
-        """Keep something; what was not asked for the longest goes."""
+        """Store a result of ``size`` bytes; evict the least recently used ones."""
         before = self._found.pop(wanted)[1] if wanted in self._found else 0
         self._found[wanted] = (found, size)
         self.room += before - size
@@ -64,7 +64,7 @@ class ResultCache(Generic[K, V]):
 
 
 class WorkerPool:
-    """Makes questions in processes of its own and keeps the latest."""
+    """Runs jobs in worker processes and caches their results."""
 
     def __init__(self, settings: ServerSettings) -> None:
         self.settings = settings
@@ -78,14 +78,15 @@ class WorkerPool:
         self._turns = FairQueue(settings.workers, share)
 
     def warm(self) -> None:
-        """Start the processes."""
+        """Start the worker processes before the first request."""
         self.pool.start_all()
 
     def _submit(self, wanted: PoolRequest) -> Future[bytes]:
+        """Start a job in a worker; return the future of its bytes."""
         return self.pool.submit(make_from_held_bank, wanted)
 
     async def get_question(self, wanted: QuestionRequest, asker: Hashable = None) -> QuestionView:
-        """A question, from those kept if it is among them.
+        """Return a rendered question, from the cache or from a worker.
 
         Parameters
         ----------
@@ -103,7 +104,7 @@ class WorkerPool:
         return found
 
     async def get_result(self, job: WorkerJob, asker: Hashable = None) -> bytes:
-        """What a job gives, from what is kept if it is among it; asked twice, it is done once.
+        """Return the bytes of a job, from the cache or a worker; concurrent requests share one run.
 
         Parameters
         ----------
@@ -122,21 +123,22 @@ class WorkerPool:
 
     @property
     def alive(self) -> int:
-        """How many processes there are; one that has died is replaced when it is asked."""
+        """Return the number of live worker processes; a dead one is replaced at its next job."""
         return sum(process.is_alive() for process in self.pool.processes)
 
     @property
     def has_spare(self) -> bool:
-        """Whether a process has nothing to do, and another has not either: that is for others."""
+        """Whether two workers are idle: one may prefetch, the other stays for requests."""
         return len(self._due) < self.settings.workers - 1
 
     async def prefetch(self, wanted: QuestionRequest) -> None:
-        """Make a question that is likely asked soon, where a process has nothing else to do."""
+        """Make a question that is likely requested next, if a worker is idle."""
         if self.has_spare:
             with contextlib.suppress(QuizgenError):  # said to the next who asks
                 await self._get_or_make(wanted, self)
 
     async def _get_or_make(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
+        """Return a cached result, or wait for the one run that makes it."""
         found = self._kept.get(wanted)
         if found is not None:
             return found
@@ -146,6 +148,7 @@ class WorkerPool:
         return await asyncio.shield(self._due[wanted])
 
     async def _make_result(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
+        """Run a job in a worker when it is the asker's turn; return and cache its result."""
         try:
             async with self._turns.turn(asker):
                 data = await asyncio.wrap_future(self._submit(wanted))
@@ -156,11 +159,11 @@ class WorkerPool:
             del self._due[wanted]
 
     def close(self) -> None:
-        """End the processes."""
+        """Stop the worker processes."""
         self.pool.stop()
 
 
 def _forget_error(due: asyncio.Future[PoolResult]) -> None:
-    """The request may be gone: then nobody is left to be told what went wrong."""
+    """Mark an error as retrieved: its request may be gone, and asyncio would log it."""
     if not due.cancelled():
         due.exception()

@@ -32,7 +32,7 @@ _HALF = re.compile(r"[-−+*/^(.,=:;·×]\s*$")
 
 
 def preview_reading(field: FieldView, key: KeyQuestion, values: Sequence[str], lang: str) -> Markup:
-    """How an answer is read, typeset as in a language; empty if it is incomplete, or not read."""
+    """Return how an answer is read, typeset; empty if it is incomplete or unreadable."""
     part = next(part for part in key.parts if part.id == field.id)
     typed = join_fields(field.control, values, field.marks)
     if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
@@ -43,9 +43,9 @@ def preview_reading(field: FieldView, key: KeyQuestion, values: Sequence[str], l
 
 
 def _typeset_values(text: str, lang: str, *, boxes: bool = False) -> Markup:
-    """Several values one by one, with what stands around and between them.
+    """Return values typeset one by one, with the signs around and between them.
 
-    From boxes they come without the brackets that nobody typed, and each with its unit.
+    Values from boxes have no brackets, since nobody typed them, and each has its unit.
     """
     several = _SEVERAL.fullmatch(text)
     before, inner, after = several.groups() if several else ("", text, "")
@@ -60,7 +60,7 @@ def _typeset_values(text: str, lang: str, *, boxes: bool = False) -> Markup:
 
 
 def _typeset_value(text: str, lang: str) -> Markup:
-    """A formula, or a value and its unit; a fraction with what it is about."""
+    """Return a formula, or a value with its unit, typeset; a fraction with its decimal value."""
     value = _VALUE.fullmatch(text)
     if value and _is_unit(value[2]):
         return (
@@ -76,6 +76,7 @@ def _typeset_value(text: str, lang: str) -> Markup:
 
 
 def _format_decimal_of_fraction(text: str) -> str:
+    """Return ``= 0.25`` or ``≈ 0.333`` after a fraction; empty for other texts."""
     fraction = _FRACTION.fullmatch(text)
     if not fraction or not int(fraction[2]):
         return ""
@@ -86,4 +87,5 @@ def _format_decimal_of_fraction(text: str) -> str:
 
 
 def _is_unit(text: str) -> bool:
+    """Return whether a text is a product or quotient of known units."""
     return all(part in SIMPLE or part in SHOWN.values() for part in re.split("[/*·]", text))

@@ -46,6 +46,7 @@ PLACE = "/class"
 
 
 def _get_class_folder(request: Request) -> Path:
+    """Return the folder of the class that the server was started with."""
     site: ServerState = request.app.state.site
     folder = site.settings.classroom
     assert folder is not None  # noqa: S101 - without it there is no such page
@@ -55,7 +56,10 @@ def _get_class_folder(request: Request) -> Path:
 def _build_answer_groups(
     folder: Path, lang: str, *, second: bool
 ) -> tuple[list[list[DecisionCase]], Agreement]:
-    """What is still to be decided, or what a second marker has not seen."""
+    """Return the undecided answers in groups, and the agreement of the markers.
+
+    ``second``: those that the first marker has decided and a second one has not seen.
+    """
     rulings = read_rulings(folder)
     settled = latest_rulings(rulings, DECIDE).keys()
     seen = latest_rulings(rulings, SECOND).keys()
@@ -70,7 +74,7 @@ def _build_answer_groups(
 
 
 async def show_queue(request: Request) -> Response:
-    """The answers that nobody has decided on."""
+    """Return the page of undecided answers."""
     folder, lang = _get_class_folder(request), request_language(request)
     asked = request.query_params
     second = "second" in asked
@@ -91,7 +95,7 @@ async def show_queue(request: Request) -> Response:
 
 
 def _highlight_key_points(case: DecisionCase) -> Markup:
-    """An answer with its key points marked."""
+    """Return an answer as HTML with its key points marked."""
     typed, at, pieces = case.answer.typed, 0, []
     for start, end in case.spots:
         pieces += [escape(typed[at:start]), Markup("<mark>{}</mark>").format(typed[start:end])]
@@ -100,7 +104,7 @@ def _highlight_key_points(case: DecisionCase) -> Markup:
 
 
 async def save_decision(request: Request) -> Response:
-    """Write a decision down, for all answers that were ticked."""
+    """Append a ruling for each ticked answer; redirect to the queue."""
     form = await read_form(request)
     folder = _get_class_folder(request)
     second = bool(field_text(form, "second"))
@@ -129,7 +133,7 @@ async def save_decision(request: Request) -> Response:
 
 
 def _find_form_problem(made: Sequence[Ruling], worth: str) -> str:
-    """The name of a sentence: nothing is ticked, or these are no points that can be had."""
+    """Return the key of what is wrong with a decision; empty if nothing."""
     if not made:
         return "unticked"
     try:
@@ -142,12 +146,13 @@ def _find_form_problem(made: Sequence[Ruling], worth: str) -> str:
 
 
 def _build_page_url(who: str, *, second: bool, **more: str) -> str:
+    """Return the address of the queue, keeping marker and mode."""
     asked = {"who": who.strip(), **({"second": "1"} if second else {}), **more}
     return f"{PLACE}?{urlencode(asked)}"
 
 
 async def regrade(request: Request) -> Response:
-    """Mark the class again, with what was decided."""
+    """Grade the class again with the new rulings; redirect to the queue."""
     form = await read_form(request)
     folder = ClassFolder(_get_class_folder(request))
     try:

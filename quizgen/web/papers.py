@@ -32,7 +32,7 @@ _LOG = logging.getLogger("quizgen.papers")
 
 
 class KeptPaper(msgspec.Struct):
-    """A paper as it is written."""
+    """A paper as it is stored, with each figure once."""
 
     format: int
     quizgen: str
@@ -42,14 +42,14 @@ class KeptPaper(msgspec.Struct):
 
 @dataclass(frozen=True)
 class MakePaper:
-    """Which paper to make: by its code, or of a blueprint and a seed."""
+    """Builds a paper from its code, or from a blueprint and a seed."""
 
     code: str = ""
     blueprint: str = ""
     seed: int = 0
 
     def run(self, bank: Bank) -> bytes:
-        """Make it in all its languages, as it is kept.
+        """Return the paper in all its languages, packed for storage.
 
         Raises
         ------
@@ -60,10 +60,14 @@ class MakePaper:
 
 
 def pack(papers: dict[str, PaperView]) -> Packed:
-    """A paper in its languages, as it is kept."""
+    """Return a paper in its languages, compressed for storage.
+
+    Languages share their figures, so each is stored once, by its digest.
+    """
     figures: dict[str, str] = {}
 
     def note(svg: str) -> str:
+        """Store a figure once and return the name that stands in its place."""
         if not svg:
             return ""
         name = MARK + hashlib.sha256(svg.encode()).hexdigest()
@@ -82,7 +86,7 @@ def pack(papers: dict[str, PaperView]) -> Packed:
 
 
 def unpack(data: bytes, lang: str) -> PaperView:
-    """A kept paper in a language, or in its first one."""
+    """Return a stored paper in a language, or in its first one."""
     kept = decode_json(zlib.decompress(data), KeptPaper)
     raw = kept.papers.get(lang) or next(iter(kept.papers.values()))
     return convert(
@@ -92,7 +96,7 @@ def unpack(data: bytes, lang: str) -> PaperView:
 
 
 def _replace_pictures(value: Any, other: Callable[[str], str]) -> Any:
-    """The same with something else in the place of each picture."""
+    """Return JSON data with every picture replaced by ``other(picture)``."""
     if isinstance(value, list):
         return [_replace_pictures(one, other) for one in value]
     if not isinstance(value, dict):
@@ -106,7 +110,7 @@ def _replace_pictures(value: Any, other: Callable[[str], str]) -> Any:
 
 
 class Papers:
-    """The papers of exams, the latest of them in memory.
+    """The stored papers of exams, with a cache of the latest.
 
     Parameters
     ----------
@@ -119,7 +123,7 @@ class Papers:
         self._kept: ResultCache[tuple[str, str], PaperView] = ResultCache(ROOM)
 
     async def make(self, wanted: MakePaper, asker: Hashable = None) -> Packed:
-        """A paper, ready to be kept.
+        """Return a new paper, packed for storage; a worker builds it.
 
         Parameters
         ----------
@@ -135,7 +139,9 @@ class Papers:
         return msgspec.msgpack.decode(await self.workers.get_result(wanted, asker), type=Packed)
 
     async def of(self, sitting: ExamRecord, lang: str) -> PaperView:
-        """What an exam shows; one of before papers were kept is made from its code, for good.
+        """Return the paper of an exam in a language.
+
+        The paper of an old exam without one is built from its code and stored.
 
         Raises
         ------
@@ -151,12 +157,13 @@ class Papers:
         return found
 
     async def _attach(self, sitting: ExamRecord) -> str:
+        """Build and store the paper of an old exam; return its id."""
         packed = await self.make(MakePaper(sitting.code), self)
         await run_in_threadpool(self.store.sittings.attach, sitting, packed)
         return packed.id
 
     async def attach_all(self) -> None:
-        """Have every exam of before keep its paper, where it can be made; say how many not."""
+        """Store the papers of all old exams without one; log how many cannot be built."""
         lost = 0
         for sitting in await run_in_threadpool(self.store.sittings.without_paper):
             try:

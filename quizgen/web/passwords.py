@@ -31,9 +31,9 @@ _HIDDEN = {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}
 
 
 def normalise_user_name(typed: str) -> str | None:
-    """A name as it is kept; None if it cannot be one.
+    """Return a user name as it is stored; None if it is not allowed.
 
-    Nothing in it may turn the text around it, or not be seen.
+    Invisible characters and those that change the direction of writing could imitate another name.
     """
     name = " ".join(unicodedata.normalize("NFC", typed).split())
     hidden = any(unicodedata.category(c) in _HIDDEN for c in name if c not in _JOINERS)
@@ -42,29 +42,34 @@ def normalise_user_name(typed: str) -> str | None:
 
 
 def is_acceptable(password: str) -> bool:
-    """Whether a password is neither too short nor too long."""
+    """Return whether a password is neither too short nor too long."""
     return SHORTEST <= len(password) <= LONGEST
 
 
 async def hash_password(password: str) -> str:
-    """What is kept of a password."""
+    """Return the Argon2id hash of a password, computed in a thread of its own."""
     return await asyncio.get_running_loop().run_in_executor(
         _make_hashing_threads(), _hash_password, password
     )
 
 
 async def verify_password(kept: str | None, password: str) -> bool:
-    """Whether a password is the one that was kept; takes as long where none was."""
+    """Return whether a password matches a hash; takes as long if there is none.
+
+    The time must not tell whether a name has an account.
+    """
     return await asyncio.get_running_loop().run_in_executor(
         _make_hashing_threads(), _is_right_password, kept, password
     )
 
 
 def _hash_password(password: str) -> str:
+    """Return the Argon2id hash of a password."""
     return _make_hasher().hash(_encode_password(password))
 
 
 def _is_right_password(kept: str | None, password: str) -> bool:
+    """Return whether a password matches; without a hash, one is verified for nothing."""
     from argon2.exceptions import VerifyMismatchError
 
     try:
@@ -75,11 +80,13 @@ def _is_right_password(kept: str | None, password: str) -> bool:
 
 
 def _encode_password(password: str) -> bytes:
+    """Return the password as bytes: composed equally whatever keyboard it was typed on."""
     return unicodedata.normalize("NFKC", password[:LONGEST]).encode()
 
 
 @cache
 def _make_hasher() -> PasswordHasher:
+    """Return the Argon2id hasher with its cost."""
     from argon2 import PasswordHasher  # which only servers need where people sign in
 
     # OWASP's least for Argon2id: a class that signs in together waits seconds, not minutes.
@@ -88,16 +95,18 @@ def _make_hasher() -> PasswordHasher:
 
 @cache
 def _make_dummy_hash() -> str:
+    """Return the hash that is verified where a name has no account."""
     return _make_hasher().hash(b"nobody's")
 
 
 @cache
 def _make_hashing_threads() -> ThreadPoolExecutor:
+    """Return the threads that hash: few, since each needs 19 MB."""
     return ThreadPoolExecutor(AT_ONCE, "passwords")
 
 
 class PasswordLimits:
-    """How often passwords may be tried, and in which order they are.
+    """Limits the tries of passwords by browser, name and address.
 
     A browser in which somebody has signed in before is told by a cookie: its tries count for it
     alone, so that wrong ones of others never keep its owner out. Any other try counts for the name
@@ -120,6 +129,7 @@ class PasswordLimits:
     def _list_allowances(
         self, name: str, address: str, browser: str
     ) -> list[tuple[Allowance, object]]:
+        """Return the rate limits that count a try, each with what it counts by."""
         if browser:
             return [(self._of_browser, browser)]
         return [
@@ -129,7 +139,7 @@ class PasswordLimits:
         ]
 
     def begin(self, name: str, address: str, browser: str) -> int:
-        """Seconds to wait before a try; 0 if it may be made now, and then it counts as failed.
+        """Return the seconds to wait before a try; 0 if it may be made, and then it counts.
 
         Parameters
         ----------
@@ -147,6 +157,9 @@ class PasswordLimits:
         return wait
 
     def count_right(self, name: str, address: str, browser: str) -> None:
-        """Take back that a try counted as failed."""
+        """Take back a try that ``begin`` counted as failed and that turned out right.
+
+        The arguments are those of ``begin``.
+        """
         for allowance, asker in self._list_allowances(name, address, browser):
             allowance.give_back(asker)

@@ -27,7 +27,7 @@ TIERS = tuple("ABCD")
 
 
 async def show_practice(request: Request) -> Response:
-    """Where practice begins."""
+    """Return the start page: what is due, and topics to choose from."""
     site: ServerState = request.app.state.site
     lang = request_language(request)
     topics = [(name, site.bank.topic_title(name, lang)) for name in site.bank.topics]
@@ -40,7 +40,7 @@ async def show_practice(request: Request) -> Response:
 
 
 async def start_question(request: Request) -> Response:
-    """Choose a question and go to it."""
+    """Choose a question by topic, tier or template, and redirect to it."""
     form = await read_form(request)
     wish = {name: field_text(form, name) for name in ("topic", "tier")}
     template = field_text(form, "template")
@@ -52,7 +52,7 @@ async def start_question(request: Request) -> Response:
 
 
 async def _open_next_question(request: Request, wish: dict[str, str]) -> Response:
-    """The question that fits a wish and is to be done next."""
+    """Start the next question for a request; return a page if none fits."""
     which = await _find_next_question(request, wish)
     if which is None:
         return page_response(
@@ -62,6 +62,7 @@ async def _open_next_question(request: Request, wish: dict[str, str]) -> Respons
 
 
 async def _find_next_question(request: Request, wish: dict[str, str]) -> QuestionRef | None:
+    """Return the next question for a request; None if none fits."""
     site: ServerState = request.app.state.site
     names = matching_templates(
         site.bank,
@@ -75,6 +76,7 @@ async def _find_next_question(request: Request, wish: dict[str, str]) -> Questio
 
 
 async def _begin_attempt(request: Request, which: QuestionRef, wish: dict[str, Any]) -> Response:
+    """Store a new attempt at a question and redirect to it."""
     site: ServerState = request.app.state.site
     site.spend_quota("practice", request.state.learner.id)
     attempt = await run_in_threadpool(
@@ -84,6 +86,7 @@ async def _begin_attempt(request: Request, which: QuestionRef, wish: dict[str, A
 
 
 async def _get_attempt(request: Request) -> AttemptRecord:
+    """Return the learner's attempt that the address names; HTTP 404 if there is none."""
     site: ServerState = request.app.state.site
     name = request.path_params["attempt"]
     found = await run_in_threadpool(site.store.attempt, request.state.learner.id, name)
@@ -93,38 +96,42 @@ async def _get_attempt(request: Request) -> AttemptRecord:
 
 
 def _build_question_request(request: Request, which: QuestionRef) -> QuestionRequest:
+    """Return the request for a question in the learner's language."""
     return QuestionRequest(which.template, which.seed, request_language(request), level=which.level)
 
 
 async def _make_question(request: Request, attempt: AttemptRecord) -> QuestionView:
+    """Return the rendered question of an attempt."""
     site: ServerState = request.app.state.site
     wanted = _build_question_request(request, attempt.which)
     return await site.workers.get_question(wanted, request.state.learner.id)
 
 
-async def _get_turn(request: Request) -> AttemptInBrowser:
+async def _get_question_attempt(request: Request) -> AttemptInBrowser:
+    """Return the attempt with its rendered question and progress."""
     attempt = await _get_attempt(request)
     return AttemptInBrowser(await _make_question(request, attempt), attempt)
 
 
-def _get_part_attempt(request: Request, turn: AttemptInBrowser) -> AttemptPart:
-    place = turn.find_part(request.path_params["part"])
-    if place is None:
+def _get_part_attempt(request: Request, question: AttemptInBrowser) -> AttemptPart:
+    """Return the part that the address names; HTTP 404 if there is none."""
+    part = question.find_part(request.path_params["part"])
+    if part is None:
         raise HTTPException(404)
-    return place
+    return part
 
 
 async def show_question(request: Request) -> Response:
-    """The question, as far as it has got."""
-    turn = await _get_turn(request)
-    shown = page_response(request, "question.html.j2", turn=turn, made=turn.made,
-                 said_last=turn.find_part(request.query_params.get("said", "")))  # fmt: skip
-    shown.background = BackgroundTask(_prepare_likely_next, request, turn.attempt)
+    """Return the page of a question with the learner's progress in it."""
+    question = await _get_question_attempt(request)
+    shown = page_response(request, "question.html.j2", turn=question, made=question.made,
+                 said_last=question.find_part(request.query_params.get("said", "")))  # fmt: skip
+    shown.background = BackgroundTask(_prepare_likely_next, request, question.attempt)
     return shown
 
 
 async def _prepare_likely_next(request: Request, attempt: AttemptRecord) -> None:
-    """Make what is likely asked next while this is read: another question, and other numbers."""
+    """Prefetch what is likely requested next: another question, and other numbers."""
     site: ServerState = request.app.state.site
     following = await _find_next_question(request, attempt.wish) if site.workers.has_spare else None
     if following is not None:
@@ -133,43 +140,49 @@ async def _prepare_likely_next(request: Request, attempt: AttemptRecord) -> None
             await site.workers.prefetch(_build_question_request(request, which))
 
 
-async def _store_turn(request: Request, turn: AttemptInBrowser, place: AttemptPart) -> Response:
+async def _store_attempt(
+    request: Request, question: AttemptInBrowser, part: AttemptPart
+) -> Response:
+    """Store the progress of an attempt; redirect to the part that was answered."""
     site: ServerState = request.app.state.site
-    ended, seen = turn.attempt.ended, turn.save_state()
-    await run_in_threadpool(site.store.save_attempt, turn.attempt, seen)
-    if ended is None and turn.attempt.ended is not None:
-        await run_in_threadpool(progress_of(request).finish_attempt, turn.attempt, turn.states)
-    return redirect(f"/q/{turn.attempt.id}?said={place.name}#part-{place.name}")
+    ended, seen = question.attempt.ended, question.save_state()
+    await run_in_threadpool(site.store.save_attempt, question.attempt, seen)
+    if ended is None and question.attempt.ended is not None:
+        await run_in_threadpool(
+            progress_of(request).finish_attempt, question.attempt, question.states
+        )
+    return redirect(f"/q/{question.attempt.id}?said={part.name}#part-{part.name}")
 
 
 async def submit_answer(request: Request) -> Response:
-    """Mark a part, or do what else its buttons say."""
+    """Grade a part, or do what another button asks for; redirect to the question."""
     form = await read_form(request)
     site: ServerState = request.app.state.site
     async with site.attempt_lock(request.path_params["attempt"]):
-        turn = await _get_turn(request)
-        place = _get_part_attempt(request, turn)
-        _perform_action(turn, place, field_text(form, "do"), read_answer(form, "a"))
-        return await _store_turn(request, turn, place)
+        question = await _get_question_attempt(request)
+        part = _get_part_attempt(request, question)
+        _perform_action(question, part, field_text(form, "do"), read_answer(form, "a"))
+        return await _store_attempt(request, question, part)
 
 
 def _perform_action(
-    turn: AttemptInBrowser, place: AttemptPart, action: str, values: list[str]
+    question: AttemptInBrowser, part: AttemptPart, action: str, values: list[str]
 ) -> None:
+    """Apply a button to a part: hint, solution, skip, self-mark or answer."""
     if action == "hint":
-        place.task.next_hint()
-        place.progress.values = values
-    elif action in {"right", "wrong"} and place.to_judge:
-        place.task.self_mark(right=action == "right")
-    elif action == "solution" and not place.is_finished:
-        place.task.give_up()
-        place.progress.values = values
+        part.task.next_hint()
+        part.progress.values = values
+    elif action in {"right", "wrong"} and part.to_judge:
+        part.task.self_mark(right=action == "right")
+    elif action == "solution" and not part.is_finished:
+        part.task.give_up()
+        part.progress.values = values
     elif action in {"", "answer"}:
-        turn.answer(place, values)
+        question.answer(part, values)
 
 
 async def preview_practice_answer(request: Request) -> Response:
-    """How what stands in the fields is read; never whether it is right."""
+    """Return how the typed answer is read, typeset; never whether it is right."""
     form = await read_form(request)
     made = await _make_question(request, await _get_attempt(request))
     name = request.path_params["part"]
@@ -182,7 +195,7 @@ async def preview_practice_answer(request: Request) -> Response:
 
 
 async def new_variant(request: Request) -> Response:
-    """The same question with other numbers."""
+    """Start the same template with other numbers, and redirect to it."""
     await read_form(request)
     attempt = await _get_attempt(request)
     seed = await run_in_threadpool(progress_of(request).seed_of_next)
@@ -192,14 +205,14 @@ async def new_variant(request: Request) -> Response:
 
 
 async def repeat_question(request: Request) -> Response:
-    """The same question with the same numbers, from its beginning."""
+    """Start the same question from its beginning, and redirect to it."""
     await read_form(request)
     attempt = await _get_attempt(request)
     return await _begin_attempt(request, attempt.which, attempt.wish)
 
 
 async def show_guided(request: Request) -> Response:
-    """The same question step by step."""
+    """Start the same question step by step, and redirect to it."""
     await read_form(request)
     attempt = await _get_attempt(request)
     which = QuestionRef(attempt.template, attempt.seed, GUIDED)
@@ -207,7 +220,7 @@ async def show_guided(request: Request) -> Response:
 
 
 async def next_question(request: Request) -> Response:
-    """The next question of the same wish."""
+    """Start the next question for the same request, and redirect to it."""
     await read_form(request)
     attempt = await _get_attempt(request)
     return await _open_next_question(request, attempt.wish)

@@ -50,7 +50,7 @@ BLANK = "…"
 
 @dataclass(frozen=True)
 class MasteryRow:
-    """A topic or a formula, and how far it is known."""
+    """A topic or a formula, and how well it is known."""
 
     name: str
     title: Html
@@ -69,11 +69,12 @@ class MistakeRow:
 
 
 async def show_progress(request: Request) -> Response:
-    """How far somebody has got."""
+    """Return the page of a learner's progress."""
     return await run_in_threadpool(_render_progress_page, request)
 
 
 def _render_progress_page(request: Request, status: int = 200, problem: str = "") -> Response:
+    """Return the page of progress; ``problem`` is the text of what went wrong."""
     learning, lang = progress_of(request), request_language(request)
     agenda = learning.agenda()
     came = request.query_params.get("came", "")[:9]
@@ -99,6 +100,7 @@ def _render_progress_page(request: Request, status: int = 200, problem: str = ""
 
 
 def _build_topic_rows(agenda: Agenda, lang: str) -> list[MasteryRow]:
+    """Return the mastery of each topic, in the bank's order."""
     bank = agenda.bank
     names: dict[str, list[str]] = {topic: [] for topic in bank.topics}
     for name in bank.template_paths:
@@ -110,6 +112,7 @@ def _build_topic_rows(agenda: Agenda, lang: str) -> list[MasteryRow]:
 
 
 def _build_formula_rows(agenda: Agenda, lang: str) -> list[MasteryRow]:
+    """Return the mastery of each formula that a template uses."""
     names = templates_by_formula(agenda.bank)
     return [
         MasteryRow(
@@ -123,7 +126,7 @@ def _build_formula_rows(agenda: Agenda, lang: str) -> list[MasteryRow]:
 
 
 def _describe_mistake(agenda: Agenda, card: ReviewCard, lang: str) -> MistakeRow | None:
-    """A mistake in the words of its template; None if it has been taken out since."""
+    """Return a mistake in the words of its template; None if it has none any more."""
     bank, name = agenda.bank, agenda.names[card.template]
     found = (
         lang if lang in bank.template_languages(name) else next(iter(bank.template_languages(name)))
@@ -139,6 +142,10 @@ def _describe_mistake(agenda: Agenda, card: ReviewCard, lang: str) -> MistakeRow
 
 
 def _replace_formula_by_blank(part: Unfilled) -> tuple[Inline, ...]:
+    """Return a part of a sentence with a blank for a drawn value.
+
+    A mistake is of any variant, so no numbers belong into its sentence.
+    """
     if isinstance(part, LaidOutFormula):
         names = names_of_leaves(part.node)
         blanks = dict.fromkeys(names, LeafValue(Phrase(BLANK)))
@@ -147,9 +154,10 @@ def _replace_formula_by_blank(part: Unfilled) -> tuple[Inline, ...]:
 
 
 def _make_duration_formatter(lang: str) -> Callable[[float | None], str]:
-    """Says in words for how many days something holds."""
+    """Return a function that says a number of days in words."""
 
     def lasting(days: float | None) -> str:
+        """Return a number of days in words; empty for None."""
         if days is None:
             return ""
         whole = round(days)
@@ -163,7 +171,7 @@ def _make_duration_formatter(lang: str) -> Callable[[float | None], str]:
 
 
 async def set_exam(request: Request) -> Response:
-    """Keep the day of the exam; an empty field takes it away."""
+    """Store the date of the exam; an empty field removes it."""
     form = await read_form(request)
     typed = field_text(form, "exam").strip()
     try:
@@ -177,7 +185,7 @@ async def set_exam(request: Request) -> Response:
 
 
 async def download_archive(request: Request) -> Response:
-    """Everything that somebody did, as a file."""
+    """Return all that a learner did, as a JSON file."""
     site: ServerState = request.app.state.site
     data = await run_in_threadpool(site.store.archives.write, request.state.learner.id)
     named = {"content-disposition": 'attachment; filename="quizgen-progress.json"'}
@@ -185,14 +193,15 @@ async def download_archive(request: Request) -> Response:
 
 
 async def upload_archive(request: Request) -> Response:
-    """Add what a file holds to what is there."""
+    """Import an archive into the learner's progress."""
     site: ServerState = request.app.state.site
     data = await read_upload(request, "file")
     site.spend_quota("import", request.state.learner.id)
-    return await run_in_threadpool(_taken_in, request, data)
+    return await run_in_threadpool(_import_archive, request, data)
 
 
-def _taken_in(request: Request, data: bytes) -> Response:
+def _import_archive(request: Request, data: bytes) -> Response:
+    """Import an archive and redirect; return the page with the problem if it is damaged."""
     site: ServerState = request.app.state.site
     try:
         archive = read_archive(data)

@@ -24,7 +24,7 @@ HALF = unreadable("values-missing")
 
 
 class PartProgress(msgspec.Struct):
-    """How far a part has got, and what stands in its fields."""
+    """Progress of a part, and the texts in its fields."""
 
     state: PartState = msgspec.field(default_factory=PartState)
     values: list[str] = msgspec.field(default_factory=list)
@@ -33,7 +33,7 @@ class PartProgress(msgspec.Struct):
 
 
 class AttemptPart:
-    """A part on the page: its task, its fields, what was said of it last."""
+    """A part on the page: its attempt, its fields, and the last verdict."""
 
     def __init__(
         self,
@@ -47,12 +47,12 @@ class AttemptPart:
 
     @property
     def name(self) -> str:
-        """Its name in addresses."""
+        """Return the part's id in addresses and forms."""
         return self.part.field.id
 
     @property
     def is_finished(self) -> bool:
-        """Whether it is answered, given up or skipped."""
+        """Whether the part is answered, given up or skipped."""
         return self.task.outcome is not None
 
     @property
@@ -62,7 +62,7 @@ class AttemptPart:
 
     @property
     def unread(self) -> ReadErrorView | None:
-        """Why it could not be read, if it could not."""
+        """Return why the answer could not be read; None if it could."""
         if self.explained_verdict is None or not self.progress.asked_back:
             return None
         return explain_read_error(
@@ -71,23 +71,23 @@ class AttemptPart:
 
     @property
     def tries_left(self) -> int:
-        """Tries that are left."""
+        """Return the number of tries left."""
         return TRIES - self.task.state.tries
 
     @property
     def to_judge(self) -> bool:
-        """Whether the learner has to say whether it was right."""
+        """Whether the learner must grade the own answer."""
         return not self.is_finished and self.verdict is not None and self.verdict.needs_self_marking
 
 
 class AttemptInBrowser:
-    """A question and how far it has got.
+    """An attempt at a question, as its page shows it.
 
     Parameters
     ----------
-    made : Made
+    made : QuestionView
         In the language of who asks.
-    attempt : Attempt
+    attempt : AttemptRecord
     """
 
     def __init__(self, made: QuestionView, attempt: AttemptRecord) -> None:
@@ -102,6 +102,7 @@ class AttemptInBrowser:
     def _open_part_attempt(
         self, part: PartView, keyed: KeyPart, progress: PartProgress
     ) -> AttemptPart:
+        """Return a part with its stored progress and the verdict on its last answer."""
         task = PartAttempt(self.made.topic, part, part, keyed, progress.state, marker=self._marker)
         verdict = task.verdict
         if progress.asked_back:
@@ -110,16 +111,16 @@ class AttemptInBrowser:
         return AttemptPart(task, progress, verdict, self.made.wanted.lang)
 
     def find_part(self, name: str) -> AttemptPart | None:
-        """A part by its name."""
+        """Return the part with an id; None if there is none."""
         return next((place for place in self.places if place.name == name), None)
 
     @property
     def is_finished(self) -> bool:
-        """Whether every part is done."""
+        """Whether every part has ended."""
         return all(place.is_finished for place in self.places)
 
     def answer(self, place: AttemptPart, values: list[str]) -> None:
-        """Mark what stands in the fields of a part, unless that is nothing, or it is done.
+        """Grade the fields of a part; nothing happens if they are blank or it has ended.
 
         A field that was left out costs no try: Enter sends all of them from any of them.
         """
@@ -135,7 +136,7 @@ class AttemptInBrowser:
         place.progress.asked_back = typed if feedback.then is NextStep.ASK_BACK else ""
 
     def save_state(self) -> tuple[OutcomeRecord, ...]:
-        """Write into the attempt how far the question has got; say which parts have just ended."""
+        """Write the progress into the attempt; return the outcomes of parts that just ended."""
         before = self.attempt.state.get("ended", [])
         ended = [place for place in self.places if place.is_finished]
         self.attempt.state = {
@@ -148,14 +149,16 @@ class AttemptInBrowser:
 
     @property
     def states(self) -> list[PartState]:
-        """How far each part has got."""
+        """Return the state of each part, in order."""
         return [place.task.state for place in self.places]
 
     def _build_review_event(self, place: AttemptPart) -> OutcomeRecord:
+        """Return the outcome of a part, for progress."""
         return outcome_record(
             self.attempt.which, self.made.topic, place.part.label, place.task.state
         )
 
 
 def _is_fully_filled(part: PartView, values: list[str]) -> bool:
+    """Return whether every field of a part is filled."""
     return is_complete(part.field.control, values, part.field.marks)

@@ -46,7 +46,7 @@ Html = str
 
 
 class FieldView(msgspec.Struct, frozen=True):
-    """Where the answer of a part goes."""
+    """The input field of a part."""
 
     id: str
     control: InputControl
@@ -62,12 +62,12 @@ class FieldView(msgspec.Struct, frozen=True):
 
     @property
     def marks(self) -> list[str]:
-        """Marks of the options."""
+        """Return the letters of the options."""
         return [mark for mark, _ in self.options]
 
 
 class HintView(msgspec.Struct, frozen=True):
-    """A hint, and the line of the formula sheet that it stands on."""
+    """A hint, and the formula of the sheet that it cites."""
 
     kind: str
     shown: Html
@@ -86,7 +86,7 @@ class StepView(msgspec.Struct, frozen=True):
 
 
 class PartView(msgspec.Struct, frozen=True):
-    """A part and its worked solution."""
+    """A part with its worked solution, as HTML."""
 
     label: str
     points: float
@@ -103,7 +103,7 @@ class PartView(msgspec.Struct, frozen=True):
 
 
 class QuestionRequest(msgspec.Struct, frozen=True):
-    """Which question: the same one gives the same page."""
+    """Identifies a rendered question: equal requests give equal pages."""
 
     template: str
     seed: str
@@ -113,7 +113,7 @@ class QuestionRequest(msgspec.Struct, frozen=True):
 
 
 class QuestionView(msgspec.Struct, frozen=True):
-    """A question in one language."""
+    """A question in one language, as HTML, with the key that grades it."""
 
     wanted: QuestionRequest
     title: str
@@ -134,7 +134,7 @@ class QuestionView(msgspec.Struct, frozen=True):
 
 
 class PaperView(msgspec.Struct, frozen=True):
-    """A paper in one language."""
+    """A paper in one language, as HTML."""
 
     code: str
     title: str
@@ -148,22 +148,22 @@ class PaperView(msgspec.Struct, frozen=True):
 
 
 class WorkerJob(Protocol):
-    """Something else that a worker makes; equal jobs give equal bytes."""
+    """Anything else that a worker makes; equal jobs give equal bytes."""
 
     def run(self, bank: Bank) -> bytes:
-        """Make it."""
+        """Return the job's bytes."""
         ...
 
     def __hash__(self) -> int: ...
 
 
 def run_request(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes:
-    """Compose a question and put it into markup, or do another job.
+    """Return a rendered question as JSON, or the bytes of another job.
 
     Parameters
     ----------
     bank : Bank
-    wanted : QuestionRequest or Job
+    wanted : QuestionRequest or WorkerJob
 
     Raises
     ------
@@ -181,19 +181,19 @@ _HELD: list[Bank] = []  # the bank of a worker process, whose files it reads onc
 
 
 def prepare_process(bank: Bank) -> None:
-    """Hold the bank for every job of this process, and load what the first one needs."""
+    """Store the bank for every job of this process, and load what the first one needs."""
     import numpy  # noqa: F401, ICN001
 
     _HELD[:] = [bank]
 
 
 def make_from_held_bank(wanted: QuestionRequest | WorkerJob) -> bytes:
-    """Return what `make` gives of the bank that this process was prepared with."""
+    """Return ``run_request`` with the bank that this process was prepared with."""
     return run_request(_HELD[0], wanted)
 
 
 def make_papers(bank: Bank, code: str, blueprint: str, seed: int) -> dict[str, PaperView]:
-    """A paper in each language of its own, by its code, or of a blueprint and a seed.
+    """Return a paper in each of its languages, by its code, or by blueprint and seed.
 
     Raises
     ------
@@ -211,6 +211,7 @@ def make_papers(bank: Bank, code: str, blueprint: str, seed: int) -> dict[str, P
 
 
 def _build_paper(paper: Paper, place: int) -> PaperView:
+    """Return a paper in its language at an index, as HTML."""
     lang = paper.langs[place]
     items = [
         question_view(
@@ -234,7 +235,7 @@ def _build_paper(paper: Paper, place: int) -> PaperView:
 def question_view(
     wanted: QuestionRequest, question: Question, key: QuestionKey, bank: Bank | None = None
 ) -> QuestionView:
-    """A composed question as markup; with hints and its bank, if it is said which that is."""
+    """Return a composed question as HTML; with a bank, hints cite its formula sheet."""
     # No exam is asked step by step, and to find out whether it could takes a while.
     steps = (
         bank is not None and wanted.level != GUIDED and effective_level(key.draw, GUIDED) == GUIDED
@@ -267,6 +268,7 @@ def question_view(
 
 
 def _render_hint(rung: SolutionHint, bank: Bank, lang: str) -> HintView:
+    """Return a hint as HTML, with the formula that it cites."""
     return HintView(
         rung.kind,
         _render_inline(rung.shown, lang),
@@ -277,7 +279,11 @@ def _render_hint(rung: SolutionHint, bank: Bank, lang: str) -> HintView:
 
 
 def _render_box_names(part: QuestionPart, spec: AnySpec, stem: Html, lang: str) -> list[Html]:
-    """Names of the boxes, typeset: their own, or those of the quantities, where all are said."""
+    """Return the typeset names of a part's boxes.
+
+    Quantities name boxes only where the question mentions all of them: else a name would reveal
+    what is asked.
+    """
     boxes = part.field.control.boxes
     if any(box.name for box in boxes):
         return [_render_inline((name_inline(box.name),), lang) for box in boxes]
@@ -291,6 +297,7 @@ def _render_box_names(part: QuestionPart, spec: AnySpec, stem: Html, lang: str) 
 def _render_part(
     part: QuestionPart, solved: PartSolution, names: list[Html], lang: str, bank: Bank | None
 ) -> PartView:
+    """Return a part and its solution as HTML; ``names`` are those of its boxes."""
     return PartView(
         part.label,
         float(part.points),
@@ -315,6 +322,7 @@ def _render_part(
 
 
 def _render_field(field: AnswerField, names: list[Html], lang: str) -> FieldView:
+    """Return the input field of a part, with its options as HTML."""
     return FieldView(
         field.id,
         field.control,
@@ -328,18 +336,22 @@ def _render_field(field: AnswerField, names: list[Html], lang: str) -> FieldView
 
 
 def _render_board(drawing: FieldPicture | None) -> Html:
+    """Return the SVG to draw on; empty if there is none."""
     return drawing.figure.inline_svg.decode() if drawing else ""
 
 
 def _render_mistakes(mistakes: Iterable[SolvedMisconception], lang: str) -> list[tuple[Html, Html]]:
+    """Return the shown value and the sentence of each misconception as HTML."""
     return [
         (_render_inline(one.shown, lang), _render_inline(one.sentence, lang)) for one in mistakes
     ]
 
 
 def _render_blocks(parts: tuple[Block, ...], lang: str) -> Html:
+    """Return blocks as HTML."""
     return str(blocks_to_html(parts, lang))
 
 
 def _render_inline(parts: tuple[Inline, ...], lang: str) -> Html:
+    """Return a sentence as HTML."""
     return str(inlines_to_html(parts, lang))

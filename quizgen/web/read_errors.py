@@ -19,7 +19,7 @@ WHOLE = frozenset(
 
 @dataclass(frozen=True)
 class ReadErrorView:
-    """Why an answer could not be read.
+    """Why an answer could not be read, and in which fields.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class ReadErrorView:
 def explain_read_error(
     field: FieldView, values: Sequence[str], verdict: Verdict, lang: str
 ) -> ReadErrorView:
-    """Why what stands in the fields could not be read.
+    """Return why the fields of a part could not be read, and which to look at.
 
     Parameters
     ----------

@@ -44,24 +44,24 @@ HEADERS = {
 
 
 def body_limit(scope: Scope) -> int:
-    """How large the body of a request may be."""
+    """Return the most bytes that the body of a request may have."""
     return LARGER.get(scope["path"], MOST_BYTES)
 
 
 class SecurityMiddleware:
-    """Lets in what is asked under a name of this server, and sent by its own pages.
+    """Rejects requests under foreign host names, of other sites, or too large.
 
     Parameters
     ----------
     app : ASGI application
-    settings : Settings
+    settings : ServerSettings
     """
 
     def __init__(self, app: ASGIApp, settings: ServerSettings) -> None:
         self.app, self.settings = app, settings
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer at once, or hand on."""
+        """Answer a rejected request, or pass it on and add security headers."""
         if scope["type"] != "http":
             await self.app(scope, receive, send)
             return
@@ -69,6 +69,7 @@ class SecurityMiddleware:
         state["request_id"], began, begun = secrets.token_hex(4), time.monotonic(), False
 
         async def send_guarded(message: Message) -> None:
+            """Send a message, with security headers added; log a server error."""
             nonlocal begun
             if message["type"] == "http.response.start":
                 begun = True
@@ -98,6 +99,7 @@ class SecurityMiddleware:
             await crash(scope, receive, send_guarded)
 
     def _find_refusal(self, scope: Scope) -> Response | None:
+        """Return the response to a rejected request; None if it is accepted."""
         headers = Headers(scope=scope)
         name = _NAME.fullmatch(headers.get("host", "").lower())
         if name is None or not self.settings.is_own_name(name[1].strip("[]")):
@@ -113,7 +115,7 @@ class SecurityMiddleware:
 
 
 def plain_error(name: str, status: int, request_id: str = "") -> Response:
-    """Say something in every language, with the id by which it is found in the log."""
+    """Return an error as plain text in every language, with the request's id for the log."""
     errors = [load_words(lang, "web")["error"] for lang in list_languages()]
     said = [error[name] for error in errors]
     said += [error["number"].format(number=request_id) for error in errors if request_id]
@@ -121,7 +123,7 @@ def plain_error(name: str, status: int, request_id: str = "") -> Response:
 
 
 def _log_failure(scope: Scope, status: int, seconds: float) -> None:
-    """Write which page failed and why; an address may hold what somebody typed."""
+    """Log which page failed and why, without its address: that may hold what was typed."""
     state, page = scope["state"], scope.get("endpoint")
     log_event(
         "failed",
@@ -137,14 +139,14 @@ def _log_failure(scope: Scope, status: int, seconds: float) -> None:
 
 
 def _choose_cache_control(path: str) -> str:
-    """How long a browser may keep what it was sent."""
+    """Return how a browser may cache the response to a path."""
     if path.startswith("/static/fonts/"):
         return "max-age=604800"
     return "no-cache" if path.startswith(OPEN) else "no-store"
 
 
 def _is_from_own_page(headers: Headers) -> bool:
-    """Whether one of our own pages sends this, as far as browsers say."""
+    """Return whether a request comes from our own pages, as far as browsers tell."""
     site = headers.get("sec-fetch-site")
     if site is not None:
         return site == "same-origin"
@@ -153,12 +155,13 @@ def _is_from_own_page(headers: Headers) -> bool:
 
 
 class _Measured:
-    """A body that is refused where it is longer than its header said, or says nothing."""
+    """A request body that raises HTTP 413 once it is longer than allowed."""
 
     def __init__(self, receive: Receive, most: int) -> None:
         self.receive, self.left = receive, most
 
     async def __call__(self) -> Message:
+        """Return the next message of the body."""
         message = await self.receive()
         self.left -= len(message.get("body", b""))
         if self.left < 0:

@@ -30,7 +30,7 @@ FILES = 65_536
 
 
 class TimedProtocol(H11Protocol):
-    """HTTP whose requests have to arrive in time.
+    """HTTP/1.1 that closes connections whose request does not arrive in time.
 
     uvicorn waits without end for the rest of a request, so that some hundred half-sent ones would
     hold every connection that there is. Each of them has its time as a whole: sending a byte now
@@ -46,17 +46,17 @@ class TimedProtocol(H11Protocol):
         self._watch_deadline()
 
     def data_received(self, data: bytes) -> None:
-        """Go on waiting for what is still missing."""
+        """Handle data and continue to wait for what is missing."""
         super().data_received(data)
         self._watch_deadline()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Wait for nothing more."""
+        """Stop waiting."""
         self._stop_watching()
         super().connection_lost(exc)
 
     def _watch_deadline(self) -> None:
-        """Time what is missing of a request, from when it was first missing."""
+        """Start the timer for the head or the body, when it is first awaited."""
         state = self.conn.their_state
         if state is self._kind:
             return
@@ -67,6 +67,7 @@ class TimedProtocol(H11Protocol):
             self._ends = self.loop.call_later(seconds, self.transport.close)
 
     def _stop_watching(self) -> None:
+        """Cancel the timer."""
         self._kind = None
         if self._ends is not None:
             self._ends.cancel()
@@ -74,7 +75,7 @@ class TimedProtocol(H11Protocol):
 
 
 def allow_connections() -> None:
-    """Take as many connections as the system gives; usual is 1,024, which one client can hold."""
+    """Raise the limit of open files: at the usual 1,024 one client could hold them all."""
     with contextlib.suppress(ImportError, OSError, ValueError):  # not everywhere, or not allowed
         import resource
 
@@ -103,7 +104,7 @@ def run_server(
 
     Parameters
     ----------
-    settings : Settings
+    settings : ServerSettings
     port : int
         0 for the one of the first time if it is free, else any.
     show : bool
@@ -126,11 +127,12 @@ def run_server(
     listening = (
         _open_listening_socket(settings.host, port)
         if port
-        else _as_before(settings.host, site.store)
+        else _open_previous_port(settings.host, site.store)
     )
     address = _build_start_url(site, listening.getsockname()[1], invite=invite)
 
     def ready() -> None:
+        """Print the address and open the browser, once the server listens."""
         tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
         if show:
             webbrowser.open(_build_browser_url(site, address))
@@ -142,7 +144,11 @@ def run_server(
 def _run_server(
     app: Starlette, settings: ServerSettings, listening: socket.socket, ready: Callable[[], None]
 ) -> None:
-    """What is asked is written nowhere; only a proxy of ours is believed who asked."""
+    """Run uvicorn on an open socket.
+
+    No access log: addresses may hold answers. The address of a client is taken from a proxy on this
+    machine only.
+    """
     config = uvicorn.Config(
         app, log_config=None, access_log=False, server_header=False,
         proxy_headers=settings.behind_proxy, forwarded_allow_ips=[LOCAL[0], "::1"],
@@ -155,27 +161,27 @@ def _run_server(
 
 
 def _end_like_ctrl_c() -> None:
-    """Let no signal end this process before it has ended those that it began."""
+    """Handle termination signals like Ctrl-C, so that the workers are ended first."""
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     if hasattr(signal, "SIGHUP"):  # a terminal that is closed
         signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
 
 
 class _Server(uvicorn.Server):
-    """Says when it can be asked."""
+    """A uvicorn server that calls ``ready`` once it listens."""
 
     def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
         super().__init__(config)
         self.ready = ready
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Begin to listen, and say so."""
+        """Listen, then call ``ready``."""
         await super().startup(sockets)
         self.ready()
 
 
 def _build_start_url(site: ServerState, port: int, *, invite: bool) -> str:
-    """What is opened first; where people sign in, an invitation for the first one who manages."""
+    """Return the address to print: with a key, or where people sign in an invitation."""
     settings = site.settings
     place = settings.base_url(port)
     if not settings.accounts:
@@ -187,7 +193,10 @@ def _build_start_url(site: ServerState, port: int, *, invite: bool) -> str:
 
 
 def _build_browser_url(site: ServerState, address: str) -> str:
-    """What the browser is started with: anybody on the machine may read that."""
+    """Return the address to start the browser with, without any key.
+
+    Anybody on the machine can read the arguments of a process, so a key is in a private file.
+    """
     if site.settings.accounts:  # an invitation is for the person at the terminal
         return address.partition("?")[0].removesuffix(INVITED)
     from platformdirs import user_data_path
@@ -196,8 +205,11 @@ def _build_browser_url(site: ServerState, address: str) -> str:
     return site.keys.write_redirect(folder, address.partition("?")[0]).as_uri()
 
 
-def _as_before(host: str, store: Store) -> socket.socket:
-    """Listen where a page that was left open asks, and finds what its browser kept."""
+def _open_previous_port(host: str, store: Store) -> socket.socket:
+    """Return a socket on the port of the last run if it is free, else on any.
+
+    An open page, and what its browser stored, then still work.
+    """
     anywhere = _open_listening_socket(host, 0)
     port = anywhere.getsockname()[1]
     before = int(store.shared_value("port", str(port)))
@@ -212,6 +224,7 @@ def _as_before(host: str, store: Store) -> socket.socket:
 
 
 def _open_listening_socket(host: str, port: int) -> socket.socket:
+    """Return a bound socket; port 0 takes any free one. ``StoreError`` if it is taken."""
     try:
         family, kind, _, _, place = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
     except OSError as error:

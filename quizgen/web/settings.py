@@ -19,7 +19,7 @@ LOCAL = ("127.0.0.1", "localhost")
 
 @dataclass(frozen=True)
 class ServerSettings:
-    """What a server is started with.
+    """What a server was started with.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class ServerSettings:
         return self.behind_proxy or not (self.host in LOCAL or _is_loopback(self.host))
 
     def is_own_name(self, name: str) -> bool:
-        """Whether the server may be asked under a name.
+        """Return whether the server may be addressed by a host name.
 
         Another site can make its own name lead here, but no number: where people sign in, any
         number does.
@@ -70,7 +70,7 @@ class ServerSettings:
         return self.accounts and (name in _own_names() or _is_number(name))
 
     def base_url(self, port: int) -> str:
-        """Where a browser finds the server."""
+        """Return the address of the server for browsers."""
         if self.behind_proxy and self.names:
             return f"https://{self.names[0]}"
         everywhere = _is_number(self.host) and ipaddress.ip_address(self.host).is_unspecified
@@ -80,12 +80,16 @@ class ServerSettings:
 
 @cache
 def _own_names() -> frozenset[str]:
+    """Return the host names of this machine."""
     own = socket.gethostname().lower()
     return frozenset({own, f"{own}.local"})
 
 
 def _find_network_address() -> str:
-    """The number of this machine in its network; nothing is sent to find it out."""
+    """Return the IP address of this machine in its network.
+
+    Opening a datagram socket makes the system choose it; nothing is sent.
+    """
     with contextlib.suppress(OSError), socket.socket(type=socket.SOCK_DGRAM) as out:
         out.connect(("192.0.2.1", 9))  # an address that nobody has (RFC 5737)
         return str(out.getsockname()[0])
@@ -93,6 +97,7 @@ def _find_network_address() -> str:
 
 
 def _is_number(name: str) -> bool:
+    """Return whether a host name is an IP address."""
     try:
         ipaddress.ip_address(name)
     except ValueError:
@@ -101,4 +106,5 @@ def _is_number(name: str) -> bool:
 
 
 def _is_loopback(host: str) -> bool:
+    """Return whether a host is an IP address of this machine alone."""
     return _is_number(host) and ipaddress.ip_address(host).is_loopback

@@ -23,7 +23,7 @@ from quizgen.web.settings import ServerSettings
 
 
 class Keys:
-    """What may stand in the address that lets in.
+    """Keys that let a browser of this machine in: the printed one, and one-time keys in files.
 
     Parameters
     ----------
@@ -36,14 +36,14 @@ class Keys:
         self._once: dict[str, Path] = {}
 
     def is_good(self, given: str) -> bool:
-        """Whether a key lets in; one that is good once is used up, and its file goes."""
+        """Return whether a key lets in; a one-time key is used up by that, and its file deleted."""
         if given in self._once:
             self._once.pop(given).unlink(missing_ok=True)
             return True
         return secrets.compare_digest(given.encode(), self._printed.encode())
 
     def write_redirect(self, folder: Path, address: str) -> Path:
-        """A page that leads to an address with a key that is good once; only its owner reads it.
+        """Write a private page that redirects to ``address`` with a one-time key; return its path.
 
         Parameters
         ----------
@@ -64,7 +64,7 @@ class Keys:
         return file
 
     def close(self) -> None:
-        """Remove the files of keys that nobody has used."""
+        """Delete the files of unused one-time keys."""
         for file in self._once.values():
             file.unlink(missing_ok=True)
         self._once.clear()
@@ -75,15 +75,15 @@ QUOTAS = {"exam": (30, 600.0), "practice": (300, 10.0), "import": (3, 21_600.0)}
 
 
 class QuotaError(HTTPException):
-    """A learner has begun more than there is room for."""
+    """HTTP 429: a learner has started more than the server has room for."""
 
 
 class ServerState:
-    """What a running server shares.
+    """What all requests of a running server share.
 
     Parameters
     ----------
-    settings : Settings
+    settings : ServerSettings
 
     Raises
     ------
@@ -110,11 +110,11 @@ class ServerState:
         self._turns: WeakValueDictionary[str, asyncio.Lock] = WeakValueDictionary()
 
     def attempt_lock(self, attempt: str) -> asyncio.Lock:
-        """Held while an attempt is answered: of two answers at once the second sees the first."""
+        """Return the lock of an attempt: of two answers at once the second sees the first."""
         return self._turns.setdefault(attempt, asyncio.Lock())
 
     def spend_quota(self, what: str, learner: int) -> None:
-        """Count that a learner begins something, where there are several.
+        """Count that a learner starts something; without accounts nothing is limited.
 
         Raises
         ------
@@ -130,7 +130,7 @@ class ServerState:
         self._quotas[what].spend(learner)
 
     def close(self) -> None:
-        """End the processes and give the connections back."""
+        """Stop the workers and close the database."""
         self.keys.close()
         self.workers.close()
         self.store.close()

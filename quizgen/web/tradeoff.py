@@ -26,10 +26,10 @@ COMMAND = "quizgen tradeoff"
 
 @dataclass(frozen=True)
 class TradeoffJob:
-    """Everything measured once; what is said of it in every language."""
+    """Measures the cost of accuracy once, and renders it in every language."""
 
     def run(self, bank: Bank) -> bytes:
-        """Measure."""
+        """Return the HTML by language, as JSON."""
         from quizgen.tradeoff.page import render_tradeoff_fragment
         from quizgen.tradeoff.report import measure_tradeoff
 
@@ -40,7 +40,7 @@ class TradeoffJob:
 
 
 async def show_tradeoff(request: Request) -> Response:
-    """What was measured; a page that looks again by itself while it is being measured."""
+    """Return the page of measurements; it reloads itself while they are being made."""
     site: ServerState = request.app.state.site
     said: dict[str, Html] = {}
     try:
@@ -54,12 +54,12 @@ async def show_tradeoff(request: Request) -> Response:
 
 
 async def style(_request: Request) -> Response:
-    """The style of what was measured."""
+    """Return the style sheet of the page."""
     return Response(tradeoff_css(), media_type="text/css")
 
 
 async def serve_tradeoff_js(_request: Request) -> Response:
-    """What moves its slider."""
+    """Return the script of the page's slider."""
     return Response(script(), media_type="text/javascript")
 
 

@@ -33,6 +33,7 @@ from quizgen.web.state import ServerState
 
 @cache
 def _build_environment() -> jinja2.Environment:
+    """Return the Jinja environment with the page layouts."""
     layouts = jinja_environment("quizgen.web", "quizgen.render")
     layouts.filters["html"] = Markup  # of what was made here, see ``made.Html``
     layouts.globals.update(language=get_language, strokes=strokes_to_svg, word=translate)
@@ -41,26 +42,26 @@ def _build_environment() -> jinja2.Environment:
 
 @cache
 def page_language_css() -> str:
-    """The style of languages that need one, and of figures on a dark page."""
+    """Return the CSS of languages that need their own, and of figures on dark pages."""
     return language_css(":lang({})") + write_theme_css()
 
 
 def translate_page(lang: str, key: str, **values: object) -> str:
-    """A sentence of the pages, with its blanks filled in."""
+    """Return a sentence of the pages in a language; ``key`` is ``section.name``."""
     section, _, name = key.partition(".")
     text: str = load_words(fallback_language(lang), "web")[section][name]
     return text.format(**values) if values else text
 
 
 def request_language(request: Request) -> str:
-    """The language that the visitor has chosen."""
+    """Return the learner's language if the server has it, else its first one."""
     site: ServerState = request.app.state.site
     chosen = str(request.state.learner.settings.get("lang"))
     return chosen if chosen in site.languages else site.languages[0]
 
 
 def _build_menu(site: ServerState, learner: Learner) -> list[tuple[str, str]]:
-    """Addresses of pages that a learner may see, and what they are called."""
+    """Return address and key of the name of each page that a learner may open."""
     here = site.settings
     if here.accounts and not learner.id:
         return []
@@ -74,7 +75,7 @@ def _build_menu(site: ServerState, learner: Learner) -> list[tuple[str, str]]:
 
 
 def page_response(request: Request, layout: str, status: int = 200, **content: object) -> Response:
-    """A page.
+    """Return a page rendered from a layout.
 
     Parameters
     ----------
@@ -89,6 +90,7 @@ def page_response(request: Request, layout: str, status: int = 200, **content: o
     lang = request_language(request)
 
     def words(key: str, **values: object) -> str:
+        """Return a sentence in the language of the page."""
         return translate_page(lang, key, **values)
 
     html = (
@@ -111,9 +113,13 @@ def page_response(request: Request, layout: str, status: int = 200, **content: o
 
 
 def relative_time(now: float, lang: str) -> Callable[..., str]:
-    """Says in words when something was or will be."""
+    """Return a function that says in words when a time was, or with ``ahead`` will be.
+
+    ``now`` and its argument are in seconds since 1970.
+    """
 
     def format_moment(moment: float | None, *, ahead: bool = False) -> str:
+        """Return a time in words, such as ``yesterday``; for None that it never was."""
         if moment is None:
             return "" if ahead else translate_page(lang, "progress.never")
         if ahead and moment <= now:
@@ -132,12 +138,15 @@ def relative_time(now: float, lang: str) -> Callable[..., str]:
 
 
 def redirect(address: str) -> Response:
-    """Go on to another page."""
+    """Return a redirect (HTTP 303) to an address."""
     return RedirectResponse(address, 303)
 
 
 def safe_redirect_target(address: str) -> str:
-    """An address of these pages; the first page instead of any other."""
+    """Return an address on this server; ``/`` for any other.
+
+    A link from elsewhere must not send a learner to a foreign site.
+    """
     own = address.startswith("/") and not address.startswith(("//", "/\\"))
     return address if own else "/"
 
@@ -146,7 +155,7 @@ _LINE = Markup('<polyline points="{}"/>')
 
 
 def strokes_to_svg(board: DrawingField, values: Sequence[str]) -> Markup:
-    """The lines of an answer in the picture of its field; nothing if they cannot be read."""
+    """Return the lines of a drawn answer as SVG; empty if they cannot be read."""
     try:
         lines = read_strokes(" ".join(values), board.view)
     except FormulaReadError:

@@ -12,7 +12,7 @@ licence = "CC BY 4.0"
 authors = ["A. Lecturer"]
 requires = ">=0.1"
 languages = ["en"]
-units = ["gram = [mass] = g = grams", "newton = kg * m / s**2 = N", "bar = 100000 * N / m**2 = bar"]
+units = ["crate = [goods] = cr = crates", "haul = kcr * m / s**2 = hu", "press = 100000 * hu / m**2 = press"]
 title.en = "Mechanics"
 topics.forces.en = "Forces"
 """,
@@ -24,9 +24,9 @@ from quizgen.maths.model import Model, Step
 m, a, F = symbols("m a F")
 with evaluate(False):
     MODEL = Model(
-        given={m: "kg", a: "m/s^2"},
-        steps=(Step(F, m * a, "N"),),
-        traps={"added": Step(F, m + a, "N")},
+        given={m: "kcr", a: "m/s^2"},
+        steps=(Step(F, m * a, "hu"),),
+        traps={"added": Step(F, m + a, "hu")},
     )
 """,
     "templates/forces/push/template.toml": """
@@ -35,7 +35,7 @@ tier = "A"
 solver = "forces/newton"
 
 [draw]
-m = { range = [2, 9, 1], unit = "kg" }
+m = { range = [2, 9, 1], unit = "kcr" }
 a = { pick = [3, 5, 7], unit = "m/s^2" }
 
 [figure]
@@ -44,7 +44,7 @@ values = { m = "m", F = "F" }
 
 [[part]]
 points = 2
-answer = { kind = "quantity", of = "F", unit = "N", rel = "0.01" }
+answer = { kind = "quantity", of = "F", unit = "hu", rel = "0.01" }
 """,
     "templates/forces/push/en.md": """# A push
 A block of {{ m }} shall be accelerated by {{ a }}.
@@ -64,19 +64,19 @@ $F/m$ is $a$ again.
 from quizgen.figures.kit import Parameter, format_equation
 
 SIZE = (250, 60)
-PARAMETERS = {"m": Parameter("kg", "mass", low=0.0), "F": Parameter("N", "force", low=0.0)}
+PARAMETERS = {"m": Parameter("kcr", "mass", low=0.0), "F": Parameter("hu", "force", low=0.0)}
 
 
 def draw(fig, values, *, quiz):
     sketch = fig.sketch()
     sketch.area([(90, 10), (150, 10), (150, 50), (90, 50)], "shade", "ink")
     sketch.arrow((150, 30), (220, 30), "red", 1.4)
-    sketch.label((185, 42), format_equation("$F$", values["F"], "N", hide=quiz))
+    sketch.label((185, 42), format_equation("$F$", values["F"], "hu", hide=quiz))
 
 
 def alt(values, lang, *, quiz):
-    force = "of unknown size" if quiz else f"of {values['F']:g} N"
-    return f"A block of {values['m']:g} kg, pushed by a force {force}."
+    force = "of unknown size" if quiz else f"of {values['F']:g} hu"
+    return f"A block of {values['m']:g} kcr, pushed by a force {force}."
 """,
 }
 

@@ -29,13 +29,13 @@ def both():
 
 @pytest.fixture
 def twins(tmp_path):
-    """Two banks of the same template, whose newtons and figures are not the same."""
+    """Two banks of the same template, whose hauls and figures are not the same."""
     one = write(tmp_path / "one")
     other = write(tmp_path / "other")
     about = other / "templates" / "bank.toml"
     said = about.read_text("utf-8")
     about.write_text(
-        said.replace('"mechanics"', '"statics"').replace("= kg * m", "= 2 * kg * m"), "utf-8"
+        said.replace('"mechanics"', '"statics"').replace("= kcr * m", "= 2 * kcr * m"), "utf-8"
     )
     return CombinedBank((Bank(one, trusted=True), Bank(other, trusted=True)))
 
@@ -61,7 +61,7 @@ def test_what_two_banks_call_the_same_is_told_apart(twins):
 
 def test_each_bank_has_its_own_units_and_figures(twins, both):
     first, second = (twins.template(name) for name in twins.template_paths)
-    assert second.unit_factor("N") == 2 * first.unit_factor("N") == 2 * first.unit_factor("kg")
+    assert second.unit_factor("hu") == 2 * first.unit_factor("hu") == 2 * first.unit_factor("kcr")
     assert Path(first.figure.__file__).is_relative_to(twins.members[0].root)
     assert Path(second.figure.__file__).is_relative_to(twins.members[1].root)
     with pytest.raises(FormulaError, match="op"):

@@ -23,30 +23,30 @@ from quizgen.paper.answer_key import parse_answer_key
 from quizgen.paper.grading import grade_paper
 from quizgen.question.compose import compose_question
 
-LINES = ("gram = [mass] = g = grams", "newton = kg * m / s**2 = N", "hour = 3600 * s = h")
+LINES = ("crate = [goods] = cr = crates", "haul = kcr * m / s**2 = hu", "shift = 28800 * s = sh")
 
 
 def test_a_unit_is_defined_as_pint_defines_it():
     units = build_unit_registry(LINES)
-    assert units.unit("N").dimension == (("g", 1), ("m", 1), ("s", -2))
-    assert (units.factor("N"), units.factor("kg"), units.factor("mg")) == (
+    assert units.unit("hu").dimension == (("cr", 1), ("m", 1), ("s", -2))
+    assert (units.factor("hu"), units.factor("kcr"), units.factor("mcr")) == (
         1000,
         1000,
-        units.factor("g") / 1000,
+        units.factor("cr") / 1000,
     )
-    assert units.factor("N*h") == 3600 * 1000
-    assert units.unit("N/kg").dimension == units.unit("m/s^2").dimension
+    assert units.factor("hu*sh") == 28800 * 1000
+    assert units.unit("hu/kcr").dimension == units.unit("m/s^2").dimension
 
 
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("newton", "expected"),
-        ("newton = = N", "expected"),
+        ("haul", "expected"),
+        ("haul = = hu", "expected"),
         ("metre = [length] = m", "already"),
-        ("newton = kg * m = N", "unknown unit"),
+        ("haul = kgg * m = hu", "unknown unit"),
         ("pound 2 = [mass]", "no name"),
-        ("newton = [mass] = N2", "no symbol"),
+        ("haul = [goods] = N2", "no symbol"),
         ("zero = 0 * m = z", "no size"),
         ("celsius = s; offset: 3 = C", "expected"),
         ("odd = m s = o", "no product"),
@@ -57,21 +57,21 @@ def test_a_definition_that_cannot_be_meant_is_refused(line, said):
         UnitRegistry((line,))
 
 
-FORCE = {"kind": "quantity", "value": "6", "unit": "N", "rel": "0.01", "define": list(LINES)}
+FORCE = {"kind": "quantity", "value": "6", "unit": "hu", "rel": "0.01", "define": list(LINES)}
 
 
 @pytest.mark.parametrize(
     "typed",
     [
-        "6 N",
-        "6 newtons",
-        "6000 mN",
-        "0.006 kN",
-        "6 kg*m/s^2",
-        "6 kg m/s²",
-        "6 Newton",
-        "0.006 kilonewton",
-        "F = 6 N",
+        "6 hu",
+        "6 hauls",
+        "6000 mhu",
+        "0.006 khu",
+        "6 kcr*m/s^2",
+        "6 kcr m/s²",
+        "6 Haul",
+        "0.006 kilohaul",
+        "F = 6 hu",
     ],
 )
 def test_a_unit_of_the_bank_is_read(typed):
@@ -80,22 +80,22 @@ def test_a_unit_of_the_bank_is_read(typed):
 
 def test_units_of_the_bank_are_judged_and_asked_back_as_ours_are():
     assert grade_answer(FORCE, "6").note == "unit-missing"
-    assert grade_answer(FORCE, "6 kg").note == "unit-wrong"
+    assert grade_answer(FORCE, "6 kcr").note == "unit-wrong"
     assert grade_answer(FORCE, "6 furlongs").verdict == "unreadable"
 
 
 def test_cells_of_a_table_know_them():
-    table = {"kind": "table", "values": {"a": "6", "b": "2"}, "units": {"a": "N", "b": "kg"},
+    table = {"kind": "table", "values": {"a": "6", "b": "2"}, "units": {"a": "hu", "b": "kcr"},
              "rel": "0.01", "define": list(LINES)}  # fmt: skip
-    assert grade_answer(table, "6 N; 2000 g").verdict == "correct"
+    assert grade_answer(table, "6 hu; 2000 cr").verdict == "correct"
 
 
 def test_no_other_question_knows_them():
     other = {"kind": "quantity", "value": "6", "unit": "m", "rel": "0.01"}
-    assert grade_answer(FORCE, "6 N").verdict == "correct"
-    assert grade_answer(other, "6 kg").verdict == "unreadable"
+    assert grade_answer(FORCE, "6 hu").verdict == "correct"
+    assert grade_answer(other, "6 kcr").verdict == "unreadable"
     with pytest.raises(FormulaError, match="unknown unit"):
-        unit_factor("N")
+        unit_factor("hu")
 
 
 def test_a_paper_prints_marks_and_draws_with_what_the_bank_brings(tmp_path):
@@ -109,7 +109,7 @@ def test_a_paper_prints_marks_and_draws_with_what_the_bank_brings(tmp_path):
     key = parse_answer_key(json.loads((out / "key.json").read_bytes()))
     given = key.questions[0].chain.given
     force = int(given["m"].value) * int(given["a"].value) // 1000
-    (part,) = grade_paper(key, {key.questions[0].parts[0].id: f"{force} N"}).parts
+    (part,) = grade_paper(key, {key.questions[0].parts[0].id: f"{force} hu"}).parts
     assert part.verdict.verdict == "correct"
 
 
@@ -135,7 +135,7 @@ def test_no_question_of_the_built_in_bank_holds_definitions():
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
-        ('units = ["newton = N"]', r"bank\.toml:1: units: .*unknown unit 'N'"),
+        ('units = ["haul = hu"]', r"bank\.toml:1: units: .*unknown unit 'hu'"),
         ('requires = ">=99"', r"bank\.toml:1: requires: quizgen >=99, and this is 0\.1"),
         ('requires = "new"', r"bank\.toml:1: requires: 'new' is not like"),
     ],

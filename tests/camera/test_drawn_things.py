@@ -117,14 +117,14 @@ def test_no_edge_is_where_none_is_looked_for(monkeypatch, shape, texture, place)
 
 def test_nothing_is_laid_upon_what_was_never_written(monkeypatch):
     """A background that is seen nowhere is not drawn, unless something else is drawn upon it."""
-    bare = rasterizer._bare
+    bare = rasterizer._allocate_layer
 
     def unwritten(*args):
         layer = bare(*args)
         layer.colour[...] = np.nan
         return layer
 
-    monkeypatch.setattr(rasterizer, "_bare", unwritten)
+    monkeypatch.setattr(rasterizer, "_allocate_layer", unwritten)
     disc = SceneObject("disc", radius=Length(9.0), depth=5.0)
     for depth in (3.0, 7.0):
         assert np.isfinite(drawn(disc, SceneObject("full", depth=depth, texture="ramp"))).all()

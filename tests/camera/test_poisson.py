@@ -10,8 +10,8 @@ from quizgen.camera.pixels.noise import (
     _COLUMNS,
     FARTHEST,
     FEW_ELECTRONS,
-    _normals,
-    _tables,
+    _count_tables,
+    _normal_table,
     poisson_quantiles,
 )
 
@@ -31,7 +31,7 @@ def test_few_electrons_are_counted_one_by_one(kind, wrong):
     source = np.random.default_rng(5)
     dark, darker = source.uniform(0, FEW_ELECTRONS, 200_000), 10 ** source.uniform(-9, 1.2, 200_000)
     means = np.concatenate([dark, darker, np.zeros(1000)]).astype(kind)
-    normal = source.choice(_normals(np.dtype(kind)), means.size)
+    normal = source.choice(_normal_table(np.dtype(kind)), means.size)
     exact = stats.poisson.ppf(stats.norm.cdf(normal.astype(float)), means.astype(float))
     apart = np.abs(poisson_quantiles(means, normal) - exact)
     assert (apart > 0).mean() < wrong  # luck within a rounding error of a border
@@ -52,7 +52,7 @@ def test_far_out_counts_are_right_within_one_electron(mean):
 
 def test_over_a_cell_a_count_grows_by_one_at_most():
     """So that one comparison with the chance of the least count is enough."""
-    nodes, below, _ = _tables(np.dtype(float))
+    nodes, below, _ = _count_tables(np.dtype(float))
     least = (nodes // _COLUMNS).reshape(-1, _COLUMNS)[70:-70]  # up to 4.5 deviations
     assert (least[1:, 1:] - least[:-1, :-1]).max() == 1
     assert least.max() + 1 < below.size // _COLUMNS

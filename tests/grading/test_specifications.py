@@ -23,7 +23,7 @@ FULL = [
     {"kind": "quantity", "rel": "0.005", "value": "50", "unit": "mm", "bare": True,
      "traps": {"half": "25"}, "notes": NOTES, "of": ["f"]},
     {"kind": "angle", "abs": "0.5", "value": "140", "period": "180", "of": ["H"]},
-    {"kind": "set", "values": ["1", "2"], "unit": "kg", "define": ["gram = [mass] = g"]},
+    {"kind": "set", "values": ["1", "2"], "unit": "cr", "define": ["crate = [goods] = cr"]},
     {"kind": "point", "exact": True, "values": ["440", "160"], "names": ["u", "v"], "unit": "px",
      "counts": ["px"], "up_to_scale": True, "traps": {"half": ["1", "2"]}, "of": ["u", "v"]},
     {"kind": "table", "exact": True, "values": {"V": "1", "H": "2"}, "units": {"V": "px"},

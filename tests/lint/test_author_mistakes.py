@@ -122,7 +122,7 @@ def test_editors_get_the_place_as_json(tmp_path):
     (found,) = map(json.loads, run(spoilt(tmp_path, row), "--json").stdout.splitlines())
     assert found["file"] == str(tmp_path / row["file"])
     assert (found["code"], found["line"], found["column"]) == ("QG122", 7, 1)
-    assert found["message"] == "draw.m: unknown unit 'kgg'"
+    assert found["message"] == "draw.m: unknown unit 'kcrr'"
     assert found["hint"].startswith("use a listed one")
 
 

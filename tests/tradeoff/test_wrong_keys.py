@@ -21,14 +21,14 @@ from quizgen.tradeoff.solving import ARITHMETICS
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 
-from count import ROUND, count_wrong, faults, is_wrong
+from count import ROUND, count_wrong, find_faults, is_wrong
 
 THIRDS = "compare-two-gaussian-noises"
 """Its answers are 1/3, 2/3 and the like, to be given exactly."""
 
 
 def found(name, seed, system):
-    return faults(draw_variant(builtin_bank().template(name), seed), system)
+    return find_faults(draw_variant(builtin_bank().template(name), seed), system)
 
 
 def test_a_third_is_a_third_only_exactly():
@@ -49,7 +49,7 @@ def test_balls_cannot_tell_that_two_colours_are_equal():
 
 def test_nobody_marks_by_equality_with_doubles():
     one = draw_variant(builtin_bank().template(THIRDS), 0)
-    assert "rejected" in faults(one, "float64")
+    assert "rejected" in find_faults(one, "float64")
     assert not is_wrong(one, "float64")
 
 

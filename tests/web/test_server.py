@@ -19,7 +19,7 @@ from starlette.testclient import TestClient
 from quizgen.store import Store
 from quizgen.web import server as own
 from quizgen.web.app import create_app
-from quizgen.web.server import _as_before, _build_browser_url, _open_listening_socket
+from quizgen.web.server import _build_browser_url, _open_listening_socket, _open_previous_port
 from quizgen.web.settings import ServerSettings
 
 ADDRESS = "http://127.0.0.1:8000"
@@ -79,14 +79,14 @@ def test_nobody_else_reads_the_database_whatever_the_umask(tmp_path, existing):
 
 def test_it_listens_on_the_port_of_the_first_time_while_that_is_free(tmp_path):
     store = Store(f"sqlite:///{tmp_path / 'learning.sqlite3'}")
-    first = _as_before("127.0.0.1", store)
+    first = _open_previous_port("127.0.0.1", store)
     port = first.getsockname()[1]
     first.listen()
-    beside = _as_before("127.0.0.1", store)
+    beside = _open_previous_port("127.0.0.1", store)
     assert beside.getsockname()[1] != port
     beside.close()
     first.close()
-    again = _as_before("127.0.0.1", store)
+    again = _open_previous_port("127.0.0.1", store)
     assert again.getsockname()[1] == port
     again.close()
     store.close()

@@ -88,12 +88,12 @@ EFFECTS: tuple[Effect, ...] = (
 
 
 def present_effects(view: View) -> tuple[Effect, ...]:
-    """The effects that a camera has, in order."""
+    """Return the effects that a camera has, in physical order: from lens to file."""
     return tuple(effect for effect in EFFECTS if effect.is_present(view))
 
 
 def ineffective_settings(view: View) -> dict[str, str]:
-    """Settings that are given and do nothing, and what they need."""
+    """Return the settings that are given and do nothing, each with what it needs."""
     absent = [effect for effect in EFFECTS if effect.needs and not effect.is_present(view)]
     found = {setting.name: effect.needs for effect in absent for setting in effect.settings}
     if not (motion_blur.EFFECT.is_present(view) or rolling_shutter.EFFECT.is_present(view)):
@@ -102,17 +102,17 @@ def ineffective_settings(view: View) -> dict[str, str]:
 
 
 def get_effect(name: str) -> Effect:
-    """The effect of a name."""
+    """Return the effect of a name, which must exist."""
     return next(effect for effect in EFFECTS if effect.name == name)
 
 
 def question_kinds() -> tuple[str, ...]:
-    """Kinds of question that effects decide."""
+    """Return the kinds of question that some effect answers."""
     return tuple(sorted({kind for effect in EFFECTS for kind in effect.answers}))
 
 
 @cache
 def all_settings() -> Mapping[str, AnySetting]:
-    """Every key of ``[camera]``: the body's and the effects'."""
+    """Return every setting of ``[camera]`` by its key: the body's and the effects'."""
     found = (*BODY, *(setting for effect in EFFECTS for setting in effect.settings))
     return MappingProxyType({setting.name: setting for setting in found})

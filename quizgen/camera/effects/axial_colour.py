@@ -36,7 +36,7 @@ RED, GREEN, BLUE = 0, 1, 2
 
 
 def blur_shifts(view: View) -> dict[int, float]:
-    """By how much the circles of confusion of red and blue exceed those of green, px.
+    """Return by how many px the circles of confusion of red and blue exceed that of green.
 
     A colour of focal length f' makes a circle A (v (1/f' - 1/z) - 1), with the aperture A and the
     sensor at v: compared with green only 1/f' differs, by the same at every depth z.
@@ -52,7 +52,10 @@ def blur_shifts(view: View) -> dict[int, float]:
 
 
 def operation(layer: Layer, view: View) -> Layer:
-    """Blur red and blue each by its own disc; what is left for `defocus` is green."""
+    """Return a layer with red and blue each blurred by its own disc.
+
+    Green is left for `defocus`.
+    """
     return replace(depth_blur.blur_channels(layer, view, blur_shifts(view)), sharp=(GREEN,))
 
 

@@ -15,7 +15,10 @@ BINNING = Setting("binning", parse_integer, 1, (in_range(1, 1000, "px"),))
 
 
 def run(image: Image, view: View) -> Image:
-    """Mean of every block, shown as large as the block; blocks at the far border may be cut."""
+    """Return the mean of every block of pixels, shown as large as the block.
+
+    Border blocks may be cut.
+    """
     side = view.camera[BINNING]
     sums, counts = image, np.ones((1, 1, 1), image.dtype)
     for axis, size in enumerate(image.shape[:2]):

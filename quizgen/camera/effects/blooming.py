@@ -16,9 +16,9 @@ BLOOMING = Setting("blooming", parse_bool, False, (NEEDS_FULL_WELL,))
 
 
 def run(image: Image, view: View) -> Image:
-    """Charge above the full well spills along the column, half up and half down.
+    """Return the picture after charge above the full well spilled along columns, half each way.
 
-    Of one sensor with colour filters: the sites for red, green and blue of a pixel lie behind each
+    Of one sensor with colour filters: the sites for red, green and blue of a pixel follow each
     other in its column and fill whatever the colour of what spills, so that a streak is white. Each
     keeps what it can; what reaches the border is drained.
     """
@@ -38,7 +38,7 @@ _COLUMNS = 1024
 
 
 def _spill(kept: Image, excess: Image) -> Image:
-    """Carry excess to the next rows until it finds room."""
+    """Return charge with the excess carried down to the next rows until they have room for it."""
     filled, carried = kept.copy(), np.zeros(kept.shape[1:], kept.dtype)
     spilling = np.flatnonzero(excess.any(axis=1))
     for row in range(spilling[0] if spilling.size else len(kept), len(kept)):
@@ -51,12 +51,12 @@ def _spill(kept: Image, excess: Image) -> Image:
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """Nothing below the full well; else a filled column."""
+    """Return 0 for signals below the full well, else what filling a column can change."""
     return 0.0 if signal.high <= 1.0 else max(signal.high - 1.0, 1.0 - signal.low)
 
 
 def carry_error(error: float, signal: Signal, view: View) -> float:
-    """Spilt charge adds up along a column: whatever any of its sites may be off by."""
+    """Return the error after spilling: that of all sites of a column may add up in one."""
     if signal.high + error <= 1.0:
         return error
     filled = max(1.0 - (signal.low - error), error)

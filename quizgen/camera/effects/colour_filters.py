@@ -26,14 +26,15 @@ Curve = NDArray[np.float64]
 _KELVIN = re.compile(r"\s*(\d+(?:\.\d*)?)\s*K\s*")
 
 
-def _kelvin(value: object) -> float:
+def _parse_kelvin(value: object) -> float:
+    """Return the colour temperature in K of a text such as ``2856 K``."""
     match = _KELVIN.fullmatch(value) if isinstance(value, str) else None
     if match is None:
         raise ValueError("expected a colour temperature such as '2856 K'")
     return parse_plain_number(float(match[1]))
 
 
-LIGHT = Setting[float | None]("light", _kelvin, None, (in_range(1000.0, 25000.0, "K"),))
+LIGHT = Setting[float | None]("light", _parse_kelvin, None, (in_range(1000.0, 25000.0, "K"),))
 """Colour temperature of the light, K; it is as bright to the eye as daylight would be."""
 INFRARED_FILTER = Setting("infrared_filter", parse_bool, identity=True)
 """Whether a filter before the sensor holds the infrared back."""
@@ -48,61 +49,69 @@ WAVELENGTHS = np.arange(380.0, 1101.0)
 _BLUE, _GREEN, _RED = 455.0, 535.0, 610.0
 
 
-def _line(*points: tuple[float, float]) -> Curve:
-    """Straight between points (nm, value), level beyond them."""
+def _interpolate_curve(*points: tuple[float, float]) -> Curve:
+    """Return a spectral curve: straight between points (nm, value), level beyond them."""
     at, values = zip(*points, strict=True)
     return np.interp(WAVELENGTHS, at, values)
 
 
-def _dye(centre: float, width: float, opens: float) -> Curve:
-    """A bell, and transparent again in the infrared, 120 nm after it opens."""
+def _build_dye(centre: float, width: float, opens: float) -> Curve:
+    """Return a dye's transmittance: a bell (nm), open again in the infrared from ``opens``."""
     bell = np.exp(-0.5 * ((WAVELENGTHS - centre) / width) ** 2)
-    return np.maximum(bell, _line((opens, 0.0), (opens + 120.0, 1.0)))
+    return np.maximum(bell, _interpolate_curve((opens, 0.0), (opens + 120.0, 1.0)))
 
 
 def lamp_spectrum(temperature: float) -> Curve:
-    """Planck's law at `WAVELENGTHS`, of the luminous flux 1 (any unit)."""
+    """Return Planck's spectrum at `WAVELENGTHS` for K, scaled to the luminous flux 1."""
     power = WAVELENGTHS**-5.0 / np.expm1(_PLANCK / (WAVELENGTHS * temperature))
     return np.asarray(power / (power * luminous_efficiency(WAVELENGTHS)).sum())
 
 
 @lru_cache(maxsize=1)
-def _curves() -> tuple[Curve, Curve, Curve]:
-    """Sensitivity of red, green and blue sites; filter; reflectance that each value stands for."""
-    silicon = WAVELENGTHS * _line((650.0, 1.0), (1100.0, 0.0))  # photons, not joules, are counted
-    red = _line((570.0, 0.0), (610.0, 1.0))
-    dyes = np.stack([red, _dye(_GREEN, 40.0, 690.0), _dye(_BLUE, 35.0, 720.0)])
-    infrared = _line((630.0, 1.0), (680.0, 0.0))
+def _sensor_curves() -> tuple[Curve, Curve, Curve]:
+    """Return the spectra of the three sites, the infrared filter and the reflectances.
+
+    The last are those that a red, a green and a blue value stand for.
+    """
+    silicon = WAVELENGTHS * _interpolate_curve(
+        (650.0, 1.0), (1100.0, 0.0)
+    )  # photons, not joules, are counted
+    red = _interpolate_curve((570.0, 0.0), (610.0, 1.0))
+    dyes = np.stack([red, _build_dye(_GREEN, 40.0, 690.0), _build_dye(_BLUE, 35.0, 720.0)])
+    infrared = _interpolate_curve((630.0, 1.0), (680.0, 0.0))
     bands = np.stack([
-        _line((_GREEN, 0.0), (_RED, 1.0)),
-        _line((_BLUE, 0.0), (_GREEN, 1.0), (_RED, 0.0)),
-        _line((_BLUE, 1.0), (_GREEN, 0.0)),
+        _interpolate_curve((_GREEN, 0.0), (_RED, 1.0)),
+        _interpolate_curve((_BLUE, 0.0), (_GREEN, 1.0), (_RED, 0.0)),
+        _interpolate_curve((_BLUE, 1.0), (_GREEN, 0.0)),
     ])  # fmt: skip
     return dyes * silicon, infrared, bands
 
 
 @lru_cache(maxsize=64)
 def mixing_matrix(temperature: float, *, infrared_filter: bool) -> Curve:
-    """What each site (row) makes of the scene's red, green and blue: 3 x 3, none negative.
+    """Return the 3 x 3 matrix from the scene's red, green, blue to what each site (row) sees.
 
-    White under `DAYLIGHT`, behind the filter against infrared, makes 1 in every row.
+    No entry is negative. White under `DAYLIGHT`, seen through the infrared filter, makes 1 in every
+    row.
     """
-    sites, infrared, bands = _curves()
+    sites, infrared, bands = _sensor_curves()
     white = (sites * infrared * lamp_spectrum(DAYLIGHT)).sum(axis=1)
     seen = sites * lamp_spectrum(temperature) * (infrared if infrared_filter else 1.0)
     return np.asarray((seen[:, None, :] * bands).sum(axis=2) / white[:, None])
 
 
-def _mixture(view: View) -> Curve:
+def _camera_matrix(view: View) -> Curve:
+    """Return the `mixing_matrix` of the camera's light and filter."""
     camera = view.camera
     return mixing_matrix(camera[LIGHT] or DAYLIGHT, infrared_filter=camera[INFRARED_FILTER])
 
 
 def operation(view: View) -> TileOperation:
-    """Mix the colours of every pixel."""
-    weights = _mixture(view).astype(view.precision)
+    """Return what replaces the colours of a tile by those that the sites see under the light."""
+    weights = _camera_matrix(view).astype(view.precision)
 
     def mix_channels(part: Image, _: Tile) -> None:
+        """Mix the colours of a tile in place."""
         scene = [part[channel::3].copy() for channel in range(3)]
         for channel, row in enumerate(weights):
             terms = [colour * weight for colour, weight in zip(scene, row, strict=True) if weight]
@@ -112,16 +121,16 @@ def operation(view: View) -> TileOperation:
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """Largest value of a row's difference from the identity over all colours in the range."""
-    apart = _mixture(view) - np.eye(3)
+    """Return the largest change of any value: matrix minus identity over all colours in range."""
+    apart = _camera_matrix(view) - np.eye(3)
     up, down = np.maximum(apart, 0.0).sum(axis=1), np.minimum(apart, 0.0).sum(axis=1)
     ends = up * signal.high + down * signal.low, up * signal.low + down * signal.high
     return float(np.abs(ends).max())
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Between the smallest and the largest sum of a row."""
-    rows = _mixture(view).sum(axis=1)
+    """Return the range between the smallest and the largest sum of a row, times the signal."""
+    rows = _camera_matrix(view).sum(axis=1)
     return signal.scale_range(float(rows.min()), float(rows.max()))
 
 
@@ -132,7 +141,7 @@ EFFECT = Effect(
     is_present=lambda view: view.camera[LIGHT] is not None,
     run=PointByPoint(operation),
     omission_bound=omission_bound,
-    carry_error=lambda error, _, view: error * float(_mixture(view).sum(axis=1).max()),
+    carry_error=lambda error, _, view: error * float(_camera_matrix(view).sum(axis=1).max()),
     range_after=range_after,
     needs="light",
 )

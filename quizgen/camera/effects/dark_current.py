@@ -37,12 +37,15 @@ HOT_PIXELS = Setting("hot_pixels", quantity_parser("%"), 0.0, (NEEDS_FULL_WELL, 
 
 
 def dark_electrons(view: View) -> float:
-    """Mean dark charge per photosite, e-: current times exposure time."""
+    """Return the mean dark charge per photosite, e-: current times exposure time."""
     return view.camera[DARK_CURRENT] * view.camera[SHUTTER]
 
 
-def _poisson(mean: float, precision: Precision) -> Image:
-    """Poisson counts of one mean in the middle of equal probabilities."""
+def _build_count_table(mean: float, precision: Precision) -> Image:
+    """Return Poisson counts of one mean at the middles of 2^16 equal probabilities.
+
+    Read at random places, the table gives counts of this mean.
+    """
     if not mean:
         return np.zeros(WORDS, precision)
     first = max(0, math.floor(mean - 12.0 * math.sqrt(mean) - 20.0))
@@ -60,13 +63,17 @@ _MOSTLY_NONE = WORDS * 15 // 16
 
 
 def operation(view: View) -> TileOperation:
-    """Add the dark charge and its own shot noise; hot pixels are stuck at full well."""
+    """Return what adds dark charge with its shot noise to a tile; hot pixels are set to white."""
     charge, stuck = effect_random(view, "dark current"), effect_random(view, "hot pixels")
-    share, counts = view.camera[HOT_PIXELS], _poisson(dark_electrons(view), view.precision)
+    share, counts = (
+        view.camera[HOT_PIXELS],
+        _build_count_table(dark_electrons(view), view.precision),
+    )
     signals = counts * (1.0 / electrons_at_white(view))
     first = int(np.searchsorted(signals, 0.0, side="right"))
 
     def add_dark_current(part: Image, tile: Tile) -> None:
+        """Add counts drawn from the table to a tile in place."""
         if first <= _MOSTLY_NONE:
             part += charge.draw_from_table(signals, tile.number, part.size)
         elif first < WORDS:
@@ -78,20 +85,20 @@ def operation(view: View) -> TileOperation:
     return add_dark_current
 
 
-def _most(view: View) -> float:
-    """The largest dark charge of a pixel, 1 = white."""
+def _largest_charge(view: View) -> float:
+    """Return the largest dark charge that a pixel can get, 1 = white."""
     electrons = dark_electrons(view)
     return (electrons + farthest_count(electrons)) / electrons_at_white(view) if electrons else 0.0
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """The largest dark charge; a hot pixel may be anywhere."""
-    return max(_most(view), signal.outside(1.0, 1.0) if view.camera[HOT_PIXELS] else 0.0)
+    """Return the largest dark charge, or with hot pixels how far white can be from a value."""
+    return max(_largest_charge(view), signal.outside(1.0, 1.0) if view.camera[HOT_PIXELS] else 0.0)
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Brighter: no charge makes anything darker, but a hot pixel what is beyond the full well."""
-    bright = signal.with_margins(0.0, _most(view))
+    """Return the range, brighter by the largest charge; hot pixels add white itself."""
+    bright = signal.with_margins(0.0, _largest_charge(view))
     return bright.including(1.0, 1.0) if view.camera[HOT_PIXELS] else bright
 
 

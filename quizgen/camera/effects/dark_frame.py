@@ -27,16 +27,17 @@ DARK_FRAMES = Setting("dark_frames", parse_integer, 0, (NEEDS_FULL_WELL, in_rang
 """Pictures with the lens covered, whose mean is subtracted; 0 subtracts nothing."""
 
 
-def _mean(view: View) -> float:
-    """Pedestal and mean dark charge, 1 = white."""
+def _frame_mean(view: View) -> float:
+    """Return the expected value of a dark frame, pedestal plus mean dark charge, 1 = white."""
     dark = dark_electrons(view) / electrons_at_white(view)
     return (fixed_pattern.pedestal(view) + dark) * gain_factor(view)
 
 
 def _remaining_noise(view: View) -> float:
-    """Noise left in the mean of the dark frames: that of one, over the root of their number.
+    """Return the standard deviation left in the mean of the dark frames, 1 = white.
 
-    A mean of counts is taken as normal; with one frame of few electrons it is not quite.
+    It is that of one frame over the root of their number. A mean of counts is taken as normal; with
+    one frame of few electrons it is not quite.
     """
     variance = view.camera[READ_NOISE] ** 2 + dark_electrons(view)
     frames = view.camera[DARK_FRAMES]
@@ -44,7 +45,7 @@ def _remaining_noise(view: View) -> float:
 
 
 def master_dark(shape: tuple[int, ...], view: View) -> Image:
-    """Mean of the dark frames, shape (H, W, 3)."""
+    """Return the mean of the camera's dark frames, shape (H, W, 3), 1 = white."""
     dark = dark_electrons(view) / electrons_at_white(view)
     left = add_normal_noise(_remaining_noise(view), effect_random(view, "dark frame"))
     works = [fixed_pattern.operation(view), multiply_by(gain_factor(view)), left]
@@ -53,19 +54,19 @@ def master_dark(shape: tuple[int, ...], view: View) -> Image:
 
 
 def run(image: Image, view: View) -> Image:
-    """Subtract the mean of the dark frames."""
+    """Return the picture minus the mean of the dark frames."""
     dark = master_dark(image.shape, view)
     return image - (mosaic.run(dark, view) if image.shape[2] == 1 else dark)
 
 
-def _farthest(view: View) -> float:
-    """How far the mean of the frames is from its own mean, 1 = white."""
+def _largest_deviation(view: View) -> float:
+    """Return how far a pixel of the mean frame can be from its expected value, 1 = white."""
     return fixed_pattern.farthest(view) * gain_factor(view) + FARTHEST * _remaining_noise(view)
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Darker; pattern and what noise the frames have left are spread."""
-    far, mean = _farthest(view), _mean(view)
+    """Return the range, darker by the mean frame and wider by the noise left in it."""
+    far, mean = _largest_deviation(view), _frame_mean(view)
     return signal.with_margins(far + mean, far - mean)
 
 
@@ -75,7 +76,7 @@ EFFECT = Effect(
     settings=(DARK_FRAMES,),
     is_present=lambda view: view.camera[DARK_FRAMES] > 0,
     run=on_composite(run),
-    omission_bound=lambda _, view: _mean(view) + _farthest(view),
+    omission_bound=lambda _, view: _frame_mean(view) + _largest_deviation(view),
     range_after=range_after,
     needs_effects=("fixed pattern", "dark current"),
 )

@@ -15,7 +15,7 @@ from quizgen.camera.setup.view import View
 
 
 def operation(layer: Layer, view: View) -> Layer:
-    """Blur the channels of a layer that are still sharp.
+    """Return a layer with its still sharp channels blurred by its circle of confusion.
 
     Coverage is blurred with the colour, so that a sharp layer in front keeps its edge and a
     blurred one in front lets the background shine through.

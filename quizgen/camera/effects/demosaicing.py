@@ -12,7 +12,7 @@ from quizgen.camera.setup.view import View
 
 
 def run(raw: Image, view: View) -> Image:
-    """Bilinear interpolation of a mosaic.
+    """Return three colours per pixel from a mosaic, by bilinear interpolation.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def run(raw: Image, view: View) -> Image:
     plane = np.pad(raw[..., 0], 1, mode="reflect")
     result = np.empty((*raw.shape[:2], 3), raw.dtype)
     for start, stop in split_range(len(raw), _ROWS):
-        _fill(result[start:stop], plane[start : stop + 2], channel_pattern(view))
+        _fill_band(result[start:stop], plane[start : stop + 2], channel_pattern(view))
     return result
 
 
@@ -35,21 +35,26 @@ _ROWS = 32
 """Rows at once, an even number: so few that they stay in the cache."""
 
 
-def _fill(result: Image, plane: Image, tile: tuple[tuple[int, int], ...]) -> None:
-    """A band of rows from as many of the plane and one on each side."""
+def _fill_band(result: Image, plane: Image, tile: tuple[tuple[int, int], ...]) -> None:
+    """Fill an even number of rows of the result from the plane's same rows and one each side."""
     for row in (0, 1):
         for column in (0, 1):
-            site = _neighbours(plane, row, column, green=tile[row][column] == CHANNELS["G"])
+            site = _average_neighbours(plane, row, column, green=tile[row][column] == CHANNELS["G"])
             for channel in range(3):
-                where = _same_colour(tile, row, column, channel)
+                where = _choose_average(tile, row, column, channel)
                 result[row::2, column::2, channel] = site[where]
 
 
-def _neighbours(plane: Image, row: int, column: int, *, green: bool) -> dict[str, Image]:
-    """Means around every second place: a green site is beside the other colours, else across."""
+def _average_neighbours(plane: Image, row: int, column: int, *, green: bool) -> dict[str, Image]:
+    """Return the averages around every site at (row, column) of the 2x2 tile, by where they lie.
+
+    A green site has other colours left and right (``level``) and above and below (``upright``); any
+    other site has green on four sides (``cross``) and the third colour in the ``corners``.
+    """
     height, width = plane.shape[0] - 2, plane.shape[1] - 2
 
     def at(down: int, across: int) -> Image:
+        """Return the values at an offset in rows and columns from these sites."""
         top, left = row + 1 + down, column + 1 + across
         return plane[top : top + height - row : 2, left : left + width - column : 2]
 
@@ -60,8 +65,8 @@ def _neighbours(plane: Image, row: int, column: int, *, green: bool) -> dict[str
     return {"here": at(0, 0), "cross": (level + upright) * 0.25, "corners": corners * 0.25}
 
 
-def _same_colour(tile: tuple[tuple[int, int], ...], row: int, column: int, channel: int) -> str:
-    """Where a colour is found around a place of the tile."""
+def _choose_average(tile: tuple[tuple[int, int], ...], row: int, column: int, channel: int) -> str:
+    """Return the name of the average that gives a channel at a place of the tile."""
     here, beside = tile[row][column], tile[row][1 - column]
     if here == channel:
         return "here"

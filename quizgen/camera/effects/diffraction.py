@@ -33,7 +33,10 @@ WAVELENGTH = Setting[float | None](
 
 
 def airy_scale(view: View) -> float:
-    """Wavelength times image distance over aperture, px: 1.22 of it is the first dark ring."""
+    """Return wavelength times image distance over aperture, px.
+
+    1.22 of it is the first dark ring.
+    """
     wavelength, opening = view.camera[WAVELENGTH], aperture_diameter(view.camera)
     if wavelength is None or opening is None:
         return 0.0
@@ -41,12 +44,12 @@ def airy_scale(view: View) -> float:
 
 
 def operation(layer: Layer, view: View) -> Layer:
-    """Blur every layer alike: all light comes through the same aperture."""
+    """Return a layer blurred by the Airy disc: all layers alike, as light has one aperture."""
     return blur_layer(layer, airy_kernel(airy_scale(view)))
 
 
 def margin(view: View) -> tuple[float, float]:
-    """As far as the last ring."""
+    """Return how far across and down light can come from, px: the last ring of the kernel."""
     radius = airy_radius(airy_scale(view)) + 1.0
     return largest_margin(view, lambda _: (radius, radius))
 

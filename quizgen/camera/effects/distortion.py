@@ -34,17 +34,20 @@ Radius = TypeVar("Radius", float, Field)
 
 
 def radial_factor(radius: Radius, k1: float, k2: float) -> Radius:
-    """Factor L(r) = 1 + k1 r^2 + k2 r^4 from undistorted to distorted radius."""
+    """Return L(r) = 1 + k1 r^2 + k2 r^4, distorted over undistorted radius (in focal lengths)."""
     return 1.0 + radius**2 * (k1 + k2 * radius**2)
 
 
 def radial_slope(radius: Radius, k1: float, k2: float) -> Radius:
-    """Derivative of r L(r); zero where the picture folds over."""
+    """Return the derivative of r L(r); zero where the picture folds over."""
     return 1.0 + radius**2 * (3.0 * k1 + 5.0 * k2 * radius**2)
 
 
-def _reach(k1: float, k2: float) -> float:
-    """Largest distorted radius up to which a picture is not stretched too much."""
+def _largest_distorted_radius(k1: float, k2: float) -> float:
+    """Return the distorted radius, in focal lengths, up to which the picture may be computed.
+
+    Beyond it the picture is stretched more than 50 times.
+    """
     # the slope reaches s where 1 + 3 k1/(1-s) r^2 + 5 k2/(1-s) r^4 vanishes
     rest = 1.0 - _LEAST_SLOPE
     steep = float(fold_radius(k1 / rest, k2 / rest))
@@ -53,7 +56,7 @@ def _reach(k1: float, k2: float) -> float:
 
 @lru_cache(maxsize=32)
 def undistorted_radius(distorted: float, k1: float, k2: float) -> float:
-    """Inverse of r L(r) on the branch that starts at 0.
+    """Return the undistorted radius of a distorted one, both in focal lengths, below the fold.
 
     Raises
     ------
@@ -61,9 +64,13 @@ def undistorted_radius(distorted: float, k1: float, k2: float) -> float:
         If the radius lies at or beyond the fold, or so near that the picture is stretched more
         than 50 times there.
     """
-    if _reach(k1, k2) < distorted:
+    if _largest_distorted_radius(k1, k2) < distorted:
         shares = (digit * 10.0**power for power in range(-1, -40, -1) for digit in range(9, 0, -1))
-        fits = (share for share in shares if _reach(share * k1, share * k2) >= distorted)
+        fits = (
+            share
+            for share in shares
+            if _largest_distorted_radius(share * k1, share * k2) >= distorted
+        )
         weaker = next(fits, 0.0)  # of one digit
         raise SceneError(
             f"the distortion k1={k1:g}, k2={k2:g} folds before the corner of the picture; "
@@ -73,8 +80,8 @@ def undistorted_radius(distorted: float, k1: float, k2: float) -> float:
 
 
 @lru_cache(maxsize=4)
-def _inverse_table(reach: float, k1: float, k2: float) -> tuple[Field, Field, float]:
-    """Nodes of s = r_u/r_d over q = r_d^2, and ds/dq times the spacing."""
+def _build_inverse_table(reach: float, k1: float, k2: float) -> tuple[Field, Field, float]:
+    """Return a table of s = r_u/r_d over q = r_d^2: values, slopes times spacing, 1/spacing."""
     undistorted_radius(reach, k1, k2)
     nodes = np.linspace(0.0, reach**2, _NODES)
     radius = np.asarray(inverse_radius(np.sqrt(nodes), k1, k2))
@@ -84,8 +91,11 @@ def _inverse_table(reach: float, k1: float, k2: float) -> tuple[Field, Field, fl
     return 1.0 / factor, rate * spacing, 1.0 / spacing
 
 
-def _hermite(q: Field, table: tuple[Field, Field, float]) -> Field:
-    """Cubic through values and slopes: within 1e-13, or 1e-5 where a picture is stretched most."""
+def _interpolate_hermite(q: Field, table: tuple[Field, Field, float]) -> Field:
+    """Return s at q from the table, by cubics through values and slopes.
+
+    Within 1e-13, or 1e-5 where a picture is stretched most.
+    """
     values, rates, scale = table
     position = q * scale
     cell = np.minimum(position.astype(np.intp), _NODES - 2)
@@ -100,18 +110,19 @@ def _hermite(q: Field, table: tuple[Field, Field, float]) -> Field:
 def ratio_quadrant(
     width: int, height: int, focal: float, k1: float, k2: float, corner: float
 ) -> Field:
-    """Undistorted over distorted radius in the upper left quadrant, middle lines included.
+    """Return undistorted over distorted radius of the pixels in the upper left quadrant.
 
-    Beyond the corner of the frame, where the picture may fold, it stays what it is there.
+    Middle lines are included; lengths are in px. Beyond the corner of the frame, where the picture
+    may fold, the ratio stays what it is there.
     """
     right = np.abs(np.arange((width + 1) // 2) - (width - 1) / 2)
     lower = np.abs(np.arange((height + 1) // 2) - (height - 1) / 2)
-    table = _inverse_table(corner / focal, k1, k2)
+    table = _build_inverse_table(corner / focal, k1, k2)
     factor = np.empty((lower.size, right.size))
     for start in range(0, lower.size, _ROWS):
         part = slice(start, start + _ROWS)
         squared = right[None, :] ** 2 + lower[part, None] ** 2
-        factor[part] = _hermite(np.minimum(squared, corner**2) / focal**2, table)
+        factor[part] = _interpolate_hermite(np.minimum(squared, corner**2) / focal**2, table)
     return factor
 
 
@@ -120,14 +131,17 @@ _ROWS = 64
 
 
 def source_positions(view: View, box: PixelBox = (slice(None), slice(None))) -> tuple[Image, Image]:
-    """Where the pixels of a box come from; small maps are kept, large ones made when needed."""
+    """Return x and y (px) from which the pixels of a box are read, shape of the box each.
+
+    Small maps are cached as a whole, large ones computed for each box.
+    """
     camera, sides = view.camera, (view.width, view.height)
     lens = *sides, view.focal, camera[K1], camera[K2], view.frame_corner, view.precision
     rows, columns = (
         range(*part.indices(side)) for part, side in zip(box, sides[::-1], strict=True)
     )
     if view.width * view.height > _KEPT:
-        return _map(lens, rows, columns)
+        return _compute_map(lens, rows, columns)
     x, y = _compute_whole_map(lens)
     return x[box], y[box]
 
@@ -141,11 +155,15 @@ _Lens = tuple[int, int, float, float, float, float, Precision]
 
 @lru_cache(maxsize=4)
 def _compute_whole_map(lens: _Lens) -> tuple[Image, Image]:
-    return _map(lens, range(lens[1]), range(lens[0]))
+    """Return the source positions of a whole picture, cached."""
+    return _compute_map(lens, range(lens[1]), range(lens[0]))
 
 
-def _map(lens: _Lens, rows: range, columns: range) -> tuple[Image, Image]:
-    """A part of a map: three quadrants mirror the first."""
+def _compute_map(lens: _Lens, rows: range, columns: range) -> tuple[Image, Image]:
+    """Return x and y (px) from which some rows and columns are read.
+
+    Three quadrants of the map mirror the first.
+    """
     width, height = lens[:2]
     across, down = np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2
     line, half = np.asarray(rows), (width + 1) // 2
@@ -163,9 +181,10 @@ def _map(lens: _Lens, rows: range, columns: range) -> tuple[Image, Image]:
 
 
 def operation(layer: Layer, view: View) -> Layer:
-    """Read every pixel where it comes from."""
+    """Return a layer in which every pixel is read from its source position."""
 
     def warp(images: list[Image], box: PixelBox) -> list[Image]:
+        """Return colour and cover of a box, sampled at the source positions."""
         x, y = source_positions(view, box)
         return [sample_bilinear(image, x, y) for image in images]
 
@@ -182,38 +201,40 @@ def operation(layer: Layer, view: View) -> Layer:
     return replace(layer, depth=depth)
 
 
-def _top_radius(view: View) -> float:
-    """Undistorted radius of the corner; the picture may not fold over before it."""
+def _corner_radius(view: View) -> float:
+    """Return the undistorted radius of the frame's corner; raise if the picture folds before it."""
     return undistorted_radius(view.frame_corner / view.focal, view.camera[K1], view.camera[K2])
 
 
 def largest_displacement(view: View) -> float:
-    """Bound on how far distortion moves any point of the picture, px: |k1| r^3 + |k2| r^5.
+    """Return a bound on how far distortion moves any point, px: |k1| r^3 + |k2| r^5.
 
     In a margin beyond the corner it grows as the radius does.
     """
-    k1, k2, top = view.camera[K1], view.camera[K2], _top_radius(view)
+    k1, k2, top = view.camera[K1], view.camera[K2], _corner_radius(view)
     distance = view.focal * top**3 * (abs(k1) + abs(k2) * top**2)
     return distance * (view.corner / view.frame_corner if any(view.margin) else 1.0)
 
 
 def margin(view: View) -> tuple[float, float]:
-    """A barrel shows what stands beside the frame: every distance from the centre grows."""
+    """Return how far outside the frame barrel distortion reads, across and down, px."""
     k1, k2 = view.camera[K1], view.camera[K2]
-    beside = max(0.0, 1.0 / min(radial_factor(radius, k1, k2) for radius in _turning(view)) - 1.0)
+    beside = max(
+        0.0, 1.0 / min(radial_factor(radius, k1, k2) for radius in _find_turning_radii(view)) - 1.0
+    )
     x, y = view.centre
     return largest_margin(view, lambda _: (x * beside, y * beside))
 
 
-def _turning(view: View) -> list[float]:
-    """Radii between which the factor and its slope only grow or only sink."""
-    k1, k2, top = view.camera[K1], view.camera[K2], _top_radius(view)
+def _find_turning_radii(view: View) -> list[float]:
+    """Return the radii between which the factor and its slope are monotonic."""
+    k1, k2, top = view.camera[K1], view.camera[K2], _corner_radius(view)
     turning = [-k1 / (2 * k2), -3 * k1 / (10 * k2)] if k2 else []
     return [0.0, top, *(math.sqrt(q) for q in turning if 0 < q < top * top)]
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """As far as points move, times the largest step; anything where a depth map moves along."""
+    """Return the bound for the largest displacement; the whole range if a depth map moves, too."""
     distance = largest_displacement(view)
     if aperture_diameter(view.camera) is not None and view.has_depth_map and distance >= 0.5:
         return signal.span
@@ -226,7 +247,7 @@ EFFECT = Effect(
     settings=(K1, K2),
     is_present=lambda view: view.camera[K1] != 0.0 or view.camera[K2] != 0.0,
     margin=margin,
-    check_camera=_top_radius,
+    check_camera=_corner_radius,
     run=LayerByLayer(operation),
     omission_bound=omission_bound,
     size=EffectSize(largest_displacement, "move points by up to {:.3g} px", 1.0),

@@ -30,9 +30,10 @@ LIGHT_VALUE = Setting[float | None](
 
 
 def exposure_factor(view: View) -> float:
-    """What radiance is multiplied by, up to the photosites; `quizgen.camera.effects.gain` follows.
+    """Return what radiance is multiplied by on its way to the photosites.
 
-    Without a light value the picture is metered: f-number and shutter do not change it.
+    `quizgen.camera.effects.gain` follows later. Without a light value the picture is metered:
+    f-number and shutter do not change it.
     """
     stops, light = view.camera[EXPOSURE], view.camera[LIGHT_VALUE]
     if light is not None:

@@ -28,17 +28,21 @@ BIAS = Setting("bias", quantity_parser("e-"), 0.0, (NEEDS_FULL_WELL, NOT_NEGATIV
 
 
 def pedestal(view: View) -> float:
-    """The pedestal, 1 = white."""
+    """Return the pedestal, the constant added before conversion, 1 = white."""
     return view.camera[BIAS] / electrons_at_white(view)
 
 
 def operation(view: View) -> TileOperation:
-    """Add pedestal and offsets: they do not depend on the scene's seed."""
+    """Return what adds pedestal and fixed offsets to a tile.
+
+    They do not depend on the scene's seed.
+    """
     camera = msgspec.structs.replace(view, scene=replace(view.scene, seed=0))
     sigma = view.camera[FIXED_PATTERN] / electrons_at_white(view)
     spread, bias = add_normal_noise(sigma, effect_random(camera, "fixed pattern")), pedestal(view)
 
     def add_pattern(part: Image, tile: Tile) -> None:
+        """Add the offsets of a tile in place."""
         part += bias
         if sigma:
             spread(part, tile)
@@ -47,12 +51,12 @@ def operation(view: View) -> TileOperation:
 
 
 def farthest(view: View) -> float:
-    """The largest offset, 1 = white."""
+    """Return the largest offset of any photosite, 1 = white."""
     return FARTHEST * view.camera[FIXED_PATTERN] / electrons_at_white(view)
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Brighter by the pedestal, and spread."""
+    """Return the range, brighter by the pedestal and wider by the offsets."""
     return signal.with_margins(farthest(view) - pedestal(view), farthest(view) + pedestal(view))
 
 

@@ -15,7 +15,7 @@ FLARE = Setting("flare", quantity_parser("%"), 0.0, (SHARE,))
 
 
 def run(image: Image, view: View) -> Image:
-    """Take a share of every pixel's light and spread it evenly: the mean brightness is kept."""
+    """Return the picture with a share of all light spread evenly over it; the mean stays."""
     share = view.camera[FLARE]
     veil = share * image.mean(axis=(0, 1), dtype=np.float64)
     return np.asarray(image * (1.0 - share) + veil.astype(image.dtype))

@@ -16,17 +16,17 @@ FLAT_FIELD = Setting("flat_field", parse_bool, False)
 
 
 def operation(view: View) -> TileOperation:
-    """Divide out the vignetting of an even picture: linear data, mean brightness kept (E31)."""
+    """Return what multiplies a tile by the gains that undo vignetting; the mean stays (E31)."""
     return multiply_by_map(flat_field_gains(falloff_map(view)))
 
 
 def flat_field_gains(light: Image) -> Image:
-    """Mean of a linear picture of an even surface over its values: what the gains are."""
+    """Return the factors that even out a linear picture of an even surface: its mean over it."""
     return float(light.mean(dtype=np.float64)) / light
 
 
-def _most(view: View) -> float:
-    """The largest factor: the mean lies between corner and centre."""
+def _largest_gain(view: View) -> float:
+    """Return a bound on the factors: the mean lies between corner and centre."""
     return (1.0 + 1e-5) / corner_falloff(view)
 
 
@@ -36,11 +36,13 @@ EFFECT = Effect(
     settings=(FLAT_FIELD,),
     is_present=lambda view: view.camera[FLAT_FIELD] and is_present(view),
     run=PointByPoint(operation),
-    omission_bound=lambda signal, view: (_most(view) - 1.0) * signal.size,
-    carry_error=lambda error, _, view: error * _most(view),
-    range_after=lambda signal, view: signal.scale_range(1.0 / _most(view), _most(view)),
+    omission_bound=lambda signal, view: (_largest_gain(view) - 1.0) * signal.size,
+    carry_error=lambda error, _, view: error * _largest_gain(view),
+    range_after=lambda signal, view: signal.scale_range(
+        1.0 / _largest_gain(view), _largest_gain(view)
+    ),
     size=EffectSize(
-        lambda view: 100.0 * (_most(view) - 1.0),
+        lambda view: 100.0 * (_largest_gain(view) - 1.0),
         "brighten the corners by {:.3g} % against the centre",
     ),
     needs_effects=("vignetting",),

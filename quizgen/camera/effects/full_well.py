@@ -14,9 +14,10 @@ from quizgen.camera.setup.view import View
 
 
 def operation(view: View) -> TileOperation:
-    """A photosite holds no more than its full well."""
+    """Return what clips a tile at the full well, 1 = white."""
 
     def full(part: Image, _: Tile) -> None:
+        """Clip a tile in place."""
         np.clip(part, -math.inf, 1.0, out=part)  # takes half as long as a minimum with a number
 
     return full

@@ -16,14 +16,14 @@ ISO = Setting("iso", parse_plain_number, BASE_ISO, (in_range(1.0, 1e7),))
 
 
 def gain_factor(view: View) -> float:
-    """Factor between electrons and codes, 1 at ISO 100."""
+    """Return the factor from electrons to codes, 1 at ISO 100."""
     return view.camera[ISO] / BASE_ISO
 
 
 def make_gain_effect(
     name: str, factor: Callable[[View], float], settings: tuple[AnySetting, ...], *answers: str
 ) -> Effect:
-    """An effect of the sensor that multiplies by a factor >= 0, absent where that is 1.
+    """Return an effect that multiplies by a factor >= 1 and is absent where that is 1.
 
     Parameters
     ----------

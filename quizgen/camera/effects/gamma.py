@@ -17,7 +17,8 @@ from quizgen.camera.setup.value_parsers import parse_plain_number
 from quizgen.camera.setup.view import Signal, View
 
 
-def _read(value: object) -> str | float:
+def _parse_gamma(value: object) -> str | float:
+    """Return ``srgb`` or an exponent from the value of a scene file."""
     return str(value) if value in ("srgb", "linear") else parse_plain_number(value)
 
 
@@ -25,17 +26,20 @@ _KNOWN = SettingRule[str | float](
     lambda gamma, _: gamma in ("linear", "srgb") if isinstance(gamma, str) else 1 <= gamma <= 100,
     "must be 'linear', 'srgb' or a number from 1 to 100",
 )
-GAMMA = Setting[str | float]("gamma", _read, "linear", (_KNOWN,))
+GAMMA = Setting[str | float]("gamma", _parse_gamma, "linear", (_KNOWN,))
 
 
 def operation(view: View) -> TileOperation:
-    """Encode linear light for display; clips to [0, 1]."""
+    """Return what encodes the linear light of a tile for display, clipped to [0, 1]."""
     encode = encode_piecewise if view.precision == "float32" else encode_exact
     return encode(view.camera[GAMMA])
 
 
-def _as_steep(gamma: str | float) -> float:
-    """Where a tone curve rises as steeply as the diagonal."""
+def _find_unit_slope(gamma: str | float) -> float:
+    """Return the value in [0, 1] at which a tone curve has the slope 1.
+
+    There it is farthest from the diagonal.
+    """
     if gamma == "srgb":
         return (1.055 / 2.4) ** (2.4 / 1.4)
     exponent = float(gamma)
@@ -43,23 +47,26 @@ def _as_steep(gamma: str | float) -> float:
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """Largest distance of the curve from the diagonal over the range, and what it clips."""
+    """Return the largest distance of the tone curve from the diagonal, and what it clips."""
     low, high = max(0.0, min(signal.low, 1.0)), min(1.0, max(signal.high, 0.0))
     gamma = view.camera[GAMMA]
     # a concave curve is farthest from the diagonal where it is as steep, or at the nearest end
-    farthest = min(max(low, _as_steep(gamma)), high)
+    farthest = min(max(low, _find_unit_slope(gamma)), high)
     gap = encode_value(farthest, gamma) - farthest
     return signal.outside(0.0, 1.0) + gap + CURVE_ERROR
 
 
 def carry_error(error: float, signal: Signal, view: View) -> float:
-    """Tone curves are concave: the darkest values are spread most."""
+    """Return the error after encoding.
+
+    Tone curves are concave and spread the darkest values most.
+    """
     start, gamma = max(0.0, signal.low - error), view.camera[GAMMA]
     return encode_value(start + error, gamma) - encode_value(start, gamma) + CURVE_ERROR
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Encoded."""
+    """Return the encoded range."""
     gamma = view.camera[GAMMA]
     ends = encode_value(signal.low, gamma), encode_value(signal.high, gamma)
     return Signal(*ends).with_margins(CURVE_ERROR, CURVE_ERROR)

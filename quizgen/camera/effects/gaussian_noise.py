@@ -17,7 +17,7 @@ GAUSSIAN_NOISE = Setting("gaussian_noise", parse_plain_number, 0.0, (NOT_NEGATIV
 
 
 def add_gaussian(sigma: float, source: EffectRandom) -> TileOperation:
-    """Normal noise on a picture in [0, 1], clipped to it.
+    """Return what adds normal noise to a tile of a picture in [0, 1], clipped to that.
 
     Black gains 0.399 sigma on average (errata E39).
 
@@ -31,6 +31,7 @@ def add_gaussian(sigma: float, source: EffectRandom) -> TileOperation:
     add = add_normal_noise(sigma, source)
 
     def work(part: Image, tile: Tile) -> None:
+        """Add the noise of a tile in place and clip."""
         add(part, tile)
         np.clip(part, 0.0, 1.0, out=part)
 
@@ -38,11 +39,12 @@ def add_gaussian(sigma: float, source: EffectRandom) -> TileOperation:
 
 
 def operation(view: View) -> TileOperation:
-    """Add the camera's normal noise, then clip."""
+    """Return what adds the camera's normal noise to a tile, then clips."""
     return add_gaussian(view.camera[GAUSSIAN_NOISE], effect_random(view, "gaussian noise"))
 
 
-def _far(view: View) -> float:
+def _largest_noise(view: View) -> float:
+    """Return the largest deviation that the noise can make, 1 = white."""
     return FARTHEST * view.camera[GAUSSIAN_NOISE]
 
 
@@ -52,10 +54,10 @@ EFFECT = Effect(
     settings=(GAUSSIAN_NOISE,),
     is_present=lambda view: view.camera[GAUSSIAN_NOISE] > 0.0,
     run=PointByPoint(operation),
-    omission_bound=lambda signal, view: signal.outside(0.0, 1.0) + _far(view),
-    range_after=lambda signal, view: signal.with_margins(_far(view), _far(view)).clip_range(
-        0.0, 1.0
-    ),
+    omission_bound=lambda signal, view: signal.outside(0.0, 1.0) + _largest_noise(view),
+    range_after=lambda signal, view: signal.with_margins(
+        _largest_noise(view), _largest_noise(view)
+    ).clip_range(0.0, 1.0),
     size=EffectSize(
         lambda view: 255.0 * view.camera[GAUSSIAN_NOISE], "add noise of {:.3g} grey levels", 2.0
     ),

@@ -15,7 +15,7 @@ IMPULSE_NOISE = Setting("impulse_noise", quantity_parser("%"), 0.0, (SHARE,))
 
 
 def add_impulses(share: float, source: EffectRandom) -> TileOperation:
-    """Salt and pepper: each pixel turns black or white with probability share/2 each.
+    """Return what turns pixels of a tile black or white, with the probability share/2 each.
 
     Parameters
     ----------
@@ -27,6 +27,7 @@ def add_impulses(share: float, source: EffectRandom) -> TileOperation:
         raise ValueError("the share of impulses lies in [0, 1]")
 
     def work(part: Image, tile: Tile) -> None:
+        """Set the pixels of a tile in place."""
         draw = source.draw_uniform(tile.number, part.size // 3)
         pixels = part.reshape(-1, 3)
         pixels[draw < share / 2] = 0.0
@@ -36,7 +37,7 @@ def add_impulses(share: float, source: EffectRandom) -> TileOperation:
 
 
 def operation(view: View) -> TileOperation:
-    """`add_impulses` of the camera's share."""
+    """Return what adds salt and pepper noise of the camera's share to a tile."""
     return add_impulses(view.camera[IMPULSE_NOISE], effect_random(view, "impulse noise"))
 
 

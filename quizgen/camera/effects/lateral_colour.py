@@ -24,30 +24,31 @@ MOST = 0.5
 
 
 def check_camera(view: View) -> None:
-    """Colours may not shrink to a point, nor turn inside out."""
-    if _share(view) > MOST:
+    """Raise `SceneError` if a colour would shrink to a point or turn inside out."""
+    if _colour_scale(view) > MOST:
         raise SceneError(
-            f"lateral_colour of {_share(view) * view.frame_corner:g} px is more than half of the "
-            f"{view.frame_corner:.4g} px to the corner of the picture"
+            f"lateral_colour of {_colour_scale(view) * view.frame_corner:g} px is more than half "
+            f"of the {view.frame_corner:.4g} px to the corner of the picture"
         )
 
 
 def operation(layer: Layer, view: View) -> Layer:
-    """Magnify a layer's colours differently."""
-    far = _farthest(view)
+    """Return a layer with red magnified and blue reduced about the principal point."""
+    far = _largest_displacement(view)
     where = sampled_regions(layer, (far, far))
     if layer.cover is not None:  # a cover for each colour
         cover = np.broadcast_to(layer.cover, layer.colour.shape)
         layer = replace(layer, cover=cover, own=False)
 
     def split_colours(images: list[Image], box: PixelBox) -> list[Image]:
+        """Return colour and cover of a box, each channel magnified by its own factor."""
         return [_magnify(image, view, box) for image in images]
 
     return replace_regions(layer, where, split_colours)
 
 
 def _magnify(image: Image, view: View, box: PixelBox) -> Image:
-    """What a box shows, each colour magnified by its own factor."""
+    """Return what a box shows once red and blue are magnified by their own factors."""
     share, (x, y) = view.camera[LATERAL_COLOUR] / view.frame_corner, view.centre
     across = np.arange(view.width, dtype=np.float64)[box[1]] - x
     down = np.arange(view.height, dtype=np.float64)[box[0]] - y
@@ -58,20 +59,21 @@ def _magnify(image: Image, view: View, box: PixelBox) -> Image:
     return result
 
 
-def _share(view: View) -> float:
+def _colour_scale(view: View) -> float:
+    """Return by how much red and blue differ from green in size, as a share, without sign."""
     shift = view.camera[LATERAL_COLOUR]
     return abs(shift) / view.frame_corner
 
 
-def _farthest(view: View) -> float:
-    """How far a colour is moved at the corner of the picture, px."""
-    share = _share(view)
+def _largest_displacement(view: View) -> float:
+    """Return how far a colour is moved at the corner of the picture, px."""
+    share = _colour_scale(view)
     return share / (1.0 - share) * view.corner
 
 
 def margin(view: View) -> tuple[float, float]:
-    """The reduced colour comes from beside the frame."""
-    share, (x, y) = _share(view), view.centre
+    """Return how far outside the frame the reduced colour reads, across and down, px."""
+    share, (x, y) = _colour_scale(view), view.centre
     beside = share / (1.0 - share)
     return largest_margin(view, lambda _: (x * beside, y * beside))
 
@@ -84,6 +86,6 @@ EFFECT = Effect(
     margin=margin,
     check_camera=check_camera,
     run=LayerByLayer(operation),
-    omission_bound=lambda signal, view: bound_shift(signal, view, _farthest(view)),
-    size=EffectSize(_farthest, "move red and blue by up to {:.3g} px", 1.0),
+    omission_bound=lambda signal, view: bound_shift(signal, view, _largest_displacement(view)),
+    size=EffectSize(_largest_displacement, "move red and blue by up to {:.3g} px", 1.0),
 )

@@ -20,13 +20,13 @@ MOSAIC = Setting("mosaic", choice_parser(*TILES), "", (_KNOWN,))
 
 
 def channel_pattern(view: View) -> tuple[tuple[int, int], ...]:
-    """Channel at each place of the 2x2 tile, as rows of columns."""
+    """Return the channel (0 to 2) at each place of the 2x2 tile of the mosaic, as rows."""
     tile = [CHANNELS[letter] for letter in view.camera[MOSAIC]]
     return (tile[0], tile[1]), (tile[2], tile[3])
 
 
 def run(image: Image, view: View) -> Image:
-    """Keep one colour per photosite, shape (H, W, 1)."""
+    """Return the picture with one colour per photosite, shape (H, W, 1)."""
     raw = np.empty((*image.shape[:2], 1), image.dtype)
     for row, channels in enumerate(channel_pattern(view)):
         for column, channel in enumerate(channels):

@@ -25,18 +25,22 @@ MOST_TURNS = 64
 
 
 def rotation_samples(motion: Motion, shutter: float) -> int:
-    """Samples of a rotating layer: at most 1 px apart at its rim, `MOST_TURNS` at most."""
+    """Return at how many times a turning layer is sampled.
+
+    Samples lie at most 1 px apart at its rim; there are `MOST_TURNS` at most.
+    """
     return min(MOST_TURNS, max(1, math.ceil(abs(motion.spin) * shutter * motion.reach)))
 
 
-def _streak(motion: Motion, view: View) -> BlurKernel:
+def _motion_kernel_of(motion: Motion, view: View) -> BlurKernel:
+    """Return the kernel of a layer's straight path while the shutter is open."""
     return motion_kernel(*displacement(motion, view, view.camera[SHUTTER]))
 
 
 def operation(layer: Layer, view: View) -> Layer:
-    """A box along straight paths, sampled positions for rotation."""
+    """Return a layer blurred by its motion: a box along a straight path, samples of a rotation."""
     motion, shutter = layer.motion, view.camera[SHUTTER]
-    moved = blur_layer(layer, _streak(motion, view))
+    moved = blur_layer(layer, _motion_kernel_of(motion, view))
     if not motion.spin:
         return moved
     count = rotation_samples(motion, shutter)
@@ -45,10 +49,11 @@ def operation(layer: Layer, view: View) -> Layer:
 
 
 def margin(view: View) -> tuple[float, float]:
-    """Half the path to either side, and as far as things turn."""
+    """Return how far outside the frame motion brings light from, across and down, px."""
     shutter = view.camera[SHUTTER]
 
     def reach(spec: LayerSpec) -> tuple[float, float]:
+        """Return half of a layer's path, plus what its rotation reaches, px."""
         moves = displacement(spec.motion, view, shutter)
         across, down = (abs(part) / 2.0 + bool(part) for part in moves)
         turn = largest_chord(spec.motion, view, shutter / 2.0)
@@ -58,17 +63,18 @@ def margin(view: View) -> tuple[float, float]:
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """The light that the box along the path takes from where it was, and the chord of a turn."""
+    """Return a bound: light that a path takes from its pixel, and the chord of a rotation."""
 
     def share(spec: LayerSpec) -> float:
+        """Return how much of its range a layer can change."""
         turn = largest_chord(spec.motion, view, view.camera[SHUTTER] / 2.0)
-        return moved_share(_streak(spec.motion, view)) + math.sqrt(2.0) * turn
+        return moved_share(_motion_kernel_of(spec.motion, view)) + math.sqrt(2.0) * turn
 
     return bound_layers(signal, view, share)
 
 
-def _longest(view: View) -> float:
-    """Longest path of anything over the sensor, px."""
+def _longest_path(view: View) -> float:
+    """Return the longest path of anything over the sensor while the shutter is open, px."""
     shutter, paths = view.camera[SHUTTER], [0.0]
     for spec in layer_specs(view):
         paths.append(math.hypot(*displacement(spec.motion, view, shutter)))
@@ -83,5 +89,5 @@ EFFECT = Effect(
     run=LayerByLayer(operation),
     omission_bound=omission_bound,
     margin=margin,
-    size=EffectSize(_longest, "smear over up to {:.3g} px", 1.5),
+    size=EffectSize(_longest_path, "smear over up to {:.3g} px", 1.5),
 )

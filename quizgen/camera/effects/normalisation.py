@@ -14,7 +14,8 @@ from quizgen.camera.setup.view import Signal, View
 Ends = tuple[float, float, float, float]
 
 
-def _read(value: object) -> Ends:
+def _parse_ends(value: object) -> Ends:
+    """Return (min, max, new min, new max) from a list of four numbers, 1 = white."""
     low, high, new_low, new_high = list_parser(parse_plain_number, 4)(value)
     return low, high, new_low, new_high
 
@@ -27,18 +28,19 @@ _RISES = SettingRule[Ends | None](
     lambda ends, _: ends is None or ends[1] - ends[0] >= NARROWEST,
     f"needs max - min >= {NARROWEST:g}",
 )
-NORMALISE = Setting[Ends | None]("normalise", _read, None, (_RISES,))
+NORMALISE = Setting[Ends | None]("normalise", _parse_ends, None, (_RISES,))
 """min, max, new min, new max; 1 = white."""
 
 
-def _ends(view: View) -> Ends:
+def _value_range(view: View) -> Ends:
+    """Return the camera's (min, max, new min, new max); those that change nothing by default."""
     return view.camera[NORMALISE] or (0.0, 1.0, 0.0, 1.0)
 
 
 def stretch_range(
     image: Image, low: float, high: float, new_low: float = 0.0, new_high: float = 1.0
 ) -> Image:
-    """Normalise [low, high] to [new_low, new_high] and clip to it on both sides (errata E44)."""
+    """Return a picture with [low, high] mapped to [new_low, new_high], clipped to both (E44)."""
     low, high, new_low, new_high = map(float, (low, high, new_low, new_high))
     share = (image - low) * (1.0 / (high - low))
     np.clip(share, 0.0, 1.0, out=share)
@@ -48,36 +50,37 @@ def stretch_range(
 
 
 def operation(view: View) -> TileOperation:
-    """`stretch_range` with the camera's limits."""
-    ends = _ends(view)
+    """Return what stretches and clips a tile by the camera's limits."""
+    ends = _value_range(view)
 
     def stretch_values(part: Image, _: Tile) -> None:
+        """Stretch a tile in place."""
         part[...] = stretch_range(part, *ends)
 
     return stretch_values
 
 
 def _stretch_number(value: float, view: View) -> float:
-    """`stretch_range` of one number."""
-    low, high, new_low, new_high = _ends(view)
+    """Return one number stretched and clipped by the camera's limits."""
+    low, high, new_low, new_high = _value_range(view)
     return new_low + (new_high - new_low) * min(max((value - low) / (high - low), 0.0), 1.0)
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """Largest at an end of the range or where clipping starts."""
-    ends = (signal.low, signal.high, _ends(view)[0], _ends(view)[1])
+    """Return the largest change: at an end of the range, or where clipping begins."""
+    ends = (signal.low, signal.high, _value_range(view)[0], _value_range(view)[1])
     inside = [value for value in ends if signal.low <= value <= signal.high]
     return max(abs(_stretch_number(value, view) - value) for value in inside)
 
 
 def carry_error(error: float, signal: Signal, view: View) -> float:
-    """Stretched."""
-    low, high, new_low, new_high = _ends(view)
+    """Return the error times the stretch."""
+    low, high, new_low, new_high = _value_range(view)
     return error * abs(new_high - new_low) / (high - low)
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Stretched and clipped."""
+    """Return the range, stretched and clipped."""
     ends = _stretch_number(signal.low, view), _stretch_number(signal.high, view)
     return Signal(min(ends), max(ends))
 

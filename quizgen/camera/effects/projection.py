@@ -11,7 +11,7 @@ from quizgen.camera.setup.view import View
 
 
 def project_scene(scene: Scene, view: View) -> Scene:
-    """Turn lengths in metres at a depth into pixels.
+    """Return the scene with all lengths in metres, each at its depth, as px on the sensor.
 
     Parameters
     ----------
@@ -21,12 +21,15 @@ def project_scene(scene: Scene, view: View) -> Scene:
         Camera with focal length and pixel pitch.
     """
     return replace(
-        scene, things=tuple(_project(thing, view.image_distance) for thing in scene.things)
+        scene, things=tuple(_project_thing(thing, view.image_distance) for thing in scene.things)
     )
 
 
-def _project(thing: SceneObject, distance: float) -> SceneObject:
+def _project_thing(thing: SceneObject, distance: float) -> SceneObject:
+    """Return a thing with its metric lengths times ``distance`` (to the sensor, px) over depth."""
+
     def on_sensor(length: Length) -> Length:
+        """Return a length in px; one that is in px stays."""
         if not length.metric:
             return length
         if math.isinf(thing.depth):

@@ -19,13 +19,13 @@ READ_NOISE = Setting("read_noise", quantity_parser("e-"), 0.0, (NEEDS_FULL_WELL,
 
 
 def operation(view: View) -> TileOperation:
-    """Add normal noise."""
+    """Return what adds the camera's read noise (normal) to a tile."""
     sigma = view.camera[READ_NOISE] / electrons_at_white(view)
     return add_normal_noise(sigma, effect_random(view, "read noise"))
 
 
 def farthest(view: View) -> float:
-    """How far it carries a value, 1 = white."""
+    """Return the largest deviation that read noise can make, 1 = white."""
     return FARTHEST * (view.camera[READ_NOISE] / electrons_at_white(view))
 
 

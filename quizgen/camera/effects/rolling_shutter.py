@@ -31,13 +31,13 @@ ROW_TIME = Setting("row_time", quantity_parser("s"), 0.0, (NOT_NEGATIVE,))
 
 
 def row_times(view: View) -> Field:
-    """When each row is read, s, the middle row at 0."""
+    """Return when each row is read, s; the middle row at 0."""
     rows: Field = np.arange(view.height, dtype=np.float64) - (view.height - 1) / 2
     return rows * view.camera[ROW_TIME]
 
 
 def operation(layer: Layer, view: View) -> Layer:
-    """What moves is sheared, what turns is bent."""
+    """Return a layer as rows see it one after another: shifts shear it, rotation bends it."""
     times, motion = row_times(view)[:, None], layer.motion
     if motion.spin:
         reach = largest_chord(motion, view, float(times[-1, 0]))
@@ -47,10 +47,11 @@ def operation(layer: Layer, view: View) -> Layer:
         return layer
 
     def shear_rows(images: list[Image], box: PixelBox) -> list[Image]:
+        """Return colour and cover of a box, each row shifted by its own time."""
         late = times[box[0]]
         x = np.arange(view.width)[None, box[1]] - across * late
         y = np.arange(view.height)[box[0], None] - down * late + np.zeros_like(x)
-        where = _near(x, view.width, view), _near(y, view.height, view)
+        where = _clamp_to_edge(x, view.width, view), _clamp_to_edge(y, view.height, view)
         return [sample_bilinear(image, *where) for image in images]
 
     latest = float(times[-1, 0])
@@ -58,8 +59,8 @@ def operation(layer: Layer, view: View) -> Layer:
     return replace_regions(layer, sampled_regions(layer, far), shear_rows)
 
 
-def _near(positions: Field, length: int, view: View) -> Image:
-    """Positions beyond the picture brought to its edge, which they show.
+def _clamp_to_edge(positions: Field, length: int, view: View) -> Image:
+    """Return positions (px) brought back to just outside the picture, where its edge repeats.
 
     Samplers hold no larger whole numbers than 2^31.
     """
@@ -67,10 +68,11 @@ def _near(positions: Field, length: int, view: View) -> Image:
 
 
 def margin(view: View) -> tuple[float, float]:
-    """As far as things move until the first or last row is read."""
+    """Return how far outside the frame the first and last rows read, across and down, px."""
     time = float(row_times(view)[-1])
 
     def reach(spec: LayerSpec) -> tuple[float, float]:
+        """Return how far a layer moves until then, px."""
         across, down = (abs(part) for part in displacement(spec.motion, view, time))
         turn = largest_chord(spec.motion, view, time)
         return across + turn, down + turn
@@ -79,10 +81,11 @@ def margin(view: View) -> tuple[float, float]:
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """How far things move until the first or last row is read, times the largest step."""
+    """Return the bound for how far things move until the first or last row is read."""
     time = float(row_times(view)[-1])
 
     def share(spec: LayerSpec) -> float:
+        """Return how much of its range a layer can change."""
         across, down = (abs(part) for part in displacement(spec.motion, view, time))
         near = 2.0 * position_error(view) * bool(across or down)
         return across + down + near + math.sqrt(2.0) * largest_chord(spec.motion, view, time)
@@ -90,8 +93,8 @@ def omission_bound(signal: Signal, view: View) -> float:
     return bound_layers(signal, view, share)
 
 
-def _farthest_apart(view: View) -> float:
-    """How far anything moves from the first row to the last, px."""
+def _largest_row_shift(view: View) -> float:
+    """Return how far anything moves from the first row to the last, px."""
     time, paths = 2.0 * float(row_times(view)[-1]), [0.0]
     for spec in layer_specs(view):
         paths.append(math.hypot(*displacement(spec.motion, view, time)))
@@ -109,6 +112,8 @@ EFFECT = Effect(
     run=LayerByLayer(operation),
     omission_bound=omission_bound,
     margin=margin,
-    size=EffectSize(_farthest_apart, "move the last row by up to {:.3g} px against the first", 2.0),
+    size=EffectSize(
+        _largest_row_shift, "move the last row by up to {:.3g} px against the first", 2.0
+    ),
     needs="something that moves",
 )

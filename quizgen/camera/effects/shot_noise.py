@@ -25,11 +25,12 @@ SHOT_NOISE = Setting("shot_noise", parse_bool, True)
 
 
 def operation(view: View) -> TileOperation:
-    """Electrons arrive at random: Poisson with mean (signal times full well)."""
+    """Return what replaces a tile by Poisson counts of its electrons (signal times full well)."""
     source, well = effect_random(view, "shot noise"), electrons_at_white(view)
     to_electrons, to_signal = float(well), 1.0 / well
 
     def count_photons(part: Image, tile: Tile) -> None:
+        """Draw the counts of a tile in place."""
         np.clip(part, 0.0, math.inf, out=part)
         part *= to_electrons
         counts = poisson_quantiles(
@@ -41,16 +42,17 @@ def operation(view: View) -> TileOperation:
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """How far a count can be from its mean; below black no electrons are counted."""
+    """Return how far a count can be from its mean; below black no electrons are counted."""
     well, brightest = electrons_at_white(view), max(signal.high, 0.0)
     return farthest_count(brightest * well) / well + max(-signal.low, 0.0)
 
 
 def carry_error(error: float, signal: Signal, view: View) -> float:
-    """Another signal has another noise, and may make one electron more.
+    """Return the error after counting: another signal has another noise, and one electron more.
 
-    The root is steepest at the darkest place. Beside it and whole electrons, the skewness of the
-    law changes: z^2/4 electrons where the normal law turns negative, less where there are more.
+    The root is steepest at the darkest place. Apart from that and from whole electrons, the
+    skewness of the law changes: z^2/4 electrons where the normal law turns negative, less where
+    there are more.
     """
     well, start = electrons_at_white(view), max(signal.low - error, 0.0)
     apart = math.sqrt(start + error) - math.sqrt(start)
@@ -60,7 +62,7 @@ def carry_error(error: float, signal: Signal, view: View) -> float:
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Noisier; never below zero electrons."""
+    """Return the range, wider by the noise and never below zero electrons."""
     far, light = omission_bound(signal, view), max(signal.low, 0.0)
     lowest = light - FARTHEST * math.sqrt(light / electrons_at_white(view))
     return Signal(

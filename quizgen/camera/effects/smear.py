@@ -15,13 +15,16 @@ SMEAR = Setting("smear", quantity_parser("%"), 0.0, (NEEDS_FULL_WELL, SHARE))
 
 
 def run(image: Image, view: View) -> Image:
-    """Light that falls in while a CCD shifts its rows: a share of each column's mean."""
+    """Return the picture plus a share of each column's mean.
+
+    It is the light that falls in while a CCD shifts its rows.
+    """
     mean = image.mean(axis=0, keepdims=True, dtype=np.float64)
     return np.asarray(image + (view.camera[SMEAR] * mean).astype(image.dtype))
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Brighter by a share of the column's mean."""
+    """Return the range, brighter by the share of the column's mean."""
     share = view.camera[SMEAR]
     return signal.with_margins(share * max(-signal.low, 0.0), share * max(signal.high, 0.0))
 

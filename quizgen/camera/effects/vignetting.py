@@ -31,37 +31,37 @@ MECHANICAL = Setting(
 
 
 def rim_overlap(shift: Field) -> Field:
-    """Area shared by two equal discs, as a share of one, at a shift in diameters (0 to 1)."""
+    """Return the common area of two equal discs, as a share of one; ``shift`` is in diameters."""
     half = np.clip(shift, 0.0, 1.0)
     return np.asarray((2.0 / math.pi) * (np.arccos(half) - half * np.sqrt(1.0 - half * half)))
 
 
 def light_falloff(radius: Field, view: View) -> Field:
-    """Share of light kept at a distance from the principal point, px.
+    """Return the share of light kept at a distance from the principal point in px.
 
     Natural: cos^4 of the field angle, (1 + (r/f)^2)^-2. Mechanical: lens rim and aperture as two
     discs that slide apart, by ``mechanical_vignetting`` diameters at the corner.
     """
-    focal, mechanical = _lens(view)
+    focal, mechanical = _lens_key(view)
     kept: Field = 1.0 / (1.0 + (radius / focal) ** 2) ** 2 if focal else np.ones_like(radius)
     return kept * rim_overlap(mechanical * radius / view.corner) if mechanical else kept
 
 
-def _lens(view: View) -> tuple[float, float]:
-    """Focal length (0 without the natural fall-off) in px, and the rim's shift."""
+def _lens_key(view: View) -> tuple[float, float]:
+    """Return the focal length in px (0 without natural fall-off) and the shift of the rim."""
     return view.focal if view.camera[NATURAL] else 0.0, view.camera[MECHANICAL]
 
 
 def falloff_map(view: View) -> Image:
-    """`light_falloff` at every pixel, shape (H, W, 1)."""
-    return _fall_off_map(view.width, view.height, *_lens(view), view.precision)
+    """Return the share of light kept at every pixel, shape (H, W, 1)."""
+    return _fall_off_map(view.width, view.height, *_lens_key(view), view.precision)
 
 
 @lru_cache(maxsize=2)
 def _fall_off_map(
     width: int, height: int, focal: float, mechanical: float, precision: Precision
 ) -> Image:
-    """One quadrant, mirrored."""
+    """Return the map of a whole picture, cached: one quadrant is computed and mirrored."""
     x, y = (width - 1) / 2, (height - 1) / 2
     right, lower = np.arange((width + 1) // 2) - x, np.arange((height + 1) // 2) - y
     squared = right[None, :] ** 2 + lower[:, None] ** 2
@@ -74,17 +74,17 @@ def _fall_off_map(
 
 
 def operation(view: View) -> TileOperation:
-    """Multiply by the fall-off map."""
+    """Return what multiplies a tile by the share of light kept."""
     return multiply_by_map(falloff_map(view))
 
 
 def corner_falloff(view: View) -> float:
-    """Share of light kept at the picture's corner."""
+    """Return the share of light kept at the picture's corner."""
     return float(light_falloff(np.array([view.corner]), view)[0])
 
 
 def is_present(view: View) -> bool:
-    """Whether the lens loses light toward the corners."""
+    """Return whether the lens loses light toward the corners."""
     return view.camera[NATURAL] or view.camera[MECHANICAL] > 0.0
 
 

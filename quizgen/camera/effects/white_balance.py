@@ -21,28 +21,29 @@ WHITE_BALANCE = Setting(
 
 
 def operation(view: View) -> TileOperation:
-    """Multiply the channels by their gains."""
+    """Return what multiplies the channels of a tile by the camera's gains."""
     gains = np.tile(np.asarray(view.camera[WHITE_BALANCE], view.precision), TILE_VALUES // 3)
 
     def balance_channels(part: Image, _: Tile) -> None:
+        """Multiply a tile in place."""
         part *= gains[: part.size]
 
     return balance_channels
 
 
 def omission_bound(signal: Signal, view: View) -> float:
-    """Largest value times the gain farthest from 1."""
+    """Return the largest value times the distance of the farthest gain from 1."""
     return max(abs(gain - 1.0) for gain in view.camera[WHITE_BALANCE]) * signal.size
 
 
 def carry_error(error: float, signal: Signal, view: View) -> float:
-    """Amplified by the largest gain."""
+    """Return the error times the largest gain."""
     gains = view.camera[WHITE_BALANCE]
     return error * max(gains)
 
 
 def range_after(signal: Signal, view: View) -> Signal:
-    """Scaled by gains between the smallest and the largest."""
+    """Return the range, scaled by gains between the smallest and the largest."""
     gains = view.camera[WHITE_BALANCE]
     return signal.scale_range(min(gains), max(gains))
 

@@ -63,7 +63,7 @@ _BROKEN = (
 
 
 def decode_photo(data: bytes) -> Codes:
-    """Pixels of a PNG or JPEG file, upright.
+    """Return the pixels of a PNG or JPEG file, turned upright by its EXIF.
 
     Returns
     -------
@@ -82,13 +82,14 @@ def decode_photo(data: bytes) -> Codes:
         file = _open_file(data)
         if math.prod(file.size) > MOST_MEGAPIXELS * 1_000_000:
             raise ValueError(f"more than {MOST_MEGAPIXELS} megapixels")
-        pixels = _read_jpeg(file) if kind == "JPEG" else _read_png(data)
-        return _upright(pixels.reshape(*file.size[::-1], -1), _open_file(data).getexif())
+        pixels = _decode_jpeg(file) if kind == "JPEG" else _decode_png(data)
+        return _apply_orientation(pixels.reshape(*file.size[::-1], -1), _open_file(data).getexif())
     except _BROKEN as error:
         raise ValueError(f"a broken {kind} file") from error
 
 
 def _open_file(data: bytes) -> JpegImageFile | PngImageFile:
+    """Return Pillow's reader of a JPEG or PNG file."""
     # Loaded for photographs only: most scenes are drawn.
     from PIL.JpegImagePlugin import JpegImageFile
     from PIL.PngImagePlugin import PngImageFile
@@ -96,29 +97,32 @@ def _open_file(data: bytes) -> JpegImageFile | PngImageFile:
     return (JpegImageFile if data.startswith(_JPEG) else PngImageFile)(BytesIO(data))
 
 
-def _read_jpeg(file: JpegImageFile | PngImageFile) -> Codes:
+def _decode_jpeg(file: JpegImageFile | PngImageFile) -> Codes:
+    """Return grey or RGB pixels of a JPEG file."""
     return np.asarray(file if file.mode == "L" else file.convert("RGB"))
 
 
-def _read_png(data: bytes) -> Codes:
+def _decode_png(data: bytes) -> Codes:
+    """Return the pixels of a PNG file at their full 8 or 16 bits, which Pillow would cut."""
     file = _open_file(data)
     packing = str(file.tile[0].args) if file.tile else ""
     if packing not in _UNPACKINGS:  # few bits become eight; a palette its colours, with alpha
         return np.asarray(file.convert("L" if file.mode in {"1", "L"} else "RGBA"))
-    first, *second = (_unpack(data, way) for way in _UNPACKINGS[packing])
+    first, *second = (_decode_raw(data, way) for way in _UNPACKINGS[packing])
     if second:
         return first.astype(np.uint16) * 256 + second[0]
     return first.view(">u2").astype(np.uint16) if packing == "LA;16B" else first
 
 
-def _unpack(data: bytes, way: str) -> Codes:
+def _decode_raw(data: bytes, way: str) -> Codes:
+    """Return the pixels of a PNG file, unpacked in one of Pillow's raw modes."""
     file = _open_file(data)
     file.tile = [tile._replace(args=way) for tile in file.tile]
     return np.asarray(file)
 
 
 def read_exif_settings(data: bytes) -> dict[str, float]:
-    """Settings of the camera that took a photograph, in base units, as far as its EXIF says.
+    """Return the camera settings that a photograph's EXIF names, in base units.
 
     Parameters
     ----------
@@ -129,12 +133,14 @@ def read_exif_settings(data: bytes) -> dict[str, float]:
         said = _open_file(data).getexif().get_ifd(_SHOT)
     except _BROKEN:
         return {}
-    found = {name: _positive(said.get(tag)) * unit for name, (tag, unit) in _SHOT_WITH.items()}
+    found = {
+        name: _parse_positive(said.get(tag)) * unit for name, (tag, unit) in _SHOT_WITH.items()
+    }
     return {name: value for name, value in found.items() if value}
 
 
-def _positive(value: object) -> float:
-    """A number > 0, or 0 for what is none."""
+def _parse_positive(value: object) -> float:
+    """Return a number > 0, or 0 for anything else."""
     if not isinstance(value, SupportsFloat):
         return 0.0
     try:
@@ -144,7 +150,8 @@ def _positive(value: object) -> float:
     return number if 0.0 < number < math.inf else 0.0
 
 
-def _upright(pixels: Codes, exif: Exif) -> Codes:
+def _apply_orientation(pixels: Codes, exif: Exif) -> Codes:
+    """Return pixels turned and mirrored as the EXIF orientation says."""
     turn = _TURNED.get(exif.get(_ORIENTATION))
     return pixels if turn is None else turn(pixels)
 
@@ -163,15 +170,16 @@ def encode_photo(codes: NDArray[np.uint8]) -> bytes:
     return stream.getvalue()
 
 
-def _png_file(codes: NDArray[np.uint8]) -> bytes:
-    """By OpenCV, which takes half the time, or else by Pillow."""
+def _encode_png(codes: NDArray[np.uint8]) -> bytes:
+    """Return a PNG file, by OpenCV in half the time, else by Pillow."""
     cv2 = load_opencv()
     if cv2 is None:
         return encode_photo(codes)
     return bytes(cv2.imencode(".png", cv2.cvtColor(codes, cv2.COLOR_RGB2BGR))[1])
 
 
-def _jpeg_file(codes: NDArray[np.uint8]) -> bytes:
+def _encode_jpeg(codes: NDArray[np.uint8]) -> bytes:
+    """Return a JPEG file, without subsampled colours."""
     from PIL import Image
 
     stream = BytesIO()
@@ -180,8 +188,8 @@ def _jpeg_file(codes: NDArray[np.uint8]) -> bytes:
 
 
 WRITERS: dict[str, Callable[[NDArray[np.uint8]], bytes]] = {
-    ".png": _png_file,
-    ".jpg": _jpeg_file,
-    ".jpeg": _jpeg_file,
+    ".png": _encode_png,
+    ".jpg": _encode_jpeg,
+    ".jpeg": _encode_jpeg,
 }
 """Ending of a file to what encodes 8-bit codes, shape (H, W, 3), for it."""

@@ -11,15 +11,16 @@ Numbers = NDArray[np.integer] | NDArray[np.floating]
 
 
 def to_8bit(values: NDArray[np.floating]) -> NDArray[np.uint8]:
-    """8-bit codes of values in [0, 255]: clipped, halves rounded upward (as OpenCV's demosaicing).
+    """Return 8-bit codes of values in [0, 255]: clipped, halves rounded upward.
 
-    Nothing is truncated (errata EC8) and nothing wraps (errata E21).
+    Nothing is truncated (errata EC8), nothing wraps (errata E21); OpenCV's demosaicing rounds so,
+    too.
     """
     return np.asarray(np.clip(values + 0.5, 0, 255), np.uint8)  # which leaves out the fraction
 
 
 def count_histogram(image: Numbers, bins: int = 256, top: float = 1.0) -> NDArray[np.int64]:
-    """Counts of values in equal bins over [0, top]; values outside fall into the end bins.
+    """Return the counts of values in equal bins over [0, top]; values outside go to the end bins.
 
     Parameters
     ----------
@@ -28,19 +29,20 @@ def count_histogram(image: Numbers, bins: int = 256, top: float = 1.0) -> NDArra
     """
     if image.dtype == np.uint8:  # each level once, not each pixel
         counts = np.bincount(image.reshape(-1), minlength=256)
-        index = _bins(np.arange(256), bins, top)
+        index = _assign_bins(np.arange(256), bins, top)
         return np.bincount(index, counts, bins).astype(np.int64)
-    return np.bincount(_bins(image, bins, top).reshape(-1), minlength=bins)
+    return np.bincount(_assign_bins(image, bins, top).reshape(-1), minlength=bins)
 
 
-def _bins(values: Numbers, bins: int, top: float) -> NDArray[np.int64]:
+def _assign_bins(values: Numbers, bins: int, top: float) -> NDArray[np.int64]:
+    """Return the index of the bin of every value."""
     steps = bins - 1 if np.issubdtype(values.dtype, np.integer) else bins
     index = (values.astype(np.float64) * (steps / top)).astype(np.int64)
     return np.clip(index, 0, bins - 1)
 
 
-def _patch(levels: NDArray[np.floating], down: float, across: float) -> float:
-    """Mean of a sixteenth of the sides, so far (0 to 1) from the first row and column."""
+def _average_patch(levels: NDArray[np.floating], down: float, across: float) -> float:
+    """Return the mean of a patch (1/16 of each side) at relative position (0 to 1)."""
     height, width = levels.shape[:2]
     rows, columns = max(1, height // 16), max(1, width // 16)
     top, left = int((height - rows) * down), int((width - columns) * across)
@@ -51,8 +53,8 @@ _CORNERS = (0, 0), (0, 1), (1, 0), (1, 1)
 
 MEASURES = {
     "mean": lambda levels: float(levels.mean()),
-    "centre": lambda levels: _patch(levels, 0.5, 0.5),
-    "corner": lambda levels: float(np.mean([_patch(levels, *place) for place in _CORNERS])),
+    "centre": lambda levels: _average_patch(levels, 0.5, 0.5),
+    "corner": lambda levels: float(np.mean([_average_patch(levels, *place) for place in _CORNERS])),
     "deviation": lambda levels: float(levels.std(axis=(0, 1)).mean()),
     "darkest": lambda levels: float(levels.min()),
     "brightest": lambda levels: float(levels.max()),

@@ -32,12 +32,13 @@ _numpy_only: ContextVar[bool] = ContextVar("numpy only", default=False)
 
 
 def load_opencv() -> ModuleType | None:
-    """OpenCV if it can be imported and may be used here, else None."""
+    """Return OpenCV if it can be imported and is allowed here, else None."""
     return None if _numpy_only.get() else _import_opencv()
 
 
 @cache
 def _import_opencv() -> ModuleType | None:
+    """Return OpenCV, or None if it is not installed."""
     try:
         import cv2
     except ImportError:
@@ -47,7 +48,7 @@ def _import_opencv() -> ModuleType | None:
 
 @contextmanager
 def numpy_only() -> Iterator[None]:
-    """Compute with NumPy alone, so that a picture is the same with and without OpenCV."""
+    """Forbid OpenCV inside the block: a picture is then the same with and without it."""
     before = _numpy_only.set(True)
     try:
         yield
@@ -57,6 +58,7 @@ def numpy_only() -> Iterator[None]:
 
 @cache
 def _opencv_remap_is_exact() -> bool:
+    """Return whether OpenCV interpolates with full precision; old versions round positions."""
     cv2 = load_opencv()
     if cv2 is None:
         return False
@@ -72,7 +74,7 @@ def warm_up() -> None:
 
 
 def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
-    """Convolve with a kernel symmetric about its centre; edges repeat outward.
+    """Return a picture convolved with a kernel symmetric about its centre; edges repeat outward.
 
     Parameters
     ----------
@@ -95,7 +97,10 @@ def convolve(image: Image, kernel: NDArray[np.float64]) -> Image:
 
 
 def _fold_kernel(kernel: NDArray[np.float64], length: int) -> NDArray[np.float64]:
-    """A kernel no higher than a picture can show: rows beyond its edge all read the edge."""
+    """Return an equivalent kernel, no higher than a picture of this length can show.
+
+    Its rows beyond the edge all read the edge, and are added up.
+    """
     beyond = kernel.shape[0] // 2 - (length - 1)
     if beyond <= 0:
         return kernel
@@ -106,30 +111,30 @@ def _fold_kernel(kernel: NDArray[np.float64], length: int) -> NDArray[np.float64
 
 
 def is_direct_sum_faster(kernel: NDArray[np.float64]) -> bool:
-    """Whether summing few taps directly beats OpenCV's transform."""
+    """Return whether summing few taps directly beats OpenCV's Fourier transform."""
     if kernel.size <= _DIRECT_AREA or kernel.shape[1] > _DIRECT_AREA:
         return False
     return bool(np.count_nonzero(kernel) <= _DIRECT_TAPS)
 
 
 def _convolve_by_slabs(cv2: ModuleType, image: Image, kernel: NDArray[np.float64]) -> Image:
-    """A few kernel rows at a time, so few that OpenCV sums directly."""
+    """Return the convolution by OpenCV, few kernel rows at a time so that it sums directly."""
     result, reach = np.empty_like(image), kernel.shape[0] // 2
     for start, stop in split_range(len(image), _BAND):
-        rows = _rows(image, start - reach, stop + reach)
-        result[start:stop] = _by_slabs(cv2, rows, kernel, stop - start)
+        rows = _pad_rows(image, start - reach, stop + reach)
+        result[start:stop] = _convolve_slab(cv2, rows, kernel, stop - start)
     return result
 
 
-def _rows(image: Image, start: int, stop: int) -> Image:
-    """Rows of a picture whose first and last row repeat outward."""
+def _pad_rows(image: Image, start: int, stop: int) -> Image:
+    """Return rows from start to stop, which may lie outside: the first and last row repeat."""
     if start >= 0 and stop <= len(image):
         return image[start:stop]
     return image[np.clip(np.arange(start, stop), 0, len(image) - 1)]
 
 
-def _by_slabs(cv2: ModuleType, rows: Image, kernel: NDArray[np.float64], count: int) -> Image:
-    """``count`` rows of the result from ``count + len(kernel) - 1`` rows."""
+def _convolve_slab(cv2: ModuleType, rows: Image, kernel: NDArray[np.float64], count: int) -> Image:
+    """Return ``count`` rows of the result from ``count + len(kernel) - 1`` rows."""
     total = np.zeros((count, *rows.shape[1:]), rows.dtype)
     high = max(1, _DIRECT_AREA // kernel.shape[1])
     for top in range(0, len(kernel), high):
@@ -141,6 +146,7 @@ def _by_slabs(cv2: ModuleType, rows: Image, kernel: NDArray[np.float64], count: 
 
 
 def _pad_edges(image: Image, kernel: NDArray[np.float64]) -> Image:
+    """Return a picture with its edges repeated by half the kernel on each side."""
     height, width = image.shape[:2]
     rows, columns = (side // 2 for side in kernel.shape)
     wide = np.empty((height + 2 * rows, width + 2 * columns, image.shape[2]), image.dtype)
@@ -153,7 +159,10 @@ def _pad_edges(image: Image, kernel: NDArray[np.float64]) -> Image:
 
 
 def _convolve_by_shifts(image: Image, kernel: NDArray[np.float64]) -> Image:
-    """A shift is a distance along all values in a row, which is faster than row by row."""
+    """Return the convolution as a sum of shifted pictures, in NumPy.
+
+    A shift is a distance along all values in one row, which is faster than row by row.
+    """
     height, width, channels = image.shape
     wide = _pad_edges(image, kernel)
     flat, line = wide.reshape(-1), wide.shape[1] * channels
@@ -169,9 +178,12 @@ def _convolve_by_shifts(image: Image, kernel: NDArray[np.float64]) -> Image:
 
 
 def _convolve_by_fourier(image: Image, kernel: NDArray[np.float64]) -> Image:
-    """Double precision, so that rounding differs between machines only below one part in 1e12."""
+    """Return the convolution by Fourier transform in double precision.
+
+    So rounding differs between machines only below one part in 1e12.
+    """
     wide, result = _pad_edges(image, kernel), np.empty_like(image)
-    shape = tuple(_smooth(side) for side in wide.shape[:2])
+    shape = tuple(_next_fast_length(side) for side in wide.shape[:2])
     spectrum = np.fft.rfft2(kernel, shape)
     rows, columns = (side - 1 for side in kernel.shape)
     for channel in range(image.shape[2]):
@@ -182,8 +194,8 @@ def _convolve_by_fourier(image: Image, kernel: NDArray[np.float64]) -> Image:
     return result
 
 
-def _smooth(side: int) -> int:
-    """Next length without large prime factors, where the Fourier transform is fast."""
+def _next_fast_length(side: int) -> int:
+    """Return the next length without large prime factors, where Fourier transforms are fast."""
     while True:
         rest = side
         for prime in (2, 3, 5):
@@ -195,7 +207,7 @@ def _smooth(side: int) -> int:
 
 
 def sample_bilinear(image: Image, x: Image, y: Image) -> Image:
-    """Read an image at fractional positions, bilinearly; outside, the nearest edge pixel counts.
+    """Return a picture read at fractional positions, bilinearly; outside, the edge repeats.
 
     Parameters
     ----------
@@ -220,12 +232,14 @@ def sample_bilinear(image: Image, x: Image, y: Image) -> Image:
 def _split_position(
     position: Image, length: int
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Image]:
+    """Return the pixels before and after each position, and the share of the way between them."""
     position = np.clip(position, 0, length - 1)
     first = position.astype(np.intp)
     return first, np.minimum(first + 1, length - 1), (position - first).astype(position.dtype)
 
 
 def _sample_rows(image: Image, x: Image, y: Image) -> Image:
+    """Return what `sample_bilinear` does for a few rows of positions, in NumPy."""
     height, width, channels = image.shape
     left, right, across = _split_position(x, width)
     top, bottom, down = _split_position(y, height)
@@ -246,12 +260,12 @@ def _sample_rows(image: Image, x: Image, y: Image) -> Image:
 
 
 def _interpolate_ends(ends: list[Image], share: Image) -> Image:
-    """What lies between two ends, or the only one where all is read at the first."""
+    """Return the value between two ends, or the only one where all is read at the first."""
     return ends[0] * (1 - share) + ends[1] * share if len(ends) > 1 else ends[0]
 
 
 def sample_nearest(image: Image, x: Image, y: Image) -> Image:
-    """Read an image at the pixels nearest to fractional positions."""
+    """Return a picture (H, W) read at the pixels nearest to fractional positions."""
     height, width = image.shape[:2]
     column = np.clip(np.floor(x + 0.5).astype(np.intp), 0, width - 1)
     row = np.clip(np.floor(y + 0.5).astype(np.intp), 0, height - 1)
@@ -261,7 +275,7 @@ def sample_nearest(image: Image, x: Image, y: Image) -> Image:
 def sample_grid(
     channel: Image, x: NDArray[np.float64], y: NDArray[np.float64], into: Image
 ) -> None:
-    """Read one channel (H, W) on a grid of columns x and rows y, bilinearly, edges repeated.
+    """Read one channel (H, W) on a grid of columns x and rows y into ``into``, edges repeated.
 
     OpenCV's remap would take as long.
     """

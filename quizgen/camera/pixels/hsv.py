@@ -18,29 +18,31 @@ from quizgen.camera.setup.scene import Image
 
 
 def rgb_to_hsv(image: Image) -> Image:
-    """Hexagonal hue in degrees [0, 360), saturation and value in [0, 1].
+    """Return hue in degrees [0, 360) (hexagonal), saturation and value in [0, 1].
 
     Parameters
     ----------
     image : numpy.ndarray
         Shape (..., 3), in [0, 1]. Greys get hue 0; black gets saturation 0.
     """
-    cv2 = _of_opencv(image)
+    cv2 = _find_opencv(image)
     if cv2 is not None:
         return np.asarray(cv2.cvtColor(np.ascontiguousarray(image), cv2.COLOR_RGB2HSV))
 
     def work(part: Image, _: Tile) -> None:
-        part.reshape(-1, 3)[...] = _hsv_part(part.reshape(-1, 3))
+        """Convert the pixels of a tile in place."""
+        part.reshape(-1, 3)[...] = _compute_hsv(part.reshape(-1, 3))
 
     return apply_tilewise(image.reshape(-1), [work])[0].reshape(image.shape)
 
 
-def _of_opencv(image: Image) -> ModuleType | None:
-    """OpenCV where it takes such a picture: it has no colours in double precision."""
+def _find_opencv(image: Image) -> ModuleType | None:
+    """Return OpenCV if it can convert this picture, else None: it knows no double precision."""
     return load_opencv() if image.ndim == 3 and image.dtype == np.float32 else None
 
 
-def _hsv_part(colours: Image) -> Image:
+def _compute_hsv(colours: Image) -> Image:
+    """Return hue, saturation and value of colours, shape (..., 3)."""
     red, green, blue = colours.T
     value, least = colours.max(axis=1), colours.min(axis=1)
     chroma = value - least
@@ -56,9 +58,9 @@ def _hsv_part(colours: Image) -> Image:
     return np.stack([hue, saturation, value], axis=1)
 
 
-def _to_rgb(image: Image) -> Image:
-    """Colours of hues in [0, 720) degrees."""
-    cv2 = _of_opencv(image)
+def _compute_rgb(image: Image) -> Image:
+    """Return the colours of hue (in [0, 720) degrees), saturation and value, shape (..., 3)."""
+    cv2 = _find_opencv(image)
     if cv2 is not None:
         return np.asarray(cv2.cvtColor(image, cv2.COLOR_HSV2RGB))
     hue, saturation, value = np.moveaxis(image, -1, 0)
@@ -72,7 +74,7 @@ def _to_rgb(image: Image) -> Image:
 
 
 def edit_hsv(image: Image, hue: float = 0.0, saturation: float = 1.0, value: float = 1.0) -> Image:
-    """Turn the hue, scale saturation and value.
+    """Return a picture with its hue turned, saturation and value scaled.
 
     Parameters
     ----------
@@ -88,25 +90,26 @@ def edit_hsv(image: Image, hue: float = 0.0, saturation: float = 1.0, value: flo
 
 
 def hsv_operation(hue: float, saturation: float, value: float, kind: DTypeLike) -> TileOperation:
-    """`edit_hsv` of a piece."""
+    """Return what does `edit_hsv` to a tile; ``kind`` is the type of its values."""
     steps = (
-        _colours(1.0, saturation, value, kind),
-        _colours(math.fmod(math.fmod(hue, 360.0) + 360.0, 360.0), 0.0, 0.0, kind),
-        _colours(math.inf, 1.0, 1.0, kind),
+        _repeat_colour(1.0, saturation, value, kind),
+        _repeat_colour(math.fmod(math.fmod(hue, 360.0) + 360.0, 360.0), 0.0, 0.0, kind),
+        _repeat_colour(math.inf, 1.0, 1.0, kind),
     )
 
     def work(part: Image, _: Tile) -> None:
+        """Edit the pixels of a tile in place."""
         edited = rgb_to_hsv(np.clip(part, 0.0, 1.0).reshape(1, -1, 3))
         flat = edited.reshape(-1)
         factors, shift, most = (step[: flat.size] for step in steps)
         flat *= factors
         flat += shift
         np.minimum(flat, most, out=flat)
-        part[...] = _to_rgb(edited).reshape(-1)
+        part[...] = _compute_rgb(edited).reshape(-1)
 
     return work
 
 
-def _colours(first: float, second: float, third: float, kind: DTypeLike) -> Image:
-    """One colour, repeated to the length of a piece."""
+def _repeat_colour(first: float, second: float, third: float, kind: DTypeLike) -> Image:
+    """Return three numbers repeated to the length of a tile, as one row of values."""
     return np.tile(np.asarray([first, second, third], kind), TILE_VALUES // 3)

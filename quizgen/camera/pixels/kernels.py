@@ -27,7 +27,7 @@ LARGEST_BLUR = 800.0
 
 
 def check_kernel_size(size: float) -> None:
-    """Refuse a blur that is too wide.
+    """Raise an error if a blur is too wide to be computed.
 
     Raises
     ------
@@ -39,11 +39,12 @@ def check_kernel_size(size: float) -> None:
 
 
 def _half_chord_integral(x: BlurKernel) -> BlurKernel:
+    """Return the integral of sqrt(1 - x^2) from 0 to x."""
     return (x * np.sqrt(np.maximum(0.0, 1.0 - x * x)) + np.arcsin(np.clip(x, -1.0, 1.0))) / 2.0
 
 
 def disc_area_below(x: BlurKernel, y: BlurKernel) -> BlurKernel:
-    """Area of the unit disc left of x and below y, both in [-1, 1] (closed form)."""
+    """Return the area of the unit disc left of x and below y, both in [-1, 1] (closed form)."""
     corner = np.sqrt(np.maximum(0.0, 1.0 - y * y))
     chord = _half_chord_integral
     caps = np.where(y >= 0.0, 2.0, 0.0)
@@ -58,18 +59,18 @@ def disc_area_below(x: BlurKernel, y: BlurKernel) -> BlurKernel:
     )
 
 
-def _tents(positions: BlurKernel) -> BlurKernel:
-    """Bilinear weight of every position (px) on every integer pixel, shape (pixels, positions)."""
+def _bilinear_weights(positions: BlurKernel) -> BlurKernel:
+    """Return the weight of every position (px) on every pixel, shape (pixels, positions)."""
     reach = int(np.ceil(np.abs(positions).max()))
     pixels = np.arange(-reach, reach + 1)[:, None]
     return np.asarray(np.maximum(0.0, 1.0 - np.abs(positions[None, :] - pixels)))
 
 
-def _sharing(positions: BlurKernel) -> Callable[[BlurKernel], BlurKernel]:
-    """What shares rows at ascending positions (px, > 0) between the pixels before and after each.
+def _build_row_splitter(positions: BlurKernel) -> Callable[[BlurKernel], BlurKernel]:
+    """Return a function that splits rows at ascending positions (px, > 0) between two pixels each.
 
-    There are some in every pixel up to the last. Sums in one thread and in one order: a product of
-    matrices takes all cores for a moment.
+    Every pixel up to the last has some. It sums in one thread and one order: a matrix product would
+    take all cores for a moment.
     """
     reach = math.floor(positions[-1]) + 1
     starts = np.searchsorted(positions, np.arange(reach))
@@ -77,6 +78,7 @@ def _sharing(positions: BlurKernel) -> Callable[[BlurKernel], BlurKernel]:
     rest = 1.0 - share
 
     def share_rows(rows: BlurKernel) -> BlurKernel:
+        """Return the sums of rows, weighted, for every pixel."""
         found = np.zeros((reach + 1, rows.shape[1]))
         found[:-1] = np.add.reduceat(rows * rest, starts)
         found[1:] += np.add.reduceat(rows * share, starts)
@@ -87,7 +89,7 @@ def _sharing(positions: BlurKernel) -> Callable[[BlurKernel], BlurKernel]:
 
 @lru_cache(maxsize=64)
 def disc_kernel(diameter: float) -> BlurKernel:
-    """Blur of a circular aperture.
+    """Return the blur kernel of a circular aperture.
 
     Parameters
     ----------
@@ -104,18 +106,18 @@ def disc_kernel(diameter: float) -> BlurKernel:
     if radius == 0.0:
         return np.ones((1, 1))
     count = max(SAMPLES, min(32 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
-    return _splat_cells(_disc_cell_areas(count), radius * _centres(count))
+    return _splat_cells(_disc_cell_areas(count), radius * _cell_centres(count))
 
 
 @lru_cache(maxsize=16)
-def _centres(count: int) -> BlurKernel:
-    """Middles of the upper half of so many cells on [-1, 1]."""
+def _cell_centres(count: int) -> BlurKernel:
+    """Return the middles of the upper half of ``count`` cells on [-1, 1]."""
     return np.asarray((np.arange(count // 2, count) + 0.5) * (2.0 / count) - 1.0)
 
 
 @lru_cache(maxsize=8)
 def _disc_cell_areas(count: int) -> BlurKernel:
-    """Exact area of a unit disc inside each cell of a count x count grid on [-1, 1]^2.
+    """Return the exact area of a unit disc inside each cell of a count x count grid on [-1, 1]^2.
 
     One quarter: the cells of [0, 1]^2, shape (count / 2, count / 2), not normalised; ``count`` is
     even.
@@ -132,11 +134,11 @@ def _disc_cell_areas(count: int) -> BlurKernel:
 
 
 def _splat_cells(cells: BlurKernel, centres: BlurKernel) -> BlurKernel:
-    """Light at a grid of positions (px along both axes, > 0) on the pixels, sum 1, symmetric.
+    """Return a symmetric kernel, sum 1, of light at a grid of positions (px along both axes, > 0).
 
     One quarter stands for all: the light in the middle row and column comes from both sides.
     """
-    shared = _sharing(centres)
+    shared = _build_row_splitter(centres)
     quarter = shared(shared(cells).T).T
     quarter[0] *= 2.0
     quarter[:, 0] *= 2.0
@@ -152,19 +154,22 @@ DARK_RINGS = (3.8317059702075125, 16.470630050877634)
 
 
 def _bessel_j1(x: BlurKernel) -> BlurKernel:
-    """J1(x) = mean of cos(t - x sin t); whole turns make the midpoint rule exact (|x| < 60)."""
+    """Return the Bessel function J1(x) for |x| < 60, the mean of cos(t - x sin t).
+
+    Over whole turns the midpoint rule is exact.
+    """
     angles = (np.arange(96) + 0.5) * (math.pi / 96)
     return np.asarray(sum(np.cos(angle - x * math.sin(angle)) for angle in angles) / 96)
 
 
 def airy_radius(scale: float) -> float:
-    """Radius of the fifth dark ring, px, of a `scale` as of `airy_kernel`."""
+    """Return the radius of the fifth dark ring, px; ``scale`` is that of `airy_kernel`."""
     return DARK_RINGS[1] * scale / math.pi
 
 
 @lru_cache(maxsize=64)
 def airy_kernel(scale: float) -> BlurKernel:
-    """Blur by diffraction at a round aperture: (2 J1(x)/x)^2 with x = pi r/scale.
+    """Return the blur kernel of diffraction at a round aperture: (2 J1(x)/x)^2, x = pi r/scale.
 
     It is cut at the fifth dark ring, within which 96 % of the light lie, and shares out the rest.
 
@@ -183,7 +188,7 @@ def airy_kernel(scale: float) -> BlurKernel:
     if radius < 1e-6:
         return np.ones((1, 1))
     count = max(2 * SAMPLES, min(16 * math.ceil(radius), 1024), 2 * math.ceil(2.0 * radius))
-    centres = radius * _centres(count)
+    centres = radius * _cell_centres(count)
     far = np.hypot(centres[:, None], centres[None, :]) * (math.pi / scale)
     light = np.where(far < DARK_RINGS[1], (2.0 * _bessel_j1(far) / far) ** 2, 0.0)
     return _splat_cells(light, centres)
@@ -191,7 +196,7 @@ def airy_kernel(scale: float) -> BlurKernel:
 
 @lru_cache(maxsize=64)
 def motion_kernel(across: float, down: float) -> BlurKernel:
-    """Blur of a straight, uniform motion.
+    """Return the blur kernel of a straight, uniform motion.
 
     Parameters
     ----------
@@ -207,13 +212,15 @@ def motion_kernel(across: float, down: float) -> BlurKernel:
     check_kernel_size(max(abs(across), abs(down)))
     count = max(SAMPLES, 16 * math.ceil(max(abs(across), abs(down))))
     times = (np.arange(count) + 0.5) / count - 0.5
-    kernel = _tents(down * times) @ _tents(across * times).T / count
+    kernel = _bilinear_weights(down * times) @ _bilinear_weights(across * times).T / count
     kernel = (kernel + kernel[::-1, ::-1]) / 2.0
     return np.asarray(kernel / kernel.sum())
 
 
 def moved_share(one: BlurKernel, other: BlurKernel = _UNMOVED) -> float:
-    """Share of the light that two kernels bring to different places: at most so many steps of 1.
+    """Return the share of light that two kernels bring to different places, at most 1.
+
+    No value changes by more than this share of the range if one kernel replaces the other.
 
     Parameters
     ----------
@@ -225,5 +232,6 @@ def moved_share(one: BlurKernel, other: BlurKernel = _UNMOVED) -> float:
 
 
 def _widen_kernel(kernel: BlurKernel, sides: list[int]) -> BlurKernel:
+    """Return a kernel with zeros around it, up to the given sides."""
     margins = [((side - had) // 2,) * 2 for side, had in zip(sides, kernel.shape, strict=True)]
     return np.pad(kernel, margins)

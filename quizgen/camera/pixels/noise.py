@@ -25,7 +25,7 @@ _RAREST = 49.0 * math.log(2.0)
 
 
 class EffectRandom:
-    """Random numbers of one effect: every tile of a picture has its own, in whichever process.
+    """Random numbers of one effect: each tile has its own, whichever process computes it.
 
     Philox counts: the seed is the key, the number of the tile the upper part of the counter. One
     thread at a time may draw from it; each run of an effect has its own.
@@ -40,24 +40,24 @@ class EffectRandom:
         self._start = self._source.state  # a new source for every tile would take as long again
 
     def _draw_raw(self, tile: int, count: int, stream: int = 0) -> NDArray[np.uint64]:
-        """Whole numbers below 2^64; streams of one tile have nothing to do with each other."""
+        """Return whole numbers below 2^64; the streams of one tile are independent."""
         self._start["state"]["counter"][1:3] = tile, stream
         self._source.state = self._start
         raw: NDArray[np.uint64] = self._source.random_raw(count).astype("<u8", copy=False)
         return raw
 
     def _draw_words(self, tile: int, count: int, stream: int = 0) -> NDArray[np.uint16]:
-        """Whole numbers below 2^16, each as likely."""
+        """Return whole numbers below 2^16, each as likely."""
         return self._draw_raw(tile, -(-count // 4), stream).view("<u2")[:count]
 
     def draw_from_table(self, table: Image, tile: int, count: int) -> Image:
-        """Values of a table of 2^16, each as likely."""
+        """Return values of a table of 2^16, each as likely."""
         return np.take(table, self._draw_words(tile, count), mode="clip")
 
     def table_places(
         self, first: int, tile: int, count: int
     ) -> tuple[PixelPlaces, NDArray[np.uint16]]:
-        """Where a table of 2^16 is read from a place on, and at which places."""
+        """Return where a table of 2^16 is read at ``first`` or beyond, and the indices."""
         words = self._draw_words(tile, count)
         where = np.flatnonzero(words >= first)
         return where, words[where]
@@ -65,7 +65,7 @@ class EffectRandom:
     def draw_normal(
         self, tile: int, count: int, kind: DTypeLike = np.float32, *, fine: bool = False
     ) -> Image:
-        """Standard normal values, up to `FARTHEST`; in every precision the same, rounded to it.
+        """Return standard normal values up to `FARTHEST`, the same in every precision but rounded.
 
         Parameters
         ----------
@@ -74,48 +74,51 @@ class EffectRandom:
         fine : bool
             Draw 8 more bits for every value. Without them those that are no more than 2.6 are
             the middles of 2^16 equal probabilities: enough where they are added to a picture, but
-            whole counts are so close beside each other that some would never be drawn.
+            whole counts are so close to each other that some would never be drawn.
         """
         words = self._draw_words(tile, count)
-        values = np.take(_normals(np.dtype(kind)), words, mode="clip")
+        values = np.take(_normal_table(np.dtype(kind)), words, mode="clip")
         if fine:
             apart = self._draw_raw(tile, -(-count // 8), 2).view("u1")[:count].astype(kind)
             apart -= 255.0 / 2.0
-            apart *= np.take(_slopes(np.dtype(kind)), words, mode="clip")
+            apart *= np.take(_cell_widths(np.dtype(kind)), words, mode="clip")
             values += apart
         far = np.flatnonzero(words + np.uint16(TAIL) < 2 * TAIL)  # which wraps around
         if far.size:
             ends = words[far]
             cells = np.minimum(ends, ~ends)  # as far from either end
             chances = cells + self._draw_raw(tile, far.size, 1) * 2.0**-64
-            sizes = np.interp(chances.view(np.int64), *_tail())
+            sizes = np.interp(chances.view(np.int64), *_tail_table())
             values[far] = np.where(cells == ends, -sizes, sizes)
         return values
 
     def draw_uniform(self, tile: int, count: int) -> NDArray[np.float64]:
-        """Values in [0, 1), multiples of 2^-32."""
+        """Return values in [0, 1), multiples of 2^-32."""
         return self._draw_words(tile, 2 * count).view("<u4") * 2.0**-32
 
 
 @cache
-def _normals(kind: np.dtype[np.floating]) -> Image:
-    """Normal quantiles in the middle of 2^16 equal probabilities, scaled to variance 1."""
+def _normal_table(kind: np.dtype[np.floating]) -> Image:
+    """Return normal quantiles at the middles of 2^16 equal probabilities, scaled to variance 1."""
     lower = -np.asarray(inverse_upper_tail((np.arange(WORDS // 2) + 0.5) / WORDS))
     lower /= math.sqrt(float(np.mean(lower * lower)))
     return np.concatenate([lower, -lower[::-1]]).astype(kind)
 
 
 @cache
-def _slopes(kind: np.dtype[np.floating]) -> Image:
-    """How wide the cell around each of them is, over 2^8."""
+def _cell_widths(kind: np.dtype[np.floating]) -> Image:
+    """Return how far one of 256 steps within its cell moves each value of `_normal_table`.
+
+    Eight more random bits choose the step.
+    """
     edges = np.asarray(inverse_upper_tail(np.arange(1, WORDS // 2 + 1) / WORDS))
     lower = np.concatenate([[0.0], -np.diff(edges)]) / 256.0
     return np.concatenate([lower, lower[::-1]]).astype(kind)
 
 
 @cache
-def _tail() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Normal quantiles of chances in cells of the table, down to 2^-33 of one, by their bits.
+def _tail_table() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return offsets and slopes from the bits of a probability to normal quantiles in the tail.
 
     The bits of a number, read as a whole one, are straight in each octave: between two of these 256
     an octave a line is off by 1e-6, and no logarithm is needed, whose last bit differs between
@@ -126,7 +129,7 @@ def _tail() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def effect_random(view: View, effect: str) -> EffectRandom:
-    """Random numbers of one effect, from the scene's seed and the effect's name.
+    """Return the random numbers of one effect, from the scene's seed and the effect's name.
 
     Adding, skipping or reordering other effects changes nothing here.
     """
@@ -137,25 +140,26 @@ def effect_random(view: View, effect: str) -> EffectRandom:
 
 
 def electrons_at_white(view: View) -> float:
-    """The full well; without one, electrons are too many to count."""
+    """Return the full well in electrons; without one, too many electrons to count."""
     return view.camera[FULL_WELL] or math.inf
 
 
 def farthest_count(mean: float) -> float:
-    """Electrons by which no count lies farther from any mean up to this one.
+    """Return a bound in electrons on how far a count is from its mean, for means up to this.
 
-    Chernoff: P(X >= m + t) <= exp(-t^2/(2 (m + t/3))), and no luck is rarer than 2^-49. One more
-    for whole electrons, and one for the expansion that counts come from.
+    Chernoff: P(X >= m + t) <= exp(-t^2/(2 (m + t/3))), and no drawn value is rarer
+    than 2^-49. One more for whole electrons, and one for the expansion that counts come from.
     """
     third = _RAREST / 3.0
     return third + math.sqrt(third**2 + 2.0 * mean * _RAREST) + 2.0
 
 
 def add_normal_noise(sigma: float, source: EffectRandom) -> TileOperation:
-    """Add normal noise."""
+    """Return what adds normal noise of a standard deviation (1 = white) to a tile."""
     scale = float(sigma)
 
     def work(part: Image, tile: Tile) -> None:
+        """Add the noise of a tile in place."""
         spread = source.draw_normal(tile.number, part.size, part.dtype)
         spread *= scale
         part += spread
@@ -181,7 +185,7 @@ _MOST = 128
 
 
 def poisson_quantiles(mean: Numbers, normal: Numbers) -> Numbers:
-    """Poisson counts at the probabilities of standard normal values.
+    """Return Poisson counts at the probabilities that standard normal values have.
 
     Parameters
     ----------
@@ -214,13 +218,13 @@ def poisson_quantiles(mean: Numbers, normal: Numbers) -> Numbers:
     np.maximum(counts, 0.0, out=counts)  # the expansion knows no end
     few = np.flatnonzero(mean < FEW_ELECTRONS)
     if few.size:
-        counts[few] = _few(mean[few], normal[few])
+        counts[few] = _count_few(mean[few], normal[few])
     return counts
 
 
-def _few(mean: Numbers, normal: Numbers) -> PixelPlaces:
-    """A count that the luck reaches at least, and one more where it is beyond that one's chance."""
-    least, below, rates = _tables(mean.dtype)
+def _count_few(mean: Numbers, normal: Numbers) -> PixelPlaces:
+    """Return the counts for small means, from tables: the least one of a cell, or one more."""
+    least, below, rates = _count_tables(mean.dtype)
     place = np.sqrt(mean)
     place *= _CELLS
     column = place.astype(np.intp)
@@ -229,12 +233,12 @@ def _few(mean: Numbers, normal: Numbers) -> PixelPlaces:
     node *= _COLUMNS
     node += column
     node = least[node]
-    beyond = _normal_below(normal) > _between(place, node, below, rates)
+    beyond = _normal_cdf(normal) > _interpolate_cubic(place, node, below, rates)
     return node // _COLUMNS + beyond
 
 
-def _between(t: Numbers, node: PixelPlaces, values: Numbers, rates: Numbers) -> Numbers:
-    """Cubic from one node to the next, by values and slopes at both."""
+def _interpolate_cubic(t: Numbers, node: PixelPlaces, values: Numbers, rates: Numbers) -> Numbers:
+    """Return values at share t (0 to 1) between two nodes, by values and slopes at both."""
     first, bend = values[node], rates[node]
     node += 1
     rise = values[node] - first
@@ -252,12 +256,12 @@ def _between(t: Numbers, node: PixelPlaces, values: Numbers, rates: Numbers) -> 
 
 
 @cache
-def _tables(kind: np.dtype[np.floating]) -> tuple[PixelPlaces, Numbers, Numbers]:
-    """Node of the least count of each cell; chance of no more than a count, and its slope.
+def _count_tables(kind: np.dtype[np.floating]) -> tuple[PixelPlaces, Numbers, Numbers]:
+    """Return by cell: node of the least count, probability of at most that count, its slope.
 
-    Rows are luck, or counts; columns are roots of means; all flattened. Over a cell a count grows
-    by one at most. The slope by the mean is minus the chance of the count; the cubic is within
-    1e-6 of the chance.
+    Rows are normal values, or counts; columns are roots of means; all flattened. Over a cell a
+    count grows by one at most. The slope by the mean is minus the chance of the count; the cubic
+    is within 1e-6 of the chance.
     """
     roots = np.arange(_COLUMNS) / _CELLS
     chances = np.empty((_MOST, _COLUMNS))
@@ -272,8 +276,8 @@ def _tables(kind: np.dtype[np.floating]) -> tuple[PixelPlaces, Numbers, Numbers]
     return nodes.reshape(-1), below.reshape(-1).astype(kind), rates.reshape(-1).astype(kind)
 
 
-def _normal_below(normal: Numbers) -> Numbers:
-    """Normal distribution function within 1e-7 (Abramowitz and Stegun 26.2.17)."""
+def _normal_cdf(normal: Numbers) -> Numbers:
+    """Return the normal distribution function within 1e-7 (Abramowitz and Stegun 26.2.17)."""
     t = 1.0 / (1.0 + 0.2316419 * np.abs(normal))
     series = 0.31938153 + t * (
         -0.356563782 + t * (1.781477937 + t * (-1.821255978 + t * 1.330274429))

@@ -23,14 +23,14 @@ TILE_VALUES = 3 * TILE_SIDES[0] * TILE_SIDES[1]
 
 
 class Tile(NamedTuple):
-    """A part of a picture: its number, and where it lies."""
+    """A part of a picture: its number, which seeds its noise, and its slices."""
 
     number: int
     place: tuple[slice, ...]
 
     @property
     def pixels(self) -> int:
-        """How many there are."""
+        """The number of pixels of the tile."""
         return math.prod(part.stop - part.start for part in self.place)
 
 
@@ -39,13 +39,13 @@ TileOperation = Callable[[Image, Tile], None]
 
 
 def split_range(length: int, size: int) -> Iterator[tuple[int, int]]:
-    """Start and stop of consecutive pieces of [0, length), the last one maybe smaller."""
+    """Yield start and stop of consecutive pieces of [0, length), the last one maybe smaller."""
     for start in range(0, length, size):
         yield start, min(start + size, length)
 
 
 def iter_tiles(shape: tuple[int, ...]) -> Iterator[Tile]:
-    """The tiles of a picture of shape (H, W, C), row by row, or pieces of a row of values."""
+    """Yield the tiles of a picture (H, W, C), row by row, or of a row of values."""
     if len(shape) == 1:
         for number, part in enumerate(split_range(shape[0], TILE_VALUES)):
             yield Tile(number, (slice(*part),))
@@ -63,7 +63,7 @@ def apply_tilewise(
     into: Image | None = None,
     among: Iterable[Tile] | None = None,
 ) -> tuple[Image, NDArray[np.float64]]:
-    """Change a picture tile by tile, every tile by all works while it is in the cache.
+    """Return a picture changed tile by tile, each by all works while it is in the cache.
 
     Parameters
     ----------
@@ -100,19 +100,21 @@ def apply_tilewise(
 
 
 def multiply_by(factor: float) -> TileOperation:
-    """Multiply everything."""
+    """Return what multiplies a tile by one factor."""
     scale = float(factor)  # a number of Python takes the precision of the picture
 
     def work(part: Image, _: Tile) -> None:
+        """Multiply a tile in place."""
         part *= scale
 
     return work
 
 
 def multiply_by_map(factors: Image) -> TileOperation:
-    """Multiply every pixel's three channels by a factor of its own, shape (H, W, 1)."""
+    """Return what multiplies the three channels of every pixel by one factor, shape (H, W, 1)."""
 
     def work(part: Image, tile: Tile) -> None:
+        """Multiply a tile in place by its part of the map."""
         own = factors[tile.place].reshape(-1)
         for channel in range(3):
             part[channel::3] *= own

@@ -30,8 +30,8 @@ _OCTAVES = 127
 Field = NDArray[np.float64]
 
 
-def _by_cell(exponent: float, first: int = 0) -> Field:
-    """m^exponent for the middle m of every cell: octaves by rows, the subnormal one is number 0."""
+def _cell_powers(exponent: float, first: int = 0) -> Field:
+    """Return m^exponent for the middle m of every cell: a row per octave, subnormal first."""
     middles = (1.0 + (cell + 0.5) / _CELLS for cell in range(_CELLS))
     within = np.array([math.pow(middle, exponent) for middle in middles])
     octaves = [math.pow(2.0, exponent * (n - _OCTAVES)) for n in range(first, _OCTAVES)]
@@ -41,30 +41,33 @@ def _by_cell(exponent: float, first: int = 0) -> Field:
 
 
 @cache
-def _lines(exponent: float, first: int = 0) -> tuple[Field, Field]:
-    """Offset and slope of the tangent in the middle of every cell, and the value 1 at 1.
+def _cell_tangents(exponent: float, first: int = 0) -> tuple[Field, Field]:
+    """Return offset and slope of the tangent to x^exponent in every cell, exactly 1 at 1.
 
     A tangent is off by e(e-1)/2 d^2 at a relative distance d, at most half a cell: half of the
     largest such error is taken off, 1.5e-8 of the value remains. Octaves before the first one
     are left out.
     """
-    powers = _by_cell(exponent, first)
+    powers = _cell_powers(exponent, first)
     lowered = exponent * (1.0 - exponent) / 16.0 / _CELLS**2
     offsets = powers * (1.0 - exponent - lowered)
     slopes = np.zeros_like(powers)
-    np.divide(exponent * powers, _by_cell(1.0, first), out=slopes, where=powers > 0.0)
+    np.divide(exponent * powers, _cell_powers(1.0, first), out=slopes, where=powers > 0.0)
     return np.append(offsets, 1.0), np.append(slopes, 0.0)
 
 
 @cache
-def _curve(gamma: str | float) -> tuple[Image, Image]:
-    """Offset and slope by cell of a tone curve; most of a standard one's are on its dark line."""
+def _curve_cells(gamma: str | float) -> tuple[Image, Image]:
+    """Return offset and slope by cell of a tone curve.
+
+    Dark cells of sRGB lie on its straight line.
+    """
     if gamma != "srgb":
-        offsets, slopes = _lines(1.0 / float(gamma))
+        offsets, slopes = _cell_tangents(1.0 / float(gamma))
         return offsets.astype(np.float32), slopes.astype(np.float32)
     first = _OCTAVES + math.frexp(SRGB_KNEE)[1] - 1
-    offsets, slopes = _lines(1.0 / 2.4, first)
-    dark = np.append(_by_cell(1.0, first) <= SRGB_KNEE, False)
+    offsets, slopes = _cell_tangents(1.0 / 2.4, first)
+    dark = np.append(_cell_powers(1.0, first) <= SRGB_KNEE, False)
     start, count = first * _CELLS, _OCTAVES * _CELLS + 1
     whole: tuple[Image, Image] = np.zeros(count, np.float32), np.full(count, 12.92, np.float32)
     whole[0][start:] = np.where(dark, 0.0, 1.055 * offsets - 0.055)
@@ -73,7 +76,7 @@ def _curve(gamma: str | float) -> tuple[Image, Image]:
 
 
 def encode_piecewise(gamma: str | float) -> TileOperation:
-    """Encode linear light for display, by a straight line in each cell.
+    """Return what encodes the linear light of a tile, by a straight line in each cell.
 
     Values are clipped to [0, 1] first; subnormal ones count as 0. Within 3e-7 of the true value.
 
@@ -84,10 +87,11 @@ def encode_piecewise(gamma: str | float) -> TileOperation:
         exponent g >= 1 for x^(1/g).
     """
     if gamma == "linear":
-        return _clip
-    offsets, slopes = _curve(gamma)
+        return _clip_tile
+    offsets, slopes = _curve_cells(gamma)
 
     def work(part: Image, _: Tile) -> None:
+        """Encode a tile in place."""
         values = np.clip(part, 0.0, 1.0)
         cell = np.right_shift(values.view(np.int32), _SHIFT).astype(np.intp)
         # all cells exist: to wrap around is the fastest check
@@ -99,16 +103,18 @@ def encode_piecewise(gamma: str | float) -> TileOperation:
     return work
 
 
-def _clip(part: Image, _: Tile) -> None:
+def _clip_tile(part: Image, _: Tile) -> None:
+    """Clip a tile to [0, 1] in place."""
     np.clip(part, 0.0, 1.0, out=part)
 
 
 def encode_exact(gamma: str | float) -> TileOperation:
-    """The same in double precision, by the library's powers."""
+    """Return what encodes a tile in double precision, by the library's powers."""
     if gamma == "linear":
-        return _clip
+        return _clip_tile
 
     def work(part: Image, _: Tile) -> None:
+        """Encode a tile in place."""
         np.clip(part, 0.0, 1.0, out=part)
         if gamma != "srgb":
             np.power(part, 1.0 / float(gamma), out=part)
@@ -120,7 +126,7 @@ def encode_exact(gamma: str | float) -> TileOperation:
 
 
 def encode_value(value: float, gamma: str | float) -> float:
-    """One number encoded in double precision, as the bounds need it."""
+    """Return one number encoded in double precision, as the bounds need it."""
     if not 0.0 <= value <= 1.0:
         value = min(max(value, 0.0), 1.0)
     if gamma == "srgb":

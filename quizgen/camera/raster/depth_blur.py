@@ -34,16 +34,19 @@ MAX_SLICES = 24
 
 
 def blur_by_depth(layer: Layer, view: View, shift: float = 0.0) -> Layer:
-    """Blur a layer by its circle of confusion, depth by depth where it has a map."""
+    """Return a layer blurred by its circle of confusion, slice by slice if it has a depth map.
+
+    ``shift`` (px) is added to every diameter.
+    """
     if isinstance(layer.depth, np.ndarray):
-        middles = slice_diameters(_extremes(layer.depth, view, shift))
-        index = _slice_of(layer.depth, middles, view, shift)
-        return replace(layer, colour=_blurred_by_depth(layer.colour, index, middles))
+        middles = slice_diameters(_diameter_range(layer.depth, view, shift))
+        index = _assign_slices(layer.depth, middles, view, shift)
+        return replace(layer, colour=_blur_slices(layer.colour, index, middles))
     return blur_layer(layer, disc_kernel(float(view.blur_diameter(layer.depth)) + shift))
 
 
 def blur_channels(layer: Layer, view: View, shifts: Mapping[int, float]) -> Layer:
-    """Blur some channels of a layer, each by the discs of its own shift."""
+    """Return a layer with some channels blurred, each by discs with its own shift of diameter."""
     colour, cover = layer.colour.copy(), layer.cover
     if cover is not None:  # a cover for each colour
         cover = np.array(np.broadcast_to(cover, colour.shape))
@@ -60,7 +63,7 @@ def blur_channels(layer: Layer, view: View, shifts: Mapping[int, float]) -> Laye
 
 
 def slice_diameters(diameters: tuple[float, float]) -> Field:
-    """Blur diameters of the slices of a depth map, px, ascending.
+    """Return the blur diameters (px, ascending) of the slices that a depth map is cut into.
 
     Multiples of one step, so that what is in focus stays sharp: uniform in the signed circle of
     confusion (linear in 1/z). The step is 0.5 px, or more where that makes over `MAX_SLICES`.
@@ -70,14 +73,14 @@ def slice_diameters(diameters: tuple[float, float]) -> Field:
     return step * np.arange(np.rint(least / step), np.rint(most / step) + 1.0)
 
 
-def _extremes(depth: Image, view: View, shift: float) -> tuple[float, float]:
-    """Smallest and largest blur diameter of a depth map: farther is always more, or always less."""
+def _diameter_range(depth: Image, view: View, shift: float) -> tuple[float, float]:
+    """Return the smallest and the largest blur diameter of a depth map, px."""
     ends = view.blur_diameter(np.array([depth.min(), depth.max()], depth.dtype)) + shift
     return float(ends.min()), float(ends.max())
 
 
-def _slice_of(depth: Image, middles: Field, view: View, shift: float) -> NDArray[np.uint8]:
-    """Number of the slice that each pixel of a depth map is in."""
+def _assign_slices(depth: Image, middles: Field, view: View, shift: float) -> NDArray[np.uint8]:
+    """Return for each pixel of a depth map the number of the slice that it is in."""
     step = float(middles[1] - middles[0]) if len(middles) > 1 else math.inf
     index = np.empty(depth.shape, np.uint8)
     for start, stop in split_range(len(depth), _ROWS):
@@ -92,15 +95,17 @@ _BAND = 128
 """Rows blurred at once; eight times as many as light gets far, where that is more."""
 
 
-def _blurred_by_depth(sharp: Image, index: NDArray[np.uint8], middles: Field) -> Image:
-    """Lay blurred slices over each other, far ones first.
+def _blur_slices(sharp: Image, index: NDArray[np.uint8], middles: Field) -> Image:
+    """Return the picture with each slice blurred by its own disc, laid over each other far to near.
 
     The farthest slice is divided by its own blurred coverage, so that the colour of what stands in
     front does not leak into the background.
     """
     picture, farthest = sharp.copy(), int(index.max())
     for number in range(farthest, -1, -1):
-        for part, blurry in _bands(sharp, index, number, disc_kernel(float(middles[number]))):
+        for part, blurry in _iter_slice_bands(
+            sharp, index, number, disc_kernel(float(middles[number]))
+        ):
             colour, cover = blurry[..., :-1], blurry[..., -1:]
             if number == farthest:
                 seen = cover > 1e-3
@@ -110,10 +115,13 @@ def _blurred_by_depth(sharp: Image, index: NDArray[np.uint8], middles: Field) ->
     return picture
 
 
-def _bands(
+def _iter_slice_bands(
     sharp: Image, index: NDArray[np.uint8], number: int, kernel: BlurKernel
 ) -> Iterator[tuple[PixelBox, Image]]:
-    """Where light of a slice gets, and its blurred colour and coverage there, band by band."""
+    """Yield boxes that the light of a slice reaches, each with its blurred colour and coverage.
+
+    ``index`` has the slice of every pixel; ``number`` is the slice that ``kernel`` blurs.
+    """
     reach = kernel.shape[0] // 2
     for start, stop in split_range(len(sharp), max(_BAND, 8 * reach)):
         first = max(start - reach, 0)
@@ -127,7 +135,7 @@ def _bands(
 
 
 def _append_mask(image: Image, there: NDArray[np.bool_]) -> Image:
-    """A picture where it is there, and as its last channel where that is."""
+    """Return a picture that is empty where ``there`` is false, with that mask as last channel."""
     channels = image.shape[2]
     found = np.empty((*image.shape[:2], channels + 1), image.dtype)
     for channel in range(channels):  # far faster than NumPy's loops over three values
@@ -137,62 +145,68 @@ def _append_mask(image: Image, there: NDArray[np.bool_]) -> Image:
 
 
 def blur_margin(view: View, shifts: tuple[float, ...]) -> tuple[float, float]:
-    """Discs bring light from as far as their radius."""
+    """Return how far outside the frame discs bring light from, across and down, px."""
 
     def reach(spec: LayerSpec) -> tuple[float, float]:
-        radius = max(abs(_diameter(spec, view) + shift) / 2.0 for shift in shifts)
+        """Return the largest radius of a layer's discs, px."""
+        radius = max(abs(_spec_diameter(spec, view) + shift) / 2.0 for shift in shifts)
         return radius + bool(radius), radius + bool(radius)
 
     return largest_margin(view, reach)
 
 
 def check_blur_width(view: View) -> None:
-    """No disc may be too wide."""
+    """Raise an error if a disc is too wide to be computed."""
     for spec in layer_specs(view):
         if not has_depth_map(spec, view):
-            kernels.check_kernel_size(_diameter(spec, view))
+            kernels.check_kernel_size(_spec_diameter(spec, view))
 
 
-def _diameter(spec: LayerSpec, view: View) -> float:
+def _spec_diameter(spec: LayerSpec, view: View) -> float:
+    """Return the largest blur diameter of a layer, px, without sign."""
     return view.blur_diameter(math.inf if spec.depth is None else spec.depth)
 
 
 def widest_disc(view: View) -> float:
-    """Diameter of the largest disc that anything in the frame is blurred by, px."""
+    """Return the diameter, px, of the largest disc that blurs anything in the frame."""
     widest = 0.0
     for spec in layer_specs(view):
         if has_depth_map(spec, view):
-            ends = _extremes(np.asarray(view.scene.depth), view, 0.0)
+            ends = _diameter_range(np.asarray(view.scene.depth), view, 0.0)
             widest = max(widest, *(abs(end) for end in ends))
         else:
-            widest = max(widest, abs(_diameter(spec, view)))
+            widest = max(widest, abs(_spec_diameter(spec, view)))
     return widest
 
 
 def has_depth_map(spec: LayerSpec, view: View) -> bool:
-    """Whether every pixel of a layer has a depth of its own."""
+    """Return whether every pixel of a layer has a depth of its own."""
     return spec.opaque and view.has_depth_map
 
 
 def bound_discs(signal: Signal, view: View, shift: float | None = None) -> float:
-    """How far a picture can be from one in which no layer is blurred, or all without a shift."""
+    """Return how far a picture can be from one in which no layer is blurred.
+
+    With a shift: from one in which all discs are ``shift`` px wider.
+    """
 
     def share(spec: LayerSpec) -> float:
+        """Return how much of its range a layer can change."""
         if has_depth_map(spec, view):
             shifts = (0.0,) if shift is None else (0.0, shift)
-            return sum(_share_by_depth(view, one) for one in shifts)
-        plain = disc_kernel(_diameter(spec, view))
+            return sum(_moved_share_by_depth(view, one) for one in shifts)
+        plain = disc_kernel(_spec_diameter(spec, view))
         if shift is None:
             return moved_share(plain)
-        return moved_share(plain, disc_kernel(_diameter(spec, view) + shift))
+        return moved_share(plain, disc_kernel(_spec_diameter(spec, view) + shift))
 
     return bound_layers(signal, view, share)
 
 
-def _share_by_depth(view: View, shift: float) -> float:
-    """Share of the light that leaves its place where every pixel has a depth of its own.
+def _moved_share_by_depth(view: View, shift: float) -> float:
+    """Return the share of light that leaves its pixel in a picture with a depth map.
 
     Slices are divided by their own blurred coverage, so that of several any may be all.
     """
-    middles = slice_diameters(_extremes(np.asarray(view.scene.depth), view, shift))
+    middles = slice_diameters(_diameter_range(np.asarray(view.scene.depth), view, shift))
     return moved_share(disc_kernel(float(middles[0]))) if len(middles) == 1 else 1.0

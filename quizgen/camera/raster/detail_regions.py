@@ -31,7 +31,7 @@ _CALL = 4096
 
 
 class Regions(NamedTuple):
-    """Boxes; outside of them an effect changes nothing; they may overlap.
+    """The boxes of a layer outside which an effect changes nothing; they may overlap.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class Regions(NamedTuple):
 
 
 def sampled_regions(layer: Layer, reach: tuple[float, float]) -> Regions:
-    """Where values are read at places between pixels, nearest or mixed.
+    """Return the regions that change if values are read so far from their pixels.
 
     Parameters
     ----------
@@ -55,24 +55,29 @@ def sampled_regions(layer: Layer, reach: tuple[float, float]) -> Regions:
     """
     sides = layer.colour.shape[1::-1]
     across, down = (math.ceil(min(far, side)) + 1 for far, side in zip(reach, sides, strict=True))
-    return Regions(_boxes(layer, (down, across), (0, 0)), down)
+    return Regions(_find_uneven_boxes(layer, (down, across), (0, 0)), down)
 
 
 def regions_changed_by_blur(layer: Layer, kernel: NDArray[np.float64]) -> Regions:
-    """Boxes; outside of them convolving a layer with a kernel changes nothing.
+    """Return the regions outside which convolving a layer with a kernel changes nothing.
 
     Near boxes are merged: each reads a margin of the kernel's reach, so many small ones are dear.
     """
     reach = kernel.shape[0] // 2, kernel.shape[1] // 2
-    return Regions(_boxes(layer, reach, reach), reach[0])
+    return Regions(_find_uneven_boxes(layer, reach, reach), reach[0])
 
 
-def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[PixelBox]:
-    """What lies within so many rows and columns of something uneven."""
+def _find_uneven_boxes(
+    layer: Layer, reach: tuple[int, int], read: tuple[int, int]
+) -> list[PixelBox]:
+    """Return boxes of what lies within ``reach`` rows and columns of anything uneven.
+
+    ``read`` is the margin that each box reads, by which merging is decided.
+    """
     seen = content_box(layer)
-    squares = _uneven(layer, seen)
+    squares = _find_uneven_squares(layer, seen)
     down, across = (-(-far // SQUARE) for far in reach)
-    squares = _near(_near(squares, down).T, across).T
+    squares = _dilate_squares(_dilate_squares(squares, down).T, across).T
     most = grow_box(seen, reach, layer.colour.shape)
     boxes = (
         (slice(top * SQUARE, bottom * SQUARE), slice(left * SQUARE, right * SQUARE))
@@ -82,12 +87,15 @@ def _boxes(layer: Layer, reach: tuple[int, int], read: tuple[int, int]) -> list[
 
 
 def content_box(layer: Layer) -> PixelBox:
-    """Where anything of a layer is."""
+    """Return the box outside which a layer is empty."""
     return full_box(layer.colour.shape) if layer.cover is None else bounding_box(layer.cover)
 
 
 def grow_box(box: PixelBox, far: tuple[int, int], shape: tuple[int, ...]) -> PixelBox:
-    """A box, unless it is empty, with so many more rows and columns on each side as there are."""
+    """Return a box with more rows and columns on each side, within the picture.
+
+    An empty box stays empty.
+    """
     if not box[0].stop:
         return box
     rows, columns = (
@@ -98,14 +106,14 @@ def grow_box(box: PixelBox, far: tuple[int, int], shape: tuple[int, ...]) -> Pix
 
 
 def full_box(shape: tuple[int, ...]) -> PixelBox:
-    """All rows and columns."""
+    """Return the box of all rows and columns."""
     return slice(0, shape[0]), slice(0, shape[1])
 
 
-def _uneven(layer: Layer, seen: PixelBox) -> Squares:
-    """Squares that have more than one colour or cover; there is nothing but in a box."""
+def _find_uneven_squares(layer: Layer, seen: PixelBox) -> Squares:
+    """Return flags of the squares of a layer with more than one colour or coverage."""
     if layer.cover is None:
-        return _squares(layer.colour)
+        return _compare_squares(layer.colour)
     found = np.zeros([-(-length // SQUARE) for length in layer.colour.shape[:2]], bool)
     if not seen[0].stop:
         return found
@@ -114,13 +122,13 @@ def _uneven(layer: Layer, seen: PixelBox) -> Squares:
         slice(max(part.start // SQUARE - 1, 0), -(-part.stop // SQUARE)) for part in seen
     )
     box = tuple(slice(part.start * SQUARE, part.stop * SQUARE + 1) for part in (rows, columns))
-    both = _squares(layer.colour[box]) | _squares(layer.cover[box])
+    both = _compare_squares(layer.colour[box]) | _compare_squares(layer.cover[box])
     found[rows, columns] = both[: rows.stop - rows.start, : columns.stop - columns.start]
     return found
 
 
-def _squares(values: Image) -> Squares:
-    """Squares whose pixels differ, or that differ from the next pixel to the right or below."""
+def _compare_squares(values: Image) -> Squares:
+    """Return flags of the squares whose pixels differ, or differ from the next right or below."""
     channels = values.shape[2]
     side = SQUARE * channels
     flat = values.reshape(len(values), -1)
@@ -142,8 +150,8 @@ def _squares(values: Image) -> Squares:
     return found
 
 
-def _near(squares: Squares, far: int) -> Squares:
-    """Rows of squares so near to one that is meant."""
+def _dilate_squares(squares: Squares, far: int) -> Squares:
+    """Return flags of the squares within ``far`` rows of a flagged one."""
     if not far or squares.all():
         return squares
     before = np.zeros((len(squares) + 1, squares.shape[1]), int)
@@ -162,11 +170,12 @@ class _Frame(NamedTuple):
     right: int
 
     def around(self, other: _Frame) -> _Frame:
+        """Return the smallest frame around two."""
         top, left = min(self.top, other.top), min(self.left, other.left)
         return _Frame(top, max(self.bottom, other.bottom), left, max(self.right, other.right))
 
     def cost(self, read: tuple[int, int]) -> int:
-        """Pixels to be read, with so many rows and columns beside it."""
+        """Return the number of pixels read for a frame, with its margin of rows and columns."""
         down, across = read
         height, width = (self.bottom - self.top) * SQUARE, (self.right - self.left) * SQUARE
         kernel = 16 * down * across  # transformed, where it is wide
@@ -174,17 +183,17 @@ class _Frame(NamedTuple):
 
 
 def _merge_squares(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
-    """Rectangles around all squares that are meant, one instead of two where that is cheaper."""
+    """Return frames around all flagged squares; two become one where that reads fewer pixels."""
     done: list[_Frame] = []
     above: list[_Frame] = []
     edges = np.diff(squares.astype(np.int8), axis=1, prepend=0, append=0)
     for number, row in enumerate(edges):
         ends = np.flatnonzero(row).reshape(-1, 2).tolist()  # where runs of squares begin and end
-        runs = _in_row((_Frame(number, number + 1, *run) for run in ends), read)
+        runs = _merge_row((_Frame(number, number + 1, *run) for run in ends), read)
         rights, more = [run.right for run in runs], list(runs)
         for frame in above:
             below = bisect_right(rights, frame.left)  # others have no column in common with it
-            if below < len(runs) and _together(frame, more[below], read):
+            if below < len(runs) and _is_merge_cheaper(frame, more[below], read):
                 more[below] = more[below].around(frame)
             else:
                 done.append(frame)
@@ -197,15 +206,16 @@ def _merge_squares(squares: Squares, read: tuple[int, int]) -> list[_Frame]:
     return [everything] if whole else done
 
 
-def _together(one: _Frame, other: _Frame, read: tuple[int, int]) -> bool:
-    """Whether it is cheaper to do all that lies around two rectangles."""
+def _is_merge_cheaper(one: _Frame, other: _Frame, read: tuple[int, int]) -> bool:
+    """Return whether one frame around two reads fewer pixels than both."""
     return one.around(other).cost(read) <= one.cost(read) + other.cost(read)
 
 
-def _in_row(frames: Iterator[_Frame], read: tuple[int, int]) -> list[_Frame]:
+def _merge_row(frames: Iterator[_Frame], read: tuple[int, int]) -> list[_Frame]:
+    """Return the frames of one row, neighbours merged where that is cheaper."""
     found: list[_Frame] = []
     for frame in frames:
-        if found and _together(found[-1], frame, read):
+        if found and _is_merge_cheaper(found[-1], frame, read):
             found[-1] = found[-1].around(frame)
         else:
             found.append(frame)

@@ -49,7 +49,7 @@ _ROWS, _COLUMNS = 256, 1024
 def replace_regions(
     layer: Layer, where: Regions, make: RegionMaker, most: tuple[int, int] = (_ROWS, sys.maxsize)
 ) -> Layer:
-    """A layer in which some places are made again.
+    """Return a layer in which some regions are computed by ``make``, band by band.
 
     Parameters
     ----------
@@ -67,13 +67,13 @@ def replace_regions(
         images if layer.own else [_copy_image(image, layer, where.boxes[0]) for image in images]
     )
     made: list[MadeRegion] = []
-    for box in sorted(_in_pieces(where.boxes, most), key=_top):
+    for box in sorted(_split_boxes(where.boxes, most), key=_first_row):
         # nothing may be written over while others still look at it
-        done = _top(box) - (where.reach if results is images else 0)
-        _write((one for one in made if one[0][0].stop <= done), results)
+        done = _first_row(box) - (where.reach if results is images else 0)
+        _write_regions((one for one in made if one[0][0].stop <= done), results)
         made = [one for one in made if one[0][0].stop > done]
         made.append((box, make(images, box)))
-    _write(made, results)
+    _write_regions(made, results)
     cover = None if layer.cover is None else results[1]
     return replace(layer, colour=results[0], cover=cover, own=True)
 
@@ -81,18 +81,20 @@ def replace_regions(
 MadeRegion = tuple[PixelBox, list[Image]]
 
 
-def _top(box: PixelBox) -> int:
+def _first_row(box: PixelBox) -> int:
+    """Return the first row of a box, to sort by."""
     return int(box[0].start)
 
 
-def _write(made: Iterable[MadeRegion], results: list[Image]) -> None:
+def _write_regions(made: Iterable[MadeRegion], results: list[Image]) -> None:
+    """Copy computed regions into the results: colour and, if there is one, coverage."""
     for box, parts in made:
         for result, part in zip(results, parts, strict=True):
             result[box] = part
 
 
 def _copy_image(image: Image, layer: Layer, first: PixelBox) -> Image:
-    """A copy of what stays; unlike in others, what is empty takes no memory."""
+    """Return a copy of what stays of an image; empty parts take no memory."""
     if image[first].shape == image.shape:
         return np.empty(image.shape, image.dtype)
     if layer.cover is None:
@@ -103,7 +105,8 @@ def _copy_image(image: Image, layer: Layer, first: PixelBox) -> Image:
     return result
 
 
-def _in_pieces(boxes: list[PixelBox], most: tuple[int, int]) -> Iterator[PixelBox]:
+def _split_boxes(boxes: list[PixelBox], most: tuple[int, int]) -> Iterator[PixelBox]:
+    """Yield boxes cut into pieces of at most so many rows and columns."""
     for rows, columns in boxes:
         for top, bottom in split_range(rows.stop - rows.start, most[0]):
             for left, right in split_range(columns.stop - columns.start, most[1]):
@@ -112,12 +115,13 @@ def _in_pieces(boxes: list[PixelBox], most: tuple[int, int]) -> Iterator[PixelBo
 
 
 def blur_layer(layer: Layer, kernel: BlurKernel) -> Layer:
-    """A layer convolved with a kernel; colour and cover go through it together."""
+    """Return a layer convolved with a kernel, colour and coverage together."""
     if kernel.size == 1:
         return layer
     down, across = (side // 2 for side in kernel.shape)
 
     def blur(images: list[Image], box: PixelBox) -> list[Image]:
+        """Return the convolved images of a box."""
         seen = grow_box(box, (down, across), images[0].shape)
         top, left = (part.start - more.start for part, more in zip(box, seen, strict=True))
         light = [image[seen] for image in images]
@@ -131,7 +135,7 @@ def blur_layer(layer: Layer, kernel: BlurKernel) -> Layer:
 
 
 def bound_layers(signal: Signal, view: View, share: Callable[[LayerSpec], float]) -> float:
-    """Bound on what a picture shows of averages in its layers.
+    """Return a bound on what a picture shows of an averaging error in its layers.
 
     An error of a layer shows as at most that of its colour plus half the range times that of its
     cover: one range in an opaque layer, one and a half in others. No average leaves the range.
@@ -148,7 +152,10 @@ def bound_layers(signal: Signal, view: View, share: Callable[[LayerSpec], float]
 
 
 def bound_shift(signal: Signal, view: View, distance: float) -> float:
-    """Bound on reading every layer a distance away, px: neighbours may be black and white."""
+    """Return a bound on what reading every layer ``distance`` px away changes.
+
+    Neighbouring pixels may be black and white.
+    """
     far = math.sqrt(2.0) * (distance + position_error(view))
     return bound_layers(signal, view, lambda _: far)
 
@@ -156,14 +163,17 @@ def bound_shift(signal: Signal, view: View, distance: float) -> float:
 def largest_margin(
     view: View, reach: Callable[[LayerSpec], tuple[float, float]]
 ) -> tuple[float, float]:
-    """How far outside (across, down) any layer is looked at; what is even there needs no margin."""
+    """Return how far outside the frame (across, down, px) any layer is read.
+
+    A layer that is even outside the frame needs no margin.
+    """
     reaches = [reach(spec) for spec in layer_specs(view) if extends_beyond_frame(spec, view)]
     across, down = zip((0.0, 0.0), *reaches, strict=True)
     return max(across), max(down)
 
 
 def position_error(view: View) -> float:
-    """How far positions in single precision may lie beside what they should be, px."""
+    """Return how far positions in single precision may be off, px."""
     return float(np.spacing(np.float32(max(view.width, view.height))))
 
 
@@ -171,7 +181,7 @@ def position_error(view: View) -> float:
 
 
 def has_motion(view: View) -> bool:
-    """Whether the camera or a thing moves over the picture."""
+    """Return whether the camera or a thing moves over the picture."""
     pan = view.camera[VELOCITY]
     return any(pan) or any(
         thing.spin or any(part.value for part in thing.velocity) for thing in view.scene.things
@@ -179,13 +189,13 @@ def has_motion(view: View) -> bool:
 
 
 def displacement(motion: Motion, view: View, time: float) -> tuple[float, float]:
-    """Movement of a layer over the sensor in a time, px, the camera's own included."""
+    """Return the movement (px) of a layer over the sensor in a time (s), the camera's included."""
     own, all_ = motion.velocity, view.camera[VELOCITY]
     return (own[0] + all_[0]) * time, (own[1] + all_[1]) * time
 
 
 def largest_chord(motion: Motion, view: View, time: float) -> float:
-    """Farthest any point of a turning layer gets from where it is at time 0, px."""
+    """Return how far any point of a turning layer gets from its place within ``time`` s, px."""
     if not motion.spin:
         return 0.0
     turn, (x, y) = math.sin(min(abs(motion.spin) * time / 2.0, math.pi / 2.0)), motion.pivot
@@ -195,7 +205,7 @@ def largest_chord(motion: Motion, view: View, time: float) -> float:
 
 
 def rotate_layer(layer: Layer, angles: Sequence[float | Field], reach: float) -> Layer:
-    """Mean of a layer rotated about its pivot; an angle per row for the rolling shutter.
+    """Return the mean of a layer rotated by each of the angles about its pivot.
 
     Parameters
     ----------
@@ -207,15 +217,16 @@ def rotate_layer(layer: Layer, angles: Sequence[float | Field], reach: float) ->
     """
 
     def turn(images: list[Image], box: PixelBox) -> list[Image]:
+        """Return the rotated images of a box."""
         return _turn_images(images, box, layer.motion, angles)
 
-    where, near = sampled_regions(layer, (reach, reach)), _round(layer)
+    where, near = sampled_regions(layer, (reach, reach)), _turning_box(layer)
     boxes = [part for box in where.boxes if (part := intersect_boxes(box, near)) is not None]
     return replace_regions(layer, where._replace(boxes=boxes), turn, _TURNED)
 
 
-def _round(layer: Layer) -> PixelBox:
-    """Where anything of a layer may get that turns about its pivot."""
+def _turning_box(layer: Layer) -> PixelBox:
+    """Return the box that a layer can reach by turning about its pivot."""
     shape = layer.colour.shape
     ends = content_box(layer)
     if any(not part.start or part.stop == side for part, side in zip(ends, shape, strict=False)):
@@ -236,6 +247,7 @@ _TURNED = 128, 1024
 def _turn_images(
     images: list[Image], box: PixelBox, motion: Motion, angles: Sequence[float | Field]
 ) -> list[Image]:
+    """Return the mean of images over rotations by the angles, inside a box."""
     height, width = images[0].shape[:2]
     x = np.arange(width)[None, box[1]] - motion.pivot[0]
     y = np.arange(height)[box[0], None] - motion.pivot[1]

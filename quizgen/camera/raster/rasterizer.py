@@ -22,7 +22,7 @@ from quizgen.numerics.ufunc import warm_allocator
 
 
 class Motion(msgspec.Struct, frozen=True):
-    """How a layer moves: px/s, rad/s about a pivot (px from the first pixel), and its reach."""
+    """How a layer moves: velocity (px/s), spin (rad/s) about a pivot (px), outline's reach."""
 
     velocity: tuple[float, float] = (0.0, 0.0)
     spin: float = 0.0
@@ -42,7 +42,7 @@ ALL_CHANNELS = (0, 1, 2)
 
 
 class Layer(msgspec.Struct, frozen=True):
-    """One depth of the picture.
+    """One layer of the picture: everything that shares a depth and a motion.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class Layer(msgspec.Struct, frozen=True):
 
     @property
     def is_uniform(self) -> bool:
-        """Whether it has a single colour and covers everything."""
+        """Whether the layer has a single colour and covers everything."""
         if self.cover is not None or not (self.colour[0] == self.colour[0, 0]).all():
             return False
         bands = range(0, len(self.colour), _ROWS)
@@ -84,7 +84,7 @@ PixelBox = tuple[slice, slice]
 
 
 def composite_layers(stack: LayerStack) -> Image:
-    """Lay the layers over each other, farthest first; one opaque layer is returned as it is."""
+    """Return the layers laid over each other, farthest first; one opaque layer is not copied."""
     if len(stack) == 1:
         return stack[0].colour
     picture = stack[0].colour.copy()
@@ -94,7 +94,7 @@ def composite_layers(stack: LayerStack) -> Image:
 
 
 def composite_over(layer: Layer, picture: Image) -> Image:
-    """Lay a layer over a picture that nobody else needs."""
+    """Return a layer over a picture, which is overwritten."""
     cover = layer.cover
     if cover is None:
         return layer.colour
@@ -107,7 +107,7 @@ def composite_over(layer: Layer, picture: Image) -> Image:
 
 
 def blend_into(behind: Image, keep: Image, image: Image) -> None:
-    """Keep a share of what is behind, one for all channels or one for each, and add an image."""
+    """Multiply ``behind`` by the share that is kept, for all or each channel, and add an image."""
     if keep.shape == behind.shape:
         behind *= keep
     else:
@@ -118,7 +118,7 @@ def blend_into(behind: Image, keep: Image, image: Image) -> None:
 
 
 def bounding_box(cover: Image) -> PixelBox:
-    """Where a cover is not empty: the smallest box, none at all if there is nothing."""
+    """Return the smallest box around what a coverage does not leave empty."""
     rows = np.flatnonzero(cover.reshape(len(cover), -1).any(axis=1))
     if not rows.size:
         return slice(0, 0), slice(0, 0)
@@ -126,7 +126,8 @@ def bounding_box(cover: Image) -> PixelBox:
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
-def _place(thing: SceneObject, view: View) -> tuple[float, float]:
+def _centre_of(thing: SceneObject, view: View) -> tuple[float, float]:
+    """Return the centre of a thing on the picture (x, y), px from the first pixel."""
     return view.centre[0] + thing.x.value, view.centre[1] + thing.y.value
 
 
@@ -135,7 +136,7 @@ _BAND = 1 << 16
 
 
 def _extent(thing: SceneObject) -> tuple[float, float]:
-    """Across and down from a thing's centre, where it covers nothing, soft edge included, px."""
+    """Return how far a thing reaches from its centre, across and down, px, soft edge included."""
     if thing.shape == "box" and not thing.angle:
         return thing.width.value / 2 + 1.0, thing.height.value / 2 + 1.0
     if thing.shape == "disc":  # which may have been given the sides of a box, too
@@ -149,7 +150,7 @@ def _extent(thing: SceneObject) -> tuple[float, float]:
 
 
 def extends_beyond_frame(spec: LayerSpec, view: View) -> bool:
-    """Whether anything but an even surface stands outside the frame."""
+    """Return whether anything but an even surface lies outside the frame."""
     right, lower = (view.scene.width - 1) / 2.0, (view.scene.height - 1) / 2.0
     for thing in spec.things:
         across, down = _extent(thing)
@@ -159,32 +160,36 @@ def extends_beyond_frame(spec: LayerSpec, view: View) -> bool:
     return False
 
 
-def _box(thing: SceneObject, view: View) -> PixelBox:
-    """The part of the picture that a thing can cover."""
+def _thing_box(thing: SceneObject, view: View) -> PixelBox:
+    """Return the box of the picture that a thing can cover."""
 
     def part(middle: float, far: float, length: int) -> slice:
+        """Return the rows or columns within ``far`` of the middle."""
         if math.isinf(far):
             return slice(0, length)
         ends = math.floor(middle - far), math.ceil(middle + far) + 1
         return slice(*(min(max(end, 0), length) for end in ends))
 
-    (column, row), (across, down) = _place(thing, view), _extent(thing)
+    (column, row), (across, down) = _centre_of(thing, view), _extent(thing)
     return part(row, down, view.height), part(column, across, view.width)
 
 
 def intersect_boxes(one: PixelBox, other: PixelBox) -> PixelBox | None:
-    """What two boxes share."""
+    """Return the common part of two boxes; None if there is none."""
     rows, columns = (
         slice(max(a.start, b.start), min(a.stop, b.stop)) for a, b in zip(one, other, strict=True)
     )
     return (rows, columns) if rows.start < rows.stop and columns.start < columns.stop else None
 
 
-def _own_axes(
+def _to_own_axes(
     thing: SceneObject, view: View, rows: Coordinates, columns: Coordinates
 ) -> tuple[Coordinates, Coordinates]:
-    """Places from a thing's centre along its own axes: a row and a column, or planes if turned."""
-    column, row = _place(thing, view)
+    """Return pixel positions along a thing's own axes, from its centre, px.
+
+    A row and a column, or two planes if the thing is turned.
+    """
+    column, row = _centre_of(thing, view)
     x, y = columns[None, :] - column, rows[:, None] - row
     if not thing.angle:
         return x, y
@@ -192,16 +197,22 @@ def _own_axes(
     return cosine * x + sine * y, cosine * y - sine * x
 
 
-def _pixels(part: slice) -> Coordinates:
+def _pixel_centres(part: slice) -> Coordinates:
+    """Return the positions of a slice of pixels as numbers."""
     return np.arange(part.start, part.stop, dtype=np.float64)
 
 
-def _add(layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty: bool) -> bool:
-    """Draw the edge upon a part of a layer, empty or not; say whether anything is there to draw.
+def _draw_edge(
+    layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty: bool
+) -> bool:
+    """Draw the part of a thing with its soft edge in a box.
 
-    Memory nothing is written to is not taken from the system.
+    ``empty`` says that nothing was drawn there before. Memory that nothing is written to is not
+    taken from the system.
+
+    Return whether it covers anything there.
     """
-    place = _own_axes(thing, view, *map(_pixels, part))
+    place = _to_own_axes(thing, view, *map(_pixel_centres, part))
     share = np.subtract(0.5, SHAPES[thing.shape](thing, *place))
     np.maximum(share, 0.0, out=share)
     np.minimum(share, 1.0, out=share)
@@ -209,10 +220,10 @@ def _add(layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty:
     if not cover.any():
         return False
     image = np.empty((*cover.shape, 3), view.precision)
-    for channel, plane in enumerate(_planes(thing, view, place)):
+    for channel, plane in enumerate(_colour_planes(thing, view, place)):
         np.multiply(cover, plane, out=image[..., channel])  # far faster than all three together
     if empty:  # nothing behind is kept
-        _lay(layer, part, image, cover[..., None])
+        _assign_region(layer, part, image, cover[..., None])
         return True
     keep = 1.0 - cover[..., None]
     blend_into(layer.colour[part], keep, image)
@@ -221,27 +232,28 @@ def _add(layer: Layer, thing: SceneObject, view: View, part: PixelBox, *, empty:
     return True
 
 
-def _lay(layer: Layer, part: PixelBox, image: Image, cover: Image | float) -> None:
+def _assign_region(layer: Layer, part: PixelBox, image: Image, cover: Image | float) -> None:
+    """Set colour and coverage of a box of a layer."""
     layer.colour[part] = image
     if layer.cover is not None:
         layer.cover[part] = cover
 
 
-def _fill(layer: Layer, thing: SceneObject, view: View, part: PixelBox) -> None:
-    """Draw upon a part of a layer that a thing covers; of an even one a row stands for all."""
-    rows, columns = map(_pixels, part)
-    planes = _planes(thing, view, _own_axes(thing, view, rows, columns))
+def _fill_region(layer: Layer, thing: SceneObject, view: View, part: PixelBox) -> None:
+    """Draw a thing over a box that it covers fully; of an even thing one row stands for all."""
+    rows, columns = map(_pixel_centres, part)
+    planes = _colour_planes(thing, view, _to_own_axes(thing, view, rows, columns))
     shape = np.broadcast_shapes((1, columns.size), *map(np.shape, planes))
     image = np.empty((*shape, 3), view.precision)
     for channel, plane in enumerate(planes):
         image[..., channel] = plane
-    _lay(layer, part, image, 1.0)
+    _assign_region(layer, part, image, 1.0)
 
 
-def _planes(
+def _colour_planes(
     thing: SceneObject, view: View, place: tuple[Coordinates, Coordinates]
 ) -> Sequence[float | Image]:
-    """A thing's colours over a part."""
+    """Return a thing's red, green and blue over a box, each a number or a plane."""
     texture = TEXTURES[thing.texture]
     if texture is None:
         return thing.colour
@@ -251,22 +263,22 @@ def _planes(
 
 
 def outline_radius(thing: SceneObject) -> float:
-    """Largest distance of a thing's outline from its own centre, px."""
+    """Return the largest distance of a thing's outline from its own centre, px."""
     corners = [math.hypot(*point) for point in thing.points]
     box = math.hypot(thing.width.value, thing.height.value) / 2.0
     return max(thing.radius.value, box, *corners, 0.0) + 1.0
 
 
 def thing_motion(thing: SceneObject, view: View) -> Motion:
-    """How a thing moves over the picture."""
+    """Return how a thing moves over the picture."""
     across, down = thing.velocity[0].value, thing.velocity[1].value
     if not thing.spin:
         return Motion((across, down)) if across or down else STILL
-    return Motion((across, down), thing.spin, _place(thing, view), outline_radius(thing))
+    return Motion((across, down), thing.spin, _centre_of(thing, view), outline_radius(thing))
 
 
 class LayerSpec(msgspec.Struct, frozen=True):
-    """A layer before it is drawn: its depth (None for a depth map), motion and things."""
+    """A layer before it is drawn: its depth (m, None for a map), motion and things."""
 
     depth: float | None
     motion: Motion
@@ -275,7 +287,10 @@ class LayerSpec(msgspec.Struct, frozen=True):
 
 
 def layer_specs(view: View) -> tuple[LayerSpec, ...]:
-    """Which layers a scene needs, farthest first: things that share blur and motion share one."""
+    """Return the layers that a scene needs, farthest first.
+
+    Things of one blur and motion share one.
+    """
     scene = view.scene
     behind = scene.background_depth if scene.image is None else scene.depth
     base = None if isinstance(behind, np.ndarray) else behind
@@ -287,6 +302,7 @@ def layer_specs(view: View) -> tuple[LayerSpec, ...]:
     focused = aperture_diameter(view.camera) is not None
 
     def key(thing: SceneObject) -> tuple[float | None, Motion]:
+        """Return what the things of one layer have in common."""
         return (thing.depth if focused else None), thing_motion(thing, view)
 
     for (depth, moves), group in groupby(ordered, key=key):
@@ -305,7 +321,7 @@ _SETTLED = 30 << 20
 
 
 def rasterize(view: View) -> LayerStack:
-    """Draw everything.
+    """Return the drawn layers of a scene.
 
     Parameters
     ----------
@@ -337,12 +353,12 @@ NOTHING, ALL = 0, 2
 
 
 def cell_height(width: int) -> int:
-    """Rows of a cell: as many pixels in more rows, where the picture is narrow."""
+    """Return the rows of a cell for a picture of this width: more where it is narrow."""
     return max(CELL, _CELLS_AT_ONCE * CELL * CELL // width)
 
 
 def classify_cells(away: NDArray[np.float64], reach: float) -> CellStates:
-    """What becomes of cells.
+    """Return whether a thing leaves each cell empty, covers it, or may have its edge there.
 
     Parameters
     ----------
@@ -356,7 +372,10 @@ def classify_cells(away: NDArray[np.float64], reach: float) -> CellStates:
 
 
 def iter_runs(row: list[int]) -> Iterator[tuple[slice, bool]]:
-    """Cells beside each other that are covered alike, unless not at all, and whether all are."""
+    """Yield (cells, whether covered) of neighbours in a row that are alike.
+
+    Empty ones are left out.
+    """
     start = 0
     for state, alike in groupby(row):
         stop = start + len(list(alike))
@@ -367,13 +386,13 @@ def iter_runs(row: list[int]) -> Iterator[tuple[slice, bool]]:
 
 
 def _draw_layer(spec: LayerSpec, view: View) -> Layer:
-    """One band after the other, each with all that it shows."""
-    layer, boxes = _bare(spec, view), [_box(thing, view) for thing in spec.things]
+    """Return the drawn layer of a specification, one band of rows after the other."""
+    layer, boxes = _allocate_layer(spec, view), [_thing_box(thing, view) for thing in spec.things]
     if view.scene.image is not None and not spec.things:
         return layer
     line = np.empty((view.width, 3), view.precision)
     line[...] = view.scene.background
-    each = [_states(thing, view) for thing in spec.things]
+    each = [_classify_thing_cells(thing, view) for thing in spec.things]
     for number, rows in enumerate(
         starmap(slice, split_range(view.height, cell_height(view.width)))
     ):
@@ -387,25 +406,25 @@ def _draw_layer(spec: LayerSpec, view: View) -> Layer:
                 if part is None:
                     continue
                 if full:
-                    _fill(layer, thing, view, part)
-                if full or _add(layer, thing, view, part, empty=not any(drawn[cells])):
+                    _fill_region(layer, thing, view, part)
+                if full or _draw_edge(layer, thing, view, part, empty=not any(drawn[cells])):
                     drawn[cells] = [True] * len(drawn[cells])
     return layer
 
 
-def _states(thing: SceneObject, view: View) -> CellStates:
-    """What a thing does to every cell of the picture."""
+def _classify_thing_cells(thing: SceneObject, view: View) -> CellStates:
+    """Return for every cell of the picture whether a thing covers it."""
     height = cell_height(view.width)
     rows, columns = (
         np.arange(0.0, length, side) + (side - 1) / 2.0
         for length, side in ((view.height, height), (view.width, CELL))
     )
-    place = _own_axes(thing, view, rows, columns)
+    place = _to_own_axes(thing, view, rows, columns)
     return classify_cells(CLOSEST[thing.shape](thing, *place), math.hypot(height, CELL) / 2.0)
 
 
-def _bare(spec: LayerSpec, view: View) -> Layer:
-    """A layer on which nothing is drawn yet; a picture that is not kept will be drawn upon."""
+def _allocate_layer(spec: LayerSpec, view: View) -> Layer:
+    """Return a layer with nothing drawn yet, or the scene's own picture."""
     scene, shape = view.scene, (view.height, view.width)
     depth = math.inf if spec.depth is None else spec.depth
     if not spec.opaque:

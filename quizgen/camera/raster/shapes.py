@@ -18,15 +18,20 @@ ShapeFunction = Callable[[SceneObject, Coordinates, Coordinates], Coordinates]
 TextureFunction = Callable[[SceneObject, Coordinates, Coordinates], Coverage]
 
 
-def _box(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+def _box_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to a box, largest of both axes, px."""
     return np.maximum(np.abs(x) - thing.width.value / 2, np.abs(y) - thing.height.value / 2)
 
 
-def _disc(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
-    """Of one smaller than a pixel what gives each pixel its exact share: an edge would be wider."""
+def _disc_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to a disc, px.
+
+    Below a radius of 1 px, the value that gives each pixel its exact share of the area: the soft
+    edge would be wider than the disc.
+    """
     radius = thing.radius.value
     if radius >= 1.0:
-        return _from_rim(thing, x, y)
+        return _circle_distance(thing, x, y)
     left, right = (np.clip((x + side) / radius, -1.0, 1.0) for side in (-0.5, 0.5))
     upper, lower = (np.clip((y + side) / radius, -1.0, 1.0) for side in (-0.5, 0.5))
     corners = [
@@ -35,11 +40,13 @@ def _disc(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     return np.asarray(0.5 - radius**2 * (corners[3] - corners[2] - corners[1] + corners[0]))
 
 
-def _from_rim(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+def _circle_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to a circle, px."""
     return np.hypot(x, y) - thing.radius.value
 
 
-def _ellipse(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+def _ellipse_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to an ellipse, px, to first order near its outline."""
     half_width, half_height = thing.width.value / 2, thing.height.value / 2
     level = np.hypot(x / half_width, y / half_height)
     slope = np.hypot(x / half_width**2, y / half_height**2)
@@ -47,14 +54,18 @@ def _ellipse(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     return np.asarray((level - 1.0) * np.maximum(level, middle) / np.maximum(slope, middle))
 
 
-def _grid(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+def _grid_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to the nearest line of a grid, px."""
+
     def to_line(position: Coordinates) -> Coordinates:
+        """Return the distance to the middle of the nearest line."""
         return np.abs(position - thing.cell.value * np.round(position / thing.cell.value))
 
     return np.minimum(to_line(x), to_line(y)) - thing.stroke.value / 2
 
 
-def _blades(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+def _blades_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return the signed distance to the blades of a propeller and its hub, px."""
     step = 2.0 * math.pi / thing.count
     turn = np.arctan2(y, x)
     turn -= step * np.round(turn / step)
@@ -64,18 +75,20 @@ def _blades(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
     return np.asarray(np.minimum(blade, distance - thing.stroke.value * 0.8))
 
 
-def _polygon(thing: SceneObject, x: Coordinates, y: Coordinates, reach: float = 1.0) -> Coordinates:
-    """Distances beyond the soft edge are not computed: only near a side does its own one count."""
+def _polygon_distance(
+    thing: SceneObject, x: Coordinates, y: Coordinates, reach: float = 1.0
+) -> Coordinates:
+    """Return the signed distance to a polygon, px; infinite beyond ``reach``, which saves time."""
     shape = np.broadcast_shapes(x.shape, y.shape)
     distance, inside = np.full(shape, np.inf), np.zeros(shape, bool)
-    rows, columns = _ends(y, 1), _ends(x, 0)
+    rows, columns = _value_ends(y, 1), _value_ends(x, 0)
     for (ax, ay), (bx, by) in zip(thing.points, (*thing.points[1:], thing.points[0]), strict=True):
         squared = (bx - ax) ** 2 + (by - ay) ** 2
-        level = _near(rows, ay, by, reach)
+        level = _find_near_lines(rows, ay, by, reach)
         if not squared or level.start == level.stop:
             continue  # a corner given twice, such as the first one to close the outline, or far off
-        here, there = (level, _near(columns, ax, bx, reach)), _of(level, y)
-        across, down = x[_of(level, x)][:, here[1]] - ax, y[there] - ay
+        here, there = (level, _find_near_lines(columns, ax, bx, reach)), _select_lines(level, y)
+        across, down = x[_select_lines(level, x)][:, here[1]] - ax, y[there] - ay
         if down.shape[1] > 1:
             down = down[:, here[1]]
         if across.size:
@@ -85,44 +98,48 @@ def _polygon(thing: SceneObject, x: Coordinates, y: Coordinates, reach: float = 
         if ay != by:
             crossing = (ay > y[there]) != (by > y[there])
             before = (bx - ax) * (y[there] - ay) / (by - ay) + ax
-            inside[level] ^= crossing & (x[_of(level, x)] < before)
+            inside[level] ^= crossing & (x[_select_lines(level, x)] < before)
     return np.where(inside, -distance, distance)
 
 
-def _ends(plane: Coordinates, axis: int) -> tuple[Coordinates, Coordinates]:
-    """Smallest and largest value of every row or column."""
+def _value_ends(plane: Coordinates, axis: int) -> tuple[Coordinates, Coordinates]:
+    """Return the smallest and the largest value of every row or column."""
     return plane.min(axis=axis), plane.max(axis=axis)
 
 
-def _near(ends: tuple[Coordinates, Coordinates], start: float, stop: float, reach: float) -> slice:
-    """Rows or columns from the first to the last that is so near to a side."""
+def _find_near_lines(
+    ends: tuple[Coordinates, Coordinates], start: float, stop: float, reach: float
+) -> slice:
+    """Return the rows or columns within ``reach`` of a side from start to stop."""
     low, high = ends
     near = np.flatnonzero((high >= min(start, stop) - reach) & (low <= max(start, stop) + reach))
     return slice(near[0], near[-1] + 1) if near.size else slice(0, 0)
 
 
-def _of(rows: slice, plane: Coordinates) -> slice:
-    """These rows of a plane, or the only one that stands for all."""
+def _select_lines(rows: slice, plane: Coordinates) -> slice:
+    """Return these rows of a plane, or the only one that stands for all."""
     return rows if len(plane) > 1 else slice(None)
 
 
-def _full(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+def _everywhere(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return -infinity: all of the picture is inside."""
     return np.full(np.broadcast_shapes(x.shape, y.shape), -np.inf)
 
 
 SHAPES: dict[str, ShapeFunction] = {
-    "box": _box,
-    "disc": _disc,
-    "ellipse": _ellipse,
-    "grid": _grid,
-    "blades": _blades,
-    "polygon": _polygon,
-    "full": _full,
+    "box": _box_distance,
+    "disc": _disc_distance,
+    "ellipse": _ellipse_distance,
+    "grid": _grid_distance,
+    "blades": _blades_distance,
+    "polygon": _polygon_distance,
+    "full": _everywhere,
 }
 """Signed distance to the outline in px, negative inside."""
 
 
-def _closest_of_ellipse(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+def _least_ellipse_distance(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coordinates:
+    """Return a lower bound of the distance to an ellipse that changes at most as one moves."""
     half_width, half_height = thing.width.value / 2, thing.height.value / 2
     level = np.hypot(x / half_width, y / half_height)
     return np.asarray((level - 1.0) * min(half_width, half_height))
@@ -130,9 +147,9 @@ def _closest_of_ellipse(thing: SceneObject, x: Coordinates, y: Coordinates) -> C
 
 CLOSEST: dict[str, ShapeFunction] = {
     **SHAPES,
-    "disc": _from_rim,
-    "ellipse": _closest_of_ellipse,
-    "polygon": partial(_polygon, reach=math.inf),
+    "disc": _circle_distance,
+    "ellipse": _least_ellipse_distance,
+    "polygon": partial(_polygon_distance, reach=math.inf),
 }
 """No farther from the outline, on the same side; from place to place it changes by their distance
 at most, so that what it is somewhere says what there is around."""
@@ -149,35 +166,44 @@ SIZES = {
 """What each shape needs."""
 
 
-def _checker(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
-    return _odd(x / thing.cell.value) != _odd(y / thing.cell.value)
+def _checker_share(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
+    """Return the share of the second colour in a checkerboard."""
+    return _is_floor_odd(x / thing.cell.value) != _is_floor_odd(y / thing.cell.value)
 
 
-def _odd(place: Coordinates) -> NDArray[np.bool_]:
-    """Whether the whole number below is odd: a remainder of NumPy's takes three times as long."""
+def _is_floor_odd(place: Coordinates) -> NDArray[np.bool_]:
+    """Return whether the integer part is odd; ``place`` is overwritten.
+
+    NumPy's remainder takes three times as long.
+    """
     half = np.floor(place, out=place)
     half *= 0.5
     return np.asarray(half != np.floor(half))
 
 
-def _stripes(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
-    return _wave(2.0 * math.pi * x / thing.cell.value)
+def _stripes_share(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
+    """Return the share of the second colour in stripes with a cosine profile."""
+    return _cosine_wave(2.0 * math.pi * x / thing.cell.value)
 
 
-def _ramp(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
+def _ramp_share(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
+    """Return the share of the second colour, rising from 0 to 1 over the width."""
     return np.clip(x / max(thing.width.value, 1e-9) + 0.5, 0.0, 1.0)
 
 
-def _rings(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
-    """Rings whose period shrinks to ``cell`` at ``radius`` (a zone plate)."""
+def _rings_share(thing: SceneObject, x: Coordinates, y: Coordinates) -> Coverage:
+    """Return the share of the second colour in rings (a zone plate).
+
+    Their period shrinks to ``cell`` at ``radius``.
+    """
     scale = math.pi / (thing.cell.value * max(thing.radius.value, 1.0))
     squared = x * x + y * y
     squared *= scale
-    return _wave(squared)
+    return _cosine_wave(squared)
 
 
-def _wave(phase: Coordinates) -> Coverage:
-    """From 0 to 1 and back; over the phase, which nobody else needs."""
+def _cosine_wave(phase: Coordinates) -> Coverage:
+    """Return (1 - cos phase)/2; ``phase`` is overwritten."""
     np.cos(phase, out=phase)
     phase *= 0.5
     return np.subtract(0.5, phase, out=phase)
@@ -185,9 +211,9 @@ def _wave(phase: Coordinates) -> Coverage:
 
 TEXTURES: dict[str, TextureFunction | None] = {
     "plain": None,
-    "checker": _checker,
-    "stripes": _stripes,
-    "ramp": _ramp,
-    "rings": _rings,
+    "checker": _checker_share,
+    "stripes": _stripes_share,
+    "ramp": _ramp_share,
+    "rings": _rings_share,
 }
 """Share of the second colour, in [0, 1]."""

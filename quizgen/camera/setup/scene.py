@@ -25,11 +25,11 @@ PRECISIONS: tuple[Precision, ...] = get_args(Precision)
 
 
 class SceneError(QuizgenError):
-    """A scene or a camera is wrong; the message names the file, the line or the field."""
+    """Raised if a scene or a camera is wrong; the message names the file, the line or the field."""
 
 
 class SettingError(SceneError):
-    """A setting of the camera is wrong.
+    """Raised if a setting of the camera is wrong.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class SettingError(SceneError):
 
 
 class Length(NamedTuple):
-    """A length on the sensor (px) or in the world (m)."""
+    """A length on the sensor (px) or, if ``metric``, in the world (m)."""
 
     value: float
     metric: bool = False
@@ -55,7 +55,7 @@ NONE, CELL, STROKE = Length(0.0), Length(16.0), Length(2.0)
 
 @dataclass(frozen=True, slots=True)
 class SceneObject:
-    """One drawn object.
+    """One thing to be drawn: shape, size, place, colours and motion.
 
     Parameters
     ----------
@@ -105,13 +105,13 @@ class SceneObject:
         return any(one.metric for one in (*self.lengths().values(), *self.velocity))
 
     def lengths(self) -> dict[str, Length]:
-        """Every length field by name."""
+        """Return every length of the object by the name of its field."""
         return {name: getattr(self, name) for name in length_fields()}
 
 
 @cache
 def length_fields() -> tuple[str, ...]:
-    """Names of the fields of an object that are lengths."""
+    """Return the names of the fields of an object that are lengths."""
     return tuple(item.name for item in fields(SceneObject) if isinstance(item.default, Length))
 
 
@@ -121,7 +121,7 @@ PictureMeasure = Callable[[NDArray[np.floating]], float]
 
 @dataclass(frozen=True)
 class Reading:
-    """What is read off a picture, and how well that is marked.
+    """A value that is read off a picture, and how it is marked.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ class PictureQuestion:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Drawn things, or a picture with a depth (one number or a map).
+    """What the camera looks at: drawn things, or a picture with a depth (one number or a map).
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ class Scene:
     things : tuple of SceneObject
         In any order; farther things are drawn first.
     background : (float, float, float)
-        Linear radiance behind everything.
+        Linear radiance where no thing is.
     background_depth : float
         Its distance in m.
     image : numpy.ndarray or None
@@ -181,7 +181,7 @@ class Scene:
     exif : mapping of str to float
         Settings of the camera that were read from the picture's file, in base units.
     precision : str
-        What the picture is computed in: random effects draw the same luck in either.
+        What the picture is computed in: random effects draw the same numbers in either.
     file : pathlib.Path or None
         What it was read from: errors that show only when it is photographed name it.
     """
@@ -207,14 +207,17 @@ class Scene:
 
     @cached_property
     def radiance_range(self) -> tuple[float, float]:
-        """Smallest and largest radiance that can occur, from the colours or the picture."""
+        """The smallest and the largest radiance that can occur, from the colours or the picture."""
         seen = [thing.other for thing in self.things if thing.texture != "plain"]
         seen.extend(thing.colour for thing in self.things)
         colours = [level for colour in seen for level in colour]
-        return min((*colours, *self._behind)), max((*colours, *self._behind))
+        return min((*colours, *self._background_radiance)), max(
+            (*colours, *self._background_radiance)
+        )
 
     @cached_property
-    def _behind(self) -> tuple[float, ...]:
+    def _background_radiance(self) -> tuple[float, ...]:
+        """The radiances of the background colour, or smallest and largest of the picture."""
         if self.image is None:
             return self.background
         return float(self.image.min()), float(self.image.max())

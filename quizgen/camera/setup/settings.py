@@ -25,7 +25,7 @@ Judged_contra = TypeVar("Judged_contra", contravariant=True)
 
 
 class CameraSettings:
-    """The values of a camera; what was not given is the identity.
+    """The settings of a camera; one that was not given has the value that changes nothing.
 
     Parameters
     ----------
@@ -37,28 +37,32 @@ class CameraSettings:
         self.given = dict(given)
 
     def __getitem__(self, setting: Setting[T]) -> T:
+        """Return the value of a setting: what was given, else its identity."""
         return self.given.get(setting.name, setting.identity)  # type: ignore[return-value]
 
     def __eq__(self, other: object) -> bool:
+        """Return whether the same settings were given."""
         return isinstance(other, CameraSettings) and self.given == other.given
 
     def __hash__(self) -> int:
+        """Return a hash of what was given."""
         return hash(frozenset(self.given.items()))
 
     def __repr__(self) -> str:
+        """Return the settings as they were given."""
         named = ", ".join(f"{name}={value!r}" for name, value in self.given.items())
         return f"{type(self).__name__}({named})"
 
 
 class SettingRule(msgspec.Struct, Generic[Judged_contra], frozen=True):
-    """What a value that is not the identity must fulfil, and what is said after its name if not."""
+    """A condition on a value that is not the identity, and the message if it is broken."""
 
     holds: Callable[[Judged_contra, CameraSettings], bool]
     message: str
 
 
 class Setting(msgspec.Struct, Generic[T], frozen=True):
-    """One key of ``[camera]``.
+    """One setting of the camera, a key of ``[camera]``.
 
     Parameters
     ----------
@@ -69,7 +73,7 @@ class Setting(msgspec.Struct, Generic[T], frozen=True):
     identity : object
         The value that changes nothing.
     rules : tuple of SettingRule
-        What it may be, also beside the other settings.
+        What it may be, alone and together with other settings.
     """
 
     name: str
@@ -78,7 +82,7 @@ class Setting(msgspec.Struct, Generic[T], frozen=True):
     rules: tuple[SettingRule[T], ...] = ()
 
     def find_faults(self, settings: CameraSettings) -> Iterator[str]:
-        """Message of every rule that the value breaks, with the setting's name."""
+        """Yield the message of every rule that the value breaks, with the setting's name."""
         value = settings[self]
         if value != self.identity:
             broken = (rule for rule in self.rules if not rule.holds(value, settings))
@@ -90,9 +94,10 @@ AnySetting = Setting[Any]
 
 
 def in_range(low: float, high: float, unit: str = "") -> SettingRule[float | None]:
-    """Rule that a number lies in a range, its ends included."""
+    """Return the rule that a number lies in a range, ends included; ``unit`` is for the message."""
 
     def holds(value: float | None, _: CameraSettings) -> bool:
+        """Return whether the value is absent or in the range."""
         return value is None or low <= value <= high
 
     return SettingRule(holds, f"must be {low:g} to {high:g} {unit}".rstrip())
@@ -103,7 +108,7 @@ SHARE = in_range(0.0, 1.0)
 
 
 def suggest_setting(name: str, known: Iterable[str]) -> str:
-    """A hint at the key that was probably meant."""
+    """Return the end of a message: the known key closest to a misspelt one, or ""."""
     close = get_close_matches(name, known, 1)
     return f"; did you mean {close[0]!r}?" if close else ""
 
@@ -111,7 +116,8 @@ def suggest_setting(name: str, known: Iterable[str]) -> str:
 # Settings that several effects share: the lens, the shutter, the size of a photosite
 
 
-def _f_number(value: object) -> float:
+def _parse_f_number(value: object) -> float:
+    """Return an f-number from a number or a text such as ``f/8``."""
     if not isinstance(value, str):
         return parse_plain_number(value)
     try:
@@ -120,15 +126,16 @@ def _f_number(value: object) -> float:
         raise ValueError(f"cannot read {value!r}; expected 2.8 or 'f/2.8'") from None
 
 
-def _maybe(
+def _optional_setting(
     name: str, read: ValueParser[float], *rules: SettingRule[float | None]
 ) -> Setting[float | None]:
+    """Return a setting that is None unless it is given."""
     return Setting(name, read, None, rules)
 
 
-FOCAL_LENGTH = _maybe("focal_length", quantity_parser("m"), in_range(1e-6, 1e3, "m"))
-PIXEL_PITCH = _maybe("pixel_pitch", quantity_parser("m"), in_range(1e-9, 1.0, "m"))
-FULL_WELL = _maybe("full_well", quantity_parser("e-"), in_range(1.0, 1e12, "e-"))
+FOCAL_LENGTH = _optional_setting("focal_length", quantity_parser("m"), in_range(1e-6, 1e3, "m"))
+PIXEL_PITCH = _optional_setting("pixel_pitch", quantity_parser("m"), in_range(1e-9, 1.0, "m"))
+FULL_WELL = _optional_setting("full_well", quantity_parser("e-"), in_range(1.0, 1e12, "e-"))
 """Electrons at signal 1; None counts no electrons."""
 NEEDS_LENS = SettingRule[object](
     lambda _, camera: camera[FOCAL_LENGTH] is not None and camera[PIXEL_PITCH] is not None,
@@ -137,7 +144,7 @@ NEEDS_LENS = SettingRule[object](
 NEEDS_FULL_WELL = SettingRule[object](
     lambda _, camera: camera[FULL_WELL] is not None, "needs full_well"
 )
-F_NUMBER = _maybe("f_number", _f_number, in_range(0.01, 1e6), NEEDS_LENS)
+F_NUMBER = _optional_setting("f_number", _parse_f_number, in_range(0.01, 1e6), NEEDS_LENS)
 """None is a pinhole without width."""
 _FOCUS = SettingRule[float](
     lambda distance, camera: distance > (camera[FOCAL_LENGTH] or 0.0), "must exceed focal_length"
@@ -147,7 +154,9 @@ _NO_LENS = SettingRule[object](
     lambda _, camera: camera[F_NUMBER] is None and math.isinf(camera[FOCUS_DISTANCE]),
     "stands instead of f_number and focus_distance",
 )
-PINHOLE = _maybe("pinhole", quantity_parser("m"), in_range(1e-6, 1.0, "m"), NEEDS_LENS, _NO_LENS)
+PINHOLE = _optional_setting(
+    "pinhole", quantity_parser("m"), in_range(1e-6, 1.0, "m"), NEEDS_LENS, _NO_LENS
+)
 """Diameter of a hole without a lens, m; `FOCAL_LENGTH` is then its distance from the sensor."""
 SHUTTER = Setting("shutter", quantity_parser("s"), 0.0, (NOT_NEGATIVE,))
 """Exposure time, s."""
@@ -160,6 +169,6 @@ BODY: tuple[AnySetting, ...] = (
 
 
 def aperture_diameter(camera: CameraSettings) -> float | None:
-    """Diameter of the opening that light comes through, m; None for a point."""
+    """Return the diameter of the camera's opening, m; None for a point."""
     length, number = camera[FOCAL_LENGTH], camera[F_NUMBER]
     return camera[PINHOLE] if number is None or length is None else length / number

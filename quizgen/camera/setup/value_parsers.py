@@ -29,13 +29,17 @@ _QUANTITY = re.compile(rf"\s*(?P<number>{_NUMBER})\s*(?P<unit>.*?)\s*")
 
 
 def _check_magnitude(value: float) -> float:
+    """Return a value in base units; raise ``ValueError`` if it is larger than `LARGEST`."""
     if abs(value) > LARGEST:
         raise ValueError(f"expected at most {LARGEST:g} in base units")
     return value
 
 
-def _measure(text: object) -> tuple[float, Dimension]:
-    """Number in base units and its dimension; degrees become radians."""
+def _parse_quantity(text: object) -> tuple[float, Dimension]:
+    """Return number in base units and dimension of a text such as ``5 mm``.
+
+    Degrees become radians.
+    """
     if not isinstance(text, str):
         raise ValueError("expected a quantity with its unit in quotes")
     match = _QUANTITY.fullmatch(text)
@@ -51,13 +55,14 @@ def _measure(text: object) -> tuple[float, Dimension]:
 
 
 def quantity_parser(name: str) -> ValueParser[float]:
-    """Reader of a number with a unit of the same dimension as ``name``."""
+    """Return a parser of quantities with the dimension of the unit ``name``, to base units."""
     expected = get_unit(name).dimension
 
     def read(text: object) -> float:
+        """Return the value in base units, or raise ``ValueError``."""
         if text == "inf" and expected == get_unit("m").dimension:
             return math.inf
-        value, dimension = _measure(text)
+        value, dimension = _parse_quantity(text)
         if dimension != expected:
             raise ValueError(f"expected a unit like {name!r}")
         return value
@@ -66,10 +71,11 @@ def quantity_parser(name: str) -> ValueParser[float]:
 
 
 def length_parser(per: str = "") -> ValueParser[Length]:
-    """Reader of a length in px or m, or of one per time."""
+    """Return a parser of lengths in px or m; with ``per`` (such as ``/s``) of one per time."""
 
     def read(text: object) -> Length:
-        value, dimension = _measure(text)
+        """Return the length, or raise ``ValueError``."""
+        value, dimension = _parse_quantity(text)
         for metric in (True, False):
             if dimension == get_unit(("m" if metric else "px") + per).dimension:
                 return Length(value, metric)
@@ -79,37 +85,38 @@ def length_parser(per: str = "") -> ValueParser[Length]:
 
 
 def parse_plain_number(value: object) -> float:
-    """A plain number."""
+    """Return a finite number without a unit; raise ``ValueError`` for anything else."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
         raise ValueError("expected a number")
     return _check_magnitude(float(value))
 
 
 def parse_integer(value: object) -> int:
-    """A whole number."""
+    """Return a whole number; raise ``ValueError`` for anything else."""
     if isinstance(value, bool) or not isinstance(value, int):
         raise ValueError("expected a whole number")
     return value
 
 
 def parse_bool(value: object) -> bool:
-    """True or false."""
+    """Return true or false; raise ``ValueError`` for anything else."""
     if not isinstance(value, bool):
         raise ValueError("expected true or false")
     return value
 
 
 def parse_text(value: object) -> str:
-    """Text."""
+    """Return a text; raise ``ValueError`` for anything else."""
     if not isinstance(value, str):
         raise ValueError("expected text in quotes")
     return value
 
 
 def choice_parser(*allowed: str) -> ValueParser[str]:
-    """Reader of one of the given words."""
+    """Return a parser that takes one of the given words."""
 
     def read(value: object) -> str:
+        """Return the word, or raise ``ValueError``."""
         if value not in allowed:
             raise ValueError(f"expected one of {', '.join(allowed)}")
         return str(value)
@@ -118,9 +125,10 @@ def choice_parser(*allowed: str) -> ValueParser[str]:
 
 
 def list_parser(part: ValueParser[T], count: int | None = None) -> ValueParser[tuple[T, ...]]:
-    """Reader of a list."""
+    """Return a parser of a list, each item by ``part``; ``count`` None allows any length."""
 
     def read(value: object) -> tuple[T, ...]:
+        """Return the items, or raise ``ValueError``."""
         if not isinstance(value, list) or count not in (None, len(value)):
             raise ValueError(f"expected a list of {count or 'several'} values")
         return tuple(part(item) for item in value)
@@ -129,9 +137,10 @@ def list_parser(part: ValueParser[T], count: int | None = None) -> ValueParser[t
 
 
 def pair_parser(part: ValueParser[T]) -> ValueParser[tuple[T, T]]:
-    """Reader of a list of two."""
+    """Return a parser of a list of two, each item by ``part``."""
 
     def read(value: object) -> tuple[T, T]:
+        """Return both items, or raise ``ValueError``."""
         first, second = list_parser(part, 2)(value)
         return first, second
 
@@ -139,13 +148,13 @@ def pair_parser(part: ValueParser[T]) -> ValueParser[tuple[T, T]]:
 
 
 def parse_triple(value: object) -> Colour:
-    """Three numbers, for red, green and blue."""
+    """Return three numbers, for red, green and blue; raise ``ValueError`` for anything else."""
     red, green, blue = list_parser(parse_plain_number, 3)(value)
     return red, green, blue
 
 
 def parse_colour(value: object) -> Colour:
-    """``#rrggbb`` in sRGB, or three linear radiances."""
+    """Return linear radiances of ``#rrggbb`` in sRGB, or of three numbers."""
     if isinstance(value, str) and re.fullmatch(r"#[0-9a-fA-F]{6}", value):
         codes = [int(value[place : place + 2], 16) / 255.0 for place in (1, 3, 5)]
         red, green, blue = (float(light) for light in srgb_decode(codes))

@@ -21,7 +21,7 @@ from quizgen.camera.setup.settings import (
 
 
 class View(msgspec.Struct, frozen=True):
-    """A camera looking at a scene.
+    """A camera looking at a scene, with all that follows from both: sizes and distances in px.
 
     Parameters
     ----------
@@ -37,17 +37,17 @@ class View(msgspec.Struct, frozen=True):
 
     @property
     def width(self) -> int:
-        """Columns."""
+        """Columns, margin included."""
         return self.scene.width + 2 * self.margin[0]
 
     @property
     def height(self) -> int:
-        """Rows."""
+        """Rows, margin included."""
         return self.scene.height + 2 * self.margin[1]
 
     @property
     def precision(self) -> Precision:
-        """What the picture is computed in."""
+        """The type of number that the picture is computed in."""
         return self.scene.precision
 
     @property
@@ -79,12 +79,12 @@ class View(msgspec.Struct, frozen=True):
 
     @property
     def corner(self) -> float:
-        """Distance from the principal point to the farthest pixel centre, px."""
+        """Distance from the principal point to the farthest pixel centre, margin included, px."""
         return math.hypot(*self.centre)
 
     @property
     def frame_corner(self) -> float:
-        """The same without the margin, px."""
+        """Distance from the principal point to the frame's farthest pixel, without margin, px."""
         return math.hypot((self.scene.width - 1) / 2.0, (self.scene.height - 1) / 2.0)
 
     @property
@@ -97,7 +97,7 @@ class View(msgspec.Struct, frozen=True):
     @overload
     def blur_diameter(self, depth: Image) -> NDArray[np.floating]: ...
     def blur_diameter(self, depth: float | Image) -> float | NDArray[np.floating]:
-        """Signed circle of confusion, px: positive behind the plane of focus.
+        """Return the signed circle of confusion, px: positive farther than the plane of focus.
 
         Parameters
         ----------
@@ -119,7 +119,7 @@ class View(msgspec.Struct, frozen=True):
 
 
 class Signal(msgspec.Struct, frozen=True):
-    """Between which numbers every value of a picture lies, luck and rounding included.
+    """The range in which every value of a picture lies, noise and rounding included.
 
     Parameters
     ----------
@@ -132,32 +132,32 @@ class Signal(msgspec.Struct, frozen=True):
 
     @property
     def span(self) -> float:
-        """Largest minus smallest value."""
+        """Largest minus smallest value, 1 = white."""
         return self.high - self.low
 
     @property
     def size(self) -> float:
-        """Largest magnitude."""
+        """Largest magnitude of any value, 1 = white."""
         return max(abs(self.low), abs(self.high))
 
     def with_margins(self, down: float, up: float) -> Signal:
-        """With more room below and above."""
+        """Return the range, wider by so much below and above."""
         return Signal(self.low - down, self.high + up)
 
     def scale_range(self, least: float, most: float) -> Signal:
-        """Every value times a factor of its own between two that are >= 0."""
+        """Return the range of values times factors between two that are >= 0."""
         return Signal(
             min(self.low * least, self.low * most), max(self.high * least, self.high * most)
         )
 
     def including(self, low: float, high: float) -> Signal:
-        """With two more values in it."""
+        """Return the range, wide enough for two more values."""
         return Signal(min(self.low, low), max(self.high, high))
 
     def clip_range(self, low: float, high: float) -> Signal:
-        """Cut at two values."""
+        """Return the range of values clipped to [low, high]."""
         return Signal(min(max(self.low, low), high), max(min(self.high, high), low))
 
     def outside(self, low: float, high: float) -> float:
-        """How far any value stands beyond two others."""
+        """Return how far any value can lie outside [low, high]."""
         return max(self.high - high, low - self.low, 0.0)

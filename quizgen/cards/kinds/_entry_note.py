@@ -16,7 +16,7 @@ def entry_note(
     words: Mapping[str, CardWords],
     refs: tuple[str, ...],
 ) -> Note:
-    """A plain note.
+    """Return a note with a front and a back, made of one authored entry.
 
     Parameters
     ----------

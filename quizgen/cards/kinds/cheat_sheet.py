@@ -12,7 +12,7 @@ from quizgen.question.entry_prose import entry_blocks
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:
-    """One note per entry of the cheat sheet."""
+    """Yield one note per entry of the cheat sheet."""
     for entry in read_card_entries(wish.bank, CheatSheetEntry):
         sides = {
             "Front": {lang: entry_blocks(entry, "ask", lang) for lang in wish.langs},

@@ -18,7 +18,7 @@ LETTERS = "ABCD"
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:
-    """One note per term, its distractors in a fixed order; none if there are too few terms."""
+    """Yield one multiple-choice note per term; none if the bank has too few terms."""
     terms = read_card_entries(wish.bank, VocabularyEntry)
     if len(terms) < len(LETTERS):
         return
@@ -34,7 +34,7 @@ def notes(wish: DeckRequest) -> Iterator[Note]:
 def pick_distractors(
     entry: VocabularyEntry, terms: Sequence[VocabularyEntry]
 ) -> list[VocabularyEntry]:
-    """Four terms in a fixed order: this one, and three of its group, else its neighbours."""
+    """Return four terms in a fixed order: this one, and three of its group, else its neighbours."""
     others = sorted(
         (t for t in terms if t.id != entry.id), key=lambda t: _rank_distractor(entry, t)
     )
@@ -44,16 +44,18 @@ def pick_distractors(
 
 
 def _rank_distractor(entry: VocabularyEntry, other: VocabularyEntry) -> tuple[int, bytes]:
-    """How close a distractor is: any of the group comes first, then the nearest in the list."""
+    """Return the sort key of a distractor: its group first, then its distance in the list."""
     far = 0 if other.group == entry.group else abs(other.number - entry.number)
     return far, _hash_entry_pair(entry, other)
 
 
 def _hash_entry_pair(entry: VocabularyEntry, other: VocabularyEntry) -> bytes:
+    """Return a digest of two terms, by which options are ordered: fixed, but without a pattern."""
     return hashlib.sha256(f"choice/{entry.id}/{other.id}".encode()).digest()
 
 
 def _build_front(entry: VocabularyEntry, options: list[VocabularyEntry], lang: str) -> CardBlocks:
+    """Return the front: the meaning, and the lettered options."""
     lines = [
         Paragraph(
             (Emphasis("strong", (PlainText(f"{letter} "),)), *_build_term_blocks(option, lang))
@@ -68,6 +70,7 @@ def _build_front(entry: VocabularyEntry, options: list[VocabularyEntry], lang: s
 
 
 def _build_back(entry: VocabularyEntry, options: list[VocabularyEntry], lang: str) -> CardBlocks:
+    """Return the back: the letter of the right option and the term."""
     letter = LETTERS[options.index(entry)]
     return (
         Paragraph(
@@ -77,6 +80,7 @@ def _build_back(entry: VocabularyEntry, options: list[VocabularyEntry], lang: st
 
 
 def _build_term_blocks(entry: VocabularyEntry, lang: str) -> CardBlocks:
+    """Return a term in a language, with the English one where it differs."""
     if lang == FIRST:
         return entry_inlines(entry, "term", lang)
     return (

@@ -15,7 +15,7 @@ from quizgen.question.entry_prose import entry_blocks
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:
-    """One note per figure: the quiz version on the front, the full one on the back."""
+    """Yield one note per figure: without labels on the front, with them on the back."""
     for entry in read_card_entries(wish.bank, FigureEntry):
         sides = {
             "Front": {lang: entry_blocks(entry, "ask", lang) for lang in wish.langs},
@@ -30,6 +30,7 @@ def notes(wish: DeckRequest) -> Iterator[Note]:
 
 
 def _draw_entry_picture(entry: FigureEntry, wish: DeckRequest, *, quiz: bool) -> CardPicture:
+    """Return the picture of an entry; ``quiz`` hides what is asked."""
     with entry.name_in_errors("figure"):
         figure = wish.bank.figure(entry.figure)
         drawn = [draw_figure(figure, entry.values, quiz=quiz, lang=lang) for lang in wish.langs]

@@ -19,7 +19,7 @@ from quizgen.typeset.nodes import MathRow
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:
-    """One note per formula; a formula of several lines hides them together or one by one."""
+    """Yield one note per formula; one of several lines hides them together or one by one."""
     for entry in read_formulas(wish.bank):
         said: dict[str, CardWords] = {
             "Title": {
@@ -35,6 +35,7 @@ def notes(wish: DeckRequest) -> Iterator[Note]:
 
 
 def _iter_cloze_holes(entry: FormulaEntry) -> Iterator[ClozeHole]:
+    """Yield the lines of a formula, each with its side to be recalled hidden."""
     for index, line in enumerate(entry.lines):
         with entry.name_in_errors("lines"):
             signs, parts = parse_formula_line(line, entry.inside)
@@ -49,13 +50,14 @@ def _iter_cloze_holes(entry: FormulaEntry) -> Iterator[ClozeHole]:
 
 
 def _typeset_visible_sides(parts: list[TypesetMaths], signs: list[str]) -> TypesetMaths:
-    """The sides before the hidden one, with the sign after each."""
+    """Return the sides before the hidden one, with the sign after each, as one formula."""
     node = typeset.relation_chain(signs, [*(part.node for part in parts), MathRow(())])
     typed = " ".join(f"{part.typed} {sign}" for part, sign in zip(parts, signs, strict=True))
     return TypesetMaths(node, typed)
 
 
 def _typeset_hidden_sides(parts: list[TypesetMaths], signs: list[str]) -> TypesetMaths:
+    """Return the hidden sides with the signs between them, as one formula."""
     if not signs:
         return parts[0]
     pairs = zip(signs, parts[1:], strict=True)

@@ -32,7 +32,7 @@ Pair = tuple[Question, QuestionKey]
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:
-    """Notes of every template asked for that is written in the languages asked for."""
+    """Yield the notes of every requested template that is written in the requested languages."""
     for name in wish.templates or wish.bank.template_paths:
         if wish.includes_topic(wish.bank.rules(name).topic):
             template = wish.bank.template(name)
@@ -41,7 +41,7 @@ def notes(wish: DeckRequest) -> Iterator[Note]:
 
 
 def template_notes(template: Template, wish: DeckRequest) -> Iterator[Note]:
-    """One note per part of a question: the stem with that part, its answer and its steps.
+    """Yield one note per part of a question: the stem with that part, its answer and its steps.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def template_notes(template: Template, wish: DeckRequest) -> Iterator[Note]:
 
 
 def section_for(bank: Bank, covers: tuple[str, ...], topic: str) -> str:
-    """Section of the notes that a question belongs to: that of its formula, else of its topic."""
+    """Return the section of the notes a question belongs to: its formula's, else its topic's."""
     sections = {entry.id: entry.section for entry in read_formulas(bank)}
     found = [sections[ref] for ref in covers if ref in sections]
     by_topic = [
@@ -88,7 +88,7 @@ def section_for(bank: Bank, covers: tuple[str, ...], topic: str) -> str:
 
 
 def shared_blocks(pairs: dict[str, Pair], index: int) -> dict[str, CardBlocks]:
-    """What all languages share: figures, and the worked lines with a sentence per language."""
+    """Return by field what all languages share: figures, and worked lines with sentences."""
     questions, keys = zip(*pairs.values(), strict=True)
     template, label = questions[0].template, questions[0].parts[index].label
     fields = [question.parts[index].field for question in questions]
@@ -107,7 +107,7 @@ def shared_blocks(pairs: dict[str, Pair], index: int) -> dict[str, CardBlocks]:
 
 
 def figure_blocks(name: str, figures: Iterable[Figure | None]) -> CardBlocks:
-    """A figure, told in every language; nothing if there is none."""
+    """Return a figure with its description in every language; nothing if there is none."""
     drawn = [figure for figure in figures if figure is not None]
     if not drawn:
         return ()
@@ -115,12 +115,12 @@ def figure_blocks(name: str, figures: Iterable[Figure | None]) -> CardBlocks:
 
 
 def front_blocks(question: Question, index: int) -> CardBlocks:
-    """The question as it is asked, with one of its parts and its lettered options."""
+    """Return the question as it is asked, with part number ``index`` and its lettered options."""
     return (CardLabel(question.title), *question.stem, *asked_blocks(question.parts[index]))
 
 
 def asked_blocks(part: QuestionPart) -> Iterator[Any]:
-    """One part of a question, with its lettered options."""
+    """Yield the blocks of one part of a question, with its lettered options."""
     body = part.body
     if part.label:
         label = Emphasis("strong", (PlainText(f"({part.label}) "),))
@@ -138,7 +138,7 @@ def asked_blocks(part: QuestionPart) -> Iterator[Any]:
 
 
 def deduplicate(said: dict[str, CardBlocks]) -> dict[str, CardBlocks]:
-    """Leave out of the further languages what reads the same in the first, such as numbers."""
+    """Return the blocks by language, without those that read as in the first, such as numbers."""
     main, *others = said
     own = {lang: tuple(b for b in said[lang] if b not in said[main]) for lang in others}
     kept = {
@@ -148,7 +148,7 @@ def deduplicate(said: dict[str, CardBlocks]) -> dict[str, CardBlocks]:
 
 
 def answer_blocks(part: PartSolution) -> CardBlocks:
-    """The key of one part, with the wording of the right options (or of the key points)."""
+    """Return the key of one part, with the wording of the right options or key points."""
     if len(part.options) > 1:
         points = tuple((Paragraph(option),) for option in part.options)
         return (*_build_answer_blocks(part, ()), ListBlock(points))
@@ -156,6 +156,7 @@ def answer_blocks(part: PartSolution) -> CardBlocks:
 
 
 def _build_answer_blocks(part: PartSolution, options: tuple[Any, ...]) -> CardBlocks:
+    """Return the key of one part, with the wording of the given options."""
     label = f"({part.label})" if part.label else ""
     lead = (PlainText(f"{label} " if part.shown else label),) if label else ()
     said: list[Any] = [Emphasis("strong", (*lead, *part.shown))]
@@ -165,7 +166,7 @@ def _build_answer_blocks(part: PartSolution, options: tuple[Any, ...]) -> CardBl
 
 
 def step_blocks(keys: list[QuestionKey], index: int) -> Iterator[Any]:
-    """The worked lines of one part: each formula once, with a sentence per language."""
+    """Yield the worked lines of one part: each formula once, with a sentence per language."""
     langs = [key.solution.lang for key in keys]
     for same in zip(*(key.solution.parts[index].lines for key in keys), strict=True):
         yield DisplayMaths(same[0].maths)
@@ -174,12 +175,12 @@ def step_blocks(keys: list[QuestionKey], index: int) -> Iterator[Any]:
 
 
 def _describe_mistake(mistake: SolvedMisconception) -> tuple[Inline, ...]:
-    """A wrong answer, if it is shown, and what is wrong with it."""
+    """Return a wrong answer, if it is shown, and what is wrong with it."""
     return (*mistake.shown, *([PlainText(" – ")] if mistake.shown else []), *mistake.sentence)
 
 
 def _build_extra_blocks(key: QuestionKey, index: int) -> CardBlocks:
-    """What is worth a look after the answer: how to check it, and the known mistakes."""
+    """Return what follows the answer: how to check it, and the known misconceptions."""
     lang, solution = key.solution.lang, key.solution
     found: list[Any] = []
     part = solution.parts[index]

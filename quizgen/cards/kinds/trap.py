@@ -13,7 +13,7 @@ from quizgen.question.entry_prose import entry_blocks
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:
-    """One note per trap."""
+    """Yield one note per wrong claim of the bank's traps."""
     for entry in read_card_entries(wish.bank, TrapEntry):
         sides: dict[str, CardWords] = {
             "Front": {

@@ -14,7 +14,7 @@ from quizgen.question.entry_prose import entry_blocks
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:
-    """One note per statement."""
+    """Yield one note per true or false statement."""
     for entry in read_card_entries(wish.bank, StatementEntry):
         sides = {
             "Front": {
@@ -30,5 +30,6 @@ def notes(wish: DeckRequest) -> Iterator[Note]:
 
 
 def _build_verdict_blocks(entry: StatementEntry, lang: str) -> CardBlocks:
+    """Return whether a statement is true, and why."""
     verdict = PlainText(load_card_words(lang)["true" if entry.true else "false"])
     return Paragraph((Emphasis("strong", (verdict,)),)), *entry_blocks(entry, "why", lang)

@@ -15,7 +15,7 @@ from quizgen.question.entry_prose import entry_blocks, entry_inlines
 
 
 def notes(wish: DeckRequest) -> Iterator[Note]:
-    """One note per term; the English term is always there, because exams use it.
+    """Yield one note per term, always with the English term, because exams use it.
 
     In a bank without English the term in its own first language stands in its place.
     """

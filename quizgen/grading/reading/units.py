@@ -11,128 +11,44 @@ import msgspec
 from flint import arb
 
 from quizgen.core.errors import FormulaError
+from quizgen.locale import FIRST, list_languages, load_words
 from quizgen.maths.numbers import to_rational
 from quizgen.maths.precision import working_precision
-from quizgen.maths.units import SIMPLE, Unit, UnitRegistry, active_units
+from quizgen.maths.units import Unit, UnitRegistry, active_units
 
 WORDS = {
-    "pixel": "px",
-    "pixels": "px",
     "pix": "px",
-    "পিক্সেল": "px",
-    "megapixel": "Mpx",
-    "megapixels": "Mpx",
     "MP": "Mpx",
-    "metre": "m",
-    "metres": "m",
-    "meter": "m",
     "meters": "m",
-    "মিটার": "m",
     "মি": "m",
-    "millimetre": "mm",
-    "millimetres": "mm",
-    "millimeter": "mm",
     "millimeters": "mm",
-    "মিলিমিটার": "mm",
     "মিমি": "mm",
-    "centimetre": "cm",
-    "centimetres": "cm",
     "centimeter": "cm",
     "centimeters": "cm",
-    "সেন্টিমিটার": "cm",
     "সেমি": "cm",
-    "kilometre": "km",
-    "kilometres": "km",
-    "kilometer": "km",
     "kilometers": "km",
-    "কিলোমিটার": "km",
     "কিমি": "km",
-    "micrometre": "um",
-    "micrometres": "um",
     "micrometer": "um",
     "micrometers": "um",
     "micron": "um",
     "microns": "um",
-    "mikrometer": "um",
-    "মাইক্রোমিটার": "um",
     "মাইক্রন": "um",
-    "nanometre": "nm",
-    "nanometres": "nm",
-    "nanometer": "nm",
     "nanometers": "nm",
-    "ন্যানোমিটার": "nm",
-    "second": "s",
-    "seconds": "s",
     "sec": "s",
     "secs": "s",
-    "sekunde": "s",
-    "sekunden": "s",
-    "সেকেন্ড": "s",
-    "millisecond": "ms",
-    "milliseconds": "ms",
     "msec": "ms",
-    "millisekunden": "ms",
-    "মিলিসেকেন্ড": "ms",
-    "microsecond": "us",
-    "microseconds": "us",
-    "মাইক্রোসেকেন্ড": "us",
     "degree": "deg",
     "degrees": "deg",
     "grad": "deg",
     "ডিগ্রি": "deg",
     "ডিগ্রী": "deg",
-    "radian": "rad",
-    "radians": "rad",
-    "রেডিয়ান": "rad",
-    "stops": "stop",
     "blende": "stop",
     "blenden": "stop",
-    "blendenstufe": "stop",
-    "blendenstufen": "stop",
-    "স্টপ": "stop",
-    "decibel": "dB",
-    "decibels": "dB",
-    "ডেসিবেল": "dB",
-    "lux": "lx",
-    "লাক্স": "lx",
-    "lumen": "lm",
-    "lumens": "lm",
-    "লুমেন": "lm",
-    "watt": "W",
-    "watts": "W",
-    "ওয়াট": "W",
-    "hertz": "Hz",
-    "হার্টজ": "Hz",
-    "electronvolt": "eV",
-    "electronvolts": "eV",
-    "bits": "bit",
-    "বিট": "bit",
-    "byte": "B",
-    "bytes": "B",
-    "বাইট": "B",
-    "percent": "%",
     "per cent": "%",
-    "prozent": "%",
-    "শতাংশ": "%",
-    "electron": "e-",
-    "electrons": "e-",
-    "elektronen": "e-",
-    "ইলেকট্রন": "e-",
-    "photons": "photon",
-    "photonen": "photon",
-    "ফোটন": "photon",
-    "rows": "row",
-    "zeilen": "row",
-    "সারি": "row",
-    "frames": "frame",
-    "ফ্রেম": "frame",
     "ADU": "DN",
     "fps": "frame/s",
-    "line pairs": "lp",
-    "linienpaare": "lp",
     "LP": "lp",
     "Lp": "lp",
-    "Lux": "lx",
     "LUX": "lx",
     "Sek": "s",
     "sek": "s",
@@ -155,45 +71,91 @@ WORDS = {
     "ডায়াপ্টার": "1/m",
     "bild": "frame",
     "bilder": "frame",
+    "megapixel": "Mpx",
+    "megapixels": "Mpx",
+    "meter": "m",
+    "millimeter": "mm",
+    "kilometer": "km",
+    "nanometer": "nm",
+    "picometer": "pm",
+    "picometers": "pm",
+    "decimeter": "dm",
+    "decimeters": "dm",
+    "liter": "l",
+    "liters": "l",
+    "milliliter": "ml",
+    "milliliters": "ml",
+    "millilitre": "ml",
+    "cms": "cm",
+    "mins": "min",
+    "hr": "h",
+    "hrs": "h",
+    "Std": "h",
+    "std": "h",
+    "Min": "min",
+    "Sekunde": "s",
+    "KB": "kB",
+    "Kbit": "kbit",
+    "Mb": "Mbit",
+    "Gb": "Gbit",
+    "kb": "kbit",
+    "kbps": "kbit/s",
+    "Mbps": "Mbit/s",
+    "Gbps": "Gbit/s",
+    "electron volt": "eV",
+    "electron volts": "eV",
+    "inches": "in",
+    "Inch": "in",
+    "degC": "°C",
+    "celsius": "°C",
+    "Euro": "€",
+    "Kelvin": "K",
+    "f/stop": "stop",
+    "line pair": "lp",
 }
-"""Spelling (any case when it is longer than three letters) to a listed unit."""
+"""Abbreviations and other spellings (any case when they are longer than three letters); what units
+are called in full stands in ``speech.toml`` of each language."""
 
-_LARGE = {
-    "k": ("kilo", "কিলো"),
-    "M": ("mega", "মেগা"),
-    "G": ("giga", "গিগা"),
-}
-_SMALL = {
-    "m": ("milli", "মিলি"),
-    "u": ("micro", "mikro", "মাইক্রো"),
-    "n": ("nano", "ন্যানো"),
-}
-_STEMS = {
-    "B": ("byte", "bytes", "বাইট"),
-    "bit": ("bit", "bits", "বিট"),
-    "px": ("pixel", "pixels", "pix", "পিক্সেল"),
-    "Hz": ("hertz", "হার্টজ"),
-    "W": ("watt", "watts", "ওয়াট"),
-    "lx": ("lux", "লাক্স"),
-    "lm": ("lumen", "lumens", "লুমেন"),
-    "s": ("second", "seconds", "sekunde", "sekunden", "সেকেন্ড"),
-}
+_LARGE = "kMGT"
+"""Prefixes that are written before a word as well: ``MBytes``."""
+_NO_UNIT = {"", "1"}
+
+
+def _iter_spoken_words(simple: Container[str]) -> Iterator[tuple[str, str]]:
+    """What units are called when they are read aloud, in every language, with their prefixes."""
+    for lang in list_languages():
+        words = load_words(lang, "speech")
+        for listed, spoken in words["units"].items():
+            if listed not in simple or listed in _NO_UNIT:
+                continue
+            for word in {*spoken, *(one.lower() for one in spoken)}:
+                yield word, listed
+            for letter, pattern in words["prefixes"].items():
+                if letter + listed in simple:
+                    for word in spoken:
+                        yield pattern.format(word.lower()), letter + listed
+        yield from _iter_prefixed_words({n: tuple(w) for n, w in words["units"].items()}, simple)
 
 
 def _iter_prefixed_words(
     stems: Mapping[str, tuple[str, ...]], simple: Container[str]
 ) -> Iterator[tuple[str, str]]:
-    """``megabytes`` and ``MBytes``: every prefix a unit may have, before every word for it."""
+    """``MBytes`` and ``kBit``: a letter that stands for a large prefix, before a word."""
     for listed, words in stems.items():
-        for letter, spoken in (_LARGE | _SMALL).items():
+        for letter in _LARGE:
             if letter + listed in simple:
-                yield from ((f"{p}{word}", letter + listed) for p in spoken for word in words)
-            if letter in _LARGE and letter + listed in simple:
                 yield from ((letter + word, letter + listed) for word in words)
                 yield from ((letter + word.capitalize(), letter + listed) for word in words)
 
 
-WORDS = {**dict(_iter_prefixed_words(_STEMS, SIMPLE)), **WORDS}
+def _iter_bank_words(known: UnitRegistry) -> Iterator[tuple[str, str]]:
+    """Words of the units that a bank defines, with English prefixes."""
+    prefixes = load_words(FIRST, "speech")["prefixes"]
+    for symbol, words in known.words.items():
+        for letter, pattern in prefixes.items():
+            if letter + symbol in known.simple:
+                yield from ((pattern.format(word), letter + symbol) for word in words)
+        yield from ((word, symbol) for word in words)
 
 
 class _Spellings(NamedTuple):
@@ -206,14 +168,19 @@ class _Spellings(NamedTuple):
 @cache
 def _build_unit_spellings(known: UnitRegistry) -> _Spellings:
     """The words for the listed units, and for those that a bank defines."""
-    own = {word: symbol for symbol, words in known.words.items() for word in words}
-    words = {**dict(_iter_prefixed_words(known.words, known.simple)), **own, **WORDS}
+    words = {
+        **dict(_iter_spoken_words(known.simple)),
+        **dict(_iter_prefixed_words(known.words, known.simple)),
+        **dict(_iter_bank_words(known)),
+        **WORDS,
+    }
     return _Spellings(words, {word.lower(): to for word, to in words.items() if len(word) > 3})
 
 
 _POINTS = re.compile(r"\. ?")
 _BRACKETS = re.compile(r"[(\[]([^()\[\]*/· ]+)[)\]]")
 _SQUARE = re.compile(r"(?:square |quadrat|বর্গ ?)([^\W\d_][^*/· ]*)", re.IGNORECASE)
+_SQUARED = re.compile(r"([^\W\d_]+) (?:squared|zum quadrat)", re.IGNORECASE)
 _PART = re.compile(r"[*/·]|[^*/·]+")
 
 
@@ -226,17 +193,20 @@ class TypedUnit(msgspec.Struct, frozen=True):
 
 
 def listed_unit(listed: str) -> TypedUnit:
-    """Look up a unit in use; ``rad`` counts as 180/π degrees."""
+    """Look up a unit in use; radians count as 180/π degrees."""
     return _get_listed_unit(active_units(), listed)
 
 
 @lru_cache(maxsize=2048)
 @working_precision()
 def _get_listed_unit(known: UnitRegistry, listed: str) -> TypedUnit:
-    if listed == "rad":
-        return TypedUnit("rad", 180 / arb.pi(), (("deg", 1),))
     found: Unit = known.unit(listed)
-    return TypedUnit(listed, to_rational(found.factor), found.dimension)
+    factor, powers = to_rational(found.factor), dict(found.dimension)
+    turned = powers.pop("rad", 0)
+    if turned:  # the registry keeps the two apart, since their ratio is not rational
+        factor = factor * (180 / arb.pi()) ** turned
+        powers["deg"] = powers.get("deg", 0) + turned
+    return TypedUnit(listed, factor, tuple(sorted((b, p) for b, p in powers.items() if p)))
 
 
 def _find_unit_word(word: str) -> str:
@@ -249,7 +219,7 @@ def _find_unit_word(word: str) -> str:
     """
     word = word.strip().rstrip(".").strip()
     known = active_units()
-    if word in known.simple or word == "rad":
+    if word in known.simple:
         return word
     words, lower = _build_unit_spellings(known)
     listed = words.get(word) or lower.get(word.lower()) or words.get(_POINTS.sub("", word))
@@ -287,7 +257,8 @@ def _parse_compound_unit(text: str) -> str:
     text = re.sub(r"^(?:per|pro)\s+", "1/", text)
     text = re.sub(r"\s+(?:per|pro)\s+|\s*প্রতি\s*", "/", text)
     text = re.sub(r" *([*/·]) *", r"\1", text)
-    text = _SQUARE.sub(r"\1^2", text)
+    text = _SQUARE.sub(r"\1^2", text.replace("**", "^"))
+    text = _SQUARED.sub(r"\1^2", text)
     pieces = _PART.findall(text)
     return "".join(piece if piece in "*/·" else _parse_unit_product(piece) for piece in pieces)
 

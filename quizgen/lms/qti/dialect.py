@@ -23,6 +23,7 @@ def format_number_plain(value: str | float) -> str:
 
 @lru_cache(maxsize=10_000, typed=True)
 def _attribute(key: str, value: str | float) -> str:
+    """Return an attribute with its value escaped, after a blank."""
     return f' {key}="{escape(format_number_plain(value))}"'
 
 
@@ -83,9 +84,11 @@ class Dialect:
         return self.tag("outcomeDeclaration", named, *inside)
 
     def _element(self, name: str) -> str:
+        """Return the name of an element in this version, from that in QTI 2.1."""
         return f"qti-{_to_hyphens(name)}" if self.prefixed else name
 
     def _all(self, attributes: Attributes) -> Attributes:
+        """Return attributes with their names in this version."""
         if not self.prefixed:
             return attributes
         return {_to_hyphens(name): value for name, value in attributes.items()}
@@ -93,6 +96,7 @@ class Dialect:
 
 @lru_cache
 def _to_hyphens(name: str) -> str:
+    """Return a name in camel case as one with hyphens: ``itemBody`` as ``item-body``."""
     return _HUMP.sub("-", name).lower()
 
 

@@ -72,6 +72,7 @@ def render_interaction(interaction: Interaction, _rules: ResponseRules) -> Rende
 
 @render_interaction.register
 def _render_number(interaction: NumericInteraction, rules: ResponseRules) -> RenderedInteraction:
+    """Return a numeric interaction: two comparisons for each interval."""
     right = [_is_within(one, rules) for one in interaction.ranges if one.right]
     wrong = [
         (_is_within(one, rules), one.feedback)
@@ -86,6 +87,7 @@ def _render_number(interaction: NumericInteraction, rules: ResponseRules) -> Ren
 
 
 def _is_within(one: AnswerRange, rules: ResponseRules) -> Markup:
+    """Return the condition that the response lies in an interval."""
     response = rules.response_variable()
     low = rules.tag("gte", {}, response, rules.constant("float", one.low))
     return rules.tag(
@@ -95,7 +97,10 @@ def _is_within(one: AnswerRange, rules: ResponseRules) -> Markup:
 
 @render_interaction.register
 def _render_text(interaction: TextEntryInteraction, rules: ResponseRules) -> RenderedInteraction:
+    """Return a text entry: one comparison for each accepted or wrong text."""
+
     def is_same(typed: str) -> Markup:
+        """Return the condition that the response is this text."""
         how = {"caseSensitive": str(interaction.printed).lower()}
         text = rules.constant("string", typed)
         return rules.tag("stringMatch", how, rules.response_variable(), text)
@@ -108,6 +113,7 @@ def _render_text(interaction: TextEntryInteraction, rules: ResponseRules) -> Ren
 
 
 def _text_entry(rules: ResponseRules) -> Markup:
+    """Return the field of a number or a word."""
     return rules.interaction("textEntryInteraction", {"expectedLength": FIELD_LENGTH})
 
 
@@ -118,7 +124,10 @@ def _render_typed(
     right: list[Markup],
     wrong: Sequence[tuple[Markup, FeedbackText]],
 ) -> RenderedInteraction:
-    """What is typed earns all marks, or shows the feedback to a misconception."""
+    """Return a typed interaction: all marks for the key, feedback for a misconception.
+
+    ``right`` are conditions, ``wrong`` conditions with feedback; the first that holds counts.
+    """
     name = rules.feedback_name
     feedback = [FeedbackElement(name, f"M{i}", words) for i, (_, words) in enumerate(wrong, 1)]
     cases = [(rules.any_of(right), rules.set_score(rules.points))]
@@ -134,6 +143,7 @@ def _render_typed(
 def _render_true_false(
     interaction: TrueFalseInteraction, rules: ResponseRules
 ) -> RenderedInteraction:
+    """Return a statement as a choice of true and false."""
     options = {
         name: Markup.escape(translate(rules.lang, f"ask.{name}")) for name in ("true", "false")
     }
@@ -144,6 +154,7 @@ def _render_true_false(
 
 @render_interaction.register
 def _render_choice(interaction: ChoiceInteraction, rules: ResponseRules) -> RenderedInteraction:
+    """Return a choice with feedback on each option."""
     options = {
         one.letter: option_html(one.letter, one.words, rules.lang) for one in interaction.options
     }
@@ -160,7 +171,10 @@ def _render_options(
     *,
     many: bool,
 ) -> RenderedInteraction:
-    """Options to choose from; the outcome that selects feedback is the response itself."""
+    """Return a choice; the response itself is the outcome that selects feedback.
+
+    With ``many``, a wrong option takes away what a right one gives.
+    """
     identify, name = rules.choice_identifier, rules.feedback_name
     cardinality = "multiple" if many else "single"
     share = rules.points / max(len(right), 1)
@@ -189,7 +203,7 @@ def _render_options(
 
 @render_interaction.register
 def _render_match(interaction: MatchInteraction, rules: ResponseRules) -> RenderedInteraction:
-    """A table to tick; each wrong pair has its own feedback."""
+    """Return a table to tick; each wrong pair has its own feedback."""
     stems, targets = interaction.stems, interaction.targets
     shares = {
         rules.pair_identifier(*pair): rules.points / len(stems)
@@ -223,6 +237,7 @@ def _render_match(interaction: MatchInteraction, rules: ResponseRules) -> Render
 
 
 def _is_paired(stem: str, one: FeedbackElement, rules: ResponseRules) -> Markup:
+    """Return the condition that a stem was given the target of this feedback."""
     pair = rules.constant("directedPair", f"{rules.choice_identifier(stem)} {one.value}")
     return rules.tag("member", {}, pair, rules.response_variable())
 
@@ -230,6 +245,7 @@ def _is_paired(stem: str, one: FeedbackElement, rules: ResponseRules) -> Markup:
 def _match_side(
     rows: Sequence[tuple[str, FeedbackText]], most: int, rules: ResponseRules
 ) -> Markup:
+    """Return one side of a match; each row may be used ``most`` times, 0 for any number."""
     choices = [
         rules.tag(
             "simpleAssociableChoice",
@@ -243,7 +259,7 @@ def _match_side(
 
 @render_interaction.register
 def _render_order(interaction: OrderInteraction, rules: ResponseRules) -> RenderedInteraction:
-    """Steps to sort; each in its place has its share, as in other systems."""
+    """Return steps to sort, with a share of the marks for each step in its place."""
     if not interaction.is_complete:
         return _render_match(order_as_match(interaction, rules.lang), rules)
     right = [rules.choice_identifier(letter) for letter in interaction.right]
@@ -267,6 +283,7 @@ def _render_order(interaction: OrderInteraction, rules: ResponseRules) -> Render
 
 
 def _is_in_place(step: str, place: int, rules: ResponseRules) -> Markup:
+    """Return the condition that a step stands at a place, counted from 1."""
     there = rules.tag("index", {"n": place}, rules.response_variable())
     return rules.tag("match", {}, there, rules.constant("identifier", step))
 
@@ -275,7 +292,7 @@ def _is_in_place(step: str, place: int, rules: ResponseRules) -> Markup:
 def _render_extended_text(
     interaction: ExtendedTextInteraction, rules: ResponseRules
 ) -> RenderedInteraction:
-    """A person grades it by the key, which learners do not see."""
+    """Return a field that a person grades by a key that learners do not see."""
     key = Markup("<p>{}</p>").format(to_course_html(interaction.key, rules.lang))
     rubric = rules.dialect.flow("rubricBlock", {"view": "scorer", "use": "scoring"}, key)
     body = rules.interaction("extendedTextInteraction", {"expectedLines": interaction.lines})

@@ -89,7 +89,7 @@ def qti_manifest(item: ExportItem) -> Iterator[ManifestQuestion]:
 def _response_rules(
     item: ExportItem, dialect: Dialect
 ) -> Iterator[list[tuple[Interaction, ResponseRules]]]:
-    """The interactions of each part with their variables.
+    """Yield the interactions of each part with their variables.
 
     Each of several values counts 1: marks such as 2/3 would not sum up where outcomes are rounded.
     """
@@ -105,7 +105,7 @@ def _response_rules(
 
 
 def _declarations(item: ExportItem, rows: list[ItemPart], dialect: Dialect) -> Iterator[Markup]:
-    """Responses, then outcomes: marks of each interaction, of all, and what feedback depends on."""
+    """Yield the declarations of responses and outcomes, in the order that the schema wants."""
     total = float(item.question.points)
     yield from (row.rendered.declaration for row in rows)
     for row in rows:
@@ -119,11 +119,12 @@ def _declarations(item: ExportItem, rows: list[ItemPart], dialect: Dialect) -> I
 
 
 def _is_single(rows: list[ItemPart]) -> bool:
-    """Whether the marks of the one interaction are those of the item."""
+    """Return whether the marks of the one interaction are those of the item."""
     return [row.rules.score_name for row in rows] == ["SCORE"]
 
 
 def _score_outcome(name: str, most: float, dialect: Dialect, *, is_manual: bool = False) -> Markup:
+    """Return the declaration of an outcome with marks up to ``most``."""
     # QTI 3.0 alone says that a person gives the marks.
     human = {"externalScored": "human"} if dialect.prefixed and is_manual else {}
     return dialect.outcome(
@@ -132,10 +133,12 @@ def _score_outcome(name: str, most: float, dialect: Dialect, *, is_manual: bool 
 
 
 def _default_value(value: float, dialect: Dialect) -> Markup:
+    """Return the default value of a declaration."""
     return dialect.tag("defaultValue", {}, dialect.tag("value", {}, format_number_plain(value)))
 
 
 def _item_body(item: ExportItem, groups: list[list[ItemPart]], dialect: Dialect) -> Markup:
+    """Return what a learner sees: stem, parts and their interactions."""
     body = stem_html(item, _file_address)
     for (part, interactions), group in zip(item.parts, groups, strict=True):
         body += part_html(part, interactions, item.lang, _file_address)
@@ -146,7 +149,7 @@ def _item_body(item: ExportItem, groups: list[list[ItemPart]], dialect: Dialect)
 def _response_processing(
     item: ExportItem, groups: list[list[ItemPart]], dialect: Dialect
 ) -> Markup:
-    """Rules for each response that was given, then the sum of marks, then the solution."""
+    """Return the rules that grade an item: for each given response, the sum, the solution."""
     rows = [row for group in groups for row in group]
     steps = [
         row.rules.if_answered(row.rendered.processing) for row in rows if row.rendered.processing
@@ -161,7 +164,10 @@ def _response_processing(
 
 
 def _part_score(group: list[ItemPart], points: Fraction) -> Markup:
-    """The marks of a part: those of its one interaction, or its share of right values."""
+    """Return the expression of a part's marks.
+
+    Of one interaction its own score, of several values the part's share of right ones.
+    """
     rules = group[0].rules
     scores = [rules.tag("variable", {"identifier": row.rules.score_name}) for row in group]
     if len(scores) == 1:
@@ -173,7 +179,7 @@ def _part_score(group: list[ItemPart], points: Fraction) -> Markup:
 def _feedback_elements(
     item: ExportItem, rows: list[ItemPart], dialect: Dialect
 ) -> Iterator[Markup]:
-    """Feedback on each misconception, and the worked solution."""
+    """Yield the feedback on each misconception, and the worked solution."""
     for one in (one for row in rows for one in row.rendered.feedback):
         words = to_course_html(one.words, item.lang)
         yield _modal_feedback(dialect, one.outcome, one.value, words)
@@ -184,15 +190,17 @@ def _feedback_elements(
 def _modal_feedback(
     dialect: Dialect, outcome: str, value: str, words: Markup, title: str = ""
 ) -> Markup:
+    """Return feedback that is shown when an outcome has a value."""
     named = {"outcomeIdentifier": outcome, "identifier": value, "showHide": "show"}
     return dialect.flow("modalFeedback", {**named, **({"title": title} if title else {})}, words)
 
 
 def _file_address(shown: Figure | PictureFile) -> str:
+    """Return the address of a package's file from the folder of items."""
     return f"../{image_path(shown)}"
 
 
 def _to_xml(page: Markup) -> Markup:
-    """Return well-formed HTML as XML."""
+    """Return well-formed HTML as XML: with a namespace for formulas and ``xml:lang``."""
     shown = _MATHS.sub('<math xmlns="http://www.w3.org/1998/Math/MathML"', page)
     return Markup(shown.replace(' lang="', ' xml:lang="'))  # noqa: S704 - a rewritten page

@@ -49,7 +49,7 @@ def package_files(items: Iterable[ExportItem], dialect: Dialect) -> dict[str, by
 
 
 def _iter_resources(items: Iterable[ExportItem], dialect: Dialect) -> Iterator[ManifestResource]:
-    """A test for each language, its items, and the figures of all of them."""
+    """Yield a test for each language, its items, and the figures of all of them."""
     figures: dict[str, bytes] = {}
     for lang, group in groupby(group_by_slot(items), key=lambda item: item.lang):
         of_lang = list(group)
@@ -67,6 +67,7 @@ def _iter_resources(items: Iterable[ExportItem], dialect: Dialect) -> Iterator[M
 
 
 def _package_manifest(resources: list[ManifestResource], dialect: Dialect) -> bytes:
+    """Return ``imsmanifest.xml``, which lists the files of a package."""
     schema, version = dialect.schema
     named = xml_element("schema", {}, schema) + xml_element("schemaversion", {}, version)
     return xml_file(
@@ -80,6 +81,7 @@ def _package_manifest(resources: list[ManifestResource], dialect: Dialect) -> by
 
 
 def _resource_element(one: ManifestResource) -> Markup:
+    """Return a file as the manifest lists it."""
     named = {"identifier": _resource_identifier(one.path), "type": one.type, "href": one.path}
     file = xml_element("file", {"href": one.path})
     needs = [
@@ -90,7 +92,7 @@ def _resource_element(one: ManifestResource) -> Markup:
 
 
 def _item_metadata(item: ExportItem) -> Markup:
-    """Title, language and tags of a question, as learning object metadata."""
+    """Return title, language and tags of a question as learning object metadata."""
     title = xml_element("string", {"language": item.lang}, item.title())
     keywords = [
         xml_element("keyword", {}, xml_element("string", {"language": FIRST}, tag))
@@ -107,7 +109,7 @@ def _item_metadata(item: ExportItem) -> Markup:
 
 
 def _resource_identifier(path: str) -> str:
-    """The identifier of a file; it must begin with a letter, which a figure's name may not."""
+    """Return the identifier of a file; it must begin with a letter, as a hash may not."""
     pure = PurePosixPath(path)
     return f"figure-{pure.stem}" if pure.suffix != ".xml" else pure.stem
 
@@ -137,6 +139,7 @@ def write_assessment(lang: str, items: list[ExportItem], dialect: Dialect) -> by
 
 
 def _write_sections(items: list[ExportItem], dialect: Dialect) -> Iterator[Markup]:
+    """Yield a section for each slot, from which one item is drawn."""
     slots = groupby(items, key=lambda item: item.slot)
     for number, (slot, found) in enumerate(slots, 1):
         named = {"identifier": f"slot-{number}", "title": slot, "visible": "false"}
@@ -147,12 +150,14 @@ def _write_sections(items: list[ExportItem], dialect: Dialect) -> Iterator[Marku
 
 
 def _item_reference(item: ExportItem, dialect: Dialect) -> Markup:
+    """Return the reference of a section to an item."""
     name = item_identifier(item)
     named = {"identifier": name, "href": f"items/{name}.xml", "category": item.question.topic}
     return dialect.tag("assessmentItemRef", named)
 
 
 def _sum_outcome(name: str, dialect: Dialect) -> Markup:
+    """Return the rule that sums an outcome of all items."""
     values = dialect.tag("testVariables", {"variableIdentifier": name})
     total = dialect.tag("sum", {}, values)
     return dialect.tag("setOutcomeValue", {"identifier": name}, total)

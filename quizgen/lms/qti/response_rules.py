@@ -127,7 +127,7 @@ class ResponseRules:
         return self.first_case([(self.is_correct(), self.set_score(self.points))], otherwise)
 
     def if_answered(self, rules: Markup) -> Markup:
-        """Return these rules behind the condition that there is a response."""
+        """Return these rules under the condition that there is a response."""
         is_null = self.tag("isNull", {}, self.response_variable())
         return self.first_case([(self.tag("not", {}, is_null), rules)])
 

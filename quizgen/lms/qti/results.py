@@ -59,7 +59,11 @@ def attempts_from_qti(
 
 
 def _parse_xml(text: str, where: Path) -> ET.Element:
-    """The root; a document that defines entities, or is too deep or too long, is refused."""
+    """Return the root element.
+
+    ``KeyFileError`` for a document that defines entities, or is too deep or too long: such files
+    are made to exhaust a parser.
+    """
     if len(text) > LARGEST_XML:
         raise KeyFileError(f"{where}: larger than {LARGEST_XML // 10**6} MB")
     if "<!DOCTYPE" in text:
@@ -80,12 +84,12 @@ def _parse_xml(text: str, where: Path) -> ET.Element:
 
 
 def _local_name(element: ET.Element) -> str:
-    """The name of an element without its namespace, which both versions have different."""
+    """Return the name of an element without its namespace, which differs between versions."""
     return element.tag.rpartition("}")[2]
 
 
 def _candidate_responses(item: ET.Element) -> Mapping[str, list[str]]:
-    """The responses by variable; the right ones, which may stand there too, are left out."""
+    """Return the responses by variable; right answers, which may stand there too, are left out."""
     return {
         variable.get("identifier", ""): [
             value.text or ""
@@ -99,6 +103,7 @@ def _candidate_responses(item: ET.Element) -> Mapping[str, list[str]]:
 
 
 def _has_long_text(given: Mapping[str, list[str]]) -> bool:
+    """Return whether any response has more than ``LONGEST_RESPONSE`` characters."""
     return any(len(value) > LONGEST_RESPONSE for values in given.values() for value in values)
 
 
@@ -113,6 +118,7 @@ def qti_field_values(
 
 
 def _variable_values(field: ResponseField, given: list[str]) -> FieldValues:
+    """Return the values of one field from those of its variable; empty without a response."""
     given = [value for value in given if value.strip()]
     if not given:
         return []
@@ -134,5 +140,6 @@ def _variable_values(field: ResponseField, given: list[str]) -> FieldValues:
 
 
 def _read_pair(letters: list[str], field: ResponseField) -> tuple[str, str]:
+    """Return the letters of stem and target, after checking that the field has them."""
     stem, target = (*letters, "")[:2]
     return check_letter(stem, field.options), check_letter(target, field.targets)
