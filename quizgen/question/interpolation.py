@@ -41,7 +41,7 @@ from quizgen.question.inlines import (
     to_inlines,
     typeset_layout,
 )
-from quizgen.typeset.leaves import LeafValue, fill_leaves, names_of_leaves
+from quizgen.typeset.leaves import LeafValue, fill_leaves, make_leaf_value, names_of_leaves
 from quizgen.typeset.nodes import MathRow, Node, Phrase
 
 NBSP = "\u00a0"
@@ -152,10 +152,10 @@ class Interpolator:
             return LeafValue(_inlines_to_node(self._fill_slot(name)))
         value, unit = self.known[name], self.drawn.template.units.get(name, "")
         if is_expr(value):
-            return LeafValue(typeset.lay_out(value))
+            return make_leaf_value(value)
         rounded = self.drawn.is_rounded(name)
         text = format_rounded(value) if rounded else self.drawn.format_value(name)
-        return LeafValue(typeset.quantity(text, unit), is_rounded=rounded)
+        return make_leaf_value(text, unit, is_rounded=rounded)
 
     def _fill_slot(self, name: str) -> tuple[Inline, ...]:
         drawn = self.drawn

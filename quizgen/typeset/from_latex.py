@@ -299,15 +299,9 @@ class _Reader:
 
     def convert(self, element: ET.Element) -> Sequence[_Piece]:
         """One element as pieces of a row."""
-        if "color" in element.get("style", ""):
-            commands = "color", "textcolor", "colorbox", "definecolor"
-            if "border" not in element.get("style", ""):
-                raise _RefusalError(
-                    "has no place here: colour is lost on paper and in speech", *commands
-                )
         rule = _RULES.get(element.tag)
-        if rule is None:
-            what, *commands = _REFUSED.get(element.tag, ("cannot be said in every output",))
+        if rule is None or element.get("style", "").startswith(("color", "background")):
+            what, commands = _REFUSED.get(element.tag, ("it cannot be said in every output", ()))
             raise _RefusalError(what, *commands)
         return rule(self, element)
 
@@ -514,16 +508,20 @@ _RULES: dict[str, Callable[[_Reader, Any], Sequence[_Piece]]] = {
     "munderover": _Reader.between,
     "mtable": _Reader.standing_table,
 }
-_REFUSED = {
+_REFUSED: dict[str, tuple[str, tuple[str, ...]]] = {
     "menclose": (
-        "strikes out or frames, which is lost in speech", "boxed", "cancel", "bcancel", "xcancel",
-        "fbox",
+        "strikes out or frames, which is lost in speech",
+        ("boxed", "cancel", "bcancel", "xcancel", "fbox"),
     ),
-    "mphantom": ("takes the room of what nobody sees; leave it out", "phantom", "hphantom",
-                 "vphantom"),
-    "mmultiscripts": ("is not there; write the index before as {}^{14}_{6}", "sideset",
-                      "prescript"),
-}  # fmt: skip
+    "mphantom": (
+        "takes the room of what nobody sees; leave it out",
+        ("phantom", "hphantom", "vphantom"),
+    ),
+    "mmultiscripts": (
+        "is not there; write the index before as {}^{14}_{6}",
+        ("sideset", "prescript"),
+    ),
+}
 _TRANSPOSED = frozenset({Word("T"), Ident("T", style="sans"), OperatorSign("ᵀ"), Ident("⊤")})
 
 

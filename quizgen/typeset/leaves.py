@@ -7,12 +7,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, cast
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from quizgen.core.errors import RenderError
+from quizgen.maths.tree import Expr
+from quizgen.typeset.builders import quantity
+from quizgen.typeset.layout import lay_out
 from quizgen.typeset.nodes import (
     ATOM,
     NEGATIVE,
@@ -39,6 +42,22 @@ class LeafValue(Struct, frozen=True):
 
     node: Node
     is_rounded: bool = False
+
+
+def make_leaf_value(value: Expr | str, unit: str = "", *, is_rounded: bool = False) -> LeafValue:
+    """Return what stands in a formula's place for a value.
+
+    Parameters
+    ----------
+    value : Expr or str
+        A formula, laid out as mathematics; or a number as text, such as ``-3`` or ``1.2e-5``.
+    unit : str
+        Of a number.
+    is_rounded : bool
+        Whether the text is not the exact value.
+    """
+    node = quantity(value, unit) if isinstance(value, str) else lay_out(value)
+    return LeafValue(node, is_rounded)
 
 
 _NEG, _MINUS, _PLUS, _DOT, _TIMES = map(OperatorSign, ("neg", "-", "+", "·", ""))
@@ -123,7 +142,7 @@ class _Filling:
         """A part of a node: a node, rows of nodes, or nothing."""
         if isinstance(part, tuple):
             return tuple(self.fill_part(one) for one in part)
-        return self.fill(part) if isinstance(part, Struct) else part
+        return self.fill(cast("Node", part)) if isinstance(part, Struct) else part
 
     def fill_scripts(self, node: Scripts) -> Node:
         """What has an index or a power is one thing, or stands in brackets."""

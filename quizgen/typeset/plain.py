@@ -310,8 +310,8 @@ def _write_cases(node: n.Cases, lang: str) -> str:
 @_write.register
 def _write_matrix(node: n.Matrix, lang: str) -> str:
     rows = [", ".join([_write(cell, lang) for cell in row]) for row in node.rows]
-    left, right = node.kind or "[]"
-    return f"{left}{'; '.join(rows)}{right}"
+    kind = node.kind or "[]"
+    return f"{kind[0]}{'; '.join(rows)}{kind[-1]}"
 
 
 @_write.register

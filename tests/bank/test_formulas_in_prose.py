@@ -11,7 +11,7 @@ from quizgen.core.errors import BankError
 from quizgen.paper.paper import single_question_paper
 from quizgen.question.compose import compose_variant
 from quizgen.question.interpolation import inlines_to_text
-from quizgen.render import render_paper
+from quizgen.render import fonts, render_paper
 from quizgen.render.text import blocks_to_plain_text
 
 TEMPLATE = """topic = "example"
@@ -95,6 +95,7 @@ def test_every_format_can_be_made(bank, kind, form):
         page = data.decode()
         assert "<mi>x</mi><mo>+</mo><mn>3</mn>" in page
         assert "\\frac" not in page
+        assert fonts.all_maths_uri() in page  # a norm is in no other font
         if kind == "solutions":  # reasons stand there
             assert "<mn>2</mn><mo>⋅</mo>" in page
     assert data
