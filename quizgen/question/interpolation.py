@@ -150,9 +150,9 @@ class Interpolator:
         """What stands for a quantity or a phrase inside a formula."""
         if name in self.own or name not in self.known or name in self.drawn.words:
             return LeafValue(_inlines_to_node(self._fill_slot(name)))
+        if (formula := self._find_formula(name)) is not None:
+            return make_leaf_value(formula)
         value, unit = self.known[name], self.drawn.template.units.get(name, "")
-        if is_expr(value):
-            return make_leaf_value(value)
         rounded = self.drawn.is_rounded(name)
         text = format_rounded(value) if rounded else self.drawn.format_value(name)
         return make_leaf_value(text, unit, is_rounded=rounded)
@@ -168,8 +168,8 @@ class Interpolator:
         if name not in self.known:
             what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
             raise self._format_problem(what, "QG158", TEXT, blank)
-        if is_expr(value := self.known[name]):
-            return (_inline_maths(value),)
+        if (formula := self._find_formula(name)) is not None:
+            return (_inline_maths(formula),)
         if not drawn.is_rounded(name):
             return to_inlines(format_quantity(drawn, name))
         rounded = format_rounded(self.known[name])
@@ -177,6 +177,11 @@ class Interpolator:
             RoundedMarker(),
             *to_inlines(join_unit(rounded, drawn.template.units.get(name, ""))),
         )
+
+    def _find_formula(self, name: str) -> Expr | None:
+        """Return the formula that a name stands for, with the drawn numbers in it, if it is one."""
+        value: object = self.known[name]
+        return value if is_expr(value) else None
 
     def _fill_program(self, text: str) -> str:
         return fill_program(text, self.drawn, self.known)
