@@ -343,7 +343,7 @@ def _format_brace(node: n.Brace, lang: str) -> str:
 
 @_format_node.register
 def _format_display(node: n.Display, lang: str) -> str:
-    return f'<mrow displaystyle="true">{_format_inside(node.body, lang)}</mrow>'
+    return f'<mstyle displaystyle="true">{_format_inside(node.body, lang)}</mstyle>'
 
 
 @_format_node.register

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
+import msgspec
 import pytest
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.markdown import InlineFormula, LaidOutFormula, leaves, parse_blocks, parse_inlines
+from quizgen.bank.markdown import (
+    InlineFormula,
+    LaidOutFormula,
+    LanguageFile,
+    fill_inlines,
+    leaves,
+    parse_blocks,
+    parse_inlines,
+)
 from quizgen.bank.variant import draw_variant
 from quizgen.core.errors import BankError
+from quizgen.maths.notation import parse_formula
 from quizgen.paper.paper import single_question_paper
 from quizgen.question.compose import compose_variant
-from quizgen.question.interpolation import inlines_to_text
+from quizgen.question.entry_prose import typeset_slot
+from quizgen.question.inlines import typeset_layout
+from quizgen.question.interpolation import Interpolator, inlines_to_text
+from quizgen.question.localise import localise
 from quizgen.render import fonts, render_paper
 from quizgen.render.text import blocks_to_plain_text
 
@@ -163,3 +176,41 @@ def test_a_name_that_nobody_draws_is_refused(tmp_path):
     template = Bank(tmp_path).template("formulas")
     with pytest.raises(BankError, match=r"\{\{ q \}\} is not a drawn quantity"):
         compose_variant(draw_variant(template, 1), "en")
+
+
+def test_a_value_that_is_a_formula_is_laid_out(bank):
+    filler = Interpolator(draw_variant(bank.template("formulas"), 1), "en")
+    filler.known = {**filler.known, "df": parse_formula("-2*x + 1")}
+    sentence = r"$f'(x) = {{ df }}$, $y - {{ df }}$, $x {{ df }}$, {{ df }} and ${{ df }}^2$"
+    (block,) = filler.blocks(parse_blocks(sentence))
+    text = "".join(piece.text for piece in block.children)
+    assert text == "f′(x) = −2·x + 1, y − (−2·x + 1), x(−2·x + 1), −2·x + 1 and (−2·x + 1)²"
+
+
+def test_a_rounded_value_turns_the_equals_sign_in_front(tmp_path):
+    folder = tmp_path / "templates" / "example" / "formulas"
+    folder.mkdir(parents=True)
+    rules = TEMPLATE.replace("[[part]]", 'r = { is = "sqrt(abs(k))" }\n[[part]]')
+    (folder / "template.toml").write_text(rules, encoding="utf-8")
+    (folder / "en.md").write_text(WORDS.replace("$x - {{ k }}$;", "$r = {{ r }}$;"), "utf-8")
+    question, _ = compose_variant(draw_variant(Bank(tmp_path).template("formulas"), 1), "en")
+    assert "r ≈ 1.732" in "\n".join(blocks_to_plain_text(question.stem))
+
+
+def test_words_with_formulas_come_out_of_the_cache_as_they_were(bank):
+    kept = msgspec.msgpack.encode(bank.template("formulas").texts["en"], enc_hook=str)
+    decoder = msgspec.msgpack.Decoder(LanguageFile, dec_hook=lambda kind, text: kind(text))
+    assert decoder.decode(kept) == bank.template("formulas").texts["en"]
+
+
+def test_numbers_in_formulas_are_written_as_the_language_does():
+    (formula,) = parse_inlines(r"$\bar x = 1.5$")
+    shown = typeset_layout(formula.node)
+    assert (shown.text, localise("de", shown).text) == ("x̄ = 1.5", "x̄ = 1,5")
+
+
+def test_a_card_takes_latex_and_no_drawn_value():
+    (piece,) = fill_inlines(parse_inlines(r"$\hat p = \frac{k}{n}$"), typeset_slot)
+    assert piece.text == "p̂ = k/n"
+    with pytest.raises(BankError, match=r"\{\{ k \}\} cannot be filled in here"):
+        fill_inlines(parse_inlines(r"$\hat p = {{ k }}$"), typeset_slot)

@@ -27,7 +27,7 @@ LATEX = [row["latex"] for row in TABLE]
 EXAMPLES = [example for group in GROUPS.values() for example in group]
 ALLOWED = {
     "math", "mrow", "mi", "mn", "mo", "mtext", "mspace", "mfrac", "msqrt", "mroot", "msub", "msup",
-    "msubsup", "mover", "munder", "munderover", "mtable", "mtr", "mtd", "mpadded",
+    "msubsup", "mover", "munder", "munderover", "mtable", "mtr", "mtd", "mpadded", "mstyle",
 }  # fmt: skip
 ARITY = {"mfrac": 2, "mroot": 2, "msub": 2, "msup": 2, "msubsup": 3, "mover": 2, "munder": 2,
          "munderover": 3}  # fmt: skip
