@@ -61,63 +61,63 @@ def to_text(node: n.Node, lang: str = "en") -> str:
     >>> to_text(lay_out_latex(r"s^2 = \frac{1}{n-1}\sum_{i=1}^n (x_i - \bar x)^2"))
     's² = 1/(n − 1) ∑ᵢ₌₁ⁿ (xᵢ − x̄)²'
     """
-    return " ".join(unicodedata.normalize("NFC", _write(node, lang)).split(" ")).strip()
+    return " ".join(unicodedata.normalize("NFC", _format_node(node, lang)).split(" ")).strip()
 
 
 @singledispatch
-def _write(node: n.Node, lang: str) -> str:
+def _format_node(node: n.Node, lang: str) -> str:
     raise RenderError(f"no text for {type(node).__name__} ({lang})")
 
 
-@_write.register
-def _write_digits(node: n.Digits, lang: str) -> str:
+@_format_node.register
+def _format_digits(node: n.Digits, lang: str) -> str:
     return localise_numbers(lang, node.text)
 
 
-@_write.register
-def _write_letter(node: n.Ident, _lang: str) -> str:
+@_format_node.register
+def _format_letter(node: n.Ident, _lang: str) -> str:
     return find_styled_letter(node.text, node.style) if node.style else node.text
 
 
-@_write.register
-def _write_word(node: n.Word | n.Phrase | n.FunctionName, _lang: str) -> str:
+@_format_node.register
+def _format_word(node: n.Word | n.Phrase | n.FunctionName, _lang: str) -> str:
     return node.text
 
 
-@_write.register
-def _write_gap(_node: n.Gap, _lang: str) -> str:
+@_format_node.register
+def _format_gap(_node: n.Gap, _lang: str) -> str:
     return " "
 
 
-@_write.register
-def _write_reader_word(node: n.ReaderWord, lang: str) -> str:
+@_format_node.register
+def _format_reader_word(node: n.ReaderWord, lang: str) -> str:
     return f" {_known(load_speech_words(lang).printed, node.key, 'word')} "
 
 
-@_write.register
-def _write_unit(node: n.UnitText, _lang: str) -> str:
+@_format_node.register
+def _format_unit(node: n.UnitText, _lang: str) -> str:
     return format_unit(node.text)
 
 
-@_write.register
-def _write_quantity(node: n.NumberWithUnit, lang: str) -> str:
+@_format_node.register
+def _format_quantity(node: n.NumberWithUnit, lang: str) -> str:
     space = "" if node.unit.text in TIGHT else "\u00a0"
-    return f"{_write(node.value, lang)}{space}{format_unit(node.unit.text)}"
+    return f"{_format_node(node.value, lang)}{space}{format_unit(node.unit.text)}"
 
 
-@_write.register
-def _write_operator(node: n.OperatorSign, _lang: str) -> str:
+@_format_node.register
+def _format_operator(node: n.OperatorSign, _lang: str) -> str:
     if node.name in _TIGHT:
         return _TIGHT[node.name]
     return f" {_known(_SPACED, node.name, 'operator')} "
 
 
-@_write.register
-def _write_row(node: n.MathRow, lang: str) -> str:
+@_format_node.register
+def _format_row(node: n.MathRow, lang: str) -> str:
     items = insert_separators(node.items, lang)
     written = ""
     for at, item in enumerate(items):
-        text = _write(item, lang)
+        text = _format_node(item, lang)
         before = items[at - 1] if at else None
         if before is not None and _has_blank_between(before, item):
             written += " "
@@ -161,7 +161,7 @@ def _last_of(node: n.Node) -> n.Node:
 
 def _bracketed(node: n.Node, lang: str) -> str:
     """A node as one thing: in brackets if it has several parts."""
-    text = _write(node, lang)
+    text = _format_node(node, lang)
     return text if _is_one(node) else f"({text})"
 
 
@@ -191,23 +191,23 @@ def _is_product(node: n.Node) -> bool:
     return _is_one(node)
 
 
-@_write.register
-def _write_fraction(node: n.Frac, lang: str) -> str:
-    top = _write(node.top, lang) if _is_product(node.top) else _bracketed(node.top, lang)
+@_format_node.register
+def _format_fraction(node: n.Frac, lang: str) -> str:
+    top = _format_node(node.top, lang) if _is_product(node.top) else _bracketed(node.top, lang)
     return f"{top}/{_bracketed(node.bottom, lang)}"
 
 
-@_write.register
-def _write_root(node: n.Root, lang: str) -> str:
+@_format_node.register
+def _format_root(node: n.Root, lang: str) -> str:
     index = "" if node.index is None else _raise(node.index, lang).removeprefix("^")
-    text = _write(node.body, lang)
+    text = _format_node(node.body, lang)
     alone = isinstance(node.body, n.Digits | n.Ident)
     return f"{index}√{text if alone else f'({text})'}"
 
 
-@_write.register
-def _write_scripts(node: n.Scripts, lang: str) -> str:
-    base = _write(node.base, lang)
+@_format_node.register
+def _format_scripts(node: n.Scripts, lang: str) -> str:
+    base = _format_node(node.base, lang)
     if isinstance(node.base, n.Frac | n.MathRow | n.NumberWithUnit | n.Display | n.Brace):
         base = f"({base})"
     low = "" if node.sub is None else _lower(node.sub, lang)
@@ -216,7 +216,7 @@ def _write_scripts(node: n.Scripts, lang: str) -> str:
 
 
 def _lower(node: n.Node, lang: str) -> str:
-    text = _write(node, lang)
+    text = _format_node(node, lang)
     compact = text.replace(" ", "")
     if all(ord(char) in _BELOW for char in compact):
         return compact.translate(_BELOW)
@@ -226,17 +226,17 @@ def _lower(node: n.Node, lang: str) -> str:
 def _raise(node: n.Node, lang: str) -> str:
     if isinstance(node, n.OperatorSign) and node.name in {"ᵀ", "†", "∗", "+", "-", "neg"}:
         return {"+": "⁺", "-": "⁻", "neg": "⁻", "∗": "*"}.get(node.name, node.name)
-    text = _write(node, lang)
+    text = _format_node(node, lang)
     compact = text.replace(" ", "")
     if all(ord(char) in _ABOVE for char in compact):
         return compact.translate(_ABOVE)
     return f"^{text}" if _is_one(node) and len(text) == 1 else f"^({text})"
 
 
-@_write.register
-def _write_accent(node: n.Accent, lang: str) -> str:
+@_format_node.register
+def _format_accent(node: n.Accent, lang: str) -> str:
     mark = _known(ACCENTS, node.kind, "accent").combining
-    text = _write(node.base, lang)
+    text = _format_node(node.base, lang)
     letters = [char for char in text if not unicodedata.combining(char)]
     if node.kind not in {"overline", "underline"} and len(letters) > 1:
         return f"{node.kind.removeprefix('wide')}({text})"
@@ -247,76 +247,76 @@ def _write_accent(node: n.Accent, lang: str) -> str:
     return "".join([char + mark if char != " " else char for char in text])
 
 
-@_write.register
-def _write_fence(node: n.Fenced, lang: str) -> str:
+@_format_node.register
+def _format_fence(node: n.Fenced, lang: str) -> str:
     left, right = (sign.replace(".", "") for sign in node.kind)
-    return f"{left}{_write(node.body, lang).strip()}{right}"
+    return f"{left}{_format_node(node.body, lang).strip()}{right}"
 
 
-@_write.register
-def _write_function(node: n.Func, lang: str) -> str:
+@_format_node.register
+def _format_function(node: n.Func, lang: str) -> str:
     between = f"{list_separator(node.args, lang).name} "
-    return f"{_write(node.head, lang)}({between.join([_write(arg, lang) for arg in node.args])})"
+    return f"{_format_node(node.head, lang)}({between.join([_format_node(arg, lang) for arg in node.args])})"
 
 
-@_write.register
-def _write_binomial(node: n.Binomial, lang: str) -> str:
-    return f"C({_write(node.top, lang)}, {_write(node.bottom, lang)})"
+@_format_node.register
+def _format_binomial(node: n.Binomial, lang: str) -> str:
+    return f"C({_format_node(node.top, lang)}, {_format_node(node.bottom, lang)})"
 
 
-@_write.register
-def _write_large_operator(node: n.LargeOperator, lang: str) -> str:
+@_format_node.register
+def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
     sign = _known({one: one for one in LARGE}, node.sign, "sign")
     if node.sign in INTEGRALS and node.lower and node.upper:
-        return f"{sign}[{_write(node.lower, lang)}…{_write(node.upper, lang)}]"
-    return _write_scripts(n.Scripts(n.Word(sign), node.lower, node.upper), lang)
+        return f"{sign}[{_format_node(node.lower, lang)}…{_format_node(node.upper, lang)}]"
+    return _format_scripts(n.Scripts(n.Word(sign), node.lower, node.upper), lang)
 
 
-@_write.register
-def _write_under(node: n.Under, lang: str) -> str:
-    return f"{_write(node.base, lang).strip()}_({_write(node.below, lang)})"
+@_format_node.register
+def _format_under(node: n.Under, lang: str) -> str:
+    return f"{_format_node(node.base, lang).strip()}_({_format_node(node.below, lang)})"
 
 
-@_write.register
-def _write_over(node: n.Over, lang: str) -> str:
-    base = _write(node.base, lang)
-    own = f"{base.strip()}^({_write(node.above, lang)})"
+@_format_node.register
+def _format_over(node: n.Over, lang: str) -> str:
+    base = _format_node(node.base, lang)
+    own = f"{base.strip()}^({_format_node(node.above, lang)})"
     return f" {own} " if base.startswith(" ") else own
 
 
-@_write.register
-def _write_brace(node: n.Brace, lang: str) -> str:
-    note = f" [{_write(node.note, lang)}]" if node.note else ""
+@_format_node.register
+def _format_brace(node: n.Brace, lang: str) -> str:
+    note = f" [{_format_node(node.note, lang)}]" if node.note else ""
     return f"{_bracketed(node.body, lang)}{note}"
 
 
-@_write.register
-def _write_display(node: n.Display, lang: str) -> str:
-    return _write(node.body, lang)
+@_format_node.register
+def _format_display(node: n.Display, lang: str) -> str:
+    return _format_node(node.body, lang)
 
 
-@_write.register
-def _write_cases(node: n.Cases, lang: str) -> str:
+@_format_node.register
+def _format_cases(node: n.Cases, lang: str) -> str:
     printed = load_speech_words(lang).printed
     rows = [
-        f"{_write(value, lang)} {printed['otherwise']}"
+        f"{_format_node(value, lang)} {printed['otherwise']}"
         if condition is None
-        else f"{_write(value, lang)} {printed['if'].format(_write(condition, lang))}"
+        else f"{_format_node(value, lang)} {printed['if'].format(_format_node(condition, lang))}"
         for value, condition in node.rows
     ]
     return f"{{{'; '.join(rows)}"
 
 
-@_write.register
-def _write_matrix(node: n.Matrix, lang: str) -> str:
-    rows = [", ".join([_write(cell, lang) for cell in row]) for row in node.rows]
+@_format_node.register
+def _format_matrix(node: n.Matrix, lang: str) -> str:
+    rows = [", ".join([_format_node(cell, lang) for cell in row]) for row in node.rows]
     kind = node.kind or "[]"
     return f"{kind[0]}{'; '.join(rows)}{kind[-1]}"
 
 
-@_write.register
-def _write_aligned_rows(node: n.AlignedRows, lang: str) -> str:
+@_format_node.register
+def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
     between = ", " if node.brace else ""
-    rows = [between.join([_write(cell, lang).strip(", ") if node.brace else _write(cell, lang)
+    rows = [between.join([_format_node(cell, lang).strip(", ") if node.brace else _format_node(cell, lang)
                           for cell in row]) for row in node.rows]  # fmt: skip
     return ("{" if node.brace else "") + "; ".join([row.strip() for row in rows])

@@ -18,6 +18,7 @@ from latex2mathml.converter import convert as latex_to_mathml
 from quizgen.typeset import to_latex, to_mathml, to_speech, to_text, to_typst
 from quizgen.typeset.from_latex import lay_out_latex
 from quizgen.typeset.latex_commands import GROUPS
+from quizgen.typeset.typst import typst_string
 
 ROOT = Path(__file__).parents[2]
 TABLE = tomllib.loads(Path(__file__).with_name("course_formulas.toml").read_text(encoding="utf-8"))[
@@ -53,9 +54,23 @@ def test_mathml_is_well_formed_core(latex):
         assert "\\" not in "".join(element.itertext())
 
 
+def _write_equation(node):
+    alt = typst_string(to_speech(node))
+    return f"#math.equation(alt: {alt}, ${to_typst(node)}$)"
+
+
 def test_all_formulas_compile_in_typst_without_a_warning():
-    rows = "\n\n".join(f"${to_typst(lay_out_latex(latex))}$" for latex in LATEX + EXAMPLES)
-    _, warnings = engine.compile_with_warnings(rows.encode(), format="pdf")
+    page = [
+        '#set document(title: "Formulas")\n#set text(lang: "en")',
+        '#show math.equation: set text(font: "New Computer Modern Math")',
+        *(_write_equation(lay_out_latex(latex)) for latex in LATEX + EXAMPLES),
+    ]
+    _, warnings = engine.compile_with_warnings(
+        "\n\n".join(page).encode(),
+        font_paths=engine.Fonts(include_system_fonts=False),
+        format="pdf",
+        pdf_standards="ua-1",  # a sign that no font has would be an error
+    )
     assert [str(warning) for warning in warnings] == []
 
 
