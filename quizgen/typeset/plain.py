@@ -256,7 +256,8 @@ def _format_fence(node: n.Fenced, lang: str) -> str:
 @_format_node.register
 def _format_function(node: n.Func, lang: str) -> str:
     between = f"{list_separator(node.args, lang).name} "
-    return f"{_format_node(node.head, lang)}({between.join([_format_node(arg, lang) for arg in node.args])})"
+    arguments = between.join([_format_node(arg, lang) for arg in node.args])
+    return f"{_format_node(node.head, lang)}({arguments})"
 
 
 @_format_node.register
@@ -316,7 +317,7 @@ def _format_matrix(node: n.Matrix, lang: str) -> str:
 
 @_format_node.register
 def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
-    between = ", " if node.brace else ""
-    rows = [between.join([_format_node(cell, lang).strip(", ") if node.brace else _format_node(cell, lang)
-                          for cell in row]) for row in node.rows]  # fmt: skip
-    return ("{" if node.brace else "") + "; ".join([row.strip() for row in rows])
+    rows = [[_format_node(cell, lang) for cell in row] for row in node.rows]
+    if node.brace:
+        return "{" + "; ".join([", ".join([cell.strip(", ") for cell in row]) for row in rows])
+    return "; ".join(["".join(row).strip() for row in rows])
