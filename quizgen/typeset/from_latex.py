@@ -66,6 +66,7 @@ from quizgen.typeset.signs import (
     LETTERLIKE,
     PLAIN,
     SIGN_COMMANDS,
+    has_styled_letter,
 )
 from quizgen.typeset.signs import RELATIONS as MORE_RELATIONS
 
@@ -112,6 +113,7 @@ _RELATIONS = frozenset(
 )  # fmt: skip
 _CALLED = frozenset("fghPVEFGLNφψΦΓΨ")
 """Letters that are functions where a bracket follows."""
+_WORD_TEXT = re.compile(r"[\w .'-]+")
 _WIDTH = re.compile(r"(-?[\d.]+)(?:em|rem)")
 
 
@@ -574,6 +576,8 @@ def _read_name(text: str, *, upright: bool) -> Node:
     if len(text) == 1:
         return _read_letter(text, upright=upright)
     plain = normalize("NFKC", text)
+    if not _WORD_TEXT.fullmatch(plain):
+        raise _RefusalError(f"the sign {text!r} cannot be said in every output")
     if plain in _NAMES:
         return FunctionName(plain)
     if plain != text:
@@ -592,7 +596,7 @@ def _read_letter(text: str, *, upright: bool) -> Node:
         own = not upright or text in GREEK_LETTERS
         return Ident(text) if own else Word(text)
     for style, row in ALPHABETS.items():
-        if any(name in shape for name in row.unicode):
+        if any(name in shape for name in row.unicode) and has_styled_letter(plain, style):
             return Ident(plain, style=style)
     return Ident(plain, bold="BOLD" in shape)
 
@@ -759,6 +763,8 @@ def _waits(items: list[Node]) -> bool:
 def _make_row(items: list[Node], *, root: bool = False) -> Node:
     """One node of a row whose brackets are paired."""
     _check_decimal_comma(items, root=root)
+    if len(items) > 1 and OperatorSign("ᵀ") in items:
+        raise _RefusalError("stands raised alone, as in A^\\top", "top")
     if any(isinstance(one, Digits) and isinstance(two, Digits) for one, two in pairwise(items)):
         raise _RefusalError("two numbers stand beside each other: write a sign between them")
     items = _apply_functions(_find_signs(items))
@@ -805,7 +811,8 @@ def _apply_functions(items: list[Node]) -> list[Node]:
         if applied:
             found.pop()
         before = found[-1] if found else None
-        if applied and isinstance(before, Under | Over):
+        done = isinstance(before, Under | Over | OperatorSign)
+        if applied and (done or _holds_nothing(item)):
             found.append(item)
         elif isinstance(item, Fenced) and item.kind == "()" and _is_called(before, applied=applied):
             found[-1] = Func(_as_head(found[-1]), _split_arguments(item.body))
@@ -818,6 +825,13 @@ def _apply_functions(items: list[Node]) -> list[Node]:
     if found and found[-1] == OperatorSign("apply"):
         found.pop()
     return found
+
+
+def _holds_nothing(item: Node) -> bool:
+    """Whether nothing is applied to: a sign between two operands comes, or a blank."""
+    return isinstance(item, Gap) or (
+        isinstance(item, OperatorSign) and item.name not in {"neg", "¬", "∂", "∀", "∃"}
+    )
 
 
 def _is_called(node: Node | None, *, applied: bool) -> bool:

@@ -267,6 +267,9 @@ def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
 def _format_under(node: n.Under, lang: str) -> str:
     if isinstance(node.base, n.Word | n.FunctionName) and node.base.text in KNOWN:
         return f"{_format_function_head(node.base, lang)}_{{{_format_node(node.below, lang)}}}"
+    if isinstance(node.base, n.FunctionName):
+        name = _format_function_head(node.base, lang).replace(r"\operatorname", r"\operatorname*")
+        return f"{name}_{{{_format_node(node.below, lang)}}}"
     return rf"\underset{{{_format_node(node.below, lang)}}}{{{_format_node(node.base, lang)}}}"
 
 

@@ -6,9 +6,11 @@ language, under the same character. The list in docs/formulas.md is made of thes
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections.abc import Iterator
 from functools import lru_cache
+from itertools import product
 from string import ascii_letters, digits
 
 from msgspec import Struct
@@ -139,7 +141,7 @@ def find_styled_letter(letter: str, style: str) -> str:
     RenderError
         If Unicode has none.
     """
-    own = unicodedata.name(letter).replace("LATIN ", "").replace("LETTER ", "")
+    own = re.sub("LATIN |GREEK |LETTER ", "", unicodedata.name(letter))
     for shape in ALPHABETS[style].unicode:
         for begin in ("MATHEMATICAL ", ""):
             try:
@@ -147,6 +149,14 @@ def find_styled_letter(letter: str, style: str) -> str:
             except KeyError:
                 continue
     raise RenderError(f"no letter {letter!r} in the alphabet {style!r}")
+
+
+def has_styled_letter(letter: str, style: str) -> bool:
+    """Whether Unicode has a letter in another alphabet."""
+    try:
+        return bool(find_styled_letter(letter, style))
+    except RenderError:
+        return False
 
 
 def list_formula_characters() -> frozenset[str]:
@@ -157,14 +167,12 @@ def list_formula_characters() -> frozenset[str]:
     return frozenset({*signs, *marks, *_OTHER_SIGNS, *_iter_styled_letters()})
 
 
+_IN_ALPHABETS = ascii_letters + digits
 _OTHER_SIGNS = "⏞⏟∣°%!?≔"
 
 
 def _iter_styled_letters() -> Iterator[str]:
     """Letters and digits in every alphabet that has them."""
-    for style in ALPHABETS:
-        for letter in ascii_letters + digits:
-            try:
-                yield find_styled_letter(letter, style)
-            except RenderError:
-                continue
+    for style, letter in product(ALPHABETS, _IN_ALPHABETS):
+        if has_styled_letter(letter, style):
+            yield find_styled_letter(letter, style)

@@ -172,6 +172,8 @@ def _format_operator(node: n.OperatorSign, _lang: str) -> str:
 
 @_format_node.register
 def _format_row(node: n.MathRow, lang: str) -> str:
+    if not node.items:
+        return '""'  # an argument must be something
     return _join_with_spaces(
         [_format_node(item, lang) for item in insert_separators(node.items, lang)]
     )
