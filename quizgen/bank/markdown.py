@@ -20,7 +20,7 @@ from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula,
 from quizgen.maths.tree import Expr
 from quizgen.typeset import lay_out
 from quizgen.typeset.from_latex import SLOT, LatexError, lay_out_latex, spell_as_latex
-from quizgen.typeset.leaves import names_of_leaves
+from quizgen.typeset.leaves import list_leaf_names
 from quizgen.typeset.nodes import Display, Leaf, Node
 
 
@@ -456,7 +456,7 @@ def slot_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
             case Slot(name):
                 yield name
             case LaidOutFormula(node):
-                yield from sorted(names_of_leaves(node))
+                yield from sorted(list_leaf_names(node))
             case CodeBlock(text) | InlineCode(text):
                 yield from _SLOT.findall(text)
             case PictureLink(_, alt):

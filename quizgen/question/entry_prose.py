@@ -26,7 +26,7 @@ from quizgen.bank.metadata import pick_language
 from quizgen.core.errors import BankError
 from quizgen.question.formula_lines import typeset_inline
 from quizgen.question.inlines import typeset_layout
-from quizgen.typeset.leaves import names_of_leaves
+from quizgen.typeset.leaves import list_leaf_names
 
 
 def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
@@ -72,7 +72,7 @@ def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
     if isinstance(part, Slot):
         raise BankError(f"{{{{ {part.name} }}}} cannot be filled in here")
     if isinstance(part, LaidOutFormula):
-        for name in names_of_leaves(part.node):
+        for name in list_leaf_names(part.node):
             raise BankError(f"{{{{ {name} }}}} cannot be filled in here")
         return (typeset_layout(part.node),)
     return (typeset_inline(part.expr),)

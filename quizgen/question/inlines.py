@@ -43,7 +43,7 @@ class TypesetLayout(TypesetMaths, frozen=True):
 
 
 def typeset_layout(node: typeset.Node) -> TypesetLayout:
-    """Make a laid out formula ready for printing."""
+    """Return a laid out formula ready for printing."""
     return TypesetLayout(node, typeset.to_text(node))
 
 

@@ -41,7 +41,7 @@ from quizgen.question.inlines import (
     to_inlines,
     typeset_layout,
 )
-from quizgen.typeset.leaves import LeafValue, fill_leaves, make_leaf_value, names_of_leaves
+from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names, make_leaf_value
 from quizgen.typeset.nodes import MathRow, Node, Phrase
 
 NBSP = "\u00a0"
@@ -237,7 +237,7 @@ def _inline_layout(part: LaidOutFormula) -> TypesetLayout:
 
 @lru_cache(maxsize=4096)
 def _names_in_layout(part: LaidOutFormula) -> frozenset[str]:
-    return names_of_leaves(part.node)
+    return list_leaf_names(part.node)
 
 
 def _inlines_to_node(parts: Iterable[Inline]) -> Node:

@@ -81,6 +81,7 @@ DEEPEST = 60
 
 _FIRST_SLOT, _LAST_SLOT = 0xE000, 0xF8FF  # Unicode's private area
 _PRIVATE = re.compile("[\ue000-\uf8ff]")
+_COMMENT = re.compile(r"(?<!\\)%")
 _NUMBER = re.compile(r"\d+(?:\.\d+)?|\.\d+")
 _DECIMAL_COMMA = re.compile(r"\d\{,\}\d")
 _AT = re.compile(r"(\d+): (.*)", re.DOTALL)
@@ -151,7 +152,7 @@ _Piece = Node | _Bracket
 
 
 def lay_out_latex(source: str) -> Node:
-    r"""Lay a LaTeX formula out.
+    r"""Return the layout of a LaTeX formula.
 
     Parameters
     ----------
@@ -176,6 +177,9 @@ def lay_out_latex(source: str) -> Node:
     if found := _DECIMAL_COMMA.search(source):
         what = "{,}: write a decimal point, it is printed as the language has it"
         raise LatexError(what, found.start() + 2)
+    if found := _COMMENT.search(source):
+        what = r"% begins a comment in LaTeX: write \% for a percent sign"
+        raise LatexError(what, found.start() + 1)
     _check_depth(source)
     held, names, starts = _hold_slots(source)
     try:
@@ -770,7 +774,7 @@ def _make_row(items: list[Node], *, root: bool = False) -> Node:
     items = _apply_functions(_find_signs(items))
     if len(items) == 1:
         return items[0]
-    return MathRow(tuple(items), find_level(items))
+    return MathRow(tuple(items), _find_level(items))
 
 
 def _check_decimal_comma(items: list[Node], *, root: bool) -> None:
@@ -872,7 +876,7 @@ def _split_arguments(body: Node) -> tuple[Node, ...]:
     return tuple(_make_row(part) for part in parts)
 
 
-def find_level(items: Sequence[Node]) -> int:
+def _find_level(items: Sequence[Node]) -> int:
     """How strongly a row holds together: as its weakest sign."""
     signs = {item.name for item in items if isinstance(item, OperatorSign)}
     if signs & _RELATIONS or any(isinstance(item, Phrase) for item in items):
@@ -905,7 +909,7 @@ def _spell_word(found: re.Match[str]) -> str:
 
 
 def spell_as_latex(text: str) -> str:
-    r"""A formula as people type it to LaTeX; one that has commands stays as it is.
+    r"""Return as LaTeX what people type; a formula that has commands stays as it is.
 
     Raises
     ------

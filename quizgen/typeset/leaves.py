@@ -68,8 +68,8 @@ _BEHIND = frozenset({"!", "°", "%"})
 _UNIT = Digits("1")
 
 
-def names_of_leaves(node: Node) -> frozenset[str]:
-    """Names of the values that a formula has places for."""
+def list_leaf_names(node: Node) -> frozenset[str]:
+    """Return the names of the values that a formula has places for."""
     return frozenset(_iter_names(node))
 
 
@@ -85,7 +85,7 @@ def _iter_names(part: Any) -> Iterator[str]:
 
 
 def fill_leaves(node: Node, values: Mapping[str, LeafValue]) -> Node:
-    """Put values in the places of a formula.
+    """Return a formula with values in its places.
 
     Parameters
     ----------

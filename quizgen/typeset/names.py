@@ -160,7 +160,7 @@ _ASCII = {char: word for word, char in GREEK.items() if word != "lamda"}
 
 
 def iter_names_written(part: object) -> Iterator[str]:
-    """Names of the quantities that a layout shows, as solvers spell them: ``x``, ``mu_1``."""
+    """Yield the names of the quantities that a layout shows, spelled as in solvers: ``mu_1``."""
     if isinstance(part, Scripts) and (name := _spell_name(part)):
         yield name
         yield from iter_names_written(part.sup)

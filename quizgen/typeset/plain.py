@@ -41,7 +41,7 @@ _SPACED = {
 
 
 def to_text(node: n.Node, lang: str = "en") -> str:
-    r"""Write a layout in plain text.
+    r"""Return a layout as plain text.
 
     Parameters
     ----------

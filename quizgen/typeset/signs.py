@@ -129,7 +129,7 @@ ALPHABETS = {
 
 @lru_cache(maxsize=512)
 def find_styled_letter(letter: str, style: str) -> str:
-    """Find the character of a letter in another alphabet.
+    """Return the character of a letter in another alphabet.
 
     Examples
     --------
@@ -160,7 +160,7 @@ def has_styled_letter(letter: str, style: str) -> bool:
 
 
 def list_formula_characters() -> frozenset[str]:
-    """Characters that formulas can hold: signs, brackets, marks, and letters of every alphabet."""
+    """Return the characters that formulas can hold: signs, brackets, marks, letters."""
     tables = (SIGN_COMMANDS, LARGE, FENCES, LETTERLIKE)
     signs = {sign for table in tables for sign in table}
     marks = {accent.mark for accent in ACCENTS.values()}

@@ -28,7 +28,7 @@ from quizgen.question.entry_prose import entry_inlines, typeset_slot
 from quizgen.question.html import inlines_to_html
 from quizgen.question.inlines import typeset_layout
 from quizgen.store.archive import read_archive
-from quizgen.typeset.leaves import LeafValue, fill_leaves, names_of_leaves
+from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names
 from quizgen.typeset.nodes import Phrase
 from quizgen.web.due import due_today, progress_of
 from quizgen.web.forms import field_text, read_form, read_upload
@@ -147,7 +147,7 @@ def _replace_formula_by_blank(part: Unfilled) -> tuple[Inline, ...]:
     A mistake is of any variant, so no numbers belong into its sentence.
     """
     if isinstance(part, LaidOutFormula):
-        names = names_of_leaves(part.node)
+        names = list_leaf_names(part.node)
         blanks = dict.fromkeys(names, LeafValue(Phrase(BLANK)))
         return (typeset_layout(fill_leaves(part.node, blanks)),)
     return typeset_slot(part) if isinstance(part, InlineFormula) else (PlainText(BLANK),)

@@ -11,7 +11,7 @@ from quizgen.core.errors import RenderError
 from quizgen.maths.notation import parse_formula
 from quizgen.typeset import lay_out, number, quantity, to_latex, to_mathml, to_text, to_typst
 from quizgen.typeset.from_latex import lay_out_latex
-from quizgen.typeset.leaves import LeafValue, fill_leaves, names_of_leaves
+from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names
 from quizgen.typeset.names import iter_names_written
 
 
@@ -144,7 +144,7 @@ def test_a_value_is_never_read_as_latex():
 
 
 def test_the_names_are_those_of_the_places():
-    assert names_of_leaves(lay_out_latex(r"x^{{ a }} + \sqrt{{{ b }}}")) == {"a", "b"}
+    assert list_leaf_names(lay_out_latex(r"x^{{ a }} + \sqrt{{{ b }}}")) == {"a", "b"}
     with pytest.raises(RenderError, match="'b'"):
         filled(r"x^{{ a }} + \sqrt{{{ b }}}", "1")
 
