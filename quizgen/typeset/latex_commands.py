@@ -12,32 +12,29 @@ ENVIRONMENTS = (
     "gathered", "array",
 )  # fmt: skip
 
+_OWN_COMMANDS = "there are no commands of one's own; write the formula out"
+_COLOUR = "colour is lost on paper and in speech"
+_NUMBERED = "formulas in a sentence have no numbers"
+_QUANTITY = r"write the number and \,\mathrm{m}, or {{ name }} of a quantity with its unit"
 ADVICE = {
     "ce": r"chemical formulas are written as they look: \mathrm{H_2O}, \mathrm{Ca}^{2+}",
-    "SI": r"write the number and \,\mathrm{m}, or {{ name }} of a quantity with its unit",
+    "SI": _QUANTITY,
+    "qty": _QUANTITY,
     "si": r"write units upright: \mathrm{m/s}",
-    "qty": r"write the number and \,\mathrm{m}, or {{ name }} of a quantity with its unit",
     "unit": r"write units upright: \mathrm{m/s}",
     "num": "write the number alone; it is grouped and gets the decimal sign of the language",
     "ang": r"write 30^\circ",
     "euro": r"write \text{€}",
     "substack": "write one condition below the sign, and the others in words",
-    "tag": "formulas in a sentence have no numbers",
-    "label": "formulas in a sentence have no numbers",
-    "def": "there are no commands of one's own; write the formula out",
-    "newcommand": "there are no commands of one's own; write the formula out",
-    "renewcommand": "there are no commands of one's own; write the formula out",
-    "providecommand": "there are no commands of one's own; write the formula out",
-    "color": "colour is lost on paper and in speech",
-    "textcolor": "colour is lost on paper and in speech",
-    "colorbox": "colour is lost on paper and in speech",
     "widetilde": r"write \tilde{x}",
-    "textrm": r"write \text{words}",
-    "textbf": r"write \text{words}",
-    "mbox": r"write \text{words}",
     "bm": r"write \boldsymbol{x}",
-    "html": "pages are written by quizgen alone",
-    "href": "pages are written by quizgen alone",
+    **dict.fromkeys(("mbox", "textrm", "textbf", "textit", "texttt"), r"write \text{words}"),
+    **dict.fromkeys(("tag", "label", "ref", "eqref"), _NUMBERED),
+    **dict.fromkeys(("color", "textcolor", "colorbox", "definecolor"), _COLOUR),
+    **dict.fromkeys(
+        ("def", "gdef", "let", "newcommand", "renewcommand", "providecommand"), _OWN_COMMANDS
+    ),
+    **dict.fromkeys(("href", "url", "html"), "pages are written by quizgen alone"),
 }
 """Commands that authors try, and what to write instead."""
 

@@ -141,7 +141,7 @@ def test_a_formula_may_go_over_several_lines():
         (r"\begin{align} a &= b \end{align}", 9, "no environment .*aligned"),
         (r"\href{http://a}{b}", 9, "pages are written"),
         (r"(x \cdot 2", 9, "is not closed"),
-        (r"50 % \cdot 2", 12, "write ..% for a percent sign"),
+        (r"50 % \cdot 2", 12, r"write \\% for a percent sign"),
         (r"a \\ b", 11, "ends a line in an environment"),
     ],
 )
