@@ -2,8 +2,11 @@
 
 Starts a server of its own and asks it on a schedule, with a bounded number of requests: the echo
 of what is typed 100 times a second, answers, the next question of somebody who looks at each for
-a second. Then 300 learners with papers of their own begin within 10 seconds, save every 5 seconds
-(60 seconds, or as many as are given) and hand in within 10. Prints what half and what 95 and 99
+a second. Then 300 learners with papers of their own, made ahead, begin within 10 seconds, save
+every 5 seconds (60 seconds, or as many as are given) and hand in within 10. Beside them are four
+who mean harm: one sends halves of requests, one wrong passwords, one begins long exams as one of
+the learners who may, one sends answers under parts that no paper has; what they are answered counts
+nowhere. ``--exam`` leaves the first part out. Prints what half and what 95 and 99
 of a hundred waited, beside what they may, errors,
 CPU of the server for each request, and memory of all its processes; exit code 1 if one is over.
 Waiting counts from when a request was due; the client shares the machine.
@@ -12,6 +15,7 @@ Waiting counts from when a request was due; the client shares the machine.
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import re
 import signal
@@ -23,11 +27,12 @@ from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 import httpx2
-from sqlalchemy import insert
+from sqlalchemy import func, insert, select
 
 from quizgen.store import Store
-from quizgen.store.schema import ACCOUNT, LEARNER
+from quizgen.store.schema import ACCOUNT, LEARNER, STOCK
 from quizgen.web.auth import COOKIE, csrf_token
+from quizgen.web.server import allow_connections
 
 STUDENTS, EVERY, WITHIN = 300, 5.0, 10.0
 MEMORY, MEMORY_OF_CLASS = 400, 700
@@ -52,7 +57,7 @@ class Served:
         self.process = subprocess.Popen(
             [sys.executable, "-m", "quizgen", "serve", "--no-open", "--database",
              f"sqlite:///{folder}/{file}", *more],
-            stdout=subprocess.PIPE, text=True, start_new_session=True,
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, start_new_session=True,
         )  # fmt: skip
         self.entrance = self.process.stdout.readline().split()[-1]
         self.ready = time.perf_counter() - began
@@ -64,15 +69,20 @@ class Served:
 
     def memory(self) -> float:
         """Megabytes of all processes; what they share counts once."""
-        found = 0
+        return sum(self.list_memory())
+
+    def list_memory(self) -> list[float]:
+        """Megabytes of each process, the largest first; what they share is shared out."""
+        found = []
         for folder in Path("/proc").glob("[0-9]*"):
             try:
                 if os.getpgid(int(folder.name)) == self.process.pid:
                     text = (folder / "smaps_rollup").read_text()
-                    found += int(re.search(r"^Pss:\s+(\d+)", text, re.MULTILINE)[1])
+                    kilobytes = int(re.search(r"^Pss:\s+(\d+)", text, re.MULTILINE)[1])
+                    found.append(kilobytes / 1024)
             except (OSError, TypeError):
                 continue
-        return found / 1024
+        return sorted(found, reverse=True)
 
     def end(self) -> None:
         """End it as Ctrl-C does."""
@@ -141,6 +151,12 @@ async def practice(client: httpx2.AsyncClient, served: Served, token: str) -> No
     report("next question, 1 a second", await scheduled(served, 40, 1, following), 60)
 
 
+ATTACKERS = 2
+"""Learners with accounts who mean harm: one begins long exams, one sends invented parts."""
+HALVES = 1100
+"""Requests of which only a part is ever sent, open at the same time."""
+
+
 class Class:
     """Learners with sessions of their own, as if each had signed in; they sit the mock exam.
 
@@ -153,14 +169,14 @@ class Class:
     def __init__(self, database: str) -> None:
         store = Store(database)
         with store.database.writing() as connection:
-            for number in range(STUDENTS):
+            for number in range(STUDENTS + ATTACKERS):
                 row = {"name": f"s{number}", "settings": {}, "since": time.time()}
                 (learner,) = connection.execute(insert(LEARNER).values(row)).inserted_primary_key
                 account = {"key": f"s{number}", "password": "", "manages": False}
                 connection.execute(insert(ACCOUNT).values(learner=learner, **account))
         self.tokens = [
             store.accounts.start_session(store.learner(f"s{number}").id)
-            for number in range(STUDENTS)
+            for number in range(STUDENTS + ATTACKERS)
         ]
         store.close()
         self.sittings: dict[int, str] = {}
@@ -199,12 +215,114 @@ class Class:
         return answer
 
 
+class Attackers:
+    """One of each who means harm, each with a connection pool of their own.
+
+    Parameters
+    ----------
+    sat : Class
+    port : int
+        Where the server listens.
+    """
+
+    def __init__(self, sat: Class, port: int) -> None:
+        self.sat, self.port = sat, port
+        self.base = f"http://127.0.0.1:{port}"
+        self.done = dict.fromkeys(("halves", "passwords", "exams", "parts"), 0)
+        self.answers: dict[str, set[int]] = {name: set() for name in self.done}
+
+    async def attack(self) -> None:
+        """Go on until cancelled."""
+        limits = httpx2.Limits(max_connections=20)
+        async with httpx2.AsyncClient(base_url=self.base, limits=limits, timeout=120) as client:
+            await asyncio.gather(
+                self._send_halves(),
+                *(self._repeat("passwords", 0.0, client, self._guess) for _ in range(4)),
+                *(self._repeat("exams", 0.0, client, self._begin_long) for _ in range(8)),
+                *(self._repeat("parts", 0.05, client, self._invent_parts) for _ in range(2)),
+            )
+
+    async def _send_halves(self) -> None:
+        """Hold as many half-sent requests as ``HALVES``; one that is shut is opened again."""
+
+        async def hold() -> None:
+            while True:
+                with contextlib.suppress(OSError):
+                    reader, writer = await asyncio.open_connection("127.0.0.1", self.port)
+                    self.done["halves"] += 1
+                    writer.write(b"POST /exam HTTP/1.1\r\nhost: 127.0.0.1\r\n")
+                    await reader.read()  # until the server has had enough
+                    writer.close()
+                await asyncio.sleep(0.5)
+
+        await asyncio.gather(*(hold() for _ in range(HALVES)))
+
+    async def _repeat(
+        self,
+        name: str,
+        pause: float,
+        client: httpx2.AsyncClient,
+        ask: Callable[[httpx2.AsyncClient, int], Awaitable[httpx2.Response]],
+    ) -> None:
+        while True:
+            with contextlib.suppress(httpx2.HTTPError):
+                answer = await ask(client, self.done[name])
+                self.done[name] += 1
+                self.answers[name].add(answer.status_code)
+                if answer.status_code == 429:
+                    await asyncio.sleep(0.2)
+            await asyncio.sleep(pause)
+
+    async def _guess(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
+        """A wrong password for another name each time."""
+        page = await client.get("/sign-in", headers={"accept": "text/html"})
+        token = re.search(r'name="token" value="(\w+)"', page.text)[1]
+        sent = {"token": token, "name": f"s{number % STUDENTS}", "password": "wrong guess"}
+        return await client.post("/sign-in", data=sent)
+
+    async def _begin_long(self, client: httpx2.AsyncClient, _: int) -> httpx2.Response:
+        """An exam of everything, as long as is allowed."""
+        token = self.sat.tokens[STUDENTS]
+        sent = {"token": csrf_token(token), "blueprint": "all", "minutes": "300"}
+        return await client.post("/exam", data=sent, headers={"cookie": f"{COOKIE}={token}"})
+
+    async def _invent_parts(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
+        """Answers of 500 kB under parts that the paper has not."""
+        token = self.sat.tokens[STUDENTS + 1]
+        mine = {"cookie": f"{COOKIE}={token}", "accept": "application/json"}
+        if not hasattr(self, "own"):
+            sent = {"token": csrf_token(token), "blueprint": "trial"}
+            self.own = (await client.post("/exam", data=sent, headers=mine)).headers["location"]
+        parts = {f"{kind}-{n}zz": "x" * 9000 for n in range(900, 927) for kind in ("on", "a")}
+        return await client.post(
+            self.own, data={"token": csrf_token(token), **parts, "number": number}, headers=mine
+        )
+
+
+async def wait_for_stock(database: str) -> float:
+    """Seconds until a paper waits for each learner."""
+    began, store = time.perf_counter(), Store(database)
+    with contextlib.closing(store):
+        while True:
+            with store.database.reading() as connection:
+                if connection.execute(select(func.count()).select_from(STOCK)).scalar() >= STUDENTS:
+                    return time.perf_counter() - began
+            await asyncio.sleep(1)
+
+
 async def exams(folder: str, seconds: float) -> None:
     """300 learners with papers of their own: all begin in 10 s, save, hand in in 10 s."""
-    served = Served(folder, "class.sqlite3", "--host", "0.0.0.0")
+    database = f"sqlite:///{folder}/class.sqlite3"
+    served = Served(
+        folder, "class.sqlite3", "--host", "0.0.0.0", "--papers-ahead", f"mock={STUDENTS}"
+    )
     try:
-        port = re.search(r":(\d+)/", served.entrance)[1]
-        sat = Class(f"sqlite:///{folder}/class.sqlite3")
+        port = int(re.search(r":(\d+)/", served.entrance)[1])
+        sat = Class(database)
+        print(f"{STUDENTS} papers made ahead in {await wait_for_stock(database):.0f} s")
+        told("memory before an exam", served.memory(), MEMORY, "MB")
+        attackers = Attackers(sat, port)
+        attacking = asyncio.ensure_future(attackers.attack())
         limits = httpx2.Limits(max_connections=400, max_keepalive_connections=400)
         async with httpx2.AsyncClient(
             base_url=f"http://127.0.0.1:{port}", limits=limits, timeout=120
@@ -219,7 +337,11 @@ async def exams(folder: str, seconds: float) -> None:
             report("300 learners hand in", await scheduled(
                 served, STUDENTS, each, lambda n: sat.hand_in(client, n)), 60_000)  # fmt: skip
             told("last marks after the last due", max(0.0, sat.marked - due), 60, "s")
-        told("memory in an exam", served.memory(), MEMORY_OF_CLASS, "MB")
+        attacking.cancel()
+        for name, count in attackers.done.items():
+            print(f"attacker, {name}: {count} requests, answers {sorted(attackers.answers[name])}")
+        each = " + ".join(f"{one:.0f}" for one in served.list_memory())
+        told("memory in an exam", served.memory(), MEMORY_OF_CLASS, "MB", each)
     finally:
         served.end()
 
@@ -248,18 +370,25 @@ async def ask(served: Served) -> None:
         await practice(client, served, token)
 
 
-def main(seconds: float) -> int:
+def main(seconds: float, *, alone: bool) -> int:
     with tempfile.TemporaryDirectory() as folder:
-        served = Served(folder)
-        try:
-            told("ready", 1000 * served.ready, 1000, "ms")
-            asyncio.run(ask(served))
-            told("memory", served.memory(), MEMORY, "MB")
-        finally:
-            served.end()
+        if not alone:
+            one_learner(folder)
         asyncio.run(exams(folder, seconds))
     return bool(over)
 
 
+def one_learner(folder: str) -> None:
+    served = Served(folder)
+    try:
+        told("ready", 1000 * served.ready, 1000, "ms")
+        asyncio.run(ask(served))
+        told("memory", served.memory(), MEMORY, "MB")
+    finally:
+        served.end()
+
+
 if __name__ == "__main__":
-    sys.exit(main(float(sys.argv[1]) if len(sys.argv) > 1 else 60))
+    given = [one for one in sys.argv[1:] if one != "--exam"]
+    allow_connections()
+    sys.exit(main(float(given[0]) if given else 60, alone="--exam" in sys.argv))

@@ -21,7 +21,7 @@ from quizgen.classes.pseudonyms import student_code
 from quizgen.classes.roster import RosterStudent, read_roster, write_roster
 from quizgen.core.decoding import convert, decode_json, json_decoder
 from quizgen.core.errors import ClassError
-from quizgen.core.files import PRIVATE, open_private, write_all
+from quizgen.core.files import PRIVATE, open_private, restrict_folder, write_all
 from quizgen.core.untrusted import parse_json, parse_toml, read_text
 from quizgen.paper.answer_key import AnswerKey, answer_key_digest, parse_answer_key
 
@@ -158,6 +158,7 @@ class ClassFolder:
         """
         contents = {ROSTER: write_roster(students), KEYS: b"", SETTINGS: _format_toml(settings)}
         write_all(self.path, contents, mode=PRIVATE)
+        restrict_folder(self.path)  # it may have been there, empty
 
     def students(self) -> list[RosterStudent]:
         """Return the students of the roster, in the order of their seats."""

@@ -9,8 +9,9 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from quizgen.classes.class_folder import SETTINGS
 from quizgen.core.errors import ClassError
-from quizgen.core.files import PRIVATE
+from quizgen.core.files import PRIVATE, restrict_folder
 
 FILE = ".lock"
 PATIENCE = 60.0
@@ -23,6 +24,8 @@ def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
     """Hold an exclusive lock on the folder of a class during the body of ``with``.
 
     The operating system releases it where a process is killed.
+
+    Names of files are numbers of students: what others could look into is closed to them, too.
 
     Parameters
     ----------
@@ -48,6 +51,8 @@ def lock_folder(folder: Path, patience: float = PATIENCE) -> Iterator[None]:
                     f"{folder}: another command writes there; try again when it has ended"
                 )
             time.sleep(_PAUSE)
+        if (folder / SETTINGS).exists():
+            restrict_folder(folder)
         yield
     finally:
         os.close(number)

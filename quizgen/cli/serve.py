@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
-from typing import Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import click
 
@@ -18,6 +19,29 @@ from quizgen.cli.options import (
 )
 from quizgen.core.errors import require_extra
 
+if TYPE_CHECKING:
+    from quizgen.bank.bank import Bank
+
+
+MOST_AHEAD = 5000
+"""Papers of a blueprint that are made ahead: each takes a third of a megabyte of the database."""
+
+
+def _parse_papers_ahead(
+    _context: click.Context, _option: click.Parameter, given: tuple[str, ...]
+) -> tuple[tuple[str, int], ...]:
+    """Blueprints or topics, and how many papers of each; which there are, the bank says."""
+    return tuple(map(_parse_one_ahead, given))
+
+
+def _parse_one_ahead(text: str) -> tuple[str, int]:
+    name, _, number = text.rpartition("=")
+    if not name or not re.fullmatch("[0-9]{1,4}", number, re.ASCII):
+        raise click.BadParameter(f"{text!r} is not like mock=300")
+    if not 1 <= int(number) <= MOST_AHEAD:
+        raise click.BadParameter(f"{text!r}: 1 to {MOST_AHEAD} papers")
+    return name, int(number)
+
 
 class ServeOptions(BankOptions):
     """Options of ``quizgen serve``."""
@@ -30,6 +54,7 @@ class ServeOptions(BankOptions):
     invite: bool
     database: str
     workers: int
+    papers_ahead: tuple[tuple[str, int], ...]
     log_form: str
     backup: Path | None
     author: bool
@@ -69,6 +94,13 @@ class ServeOptions(BankOptions):
     type=IntRangeParam(1, MOST_JOBS),
     default=2,
     help="Processes that make questions and mark exams. [default: 2]",
+)
+@click.option(
+    "--papers-ahead",
+    metavar="NAME=NUMBER",
+    multiple=True,
+    callback=_parse_papers_ahead,
+    help="Papers to make ahead, such as mock=300: who begins waits for none; may be repeated.",
 )
 @click.option(
     "--log",
@@ -115,7 +147,9 @@ def serve(**options: Unpack[ServeOptions]) -> None:
         examine=lint_while_writing if options["author"] else None,
         classroom=options["classroom"],
         workers=options["workers"],
+        papers_ahead=options["papers_ahead"],
     )
+    _check_blueprints(settings.bank, options["papers_ahead"])
     if settings.accounts and options["author"]:
         raise click.UsageError("--author shows every solution: on this machine alone")
     if settings.accounts and options["classroom"]:
@@ -128,3 +162,18 @@ def serve(**options: Unpack[ServeOptions]) -> None:
         settings, options["port"], show=options["show"], tell=click.echo,
         invite=options["invite"], log_form=options["log_form"],
     )  # fmt: skip
+
+
+def _check_blueprints(bank: Bank, wanted: tuple[tuple[str, int], ...]) -> None:
+    """Refuse papers of what the bank has not, and two numbers for one blueprint."""
+    if not wanted:
+        return
+    from quizgen.paper.blueprint import find_blueprint
+
+    names = [name for name, _ in wanted]
+    for name in names:
+        if find_blueprint(name, bank) is None:
+            known = ", ".join((*bank.blueprints, *bank.topics))
+            raise click.UsageError(f"--papers-ahead: no blueprint {name!r} ({known})")
+        if names.count(name) > 1:
+            raise click.UsageError(f"--papers-ahead: {name} stands there twice")

@@ -53,6 +53,24 @@ def open_private(path: Path, *, truncate: bool = False) -> io.BufferedWriter:
     return os.fdopen(number, "wb")
 
 
+def restrict_folder(folder: Path) -> None:
+    """Let nobody but its owner look into a folder, nor read what is in it.
+
+    Links are not followed. What somebody else owns stays as it is.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+    """
+    for place, _, files in os.walk(folder):
+        modes = [(Path(place), 0o700), *((Path(place, name), PRIVATE) for name in files)]
+        for path, mode in modes:
+            # a link has all bits, and what it leads to may stand anywhere
+            with contextlib.suppress(OSError):
+                if not path.is_symlink() and path.stat().st_mode & 0o077:
+                    path.chmod(mode)
+
+
 def build_zip(contents: Mapping[str, bytes], *, packed: bool = True) -> bytes:
     """Return a zip archive of files in the order given: the same bytes on any day and system.
 

@@ -41,7 +41,7 @@ from quizgen.kinds.contract import (
 )
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
-from quizgen.maths.notation import FormulaReadError, pretty
+from quizgen.maths.notation import pretty
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
@@ -78,7 +78,8 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge typed coordinates."""
         items, tail = read_list(typed, len(self.values), options.decimal)
-        items = reorder_by_name(items, self.names, FormulaReadError("item-count", 1))
+        # The chain's names of the coordinates stand in every key; others only if authored.
+        items = reorder_by_name(items, self.names or list(self.quantities()))
         items = [drop_count_noun(item, self.counts) for item in items]
         unit, asked = _unit(tail), self.unit or count_noun_unit(self.counts)
         first, second, doubt = read_items(items, asked, unit, options.decimal)

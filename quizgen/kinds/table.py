@@ -13,7 +13,7 @@ from quizgen.core.decoding import convert
 from quizgen.grading.diagnosis.numeric_slips import find_common_slip
 from quizgen.grading.judge import show_spec
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.labels import find_name, split_name
+from quizgen.grading.reading.labels import place_by_name
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.reading.numbers import relocate_error
 from quizgen.grading.reading.source_map import SourceText
@@ -155,20 +155,12 @@ def _place_cells(typed: str, names: list[str], decimal: str) -> dict[str, Source
     """Name to what was typed for it: by name, or all in order."""
     count = None if any(mark in typed for mark in "=:") else len(names)
     items, _ = read_list(typed, count, decimal)
-    pairs = [split_name(item) for item in items]
-    if not any(name for name, _ in pairs):
-        if len(items) != len(names):
-            raise FormulaReadError("item-count", 1, str(len(items)), [str(len(names))])
-        return dict(zip(names, items, strict=True))
-    placed: dict[str, SourceText] = {}
-    for (label, rest), item in zip(pairs, items, strict=True):
-        name = find_name(label, names)
-        if not name or name in placed:
-            raise FormulaReadError(
-                "used-twice" if name else "unknown-name", item.column(0), label, names
-            )
-        placed[name] = rest
-    return placed
+    placed = place_by_name(items, names)
+    if placed is not None:
+        return placed
+    if len(items) != len(names):
+        raise FormulaReadError("item-count", 1, str(len(items)), [str(len(names))])
+    return dict(zip(names, items, strict=True))
 
 
 def _one(asked: Cell, name: str, item: SourceText | None, options: GradingOptions) -> Verdict:

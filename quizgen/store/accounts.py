@@ -22,8 +22,9 @@ from sqlalchemy import (
 from sqlalchemy.exc import IntegrityError
 
 from quizgen.store.database import Database
+from quizgen.store.paper_stock import delete_unused_papers
 from quizgen.store.records import Invitation, Learner, Person, row_to_record
-from quizgen.store.schema import ACCOUNT, INVITATION, LEARNER, PAPER, SESSION, SITTING
+from quizgen.store.schema import ACCOUNT, INVITATION, LEARNER, SESSION
 
 ALONE = "me"
 """Name of the learner of a server for one person; nobody signs in under it."""
@@ -202,8 +203,7 @@ class Accounts:
         """Delete a learner with all that they did, and papers that nobody else sat."""
         with self.database.writing(learner) as connection:
             connection.execute(delete(LEARNER).where(LEARNER.c.id == learner))
-            sat = select(SITTING.c.paper).where(SITTING.c.paper.is_not(None))
-            connection.execute(delete(PAPER).where(PAPER.c.id.not_in(sat)))
+            delete_unused_papers(connection)
 
 
 def _select_people(*more: ColumnElement[Any]) -> Select[Any]:

@@ -72,14 +72,14 @@ class ExamStore:
 
         def work(connection: Connection) -> ExamRecord | None:
             """Insert the exam unless an open one exists; None if its key was shown."""
-            known = _find_exams_with_numbers(connection, learner, code)
+            known = find_exams_with_numbers(connection, learner, code)
             for one in known:
                 if one.handed is None:
                     return one
             if known and not practice:
                 return None
             if paper:
-                _insert_paper(connection, paper)
+                insert_paper(connection, paper)
             made = ExamRecord(secrets.token_urlsafe(12), learner, code, now, limit, pauses,
                            paper=name, practice=bool(known))  # fmt: skip
             connection.execute(insert(SITTING).values(msgspec.to_builtins(made)))
@@ -98,7 +98,7 @@ class ExamStore:
 
         def work(connection: Connection) -> None:
             """Insert the paper and link it."""
-            _insert_paper(connection, paper)
+            insert_paper(connection, paper)
             _update_sitting(connection, sitting, paper=paper.id)
 
         self.database.write(sitting.learner, work)
@@ -226,7 +226,7 @@ def _find_sitting(connection: Connection, learner: int, name: str) -> ExamRecord
     return row_to_record(row, ExamRecord) if row else None
 
 
-def _insert_paper(connection: Connection, paper: Packed) -> None:
+def insert_paper(connection: Connection, paper: Packed) -> None:
     """Insert a packed paper unless it is stored already."""
     row = {"id": paper.id, "code": paper.code, "parts": paper.parts, "data": paper.data}
     upsert(connection, PAPER, row, ["id"])
@@ -249,7 +249,7 @@ def _update_sitting(connection: Connection, sitting: ExamRecord, **values: objec
     connection.execute(update(SITTING).where(SITTING.c.id == sitting.id).values(values))
 
 
-def _find_exams_with_numbers(connection: Connection, learner: int, code: str) -> list[ExamRecord]:
+def find_exams_with_numbers(connection: Connection, learner: int, code: str) -> list[ExamRecord]:
     """Return a learner's exams with the same numbers as a code, in whatever language."""
     start = numbers_of(code)
     query = select(SITTING).where(

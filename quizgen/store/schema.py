@@ -74,6 +74,18 @@ PAPER = Table(
 ``parts`` are the names of its parts: no answer is kept under another.
 """
 
+STOCK = Table(
+    "stock",
+    METADATA,
+    Column("paper", ForeignKey("paper.id"), primary_key=True),
+    Column("blueprint", String(200), nullable=False),
+    Column("version", String(64), nullable=False),
+    Column("minutes", Integer, nullable=False),
+    Column("pauses", Boolean),
+    Index("stock_of", "blueprint", "version"),
+)
+"""Papers that were made ahead and that nobody has begun, see ``store.paper_stock``."""
+
 SITTING = Table(
     "sitting",
     METADATA,

@@ -16,6 +16,7 @@ from quizgen.store.archive import ArchiveStore
 from quizgen.store.clock import Clock, since_boot
 from quizgen.store.database import Database, upsert
 from quizgen.store.exam_attempts import ExamStore
+from quizgen.store.paper_stock import PaperStock
 from quizgen.store.records import AttemptRecord, Learner, OutcomeRecord, QuestionRef, row_to_record
 from quizgen.store.review_cards import ReviewCardStore
 from quizgen.store.schema import ATTEMPT, LEARNER, SEEN, SERVER
@@ -43,6 +44,8 @@ class Store:
         """The time of exams."""
         self.sittings = ExamStore(self.database, self.clock)
         """Exams that are sat."""
+        self.stock = PaperStock(self.database, self.clock)
+        """Papers that were made ahead."""
         self.cards = ReviewCardStore(self.database)
         """What is asked again, and when."""
         self.accounts = Accounts(self.database)

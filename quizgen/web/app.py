@@ -64,8 +64,10 @@ def create_app(settings: ServerSettings) -> Starlette:
         try:
             site.workers.warm()
             attaching = asyncio.ensure_future(site.papers.attach_all())
+            filling = asyncio.ensure_future(site.papers_ahead.fill_always())
             yield
             attaching.cancel()
+            filling.cancel()
         finally:
             site.close()
 

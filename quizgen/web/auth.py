@@ -59,6 +59,7 @@ class AuthMiddleware:
         if scope["path"] == HEALTH:
             await (await self._health())(scope, receive, send)
             return
+        self.site.papers_ahead.note_request()
         try:
             sign = self._signed_in if self.site.settings.accounts else self._admit_sole_learner
             answer = await sign(scope)

@@ -117,6 +117,9 @@ async def start_exam(request: Request) -> Response:
     try:
         wanted = _parse_wanted_paper(request, form)
         site.spend_quota("exam", learner)
+        sitting = await _begin_from_stock(site, learner, wanted, form)
+        if sitting is not None:
+            return redirect(f"/exam/{sitting.id}")
         paper = await site.papers.make(wanted, learner)
     except QuizgenError as error:
         problem = "code" if isinstance(error, PaperCodeError) else "paper"
@@ -135,6 +138,18 @@ async def start_exam(request: Request) -> Response:
     if sitting is None:
         return redirect(f"/exam?{urlencode({'problem': 'shown', 'code': paper.code})}")
     return redirect(f"/exam/{sitting.id}")
+
+
+async def _begin_from_stock(
+    site: ServerState, learner: int, wanted: MakePaper, form: FormData
+) -> ExamRecord | None:
+    """An exam of a blueprint, where a paper was made ahead; a code asks for its own paper."""
+    if wanted.code:
+        return None
+    return await site.papers_ahead.begin_exam(
+        learner, wanted.blueprint,
+        has_clock=bool(field_text(form, "clock")), pauses=bool(field_text(form, "pauses")),
+    )  # fmt: skip
 
 
 def _parse_wanted_paper(request: Request, form: FormData) -> MakePaper:

@@ -24,7 +24,7 @@ from quizgen.web.settings import ServerSettings
 
 # Seconds after which a process is taken to hang: a paper of some hours takes a tenth of it.
 LONGEST = 120.0
-ROOM = 100_000_000
+ROOM = 50_000_000
 """Bytes of what is kept ready, as it was sent; the latest."""
 
 PoolRequest = QuestionRequest | WorkerJob
@@ -103,7 +103,9 @@ class WorkerPool:
         assert isinstance(found, QuestionView)  # noqa: S101 - what was asked for
         return found
 
-    async def get_result(self, job: WorkerJob, asker: Hashable = None) -> bytes:
+    async def get_result(
+        self, job: WorkerJob, asker: Hashable = None, *, is_kept: bool = True
+    ) -> bytes:
         """Return the bytes of a job, from the cache or a worker; concurrent requests share one run.
 
         Parameters
@@ -111,13 +113,15 @@ class WorkerPool:
         job : WorkerJob
         asker : hashable, optional
             Who waits for it: all who ask have their turns.
+        is_kept : bool
+            Whether it may be asked for again: else it takes no room.
 
         Raises
         ------
         QuizgenError
             If it cannot be done; tried again at the next request.
         """
-        found = await self._get_or_make(job, asker)
+        found = await self._get_or_make(job, asker, is_kept=is_kept)
         assert isinstance(found, bytes)  # noqa: S101 - what was asked for
         return found
 
@@ -125,6 +129,11 @@ class WorkerPool:
     def alive(self) -> int:
         """Return the number of live worker processes; a dead one is replaced at its next job."""
         return sum(process.is_alive() for process in self.pool.processes)
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether anything is being made."""
+        return bool(self._due)
 
     @property
     def has_spare(self) -> bool:
@@ -137,23 +146,30 @@ class WorkerPool:
             with contextlib.suppress(QuizgenError):  # said to the next who asks
                 await self._get_or_make(wanted, self)
 
-    async def _get_or_make(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
+    async def _get_or_make(
+        self, wanted: PoolRequest, asker: Hashable, *, is_kept: bool = True
+    ) -> PoolResult:
         """Return a cached result, or wait for the one run that makes it."""
         found = self._kept.get(wanted)
         if found is not None:
             return found
         if wanted not in self._due:
-            self._due[wanted] = due = asyncio.ensure_future(self._make_result(wanted, asker))
+            self._due[wanted] = due = asyncio.ensure_future(
+                self._make_result(wanted, asker, is_kept=is_kept)
+            )
             due.add_done_callback(_forget_error)
         return await asyncio.shield(self._due[wanted])
 
-    async def _make_result(self, wanted: PoolRequest, asker: Hashable) -> PoolResult:
+    async def _make_result(
+        self, wanted: PoolRequest, asker: Hashable, *, is_kept: bool
+    ) -> PoolResult:
         """Run a job in a worker when it is the asker's turn; return and cache its result."""
         try:
             async with self._turns.turn(asker):
                 data = await asyncio.wrap_future(self._submit(wanted))
             found = decode_json(data, QuestionView) if isinstance(wanted, QuestionRequest) else data
-            self._kept.store_result(wanted, found, len(data))
+            if is_kept:
+                self._kept.store_result(wanted, found, len(data))
             return found
         finally:
             del self._due[wanted]

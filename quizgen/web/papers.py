@@ -6,6 +6,7 @@ keeps its paper: in every language, with keys, versions, and each figure once, b
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import logging
 import zlib
@@ -21,11 +22,17 @@ from quizgen.bank.bank import Bank
 from quizgen.core.decoding import convert, decode_json
 from quizgen.core.errors import QuizgenError
 from quizgen.store import ExamRecord, Packed, Store
-from quizgen.web.job_cache import ROOM, ResultCache, WorkerPool
+from quizgen.web.job_cache import ResultCache, WorkerPool
 from quizgen.web.question_view import PaperView, make_papers
 
 FORMAT = 1
 """Rises with what cannot be read as before; new members of what is kept have defaults instead."""
+ROOM = 30_000_000
+"""Bytes of papers that stay in memory: any other is read in some milliseconds."""
+READERS = 2
+"""Papers that are unpacked at the same time: more take memory and no less time."""
+UNPACKED = 4
+"""Bytes in memory for each that is kept."""
 PICTURES = frozenset({"figure", "solved_figure", "board"})
 MARK = "sha256:"
 _LOG = logging.getLogger("quizgen.papers")
@@ -121,6 +128,7 @@ class Papers:
     def __init__(self, store: Store, workers: WorkerPool) -> None:
         self.store, self.workers = store, workers
         self._kept: ResultCache[tuple[str, str], PaperView] = ResultCache(ROOM)
+        self._reading = asyncio.Semaphore(READERS)
 
     async def make(self, wanted: MakePaper, asker: Hashable = None) -> Packed:
         """Return a new paper, packed for storage; a worker builds it.
@@ -136,7 +144,9 @@ class Papers:
         QuizgenError
             If there is no such paper, or a template is wrong.
         """
-        return msgspec.msgpack.decode(await self.workers.get_result(wanted, asker), type=Packed)
+        # Nobody asks for a drawn seed again; a code may be entered by everybody in a room.
+        data = await self.workers.get_result(wanted, asker, is_kept=bool(wanted.code))
+        return convert(msgspec.msgpack.decode(data), Packed)
 
     async def of(self, sitting: ExamRecord, lang: str) -> PaperView:
         """Return the paper of an exam in a language.
@@ -151,9 +161,10 @@ class Papers:
         name = sitting.paper or await self._attach(sitting)
         found = self._kept.get((name, lang))
         if found is None:
-            data = await run_in_threadpool(self.store.sittings.paper, name)
-            found = await run_in_threadpool(unpack, data, lang)
-            self._kept.store_result((name, lang), found, len(data) * 8)
+            async with self._reading:
+                data = await run_in_threadpool(self.store.sittings.paper, name)
+                found = await run_in_threadpool(unpack, data, lang)
+            self._kept.store_result((name, lang), found, len(data) * UNPACKED)
         return found
 
     async def _attach(self, sitting: ExamRecord) -> str:

@@ -38,6 +38,8 @@ class ServerSettings:
         in has a session of its own, which outlives the server.
     workers : int
         Processes that make questions and mark exams.
+    papers_ahead : tuple of (str, int)
+        Blueprints, and how many papers of each are to wait for those who begin.
     classroom : pathlib.Path, optional
         Folder of a class whose examiner asks; without it there are no pages for decisions.
     examine : callable, optional
@@ -51,6 +53,7 @@ class ServerSettings:
     behind_proxy: bool = False
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
     workers: int = 2
+    papers_ahead: tuple[tuple[str, int], ...] = ()
     classroom: Path | None = None
     examine: Callable[[Bank, str], list[str]] | None = None
 

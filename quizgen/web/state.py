@@ -18,6 +18,7 @@ from quizgen.web.event_log import log_event
 from quizgen.web.fairness import Allowance
 from quizgen.web.job_cache import WorkerPool
 from quizgen.web.papers import Papers
+from quizgen.web.papers_ahead import PapersAhead
 from quizgen.web.passwords import PasswordLimits
 from quizgen.web.settings import ServerSettings
 
@@ -99,6 +100,7 @@ class ServerState:
         self.keys = Keys(settings.token)
         """Keys that let a browser of this machine in."""
         self.papers = Papers(self.store, self.workers)
+        self.papers_ahead = PapersAhead(settings, self.store, self.workers, self.papers)
         self.password_limits = PasswordLimits()
         self.browser_secret = self.store.shared_value("browsers", secrets.token_urlsafe(24))
         """What proves that somebody has signed in at a browser before."""

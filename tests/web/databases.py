@@ -34,8 +34,17 @@ class Cluster:
             shutil.chown(self._folder, self._user)
         self._run(found / "initdb", "--auth=trust", "--username=tests", "--no-sync",
                   "--encoding=UTF8", "--locale=C")  # fmt: skip
-        options = f"-k {self._folder} -c listen_addresses='' -c fsync=off"
-        self._run(self._pg_ctl, "start", "-w", "-s", "-l", str(self._folder / "log"), "-o", options)
+        self._options = f"-k {self._folder} -c listen_addresses='' -c fsync=off"
+        self._start()
+
+    def _start(self) -> None:
+        log = str(self._folder / "log")
+        self._run(self._pg_ctl, "start", "-w", "-s", "-l", log, "-o", self._options)
+
+    def restart(self, how: str) -> None:
+        """End it, ``fast`` or ``immediate``, and start it again."""
+        self._run(self._pg_ctl, "stop", "-w", "-m", how, "-s")
+        self._start()
 
     def _run(self, *command: object) -> None:
         subprocess.run(

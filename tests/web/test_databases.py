@@ -46,6 +46,7 @@ ROWS = {
         "invitation": {"hash": sha256(b"link").hexdigest(), "learner": None, "manages": False, "until": 4e9},
     },
     "0006": {"paper": {"id": "f" * 64, "code": "trial-1-both-000000", "parts": '["1a"]', "data": b"packed"}},
+    "0007": {"stock": {"paper": "f" * 64, "blueprint": "trial", "version": "v", "minutes": 9, "pauses": None}},
 }  # fmt: skip
 """What each release keeps, in the tables that it has added."""
 
@@ -114,6 +115,8 @@ def test_every_release_comes_up_with_what_it_keeps(database, release):
     assert store.accounts.find_valid_invitation("link").learner is None
     if release >= "0006":
         assert store.sittings.paper("f" * 64) == b"packed"
+    if release >= "0007":
+        assert store.stock.count_papers("trial", "v") == 1
     store.save_attempt(store.start_attempt(7, QuestionRef("rgb-to-hsv", "4"), {}))
     store.close()
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import re
 import time
 
@@ -12,7 +11,6 @@ from sqlalchemy import func, select, update
 from starlette.testclient import TestClient
 
 from quizgen.bank.bank import Bank
-from quizgen.store.clock import Clock
 from quizgen.store.schema import PAPER, SITTING
 from quizgen.web.app import create_app
 from quizgen.web.auth import COOKIE, csrf_token
@@ -125,33 +123,8 @@ def test_an_exam_of_before_keeps_its_paper_if_it_can_still_be_made(server, root,
     assert (stem(shown.text) == stem(begun.text)) != changed
 
 
-class Hands:
-    """A clock that can be set, and one that cannot."""
-
-    def __init__(self) -> None:
-        self.wall, self.even = 1e9, 50.0
-        self.clock = Clock(None, lambda: self.wall, lambda: self.even)
-
-    def wait(self, seconds: float) -> None:
-        self.wall += seconds
-        self.even += seconds
-
-
-class TestClock:
-    @pytest.mark.parametrize("jump", [-3600.0, 3 * 3600.0])
-    def test_a_clock_that_is_set_gives_and_takes_no_time(self, jump, caplog):
-        hands = Hands()
-        with caplog.at_level(logging.WARNING):
-            hands.wait(60)
-            hands.wall += jump
-            assert hands.clock.now() == 1e9 + 60
-            hands.wait(60)
-            assert hands.clock.now() == 1e9 + 120
-        (told,) = caplog.messages
-        assert f"{jump:+.1f} s" in told
-
-    def test_the_next_server_goes_on_with_the_time_of_the_one_before(self, server, monkeypatch):
-        first = server().site.store.clock
-        monkeypatch.setattr(time, "time", lambda real=time.time: real() + 3600)
-        second = server().site.store.clock
-        assert second.anchor == first.anchor
+def test_the_next_server_goes_on_with_the_time_of_the_one_before(server, monkeypatch):
+    first = server().site.store.clock
+    monkeypatch.setattr(time, "time", lambda real=time.time: real() + 3600)
+    second = server().site.store.clock
+    assert second.anchor == first.anchor

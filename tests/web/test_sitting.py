@@ -196,30 +196,6 @@ def test_a_flag_comes_and_goes(client, token, exam):
     assert client.post(f"{at}/flag/77", data={"token": token}).status_code == 404
 
 
-def test_a_code_begun_is_one_exam_until_it_is_handed_in(client, token, exam, code):
-    at, _ = exam()
-    again, _ = exam()
-    assert again == at
-    single = code.replace("-both-", "-en-")
-    assert client.post("/exam", data={"token": token, "code": single}).url.path == at
-
-
-def test_a_paper_whose_key_was_shown_is_begun_again_for_practice_alone(client, token, exam, app):
-    at, page = exam()
-    assert "whoever has this code has the solutions" in page
-    client.post(at, data={"token": token, "do": "hand-in"})
-    refused, told = exam()
-    assert refused == "/exam"
-    assert "You have seen the key of this paper" in told
-    again, practised = exam(practice="1")
-    assert again != at
-    assert exam(practice="1")[0] == again
-    stem = re.findall(r'<div class="stem">.*?</div>', page, re.DOTALL)
-    assert re.findall(r'<div class="stem">.*?</div>', practised, re.DOTALL) == stem
-    store = app.state.site.store
-    assert store.sittings.find(store.learner().id, again.rsplit("/", 1)[1]).practice
-
-
 @pytest.mark.parametrize(
     ("sent", "said"),
     [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.maths.notation import FormulaReadError
@@ -35,31 +36,102 @@ def name_key(name: str) -> str:
     return _INSIDE.sub("", fold_name(name))
 
 
+NAMED_BY_WORD = {
+    "red": "r", "rot": "r", "লাল": "r",
+    "green": "g", "grün": "g", "gruen": "g", "সবুজ": "g",
+    "blue": "b", "blau": "b", "নীল": "b",
+    "cyan": "c", "zyan": "c", "সায়ান": "c",
+    "magenta": "m", "ম্যাজেন্টা": "m",
+    "yellow": "y", "gelb": "y", "হলুদ": "y",
+    "black": "kb", "schwarz": "ks", "কালো": "kb",
+    "white": "w", "weiß": "w", "weiss": "w", "সাদা": "w",
+    "hue": "h", "farbton": "h", "হিউ": "h",
+    "saturation": "s", "sättigung": "s", "স্যাচুরেশন": "s",
+    "brightness": "v", "value": "v", "hellwert": "v", "ভ্যালু": "v",
+    "column": "u", "spalte": "u", "কলাম": "u",
+    "row": "v", "zeile": "v", "সারি": "v",
+    "horizontal": "x", "vertical": "y", "vertikal": "y", "অনুভূমিক": "x", "উল্লম্ব": "y",
+    "long": "l", "medium": "m", "short": "s", "lang": "l", "mittel": "m", "kurz": "s",
+}  # fmt: skip
+"""Word for a coordinate or a colour to the letters that it may stand for."""
+
+_SHORTENED = re.compile(r"([^\W_]+)('*)(?:_(.+))?")
+_BEFORE_NUMBER = re.compile(rf"((?:[^\W\d_]|[{SIGNS}])+'*(?:_[^\W_]+'*)*) ?(?=[-+]?[\d.(])")
+_AFTER_NUMBER = re.compile(rf"(?P<value>.*[\d)%]) ?[(]?(?P<name>(?:[^\W\d_]|[{SIGNS}])+)[)]?")
+
+
 def find_name(typed: str, names: list[str]) -> str:
-    """Return the declared name that a typed one means (case counts only if it must), or ''."""
+    """Return the declared name that a typed one means, or '' if it means none or several.
+
+    Case counts only if it must. Where the names differ in their letter or in their index alone,
+    that is enough (``x`` for ``p'_x``, ``u`` for ``u_A``), and so is the word for it (``red``).
+    """
     for same in (name_key, lambda name: name_key(name).lower()):
         wanted = same(typed)
         found = [name for name in names if same(name) == wanted]
         if len(found) == 1:
             return found[0]
-    return ""
+    short = typed.strip().lower()
+    return _find_short_name(short, names) or _find_unique(
+        _find_short_name(letter, names) for letter in NAMED_BY_WORD.get(short, "")
+    )
 
 
-def reorder_by_name(
-    items: list[SourceText], names: list[str], error: FormulaReadError
-) -> list[SourceText]:
-    """Put named items into the declared order; items without names keep theirs.
+def _find_short_name(typed: str, names: list[str]) -> str:
+    """Return the one name whose letter, or whose index, is ``typed``, where all differ in it."""
+    split = [_SHORTENED.fullmatch(name.lower()) for name in names]
+    found = []
+    for group in (1, 3):
+        parts = [match[group] if match else None for match in split]
+        if None not in parts and len(set(parts)) == len(names) and typed in parts:
+            found.append(names[parts.index(typed)])
+    return _find_unique(found)
+
+
+def _find_unique(found: Iterable[str]) -> str:
+    """Return the only name among some, '' if there are none or several."""
+    several = {name for name in found if name}
+    return several.pop() if len(several) == 1 else ""
+
+
+def split_named_items(items: list[SourceText], names: list[str]) -> list[tuple[str, SourceText]]:
+    """Split each item into the name that it carries, '' for none, and its value.
+
+    Besides ``u = 420`` a name may stand before or after the value without a sign (``R 25``,
+    ``25 red``), provided that all items do so and all names are meant: a word after a number is
+    a unit otherwise.
+    """
+    pairs = [split_name(item) for item in items]
+    if any(name for name, _ in pairs):
+        return pairs
+    for split in (_split_name_before, _split_name_after):
+        loose = [split(item) for item in items]
+        if {find_name(name, names) for name, _ in loose} == set(names):
+            return loose
+    return pairs
+
+
+def _split_name_before(item: SourceText) -> tuple[str, SourceText]:
+    match = _BEFORE_NUMBER.match(item.text)
+    return (match[1], item.slice(match.end())) if match else ("", item)
+
+
+def _split_name_after(item: SourceText) -> tuple[str, SourceText]:
+    match = _AFTER_NUMBER.fullmatch(item.text)
+    return (match["name"], item.slice(0, match.end("value"))) if match else ("", item)
+
+
+def place_by_name(items: list[SourceText], names: list[str]) -> dict[str, SourceText] | None:
+    """Return each value under the declared name it carries; None if no item carries a name.
 
     Raises
     ------
     FormulaReadError
-        If a name is unknown, or used twice.
+        If a name is not asked for, or used twice.
     """
-    pairs = [split_name(item) for item in items]
+    pairs = split_named_items(items, names)
     if not any(name for name, _ in pairs):
-        return items
-    if not names:
-        return [rest for _, rest in pairs]
+        return None
     placed: dict[str, SourceText] = {}
     for (typed, rest), item in zip(pairs, items, strict=True):
         name = find_name(typed, names)
@@ -67,8 +139,24 @@ def reorder_by_name(
             code = "used-twice" if name else "unknown-name"
             raise FormulaReadError(code, item.column(0), typed, names)
         placed[name] = rest
+    return placed
+
+
+def reorder_by_name(items: list[SourceText], names: list[str]) -> list[SourceText]:
+    """Put named items into the declared order; items without names keep theirs.
+
+    Raises
+    ------
+    FormulaReadError
+        If a name is not asked for or used twice, or one is missing.
+    """
+    if not names:
+        return [rest for _, rest in map(split_name, items)]
+    placed = place_by_name(items, names)
+    if placed is None:
+        return items
     if len(placed) != len(names):
-        raise error
+        raise FormulaReadError("item-count", 1, str(len(placed)), [str(len(names))])
     return [placed[name] for name in names]
 
 
