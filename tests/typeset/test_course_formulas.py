@@ -43,6 +43,8 @@ def test_a_formula_is_heard_and_read_as_written_by_hand(row):
     node = lay_out_latex(row["latex"])
     assert to_speech(node) == row["speech"]
     assert to_text(node) == row["text"]
+    for lang in row.keys() & {"de", "bn"}:
+        assert to_speech(node, lang) == row[lang]
 
 
 @pytest.mark.parametrize("latex", LATEX + EXAMPLES)
