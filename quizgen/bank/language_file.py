@@ -47,7 +47,7 @@ NAMED_SECTIONS = frozenset(
     {"steps", "traps", "options", "words", "gaps", "points", "reasons", "claims"}
 )
 PROSE_SECTIONS = frozenset({"why", "check", "note"})
-_TEXTS = CompileCache("prose", LanguageFile, "markdown_it")
+_TEXTS = CompileCache("prose", LanguageFile, "markdown_it", "math_core")
 
 
 def read_language_file(path: Path) -> LanguageFile:

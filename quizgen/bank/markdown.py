@@ -1,7 +1,8 @@
 """The prose of a template: a small Markdown subset with slots and mathematics.
 
 ``{{ name }}`` fills in a drawn value with its unit and nothing else; ``$...$`` is mathematics in
-the grammar that students type. Loops, calls, attributes and arithmetic do not exist here.
+the grammar that students type, else in LaTeX. Loops, calls, attributes and arithmetic do not exist
+here.
 """
 
 from __future__ import annotations
@@ -14,8 +15,13 @@ from typing import TYPE_CHECKING, Any, Protocol
 import msgspec
 
 from quizgen.core.errors import BankError, FormulaError
-from quizgen.maths.notation import parse_formula, pretty
+from quizgen.core.positions import TEXT
+from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula, pretty
 from quizgen.maths.tree import Expr
+from quizgen.typeset import lay_out
+from quizgen.typeset.from_latex import SLOT, LatexError, lay_out_latex, spell_as_latex
+from quizgen.typeset.leaves import list_leaf_names
+from quizgen.typeset.nodes import Display, Leaf, Node
 
 
 class PlainText(msgspec.Struct, frozen=True, array_like=True, tag="w"):
@@ -34,6 +40,16 @@ class InlineFormula(msgspec.Struct, frozen=True, array_like=True, tag="f"):
     """Mathematics in a sentence, as a formula tree."""
 
     expr: Expr
+
+
+class LaidOutFormula(msgspec.Struct, frozen=True, array_like=True, tag="x"):
+    """Mathematics in a sentence that is laid out already, with leaves for drawn values.
+
+    ``source`` is how it stands in the file.
+    """
+
+    node: Node
+    source: str
 
 
 class InlineCode(msgspec.Struct, frozen=True, array_like=True, tag="c"):
@@ -57,7 +73,7 @@ class PictureLink(msgspec.Struct, frozen=True, array_like=True, tag="l"):
 
 
 class TypesetFormula(Protocol):
-    """What stands in the place of a ``Formula`` or a ``PictureLink`` once filled."""
+    """What stands in the place of a formula or a ``PictureLink`` once filled."""
 
     @property
     def typed(self) -> str:
@@ -77,6 +93,7 @@ if TYPE_CHECKING:
         PlainText
         | Slot
         | InlineFormula
+        | LaidOutFormula
         | InlineCode
         | Emphasis
         | PictureLink
@@ -84,9 +101,9 @@ if TYPE_CHECKING:
         | TypesetFormula
     )
 else:  # what a file gives, and what is kept of it
-    Inline = PlainText | Slot | InlineFormula | InlineCode | Emphasis | PictureLink
+    Inline = PlainText | Slot | InlineFormula | LaidOutFormula | InlineCode | Emphasis | PictureLink
 """A piece of a sentence; once filled, without ``Slot``, ``Formula``, ``PictureLink``, ``About``."""
-Unfilled = Slot | InlineFormula | PictureLink
+Unfilled = Slot | InlineFormula | LaidOutFormula | PictureLink
 SlotValue = Callable[[Unfilled], tuple[Inline, ...]]
 """What a slot, a formula or a picture is replaced by."""
 Program = Callable[[str], str]
@@ -156,8 +173,14 @@ follows it where an output could break between them.
 """
 _POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
 _EQUALS = re.compile(r"=(?=\s*$)")
-_SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*)\s*\}\}")
-_MATH = re.compile(r"\$([^$\n]+)\$")
+_SLOT = SLOT
+_MATH = re.compile(r"\$([^$\n]+|[^$]*\\[^$]*)\$")
+"""Mathematics; LaTeX may go over several lines."""
+_DISPLAY = re.compile(r"\$\$([^$]+)\$\$")
+_IN_CELL = re.compile(r"\$(?! )[^$\n]*(?<! )\$")
+_BAR = "\uf8fe"
+"""Holds a bar of a formula in a table, where Markdown would end a cell at it."""
+_LINK = re.compile(r"\[[^\]\n]+\]\((?:[a-z]+:|www\.|[\w-]*[/#.])[^\s)]*\)")
 _BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")
 
 
@@ -168,6 +191,7 @@ def _build_markdown_parser() -> Any:
     parser = MarkdownIt("zero", {"html": False})
     parser.enable(["emphasis", "backticks", "list", "table", "fence", "escape", "newline", "image"])
     parser.inline.ruler.before("escape", "slot", _make_inline_rule(_SLOT, "slot"))
+    parser.inline.ruler.before("escape", "display", _make_inline_rule(_DISPLAY, "display"))
     parser.inline.ruler.before("escape", "math", _make_inline_rule(_MATH, "math"))
     parser.inline.add_terminator_char("{")
     parser.inline.add_terminator_char("$")
@@ -202,10 +226,22 @@ def parse_blocks(source: str, line: int = 0) -> tuple[Block, ...]:
         If it holds anything but the subset.
     """
     try:
-        return tuple(_iter_blocks(iter(_build_markdown_parser().parse(source)), None))
+        held = _hold_bars(source)
+        return tuple(_iter_blocks(iter(_build_markdown_parser().parse(held)), None))
     except BankError as error:
         error.line = error.line + line - 1 if line else 0
         raise
+
+
+def _hold_bars(source: str) -> str:
+    """The source with other characters for bars inside formulas, which end no cell of a table."""
+    if "|" not in source or "$" not in source:
+        return source
+    return _IN_CELL.sub(lambda found: found[0].replace("|", _BAR), source)
+
+
+def _release_bars(text: str) -> str:
+    return text.replace(_BAR, "|")
 
 
 def parse_inlines(source: str, line: int = 0) -> tuple[Inline, ...]:
@@ -269,7 +305,7 @@ def _iter_blocks(tokens: Iterator[Any], until: str | None) -> Iterator[Block]:
                 tuple(_iter_list_items(tokens, close)), token.type.startswith("ordered")
             )
         elif token.type == "fence":
-            yield CodeBlock(token.content.rstrip("\n"))
+            yield CodeBlock(_release_bars(token.content.rstrip("\n")))
         elif token.type == "table_open":
             yield _parse_table(tokens)
         else:
@@ -306,7 +342,7 @@ def _iter_inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
             return
         if token.type == "text":
             if token.content:
-                yield from _iter_words_and_numbers(token.content)
+                yield from _iter_words_and_numbers(_release_bars(token.content))
         elif token.type in _ALONE:
             yield _ALONE[token.type](token)
         elif token.type in {"em_open", "strong_open"}:
@@ -321,6 +357,9 @@ def _iter_words_and_numbers(text: str) -> Iterator[Inline]:
     if "![" in text:
         what = f"a picture is not like ![words](file.png), without blanks, in {text!r}"
         raise BankError(what, rule="QG156")
+    if found := _LINK.search(text):
+        what = f"a link is not part of the subset: {found[0]!r}; a paper cannot follow it"
+        raise BankError(what, rule="QG153", place=(TEXT, found[0]))
     if _BANNED.search(text):
         what = f"only {{{{ name }}}} may stand in double braces: {text.strip()!r}"
         raise BankError(what, rule="QG154")
@@ -332,14 +371,50 @@ def _iter_words_and_numbers(text: str) -> Iterator[Inline]:
             yield PlainText(pretty.format_numbers_in_prose(piece).replace(" = ", TIED))
 
 
-def _parse_prose_formula(text: str) -> InlineFormula:
-    if text.lstrip().startswith("+"):
-        what = f"mathematics ${text}$: a sign + in front is not printed: set it as words"
-        raise BankError(what, rule="QG155")
+def _parse_prose_formula(text: str) -> InlineFormula | LaidOutFormula:
+    """A formula in the grammar that students type; in LaTeX where it is not of that grammar."""
+    if "\\" not in text:
+        if text.lstrip().startswith("+"):
+            what = f"mathematics ${text}$: a sign + in front is not printed: set it as words"
+            raise BankError(what, rule="QG155")
+        try:
+            return _parse_typed_formula(text)
+        except FormulaError as error:
+            unfinished = isinstance(error, FormulaReadError) and error.code in _UNFINISHED
+            if unfinished or _TWO_SIGNS.search(text):
+                raise BankError(f"mathematics ${text}$: {error}", rule="QG155") from error
     try:
+        return LaidOutFormula(lay_out_latex(spell_as_latex(text)), text)
+    except LatexError as error:
+        place = (TEXT, f"${text}$", (error.column or 1) + len("$"))
+        what = f"mathematics ${text}$: column {error.column}: {error.message}"
+        raise BankError(what, rule="QG159", place=place) from error
+
+
+def _set_large(formula: InlineFormula | LaidOutFormula) -> LaidOutFormula:
+    """A formula between two dollar signs each is as large as one in a line of its own."""
+    if isinstance(formula, InlineFormula):
+        return LaidOutFormula(Display(lay_out(formula.expr)), format_tree(formula.expr))
+    return LaidOutFormula(Display(formula.node), formula.source)
+
+
+_TWO_SIGNS = re.compile(r"[-+*/^] *[*/^]|[*/^] *[+=<>]|\+ *[-+=]")
+_UNFINISHED = frozenset({"unfinished", "empty", "too-long", "too-deep", "number-too-large"})
+"""Faults of a formula that LaTeX would print without a word."""
+_HELD = "\ua4d0"
+"""A letter that nobody types; with a number it names a leaf while a formula is read."""
+
+
+def _parse_typed_formula(text: str) -> InlineFormula | LaidOutFormula:
+    if not _SLOT.search(text):
         return InlineFormula(parse_formula(text))
-    except FormulaError as error:
-        raise BankError(f"mathematics ${text}$: {error}", rule="QG155") from error
+    if _HELD in text:
+        raise FormulaReadError("bad-character", text.index(_HELD) + 1, _HELD)
+    names = _SLOT.findall(text)
+    counts = iter(range(len(names)))
+    expr = parse_formula(_SLOT.sub(lambda _found: f" {_HELD}{next(counts)} ", text))
+    places = {f"{_HELD}{count}": Leaf(name) for count, name in enumerate(names)}
+    return LaidOutFormula(lay_out(expr, leaves=places, inline=True), text)
 
 
 def leaves(parts: Iterable[Block | Inline]) -> Iterator[Block | Inline]:
@@ -366,8 +441,9 @@ _ALONE: dict[str, Callable[[Any], Inline]] = {
     "softbreak": lambda _token: PlainText(" "),
     "hardbreak": lambda _token: PlainText(" "),
     "slot": lambda token: Slot(token.content),
-    "math": lambda token: _parse_prose_formula(token.content),
-    "code_inline": lambda token: InlineCode(token.content),
+    "math": lambda token: _parse_prose_formula(_release_bars(token.content)),
+    "display": lambda token: _set_large(_parse_prose_formula(_release_bars(token.content))),
+    "code_inline": lambda token: InlineCode(_release_bars(token.content)),
     "image": _parse_picture_link,
 }
 """Tokens that are one piece of a sentence."""
@@ -379,6 +455,8 @@ def slot_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
         match part:
             case Slot(name):
                 yield name
+            case LaidOutFormula(node):
+                yield from sorted(list_leaf_names(node))
             case CodeBlock(text) | InlineCode(text):
                 yield from _SLOT.findall(text)
             case PictureLink(_, alt):

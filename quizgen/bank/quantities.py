@@ -50,7 +50,7 @@ class QuantityNames(_Written, frozen=True):
         return hashlib.sha256(msgspec.json.encode(written)).hexdigest()
 
 
-_FILES = CompileCache("quantities", dict[str, QuantityNames], "markdown_it")
+_FILES = CompileCache("quantities", dict[str, QuantityNames], "markdown_it", "math_core")
 
 
 def read_quantities(paths: Iterable[Path]) -> dict[str, QuantityNames]:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import TypeAlias
+from typing import TypeAlias, TypeGuard
 
 import msgspec
 
@@ -39,6 +39,11 @@ class Call(msgspec.Struct, frozen=True, tag="c", array_like=True):
 
 Expr: TypeAlias = Num | Sym | Call
 """A formula."""
+
+
+def is_expr(value: object) -> TypeGuard[Expr]:
+    """Whether a value is a formula, and not a number."""
+    return isinstance(value, Num | Sym | Call)
 
 
 def make_number(value: int | str | Fraction) -> Num:
@@ -94,6 +99,7 @@ __all__ = [
     "Expr",
     "Num",
     "Sym",
+    "is_expr",
     "make_number",
     "names_in",
     "operators_in",

@@ -13,6 +13,7 @@ from quizgen.bank.entries import Entry, Passage
 from quizgen.bank.markdown import (
     Block,
     Inline,
+    LaidOutFormula,
     PictureLink,
     Slot,
     Unfilled,
@@ -24,6 +25,8 @@ from quizgen.bank.markdown import (
 from quizgen.bank.metadata import pick_language
 from quizgen.core.errors import BankError
 from quizgen.question.formula_lines import typeset_inline
+from quizgen.question.inlines import typeset_layout
+from quizgen.typeset.leaves import list_leaf_names
 
 
 def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
@@ -68,6 +71,10 @@ def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
         raise BankError(f"picture {part.file!r} cannot stand here, only in the words of a template")
     if isinstance(part, Slot):
         raise BankError(f"{{{{ {part.name} }}}} cannot be filled in here")
+    if isinstance(part, LaidOutFormula):
+        for name in list_leaf_names(part.node):
+            raise BankError(f"{{{{ {name} }}}} cannot be filled in here")
+        return (typeset_layout(part.node),)
     return (typeset_inline(part.expr),)
 
 

@@ -33,6 +33,20 @@ class TypesetMaths(msgspec.Struct, frozen=True):
         return localise_numbers(self.lang, text)
 
 
+class TypesetLayout(TypesetMaths, frozen=True):
+    """A formula that is more than the grammar of typed ones has; its layout says all of it."""
+
+    @property
+    def text(self) -> str:
+        """How it is written in plain text, for people."""
+        return typeset.to_text(self.node, self.lang)
+
+
+def typeset_layout(node: typeset.Node) -> TypesetLayout:
+    """Return a laid out formula ready for printing."""
+    return TypesetLayout(node, typeset.to_text(node))
+
+
 class PlacedPicture(msgspec.Struct, frozen=True):
     """A picture in a sentence, and what it shows in words whose blanks are filled."""
 

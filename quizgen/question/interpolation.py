@@ -13,6 +13,8 @@ from quizgen.bank.markdown import (
     ConditionalSentence,
     Emphasis,
     Inline,
+    InlineFormula,
+    LaidOutFormula,
     PictureLink,
     PlainText,
     RoundedMarker,
@@ -29,10 +31,18 @@ from quizgen.core.positions import TEXT
 from quizgen.kinds.contract import VALUE_OPTION, LabelledName
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.numbers import format_exact, format_rounded
-from quizgen.maths.tree import Expr
+from quizgen.maths.tree import Expr, is_expr
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Values
-from quizgen.question.inlines import PlacedPicture, TypesetMaths, to_inlines
+from quizgen.question.inlines import (
+    PlacedPicture,
+    TypesetLayout,
+    TypesetMaths,
+    to_inlines,
+    typeset_layout,
+)
+from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names, make_leaf_value
+from quizgen.typeset.nodes import MathRow, Node, Phrase
 
 NBSP = "\u00a0"
 SHORT = 16
@@ -129,7 +139,25 @@ class Interpolator:
                     picture, fill_inlines(part.alt, self._fill_value, self._fill_program)
                 ),
             )
-        return self._fill_slot(part.name) if isinstance(part, Slot) else (_inline_maths(part.expr),)
+        if isinstance(part, Slot):
+            return self._fill_slot(part.name)
+        if isinstance(part, InlineFormula):
+            return (_inline_maths(part.expr),)
+        names = _names_in_layout(part)
+        if not names:
+            return (_inline_layout(part),)
+        return (typeset_layout(fill_leaves(part.node, {n: self._fill_leaf(n) for n in names})),)
+
+    def _fill_leaf(self, name: str) -> LeafValue:
+        """What stands for a quantity or a phrase inside a formula."""
+        if name in self.own or name not in self.known or name in self.drawn.words:
+            return LeafValue(_inlines_to_node(self._fill_slot(name)))
+        if (formula := self._find_formula(name)) is not None:
+            return make_leaf_value(formula)
+        value, unit = self.known[name], self.drawn.template.units.get(name, "")
+        rounded = self.drawn.is_rounded(name)
+        text = format_rounded(value) if rounded else self.drawn.format_value(name)
+        return make_leaf_value(text, unit, is_rounded=rounded)
 
     def _fill_slot(self, name: str) -> tuple[Inline, ...]:
         drawn = self.drawn
@@ -142,6 +170,8 @@ class Interpolator:
         if name not in self.known:
             what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
             raise self._format_problem(what, "QG158", TEXT, blank)
+        if (formula := self._find_formula(name)) is not None:
+            return (_inline_maths(formula),)
         if not drawn.is_rounded(name):
             return to_inlines(format_quantity(drawn, name))
         rounded = format_rounded(self.known[name])
@@ -149,6 +179,11 @@ class Interpolator:
             RoundedMarker(),
             *to_inlines(join_unit(rounded, drawn.template.units.get(name, ""))),
         )
+
+    def _find_formula(self, name: str) -> Expr | None:
+        """Return the formula that a name stands for, with the drawn numbers in it, if it is one."""
+        value: object = self.known[name]
+        return value if is_expr(value) else None
 
     def _fill_program(self, text: str) -> str:
         return fill_program(text, self.drawn, self.known)
@@ -195,6 +230,25 @@ def _take_formula_tail(rest: deque[Inline]) -> str:
 @lru_cache(maxsize=4096)
 def _inline_maths(expr: Expr) -> TypesetMaths:
     return TypesetMaths(typeset.lay_out(expr, inline=True), format_tree(expr))
+
+
+@lru_cache(maxsize=4096)
+def _inline_layout(part: LaidOutFormula) -> TypesetLayout:
+    return typeset_layout(part.node)
+
+
+@lru_cache(maxsize=4096)
+def _names_in_layout(part: LaidOutFormula) -> frozenset[str]:
+    return list_leaf_names(part.node)
+
+
+def _inlines_to_node(parts: Iterable[Inline]) -> Node:
+    """Pieces of a sentence inside a formula: its formulas as they are, all else as words."""
+    nodes = [
+        part.node if isinstance(part, TypesetMaths) else Phrase(_get_plain_text(part))
+        for part in parts
+    ]
+    return nodes[0] if len(nodes) == 1 else MathRow(tuple(nodes))
 
 
 def fill_program(text: str, drawn: Variant, known: Values) -> str:

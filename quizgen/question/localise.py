@@ -13,7 +13,14 @@ from typing import Any, TypeVar
 import msgspec
 from msgspec.structs import replace
 
-from quizgen.bank.markdown import CodeBlock, InlineCode, InlineFormula, PlainText, Slot
+from quizgen.bank.markdown import (
+    CodeBlock,
+    InlineCode,
+    InlineFormula,
+    LaidOutFormula,
+    PlainText,
+    Slot,
+)
 from quizgen.bank.pictures import PictureFile
 from quizgen.figures import FieldPicture
 from quizgen.kinds.contract import InputControl
@@ -21,7 +28,16 @@ from quizgen.locale import get_language, is_right_to_left, localise_numbers
 from quizgen.question.inlines import TypesetMaths
 
 Localisable = TypeVar("Localisable")
-LEFT = (InlineCode, CodeBlock, InputControl, FieldPicture, InlineFormula, PictureFile, Slot)
+LEFT = (
+    InlineCode,
+    CodeBlock,
+    InputControl,
+    FieldPicture,
+    InlineFormula,
+    LaidOutFormula,
+    PictureFile,
+    Slot,
+)
 """What has no numbers for a learner, or its own way to write them."""
 _LEFT_TO_RIGHT = "\u200e"
 """What stands behind it is written so, as far as it can be either way: signs, digits, blanks."""

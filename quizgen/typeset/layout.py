@@ -20,18 +20,21 @@ from quizgen.typeset.nodes import (
     FRACTION,
     MODULO,
     NEGATIVE,
+    POWER,
     PRODUCT,
     QUANTITY,
     RELATION,
     SUM,
     WORDS,
     Accent,
+    Binomial,
     Cases,
     Digits,
     Fenced,
     Frac,
     Func,
     Ident,
+    LargeOperator,
     MathRow,
     Node,
     NumberWithUnit,
@@ -116,6 +119,9 @@ HEADS: dict[str, Node] = {
     "asin": Word("arcsin"),
     "acos": Word("arccos"),
     "atan": Word("arctan"),
+    "asinh": Word("arsinh"),
+    "acosh": Word("arcosh"),
+    "atanh": Word("artanh"),
     "sign": Word("sgn"),
 }
 """Functions that are printed under another name than they are typed."""
@@ -358,6 +364,35 @@ def _lay_out_square_root(run: _Layout, args: tuple[Expr, ...]) -> Node:
     return Root(run.lay(body))
 
 
+def _lay_out_factorial(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    (arg,) = args
+    return MathRow((run.lay_out_bracketed(arg, ATOM), OperatorSign("!")), POWER)
+
+
+def _lay_out_binomial(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    top, bottom = args
+    return Binomial(run.lay(top), run.lay(bottom))
+
+
+def _make_series_rule(sign: str) -> LayoutRule:
+    """Return the rule of a sum or product: a name, its first and last value, what is combined."""
+
+    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        name, first, last, body = args
+        start = MathRow((run.lay(name), OperatorSign("="), run.small(first)), RELATION)
+        operator = LargeOperator(sign, start, run.small(last))
+        return MathRow((operator, run.lay_out_bracketed(body, PRODUCT)), PRODUCT)
+
+    return rule
+
+
+def _lay_out_integral(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    name, first, last, body = args
+    sign = LargeOperator("∫", run.small(first), run.small(last))
+    over = MathRow((OperatorSign(" "), Ident("d"), run.lay(name)))
+    return MathRow((sign, run.lay_out_bracketed(body, PRODUCT), over), PRODUCT)
+
+
 def _make_fence_rule(kind: str) -> LayoutRule:
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
         (body,) = args
@@ -460,6 +495,11 @@ _RULES: dict[str, LayoutRule] = {
     "not": _lay_out_negation,
     "piecewise": _lay_out_cases,
     "pi": _lay_out_pi,
+    "factorial": _lay_out_factorial,
+    "binomial": _lay_out_binomial,
+    "sum": _make_series_rule("∑"),
+    "product": _make_series_rule("∏"),
+    "integral": _lay_out_integral,
     "and": _make_connective_rule("and"),
     "or": _make_connective_rule("or"),
     **{op: _make_relation_rule(sign) for op, sign in SIGNS.items()},

@@ -117,6 +117,7 @@ class SpeechWords(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     accents: dict[str, str]
     signs: dict[str, tuple[str, str, str, str]]
     powers: dict[str, str]
+    raised: dict[str, str]
     short: dict[str, str]
     long: dict[str, str]
     prefixes: dict[str, str]

@@ -9,9 +9,12 @@ from __future__ import annotations
 import re
 from functools import lru_cache, singledispatch
 
+from msgspec.structs import replace
+
 from quizgen.core.errors import RenderError
 from quizgen.locale import localise_numbers
 from quizgen.typeset import nodes as n
+from quizgen.typeset.builders import RELATIONS
 from quizgen.typeset.names import GREEK
 from quizgen.typeset.printer import (
     SpeechWords,
@@ -20,12 +23,16 @@ from quizgen.typeset.printer import (
     split_unit,
     strict_lookup,
 )
+from quizgen.typeset.signs import ARROWS, find_styled_letter
+from quizgen.typeset.signs import RELATIONS as SIGNED_RELATIONS
 
 _known = strict_lookup("reading")
 
 _BINDING = tuple(map(n.OperatorSign, ("", "·", "×", "mod")))
+_MINUS_ONE = n.MathRow((n.OperatorSign("neg"), n.Digits("1")), n.NEGATIVE)
 _BOUNDS = tuple(map(n.OperatorSign, "<≤"))
-_COMMAS = re.compile(r"[ ,]+([,;])")
+_RELATING = tuple(map(n.OperatorSign, (*RELATIONS, *ARROWS, *SIGNED_RELATIONS, ",", ";", "|")))
+_COMMAS = re.compile(r"[ ,]+([,;:])")
 _SPACES = re.compile(r"  +")
 _GREEK_NAMES = {char: word for word, char in GREEK.items() if word != "lamda"}
 
@@ -57,7 +64,15 @@ def to_speech(node: n.Node, lang: str = "en") -> str:
 def is_simple(node: n.Node | None) -> bool:
     """Whether a listener hears a node as one thing."""
     match node:
-        case n.Digits() | n.Ident() | n.Word() | n.NumberWithUnit() | n.UnitText() | None:
+        case (
+            n.Digits()
+            | n.Ident()
+            | n.Word()
+            | n.Phrase()
+            | n.NumberWithUnit()
+            | n.UnitText()
+            | None
+        ):
             return True
         case n.Scripts(base=base, sub=sub, sup=None):
             return is_simple(base) and is_simple(sub)
@@ -103,14 +118,33 @@ def say_letter(char: str, lang: str) -> str:
 
 @_say_node.register
 def _say_ident(node: n.Ident, lang: str) -> str:
+    words = load_speech_words(lang)
+    if node.style:
+        whole = words.greek.get(find_styled_letter(node.text, node.style))
+        return whole or words.short[node.style].format(say_letter(node.text, lang))
     said = say_letter(node.text, lang)
     return load_speech_words(lang).short["bold"].format(said) if node.bold else said
 
 
 @_say_node.register
+def _say_phrase_of_author(node: n.Phrase, _lang: str) -> str:
+    return node.text.strip()
+
+
+@_say_node.register
+def _say_gap(node: n.Gap, _lang: str) -> str:
+    return "," if node.width in {"quad", "qquad"} else ""
+
+
+@_say_node.register
+def _say_function_name(node: n.FunctionName, lang: str) -> str:
+    return _say_function_head(n.Word(node.text), lang)
+
+
+@_say_node.register
 def _say_word(node: n.Word, lang: str) -> str:
     words = load_speech_words(lang)
-    if node.text.isupper() and words.letters:
+    if words.letters and (node.text.isupper() or len(node.text) == 1):
         return "".join([words.letters.get(char.lower(), char) for char in node.text])
     return words.names.get(node.text, node.text)
 
@@ -170,11 +204,14 @@ def _say_operator(node: n.OperatorSign, lang: str) -> str:
 
 @_say_node.register
 def _say_row(node: n.MathRow, lang: str) -> str:
-    items = node.items
+    if not node.items:
+        return ""
+    items = tuple([item for item in node.items if not _is_silent_gap(item)])
     if node.level == n.ATOM:
         items = tuple([item for item in items if item != n.OperatorSign(",")])
-    if _two_bounds(items):
-        both = (*items[:3], n.ReaderWord("and"), *items[2:])
+    if bounds := _find_two_bounds(items):
+        between = items[bounds[0] + 1 : bounds[1]]
+        both = (*items[: bounds[1]], n.ReaderWord("and"), *between, *items[bounds[1] :])
         return " ".join([_say_node(item, lang) for item in both])
     following = (*items[1:], None)
     return " ".join(
@@ -182,16 +219,30 @@ def _say_row(node: n.MathRow, lang: str) -> str:
     )
 
 
-def _two_bounds(items: tuple[n.Node, ...]) -> bool:
-    """0 ≤ x < 1 is read as two statements about x."""
-    return len(items) == 5 and all(item in _BOUNDS for item in items[1::2])
+def _is_silent_gap(item: n.Node) -> bool:
+    return isinstance(item, n.Gap) and item.width not in {"quad", "qquad"}
+
+
+def _find_two_bounds(items: tuple[n.Node, ...]) -> tuple[int, ...]:
+    """The signs of 0 ≤ x < 1, which is read as two statements about x."""
+    relations = [place for place, item in enumerate(items) if item in _RELATING]
+    both = len(relations) == 2 and all(items[place] in _BOUNDS for place in relations)
+    return tuple(relations) if both else ()
 
 
 def _say_with_fraction_end(node: n.Node, following: n.Node | None, lang: str) -> str:
     """Say where a fraction ends if a factor comes after it."""
-    if isinstance(node, n.Frac) and not node.inline and following in _BINDING:
-        return _say_fraction(node, lang, "long")
+    bare = node.body if isinstance(node, n.Display) else node
+    if isinstance(bare, n.Frac) and not bare.inline and _binds(following):
+        return _say_fraction(bare, lang, "long")
     return _say_node(node, lang)
+
+
+def _binds(following: n.Node | None) -> bool:
+    """Whether what follows is a factor, with or without a sign in front."""
+    if following is None or isinstance(following, n.Gap | n.Phrase):
+        return False
+    return following in _BINDING if isinstance(following, n.OperatorSign) else True
 
 
 @_say_node.register
@@ -225,12 +276,33 @@ def _say_root(node: n.Root, lang: str) -> str:
 @_say_node.register
 def _say_scripts(node: n.Scripts, lang: str) -> str:
     short = load_speech_words(lang).short
+    if node.base == n.Phrase(""):
+        return _say_indices_before(node, lang)
+    if isinstance(node.base, n.Fenced) and "." in node.base.kind:
+        ends = [_say_node(end, lang) for end in (node.sub, node.sup) if end is not None]
+        key = "evaluated" if len(ends) == 1 else "evaluated to"
+        return short[key].format(_say_node(node.base.body, lang), *ends)
+    if isinstance(node.base, n.FunctionName):
+        return _say_function_head(replace(node, base=n.Word(node.base.text)), lang)
     said = _say_node(node.base, lang)
     for _ in range(node.primes):
         said = short["prime"].format(said)
     if node.sub is not None:
-        said = short["sub"].format(said, _say_node(node.sub, lang))
+        table = load_speech_words(lang).long if _is_long_index(node.sub) else short
+        said = table["sub"].format(said, _say_node(node.sub, lang))
     return said if node.sup is None else _say_power(node, said, lang)
+
+
+def _is_long_index(sub: n.Node) -> bool:
+    """Whether a listener must be told where a subscript ends."""
+    return isinstance(sub, n.MathRow) and sub.level in {n.SUM, n.RELATION}
+
+
+def _say_indices_before(node: n.Scripts, lang: str) -> str:
+    """Indices of what comes after them, as of an isotope."""
+    short = load_speech_words(lang).short
+    both = (("upper index", node.sup), ("lower index", node.sub))
+    return ", ".join([short[key].format(_say_node(one, lang)) for key, one in both if one]) + ","
 
 
 def _say_power(node: n.Scripts, base: str, lang: str) -> str:
@@ -238,17 +310,20 @@ def _say_power(node: n.Scripts, base: str, lang: str) -> str:
     if isinstance(node.sup, n.Digits) and node.sup.text in words.powers:
         grouped = isinstance(node.base, n.Fenced) and node.base.kind == "()"
         return words.powers[node.sup.text + "…" * grouped].format(base)
-    if node.sup == n.OperatorSign("ᵀ"):
-        return f"{base} {_say_node(node.sup, lang)}"
+    if isinstance(node.sup, n.OperatorSign):
+        said = words.raised.get(node.sup.name) or _say_node(node.sup, lang)
+        return f"{base} {said}"
+    if node.sup == _MINUS_ONE and isinstance(node.base, n.FunctionName | n.Func | n.Matrix):
+        return words.powers["inverse"].format(base)
     table = words.short if is_simple(node.sup) else words.long
     return table["power"].format(base, _say_node(node.sup, lang) if node.sup else "")
 
 
 @_say_node.register
 def _say_accent(node: n.Accent, lang: str) -> str:
-    return _known(load_speech_words(lang).accents, node.kind, "accent").format(
-        _say_node(node.base, lang)
-    )
+    accents, long = load_speech_words(lang).accents, node.kind + "…"
+    key = long if long in accents and not is_simple(node.base) else node.kind
+    return _known(accents, key, "accent").format(_say_node(node.base, lang))
 
 
 @_say_node.register
@@ -260,6 +335,9 @@ def _say_fence(node: n.Fenced, lang: str) -> str:
             return words.intervals[node.kind].format(*bounds)
     long = node.kind + "…"
     key = long if long in words.brackets and not is_simple(node.body) else node.kind
+    if key not in words.brackets and len(key) == len("()"):
+        signs = ["" if one == "." else _known(words.brackets, one, "brackets") for one in key]
+        return f"{signs[0]} {_say_node(node.body, lang)} {signs[1]}"
     return _known(words.brackets, key, "brackets").format(_say_node(node.body, lang))
 
 
@@ -279,7 +357,9 @@ def _say_function(node: n.Func, lang: str) -> str:
     if isinstance(node.head, n.Scripts) and node.head.sub is not None:
         return words.short["base"].format(_say_node(node.head.sub, lang), listed)
     name = node.head.text if isinstance(node.head, n.Word) else ""
-    return _known(words.functions, name, "function")[0].format(listed)
+    if name not in words.functions:
+        return words.short["of"].format(_say_node(node.head, lang), listed)
+    return words.functions[name][0].format(listed)
 
 
 def _is_plain_head(head: n.Node) -> bool:
@@ -291,8 +371,11 @@ def _is_plain_head(head: n.Node) -> bool:
 
 def _say_function_head(node: n.Node, lang: str) -> str:
     words = load_speech_words(lang)
+    if isinstance(node, n.FunctionName):
+        return _say_function_head(n.Word(node.text), lang)
     if isinstance(node, n.Word):
-        return _known(words.functions, node.text, "function")[1]
+        known = words.functions.get(node.text)
+        return known[1] if known else _say_node(node, lang)
     if isinstance(node, n.Scripts) and node.sup is not None:
         bare = n.Scripts(node.base, node.sub) if node.sub else node.base
         return _say_power(node, _say_function_head(bare, lang), lang)
@@ -316,11 +399,37 @@ def _say_large_operator(node: n.LargeOperator, lang: str) -> str:
 
 @_say_node.register
 def _say_under(node: n.Under, lang: str) -> str:
-    return (
-        load_speech_words(lang)
-        .short["below"]
-        .format(_say_function_head(node.base, lang), _say_node(node.below, lang))
-    )
+    short = load_speech_words(lang).short
+    if not isinstance(node.base, n.Word | n.FunctionName):
+        return short["under"].format(_say_node(node.base, lang), _say_node(node.below, lang))
+    key = "below" if node.base.text.startswith("lim") else "below over"
+    return short[key].format(_say_function_head(node.base, lang), _say_node(node.below, lang))
+
+
+@_say_node.register
+def _say_over(node: n.Over, lang: str) -> str:
+    short = load_speech_words(lang).short
+    if node == n.Over(n.OperatorSign("="), n.OperatorSign("!")):
+        return short["must equal"]
+    return short["over"].format(_say_node(node.base, lang), _say_node(node.above, lang))
+
+
+@_say_node.register
+def _say_brace(node: n.Brace, lang: str) -> str:
+    said = _say_node(node.body, lang)
+    if node.note is None:
+        return said
+    return load_speech_words(lang).long["brace"].format(said, _say_node(node.note, lang))
+
+
+@_say_node.register
+def _say_display(node: n.Display, lang: str) -> str:
+    return _say_node(node.body, lang)
+
+
+@_say_node.register
+def _say_binomial(node: n.Binomial, lang: str) -> str:
+    return _say_phrase(lang, "binomial", (node.top, node.bottom))
 
 
 @_say_node.register
@@ -340,4 +449,15 @@ def _say_matrix(node: n.Matrix, lang: str) -> str:
     words = load_speech_words(lang)
     rows = [", ".join([_say_node(cell, lang) for cell in row]) for row in node.rows]
     said = [words.short["row"].format(f"{i}: {row}") for i, row in enumerate(rows, 1)]
-    return words.long["matrix"].format("; ".join(said))
+    key = "determinant" if node.kind == "||" else "matrix"
+    if all(len(row) == 1 for row in node.rows):
+        return words.long["vector"].format(", ".join(rows))
+    return words.long[key].format("; ".join(said))
+
+
+@_say_node.register
+def _say_aligned_rows(node: n.AlignedRows, lang: str) -> str:
+    """Lines one after the other; what stands behind a brace, with a comma before each condition."""
+    between = ", " if node.brace else " "
+    rows = [between.join([_say_node(cell, lang) for cell in row]) for row in node.rows]
+    return "; ".join(rows)

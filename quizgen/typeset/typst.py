@@ -20,6 +20,13 @@ from quizgen.typeset.printer import (
     split_unit,
     strict_lookup,
 )
+from quizgen.typeset.signs import (
+    ACCENTS,
+    ALPHABETS,
+    GAPS,
+    LARGE,
+    SIGN_COMMANDS,
+)
 
 _known = strict_lookup("Typst")
 
@@ -38,7 +45,18 @@ _OPERATORS = {
     "ᵀ": 'upright("T")',
     ":": "colon",
     **{same: same for same in "+-=≠<≤>≥≈∝→⇒∈±≪≫×…"},
+    "such that": "divides",
+    "divides": "divides",
+    "colon": 'class("punctuation", colon)',
+    "apply": "",
+    "apply tight": "",
+    "!": "!",
+    "?": "?",
+    ".": ".",
+    "°": "degree",
+    "%": "%",
 }
+_OPERATORS |= {sign: sign for sign in SIGN_COMMANDS if sign not in _OPERATORS}
 _BRACKETS = {
     "(": "paren.l",
     ")": "paren.r",
@@ -46,11 +64,12 @@ _BRACKETS = {
     "]": "bracket.r",
     "{": "brace.l",
     "}": "brace.r",
+    **{sign: f"\\{sign}" for sign in "|‖⌊⌋⌈⌉⟨⟩"},
+    ".": "",
 }
-_CALLS = {"||": "abs", "⌊⌋": "floor", "⌈⌉": "ceil"}
-_ACCENTS = {"bar": "macron", "hat": "hat", "tilde": "tilde"}
+_CALLS = {"||": "abs", "⌊⌋": "floor", "⌈⌉": "ceil", "‖‖": "norm"}
 _UNITS = {"e⁻": '"e"^(-)'}
-_SIGNS = {"∑": "sum", "∏": "product", "∫": "integral"}
+_SIGNS = {sign: sign for sign in LARGE} | {"∑": "sum", "∏": "product", "∫": "integral"}
 
 
 def to_typst(node: n.Node, lang: str = "en") -> str:
@@ -95,12 +114,29 @@ def _format_digits(node: n.Digits, lang: str) -> str:
 
 @_format_node.register
 def _format_letter(node: n.Ident, _lang: str) -> str:
+    if node.style:
+        return f"{_known(ALPHABETS, node.style, 'alphabet').typst}({node.text})"
     return f"upright(bold({node.text}))" if node.bold else node.text
 
 
 @_format_node.register
 def _format_word(node: n.Word, _lang: str) -> str:
     return typst_string(node.text)
+
+
+@_format_node.register
+def _format_phrase(node: n.Phrase, _lang: str) -> str:
+    return typst_string(node.text)
+
+
+@_format_node.register
+def _format_function_name(node: n.FunctionName, lang: str) -> str:
+    return _format_function_head(n.Word(node.text), lang)
+
+
+@_format_node.register
+def _format_gap(node: n.Gap, _lang: str) -> str:
+    return f"#h({_known(GAPS, node.width, 'gap'):.2f}em)"
 
 
 @_format_node.register
@@ -136,6 +172,8 @@ def _format_operator(node: n.OperatorSign, _lang: str) -> str:
 
 @_format_node.register
 def _format_row(node: n.MathRow, lang: str) -> str:
+    if not node.items:
+        return '""'  # an argument must be something
     return _join_with_spaces(
         [_format_node(item, lang) for item in insert_separators(node.items, lang)]
     )
@@ -176,7 +214,7 @@ def _format_scripts(node: n.Scripts, lang: str) -> str:
 
 @_format_node.register
 def _format_accent(node: n.Accent, lang: str) -> str:
-    return f"{_known(_ACCENTS, node.kind, 'accent')}({_format_node(node.base, lang)})"
+    return f"{_known(ACCENTS, node.kind, 'accent').typst}({_format_node(node.base, lang)})"
 
 
 @_format_node.register
@@ -187,7 +225,7 @@ def _format_fence(node: n.Fenced, lang: str) -> str:
     if node.kind in _CALLS:
         return f"{_CALLS[node.kind]}({body})"
     left, right = (_known(_BRACKETS, bracket, "bracket") for bracket in node.kind)
-    return f"lr({left} {body} {right})"
+    return f"lr({left} {body} {right})".replace("  ", " ").replace("( ", "(").replace(" )", ")")
 
 
 @_format_node.register
@@ -200,6 +238,8 @@ def _format_function(node: n.Func, lang: str) -> str:
 def _format_function_head(node: n.Node, lang: str) -> str:
     if isinstance(node, n.Word):
         return node.text if node.text in KNOWN else f"op({typst_string(node.text)})"
+    if isinstance(node, n.FunctionName):
+        return _format_function_head(n.Word(node.text), lang)
     if isinstance(node, n.Scripts):
         return _format_function_head(node.base, lang) + _format_scripts(node.alone, lang)
     return _format_node(node, lang)
@@ -213,9 +253,30 @@ def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
 @_format_node.register
 def _format_under(node: n.Under, lang: str) -> str:
     base = _format_function_head(node.base, lang)
-    if isinstance(node.base, n.Word) and node.base.text in {"lim", "max", "min"}:
+    if isinstance(node.base, n.Word | n.FunctionName):
         return f"limits({base})_({_format_node(node.below, lang)})"
     return f"attach({base}, b: {_format_node(node.below, lang)})"
+
+
+@_format_node.register
+def _format_over(node: n.Over, lang: str) -> str:
+    return f"attach({_format_node(node.base, lang)}, t: {_format_node(node.above, lang)})"
+
+
+@_format_node.register
+def _format_brace(node: n.Brace, lang: str) -> str:
+    note = f", {_format_node(node.note, lang)}" if node.note else ""
+    return f"{'over' if node.upside else 'under'}brace({_format_node(node.body, lang)}{note})"
+
+
+@_format_node.register
+def _format_display(node: n.Display, lang: str) -> str:
+    return f"display({_format_node(node.body, lang)})"
+
+
+@_format_node.register
+def _format_binomial(node: n.Binomial, lang: str) -> str:
+    return f"binom({_format_node(node.top, lang)}, {_format_node(node.bottom, lang)})"
 
 
 @_format_node.register
@@ -238,4 +299,20 @@ def _format_case_condition(condition: str, lang: str) -> str:
 @_format_node.register
 def _format_matrix(node: n.Matrix, lang: str) -> str:
     rows = [", ".join([_format_node(cell, lang) for cell in row]) for row in node.rows]
-    return "mat(" + "; ".join(rows) + ")"
+    # in a line of text Typst would set the cells as small as in a fraction
+    return f"display(mat({_known(_DELIMITERS, node.kind, 'matrix')}" + "; ".join(rows) + "))"
+
+
+_DELIMITERS = {
+    "": "delim: #none, ", "()": "", "[]": 'delim: "[", ', "{}": 'delim: "{", ',
+    "||": 'delim: "|", ', "‖‖": 'delim: "‖", ',
+}  # fmt: skip
+
+
+@_format_node.register
+def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
+    cells = [[_format_node(cell, lang) for cell in row] for row in node.rows]
+    if node.brace:
+        return "display(cases(" + ", ".join([" quad & ".join(row) for row in cells]) + "))"
+    rows = [" & ".join(row) for row in cells]
+    return "display(mat(delim: #none, row-gap: #0.5em, " + "; ".join(rows) + "))"

@@ -18,6 +18,7 @@ from quizgen.bank.markdown import (
     Inline,
     InlineCode,
     InlineFormula,
+    LaidOutFormula,
     PlainText,
     leaves,
     slot_names,
@@ -41,6 +42,7 @@ from quizgen.maths.values import Value
 from quizgen.question.inlines import TypesetMaths
 from quizgen.question.part_context import VariantPart, authored_answer
 from quizgen.question.worked_steps import value_node, value_typed
+from quizgen.typeset.names import iter_names_written
 
 USUAL = {"rel": "0.005"}
 """What is accepted where the rule of the part does not fit the step."""
@@ -135,6 +137,8 @@ def _iter_mentioned_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
         match part:
             case InlineFormula(expr):
                 yield from names_in(expr)
+            case LaidOutFormula(node):
+                yield from iter_names_written(node)
             case CodeBlock(text) | InlineCode(text):
                 yield from _WORD.findall(_BLANK.sub("", text))
             case PlainText(text):
