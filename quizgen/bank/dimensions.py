@@ -47,7 +47,7 @@ class _ClashError(Exception):
 
 
 def find_unit_errors(template: Template) -> Iterator[BankError]:
-    """Units that do not fit: of what is drawn, of steps, of what is asked.
+    """Yield units that do not fit: of what is drawn, of steps, of what is asked.
 
     Each is an error with its code, file and place, for ``lint`` to list and for whatever draws
     numbers to raise; those that the template ignores are left out.
@@ -57,6 +57,10 @@ def find_unit_errors(template: Template) -> Iterator[BankError]:
 
 
 def _iter_unit_errors(template: Template) -> Iterator[BankError]:
+    """Yield all errors in units, also those that the template ignores.
+
+    A step that is wrong itself is reported once: a part that asks for it is passed over.
+    """
     units = template.about.system
     for name, unit in template.chain.given.items():
         drawn = template.units[name]
@@ -114,7 +118,7 @@ def _check_step(
 
 
 def _is_angle(expr: Expr, plain: bool) -> bool:
-    """Whether a formula without a unit must be an angle in radians.
+    """Return whether a formula without a unit must be an angle in radians.
 
     So is what has lengths that cancel (an arc by its radius) or a π in it. ``360/n`` is not.
     """
@@ -122,6 +126,7 @@ def _is_angle(expr: Expr, plain: bool) -> bool:
 
 
 def _iter_calls(expr: Expr) -> Iterator[Call]:
+    """Yield every operation of a formula, from the outside in."""
     if isinstance(expr, Call):
         yield expr
         for arg in expr.args:
@@ -129,6 +134,7 @@ def _iter_calls(expr: Expr) -> Iterator[Call]:
 
 
 def _without_angles(dimension: Dimension) -> Dimension:
+    """Return a dimension without degrees and radians, which are plain numbers to the others."""
     return {base: power for base, power in dimension.items() if base not in {"deg", "rad"}}
 
 
@@ -212,7 +218,7 @@ def _infer_product_dimension(call: Call, args: list[Dimension | None]) -> Dimens
 
 
 def _convert_angle(call: Call, product: Dimension) -> Dimension:
-    """Degrees if the product has the factor 180/π on radians; radians for π/180 on degrees."""
+    """Return degrees for 180/π times radians, radians for π/180 times degrees, else ``product``."""
     ratio, pi_power = _constant_factor(call)
     if product == _RADIANS and pi_power == -1 and ratio.numerator % _PART_OF_TURN == 0:
         return _DEGREES
@@ -222,7 +228,7 @@ def _convert_angle(call: Call, product: Dimension) -> Dimension:
 
 
 def _constant_factor(expr: Expr) -> tuple[Fraction, int]:
-    """What numbers a product holds: their product, and the power of π."""
+    """Return the numbers that a product holds, multiplied, and its power of π."""
     if isinstance(expr, Num):
         return (expr.value or Fraction(1)), 0
     if not isinstance(expr, Call):
