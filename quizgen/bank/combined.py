@@ -200,7 +200,7 @@ class CombinedBank(Bank):
         return self._homes_by_template[name]
 
     def _suggest_template(self, name: str) -> str:
-        """Return the full names of a template that several banks have, else as a single bank does."""
+        """Return the full names of a template that several banks have, else similar names."""
         clashing = [names[name] for names in self._template_names_by_bank.values() if name in names]
         return (
             f"; did you mean {' or '.join(clashing)}?"

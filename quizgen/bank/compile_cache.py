@@ -40,6 +40,7 @@ class CompileCache(Generic[T]):
     """
 
     def __init__(self, kind: str, shape: type[T], package: str = "") -> None:
+        """Prepare a decoder for ``shape``; nothing is read yet."""
         self.kind, self.package = kind, package
         prepare_type(shape)
         self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
@@ -62,6 +63,7 @@ class CompileCache(Generic[T]):
         return thing
 
     def _compute_key(self, sources: tuple[bytes, ...]) -> str:
+        """Return the key of sources: a digest of them and of the code that compiles them."""
         return compute_digest(_compute_code_digest(self.package), *sources)
 
 
@@ -72,6 +74,11 @@ def _compute_code_digest(package: str) -> bytes:
 
 
 def _iter_code_files(package: str) -> Iterator[Path]:
+    """Yield the files whose change makes a compiled chain out of date.
+
+    Of the package that compiles (SymPy) the file with its version is enough: it never changes
+    in place.
+    """
     own = Path(__file__).parent.parent
     for folder in ("bank", "core", "kinds", "maths"):
         yield from sorted((own / folder).rglob("*.py"))

@@ -83,6 +83,7 @@ def remember_trust(root: Path) -> None:
 
 
 def _read_remembered() -> dict[str, str]:
+    """Return the digest of the Python that was allowed, by folder; empty if the file is unusable."""
     with suppress(OSError, msgspec.MsgspecError):
         return msgspec.json.decode(
             (_get_user_data_folder() / _FILE).read_bytes(), type=dict[str, str]
@@ -91,6 +92,7 @@ def _read_remembered() -> dict[str, str]:
 
 
 def _get_user_data_folder() -> Path:
+    """Return the user's own data folder, created if it is missing."""
     from platformdirs import user_data_path
 
     return user_data_path("quizgen", ensure_exists=True)

@@ -104,6 +104,10 @@ def load_entries(
 def _read_entry(
     row: dict[str, object], kind: type[E], where: str, index: int, langs: tuple[str, ...]
 ) -> E:
+    """Return one row of a file as an entry.
+
+    Raises ``BankError`` at the entry if it has another form or lacks a language.
+    """
     try:
         entry = convert({**row, _FROM: where, _INDEX: index}, kind)
     except msgspec.ValidationError as error:
@@ -144,6 +148,7 @@ def read_entries(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
 
 
 def _load_own_entries(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
+    """Return the entries of a single bank's file; empty if it has none of this name."""
     if name not in bank.cards:
         return ()
     file = bank.cards[name]

@@ -100,6 +100,7 @@ def parse_language_file(source: str) -> LanguageFile:
 
 
 def _breaks(text: str) -> int:
+    """Return the number of line breaks in a text."""
     return text.count("\n")
 
 
@@ -121,6 +122,10 @@ def _index_conditional_sentences(
 
 
 def _split_title(source: str) -> tuple[str, str]:
+    """Return the title and what comes after its line.
+
+    Raises ``BankError`` if the first line is no title; a byte order mark in front is allowed.
+    """
     head, _, body = source.lstrip("\ufeff\n").partition("\n")
     if not head.startswith("# "):
         raise BankError("the first line must be the title: '# ...'", rule="QG151", line=1)

@@ -77,6 +77,7 @@ class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 def _expand_range(row: str) -> Iterator[str]:
+    """Yield the names that a row such as ``B01-B12`` stands for; any other row as it is."""
     match = _RANGE.fullmatch(row)
     if match is None:
         yield row
@@ -139,6 +140,10 @@ def _first_unsound(units: tuple[str, ...]) -> int:
 
 
 def _check_version(requires: str) -> None:
+    """Raise ``BankError`` if this version of quizgen is not what the bank requires.
+
+    ``packaging`` is imported here: few banks require a version, and every command reads one.
+    """
     from importlib.metadata import version
 
     from packaging.specifiers import InvalidSpecifier, SpecifierSet

@@ -220,7 +220,7 @@ class _Bound:
 def _find_indistinguishable(
     value: tuple[float, ...], seen: Mapping[str, tuple[float, ...]], widths: tuple[float, ...]
 ) -> str | None:
-    """Return the first of the values seen that this one cannot be told from; None if there is none."""
+    """Return the first of the values seen that this one cannot be told from, or None."""
     for name, other in seen.items():
         if _is_within_widths(value, other, widths):
             return name

@@ -125,6 +125,7 @@ def read_pictures(folder: Path, texts: Mapping[str, LanguageFile]) -> dict[str, 
 
 
 def _check_words(link: PictureLink) -> None:
+    """Raise ``BankError`` if a picture has no description: who cannot see it would learn nothing."""
     if not any(not isinstance(part, PlainText) or part.text.strip() for part in link.alt):
         raise BankError(
             f"picture {link.file!r} has no words: describe the picture in words for those who "
@@ -171,6 +172,11 @@ def _fit_picture(data: bytes, kind: str, width: float, height: float) -> Picture
 
 
 def _pack_pixels(data: bytes) -> PictureFile:
+    """Return a PNG or JPEG as a safe picture, in the size that its resolution gives.
+
+    It is written anew: nothing survives but its pixels. Raises ``BankError`` if it is no such
+    picture or has too many pixels.
+    """
     from PIL import Image, ImageOps
 
     try:
@@ -235,6 +241,11 @@ _POINTS = {"px": 0.75, "": 0.75, "pt": 1, "mm": 72 / 25.4, "cm": 720 / 25.4, "in
 
 
 def _pack_svg(data: bytes) -> PictureFile:
+    """Return an SVG as a safe picture that holds only what draws.
+
+    Raises ``BankError`` if it cannot be read, defines entities (a few lines of them unfold to
+    gigabytes), or is too costly to draw.
+    """
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -284,6 +295,7 @@ def _copy_drawing(element: Any, depth: int) -> Any:
 
 
 def _safe_attributes(element: Any, name: str) -> Iterator[tuple[str, str]]:
+    """Yield the attributes that draw; one that refers outside the file is set to ``none``."""
     for key, value in element.attrib.items():
         if key in _HREF:
             if _SHOWN_BY(value) or (name == "image" and _INSIDE(value)):

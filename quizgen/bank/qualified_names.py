@@ -22,4 +22,5 @@ def qualify_names(names: Mapping[Bank, Iterable[str]]) -> dict[Bank, dict[str, s
 
 
 def _qualify_name(part: Bank, name: str, count: int) -> str:
+    """Return a name with its bank's in front if several banks have it, else as it is."""
     return f"{part.name}{BETWEEN}{name}" if count > 1 else name

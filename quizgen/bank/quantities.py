@@ -76,6 +76,10 @@ def read_quantities(paths: Iterable[Path]) -> dict[str, QuantityNames]:
 
 
 def _read_quantities(path: Path, source: str) -> dict[str, QuantityNames]:
+    """Return the quantities of each solver in one file.
+
+    Raises ``BankError`` at the key that is wrong.
+    """
     table = parse_toml(source, path, BankError)
     with error_context(path, BankError):
         try:
@@ -86,6 +90,7 @@ def _read_quantities(path: Path, source: str) -> dict[str, QuantityNames]:
 
 
 def _parse_quantity_names(written: _Written) -> QuantityNames:
+    """Return the names of a solver's quantities, each also parsed as a sentence."""
     said = {
         quantity: {lang: parse_inlines(text) for lang, text in names.items()}
         for quantity, names in written.names.items()

@@ -167,10 +167,10 @@ class Sampler:
             yield _Condition(f"keep.{name}", _make_test_of_name(name, test), frozenset({name}))
 
     def propose(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
-        """Return values and phrases of one try, before any condition; the caller sets the precision.
+        """Return values and phrases of one try, before any condition.
 
-        Each follows from its own name and the number of the try, so that a quantity added to a
-        template leaves what is drawn for the others as it was.
+        The caller sets the precision. Each follows from its own name and the number of the try, so
+        that a quantity added to a template leaves what is drawn for the others as it was.
         """
         shown: dict[str, fmpq] = {}
         words: dict[str, str] = {}

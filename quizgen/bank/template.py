@@ -85,6 +85,7 @@ class Template:
         return {one.name: getattr(self, one.name) for one in fields(self)}
 
     def __repr__(self) -> str:
+        """Return its name and languages, not its whole content."""
         return f"<Template {self.id}, in {', '.join(self.texts)}>"
 
     @property
@@ -139,6 +140,7 @@ class Template:
 
     @cached_property
     def _parsed_formulas(self) -> dict[str, Expr]:
+        """Return the cache of parsed formulas, by their text."""
         return {}
 
     def parse_formula(self, text: str) -> Expr:
@@ -154,6 +156,10 @@ class Template:
         return self._parsed_formulas[text]
 
     def _parse_template_formula(self, text: str) -> Expr:
+        """Return a formula as a tree.
+
+        Raises ``BankError`` if it cannot be read, or uses what is neither drawn nor solved.
+        """
         try:
             expr = parse_formula(text, symbols=tuple(self.units))
         except FormulaError as error:
@@ -164,6 +170,10 @@ class Template:
         return expr
 
     def _unreadable(self, formula: str, what: str) -> BankError:
+        """Return an error at a formula of ``template.toml``.
+
+        ``(TEXT, formula)`` as its place has the line looked for: a formula is passed on as text.
+        """
         said = f"formula {_quote_formula(formula)}{what}"
         return BankError(said, rule="QG121", file=self.file, place=(TEXT, formula))
 
@@ -190,6 +200,11 @@ def read_rules(path: Path) -> Rules:
 
 
 def _read_rules(path: Path, source: str) -> Rules:
+    """Return the checked content of ``template.toml``.
+
+    It is parsed twice: answers take numbers as floats, the rules as they are written, since
+    0.1 is to stay exact.
+    """
     try:
         table = parse_toml(source, path, BankError, _whole_or(float))
         for fault in find_malformed_answers(convert(table, Rules)):
@@ -208,6 +223,7 @@ def _whole_or(kind: type) -> Callable[[str], object]:
 
 
 def _check_draws(rules: Rules) -> None:
+    """Raise ``BankError`` at the first problem of the rules, or at a draw not of one kind."""
     for place, code, what in find_problems(rules):
         raise BankError(f"{written_place(place)}: {what}", rule=code, place=place)
     for name, rule in rules.draw.items():
@@ -231,6 +247,7 @@ def check_against_chain(template: Template) -> None:
 
 
 def _check_units(template: Template) -> None:
+    """Raise ``BankError`` if a quantity is in a unit that nobody defines."""
     rules = template.rules
     for name, unit in template.units.items():
         try:
@@ -243,6 +260,7 @@ def _check_units(template: Template) -> None:
 
 
 def _check_names(template: Template) -> None:
+    """Raise ``BankError`` if the rules name what the solver does not have, or lack what it needs."""
     rules = template.rules
     missing = set(template.chain.given) - set(rules.draw)
     if missing:

@@ -92,9 +92,11 @@ class Variant:
     _computed: dict[str, Value] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __repr__(self) -> str:
+        """Return template, seed and slot, which rebuild it."""
         return f"<Draw of {self.template.id}, seed {self.seed}, slot {self.slot}>"
 
     def __post_init__(self) -> None:
+        """Set ``shown_values``, once: it is read far more often than a variant is drawn."""
         with working_precision():
             object.__setattr__(
                 self, "shown_values", self.sampler.in_shown_units(self.shown, self.values)
@@ -157,6 +159,7 @@ class Variant:
         }
 
     def _answer_components(self, index: int, values: Values) -> tuple[Value, ...]:
+        """Return the components of a part's answer, each in the unit it is asked in."""
         part = self.sampler.parts[index]
         with working_precision():
             factors = [self.template.unit_factor(part.unit_of(self.template, n)) for n in part.of]
@@ -217,6 +220,10 @@ def reference_variant(template: Template) -> Variant:
 
 @working_precision()
 def _build_reference_variant(plan: Sampler, given: Mapping[str, Scalar]) -> Variant:
+    """Return the variant with the numbers that an author gives; what is derived follows them.
+
+    Raises ``SamplingError`` if the chain has no value for them.
+    """
     template = plan.template
     shown, words = plan.propose(f"{template.origin}/reference", 0)
     for variable in plan.variables:

@@ -93,6 +93,7 @@ def write_blank_form(paper: Paper, form: str = "toml") -> bytes:
 
 
 def _format_toml_form(paper: Paper) -> str:
+    """Return a blank form as TOML."""
     name, matriculation = _get_holder_details(paper)
     before = [
         f"# {paper.title(paper.langs[0])} - {paper.code}",
@@ -125,6 +126,7 @@ def _compute_seal(text: str) -> str:
 
 
 def _question_lines(item: PaperItem) -> Iterator[str]:
+    """Yield the lines of one question: its title, then one for each part with its hint."""
     question = item.questions[0]
     yield f"# {item.number}. {question.title}"
     for part in question.parts:
@@ -133,6 +135,7 @@ def _question_lines(item: PaperItem) -> Iterator[str]:
 
 
 def _format_csv_form(paper: Paper) -> str:
+    """Return a blank form as CSV; its last row seals the others."""
     rows = [HEAD, *_csv_rows(paper)]
     return _format_csv_rows(
         [*rows, ("seal", "", SEALED, f"#{_compute_seal(_format_csv_rows(rows))}")]
@@ -140,6 +143,7 @@ def _format_csv_form(paper: Paper) -> str:
 
 
 def _format_csv_rows(rows: list[tuple[str, ...]]) -> str:
+    """Return rows as CSV, no cell of which a spreadsheet takes for a formula."""
     out = io.StringIO()
     csv.writer(out).writerows([escape_csv_formula(cell) for cell in row] for row in rows)
     return out.getvalue()
@@ -183,6 +187,10 @@ def read_filled_form(path: Path) -> FilledForm:
 
 
 def _read_table(path: Path) -> Mapping[str, Any]:
+    """Return the content of a form in TOML.
+
+    Raises ``KeyFileError``; on a syntax error it adds the quotes that are forgotten most.
+    """
     try:
         return read_table(path, _as_meant)
     except KeyFileError as error:

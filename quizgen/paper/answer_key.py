@@ -214,6 +214,10 @@ def make_key_question(item: PaperItem) -> KeyQuestion:
 
 
 def _key_part(name: str, points: str, spec: dict[str, Any]) -> KeyPart:
+    """Return one part of a key, with the order of the mappings that it matters for.
+
+    ``order`` keeps it, since keys are written with sorted names.
+    """
     order = {
         field: list(value)
         for field, value in spec.items()
@@ -264,6 +268,7 @@ def parse_answer_key(table: Mapping[str, Any], place: str = "key") -> AnswerKey:
 
 
 def _check_points(part: KeyPart, place: str) -> None:
+    """Raise ``KeyFileError`` if a part's points are no number, not above 0, or far too many."""
     try:
         worth = part.points_exact()
     except ValueError as error:
@@ -276,6 +281,7 @@ def _check_points(part: KeyPart, place: str) -> None:
 
 
 def _check_spec(part: KeyPart, place: str) -> None:
+    """Raise ``KeyFileError`` if a part cannot be graded: its specification or its units are wrong."""
     try:
         spec = part.parse_spec()
         for unit in spec.value_units():
@@ -286,6 +292,7 @@ def _check_spec(part: KeyPart, place: str) -> None:
 
 @working_precision()
 def _check_chain(question: KeyQuestion, place: str) -> None:
+    """Raise ``KeyFileError`` if a question's chain cannot be evaluated; None is no chain."""
     if question.chain is None:
         return
     try:

@@ -112,6 +112,7 @@ def topic_blueprint(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:
 
 
 def _find_topic_title(bank: Bank, topic: str, lang: str) -> str:
+    """Return the title of a topic, or that of the bank for everything."""
     return bank.title(lang) if topic == EVERYTHING else bank.topic_title(topic, lang)
 
 
@@ -150,6 +151,7 @@ def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
 
 
 def _is_there(path: Path) -> bool:
+    """Return whether a path exists; False also for a text that can be no path."""
     try:
         return path.exists()
     except (OSError, ValueError):
@@ -198,6 +200,10 @@ def _read_blueprint(path: Path) -> Blueprint:
 
 
 def _parse_blueprint(source: str, name: str, where: Path) -> Blueprint:
+    """Return the checked content of a blueprint's file.
+
+    Raises ``BlueprintError`` at the place that is wrong.
+    """
     table = parse_toml(source, where, BlueprintError)
     try:
         found = convert(table, BlueprintFile)
@@ -212,6 +218,7 @@ def _parse_blueprint(source: str, name: str, where: Path) -> Blueprint:
 
 
 def _check_blueprint(blueprint: BlueprintFile) -> None:
+    """Raise ``BlueprintError`` if a blueprint has no slots, too many questions, or wrong names."""
     if not blueprint.slot:
         raise BlueprintError("at least one [[slot]] is needed", rule="QG105")
     for index, slot in enumerate(blueprint.slot):

@@ -65,6 +65,7 @@ class PaperCode(msgspec.Struct, frozen=True):
     level: str = EXAM
 
     def __str__(self) -> str:
+        """Return the code as it is printed; the level of an exam is not written."""
         level = "" if self.level == EXAM else f"-{self.level}"
         return f"{self.blueprint}-{self.seed}-{self.choice}{level}-{self.digest}"
 

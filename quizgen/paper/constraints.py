@@ -62,6 +62,15 @@ class ConstraintSolver:
     def __init__(
         self, blueprint: Blueprint, places: Sequence[Sequence[Candidate]], order: Sequence[int]
     ) -> None:
+        """Work out which sums of points and minutes can be reached from each place on.
+
+        Both are counted in integer units, the least common denominators of all candidates.
+
+        Raises
+        ------
+        BlueprintError
+            If the sums are too many to be looked at.
+        """
         self.blueprint, self.places, self.order = blueprint, places, order
         everyone = [one for place in places for one in place]
         self.point = math.lcm(1, *(one.points.denominator for one in everyone))
@@ -84,6 +93,7 @@ class ConstraintSolver:
         return math.floor((first - 1) * unit) + 1, math.floor(last * unit)
 
     def _count_candidate(self, one: Candidate) -> RunningTotals:
+        """Return what a candidate adds to the totals; 0 for what the blueprint does not limit."""
         points = _to_units(one.points, self.point) if self.blueprint.total else 0
         minutes = _to_units(one.minutes, self.minute) if self.last else 0
         return RunningTotals(points, minutes, bool(one.figure), one.photograph)
@@ -123,6 +133,11 @@ class ConstraintSolver:
     def _fill_from(
         self, step: int, sums: RunningTotals, chosen: dict[int, Candidate]
     ) -> dict[int, Candidate] | None:
+        """Return all places filled, by index, with those of ``chosen``; None if there is no way.
+
+        It tries candidates depth first, and goes back where the rest cannot be reached or the steps
+        are used up.
+        """
         if step == len(self.order):
             kinds = {one.figure for one in chosen.values()} - {""}
             return chosen if len(kinds) >= self.blueprint.figure_kinds else None
@@ -180,10 +195,12 @@ MEASURES: Mapping[str, Callable[[Candidate], Fraction | int]] = {
 
 
 def _format_toml_value(value: float | tuple[int, int]) -> str:
+    """Return a demand as its blueprint writes it."""
     return f"{list(value)}" if isinstance(value, tuple) else f"{value:g}"
 
 
 def _describe_attainable_range(name: str, places: Sequence[Sequence[Candidate]]) -> str:
+    """Return what the slots can add up to, for an error."""
     measure = MEASURES[name]
     least, most = (sum(pick(map(measure, place)) for place in places) for pick in (min, max))
     return f"the slots together can make {float(least):g} to {float(most):g}"

@@ -38,6 +38,7 @@ def result_rows(result: PaperResult, lang: str) -> list[tuple[str, list[str]]]:
 
 
 def _format_result_row(part: PartResult, lang: str) -> list[str]:
+    """Return the cells of one part: label, verdict, marks, how it was read, remark."""
     shown = load_words_inside(lang).get(part.status, part.status)
     marks = localise_numbers(lang, f"{format_points(part.marks)} / {format_points(part.points)}")
     remark = "" if part.is_blank else part.verdict.message
@@ -85,6 +86,7 @@ def write_class_csv(results: list[tuple[str, str, str, PaperResult]]) -> str:
 
 
 def _class_row(result: PaperResult) -> list[str]:
+    """Return the cells of one student in the table of a class."""
     totals = [format_points(result.marks), format_points(result.points)]
     counts = [str(result.asked_back), str(result.to_decide)]
     marks = ["" if part.marks is None else format_points(part.marks) for part in result.parts]

@@ -152,6 +152,7 @@ def grade_paper(
 def _grade_question(
     question: KeyQuestion, answers: Mapping[str, str], options: GradingOptions
 ) -> list[PartResult]:
+    """Return the results of one question's parts in order; a missing answer counts as blank."""
     marker = QuestionGrader(question, options)
     return [marker.grade_part(part, answers.get(part.id, "")) for part in question.parts]
 
@@ -172,6 +173,7 @@ class QuestionGrader:
     def __init__(
         self, question: KeyQuestion, options: GradingOptions, *, proven: bool = False
     ) -> None:
+        """Start a question without earlier values; ``proven`` says so of the level's own parts."""
         self.question, self.proven = question, proven
         self.options = options
         self.earlier: dict[str, Any] = {}
@@ -193,6 +195,7 @@ class QuestionGrader:
 
     @working_precision()
     def _judge_in_question(self, part: KeyPart, spec: AnySpec, typed: str) -> Verdict:
+        """Return the verdict on one part, with earlier values of the same student in mind."""
         options = structs.replace(self.options, points=part.points_exact())
         verdict = _judge_with_context(self.question, spec, typed, options, self.earlier)
         if self.question.chain is not None:
@@ -237,6 +240,7 @@ def _remember_own_values(
 def _build_part_result(
     question: KeyQuestion, part: KeyPart, typed: str, verdict: Verdict
 ) -> PartResult:
+    """Return the result of a part; marks are in quarters, and None where a person must mark it."""
     worth = part.points_exact()
     marks: Fraction | None = round_to_quarters(verdict.credit * worth)
     if verdict.needs_self_marking:

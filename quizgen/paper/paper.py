@@ -91,6 +91,7 @@ class Paper(msgspec.Struct, frozen=True):
     """What it was made from."""
 
     def __repr__(self) -> str:
+        """Return code, number of questions and points."""
         return f"<Paper {self.code}: {len(self.items)} questions, {float(self.points):g} points>"
 
     @property
@@ -334,6 +335,7 @@ def single_question_paper(
 
 
 def _add_digest(code: PaperCode, blueprint: Blueprint, asked: list[_Wanted]) -> PaperCode:
+    """Return the code with the digest of the blueprint, the templates and the levels."""
     templates = [one.drawn.template for one in asked]
     digest = source_digest(blueprint.source, templates, [one.level for one in asked])
     return replace(code, digest=digest)
@@ -347,6 +349,10 @@ def _build_paper_item(
     *,
     figures: bool = True,
 ) -> PaperItem:
+    """Return one question in every language, and its keys.
+
+    ``points`` are shared out over its parts; None leaves them as authored.
+    """
     pairs = [
         compose_variant(one.drawn, lang, number=number, level=one.level, figures=figures)
         for lang in langs
@@ -366,6 +372,7 @@ def _drop_repeated_blocks(question: Question, first: Question) -> Question:
     shown = {alike for body in bodies for alike in map(_strip_language, body) if alike}
 
     def keep_new(body: tuple[Block, ...]) -> tuple[Block, ...]:
+        """Return the blocks that the first language does not already show."""
         return tuple(block for block in body if _strip_language(block) not in shown)
 
     parts = tuple(replace(part, body=keep_new(part.body)) for part in question.parts)

@@ -65,6 +65,7 @@ def record_banks(bank: Bank, names: Iterable[str]) -> tuple[BankRecord, ...]:
 
 @cache
 def _record_bank(bank: Bank, templates: tuple[str, ...]) -> BankRecord:
+    """Return what a paper notes of one bank: name, version, and a digest of its templates' files."""
     digest = compute_digest(
         *(part for name in templates for part in _read_template_contents(bank, name))
     )
@@ -100,6 +101,7 @@ def bank_difference_context(used: Callable[[], Iterable[BankRecord]], bank: Bank
 
 
 def _iter_differences(used: Iterable[BankRecord], here: Mapping[str, Bank]) -> Iterator[str]:
+    """Yield one line for each bank that is missing here or not as it was."""
     for one in used:
         if one.name not in here:
             yield f"{one.name}: not among the banks here (--bank {one.name}, or its folder)"

@@ -77,10 +77,15 @@ def _shuffle_fill_order(salt: str, count: int) -> list[int]:
 
 
 def _hash_candidate(seed: int | str, index: int, place: int, one: Candidate) -> bytes:
+    """Return what a candidate is ranked by at one place: the least hash comes first.
+
+    By origin, so that a rename changes no paper.
+    """
     return _hash_place(seed, index, place, one.origin)
 
 
 def _hash_place(seed: int | str, index: int, place: int, origin: str) -> bytes:
+    """Return the hash of seed, slot, place and origin."""
     return hashlib.sha256(f"choose/{seed}/{index}/{place}/{origin}".encode()).digest()
 
 
@@ -183,6 +188,7 @@ def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> lis
 
 
 def _comparable_features(one: Candidate) -> tuple[object, ...]:
+    """Return what templates must share to stand for each other in equal papers."""
     return (
         one.tier,
         one.topic,
@@ -254,6 +260,7 @@ def find_coloured_templates(bank: Bank) -> frozenset[str]:
 
 
 def _may_need_colour(template: Template) -> bool:
+    """Return whether a template's figure says so, or does for one of ``DRAWN`` variants."""
     says = getattr(template.figure, "COLOUR", False)
     return (
         any(has_coloured_figure(draw_variant(template, n)) for n in range(DRAWN))

@@ -42,6 +42,7 @@ class _Seen(msgspec.Struct):
     given: set[str] = msgspec.field(default_factory=set)
 
     def add(self, one: Variant) -> None:
+        """Add what a variant asks and states."""
         self.questions.add(one.identity)
         self.asked |= _collect_notable_answers(one)
         self.given |= _collect_stated_numbers(one)
@@ -130,6 +131,7 @@ def _collect_answer_numbers(one: Variant) -> set[str]:
 
 
 def _iter_asked_values(one: Variant) -> Iterator[Value]:
+    """Yield the values that a variant asks for, in shown units."""
     for part in one.template.rules.part:
         yield from (one.shown_values[name] for name in asked_quantities(part.answer))
 
@@ -167,6 +169,7 @@ def with_siblings(drawn: Sequence[Variant]) -> Iterator[Variant]:
 
 
 def _iter_asked_formulas(one: Variant) -> Iterator[CanonicalForm]:
+    """Yield the canonical forms of all formulas that lead to its answers."""
     for index in range(len(one.template.rules.part)):
         yield from asked_formulas(one, index)
 

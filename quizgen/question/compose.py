@@ -116,6 +116,7 @@ class Question(msgspec.Struct, frozen=True):
         return sum((part.points for part in self.parts), Fraction(0))
 
     def __repr__(self) -> str:
+        """Return number, template, language and title."""
         return f"<Question {self.number} of {self.template} ({self.lang}): {self.title}>"
 
     def _repr_html_(self) -> str:
@@ -140,6 +141,7 @@ class QuestionKey(msgspec.Struct, frozen=True):
     level: str = EXAM
 
     def __repr__(self) -> str:
+        """Return number and identity, and none of the answers: a notebook shows it to anyone."""
         return f"<Key {self.number} of {self.identity}>"
 
 
@@ -215,6 +217,7 @@ def compose_variant(
 def _build_question_and_key(
     drawn: Variant, lang: str, number: str, level: str, *, figures: bool
 ) -> tuple[Question, QuestionKey]:
+    """Return a question and, apart from it, what answers it."""
     template = drawn.template
     asking = load_level(level).ask(drawn, lang)
     question = Question(
@@ -244,6 +247,7 @@ def _build_question_and_key(
 
 
 def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
+    """Return one part as the learner sees it; its field is named by number and label."""
     field = AnswerField(
         id=f"{number}{asked.label}",
         control=asked.control,

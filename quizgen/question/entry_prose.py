@@ -72,4 +72,5 @@ def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
 
 
 def _no_program(text: str) -> str:
+    """Raise ``BankError``: an entry draws no numbers that a program could hold."""
     raise BankError(f"program {text!r} cannot stand here")

@@ -32,6 +32,7 @@ def has_coloured_figure(drawn: Variant) -> bool:
     """Whether a question has a figure that cannot be read on grey paper, without drawing it."""
 
     def judge(figure: ModuleType, values: Mapping[str, Any], **_how: object) -> bool:
+        """Return whether the figure needs colour with these values."""
         return needs_colour(figure, values)
 
     return bool(_draw_question_figure(judge, drawn, "", quiz=True))
@@ -40,6 +41,10 @@ def has_coloured_figure(drawn: Variant) -> bool:
 def _draw_question_figure(
     show: Callable[..., Shown], drawn: Variant, lang: str, *, quiz: bool
 ) -> Shown | None:
+    """Return what ``show`` makes of a question's figure; None if it shows none.
+
+    Raises ``BankError`` at the template or at the line of the figure's module that failed.
+    """
     rule = drawn.template.rules.figure
     if rule is None or (quiz and not rule.quiz):
         return None

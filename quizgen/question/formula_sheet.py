@@ -115,6 +115,7 @@ def cite_formula(bank: Bank, name: str, lang: str) -> tuple[Inline, ...]:
 def _build_sheet_line(
     bank: Bank, entry: FormulaEntry, langs: tuple[str, ...], asked: tuple[str, ...]
 ) -> SheetFormula:
+    """Return one formula with its words in each language, its sketch and who asks for it."""
     lines = tuple(_typeset_sheet_formula(line, entry) for line in entry.lines)
     said = tuple(
         FormulaText(

@@ -68,10 +68,12 @@ def to_inlines(shown: TextOrInlines) -> tuple[Inline, ...]:
 
 @lru_cache(maxsize=4096)
 def _split_powers(text: str) -> tuple[Inline, ...]:
+    """Return a text as inlines, with blanks that do not break before units."""
     return tuple(_with_powers(_BEFORE_UNIT.sub("\u00a0", text)))
 
 
 def _with_powers(text: str) -> Iterator[Inline]:
+    """Yield words, and powers of ten as mathematics."""
     last = 0
     for found in pretty.POWER.finditer(text):
         yield from _make_words(text[last : found.start()])
@@ -81,6 +83,7 @@ def _with_powers(text: str) -> Iterator[Inline]:
 
 
 def _make_words(text: str) -> tuple[Inline, ...]:
+    """Return words as a tuple; an empty text gives none, so that no empty piece is printed."""
     return (PlainText(text),) if text else ()
 
 

@@ -53,6 +53,10 @@ class Interpolator:
     """
 
     def __init__(self, drawn: Variant, lang: str, *, hidden: bool = False) -> None:
+        """Take the prose of one language; ``hidden`` makes only drawn values known.
+
+        A question must not print what is solved; a solution may.
+        """
         self.drawn, self.lang, self.hidden = drawn, lang, hidden
         self.own: dict[str, LabelledName] = {}
         self.known: Values = drawn.shown if hidden else drawn.shown_values
@@ -120,6 +124,7 @@ class Interpolator:
         return filler
 
     def _fill_value(self, part: Unfilled) -> tuple[Inline, ...]:
+        """Return what a slot, a formula or a picture is replaced by."""
         if isinstance(part, PictureLink):
             picture = self.drawn.template.pictures[part.file]
             return (
@@ -130,6 +135,10 @@ class Interpolator:
         return self._fill_slot(part.name) if isinstance(part, Slot) else (_inline_maths(part.expr),)
 
     def _fill_slot(self, name: str) -> tuple[Inline, ...]:
+        """Return the value, phrase or sentence for a slot; ≈ goes before a rounded value.
+
+        Raises ``BankError`` at the slot if its name is none of these.
+        """
         drawn = self.drawn
         if name in self.own:
             return self.sentence(*self.own[name])
@@ -149,9 +158,11 @@ class Interpolator:
         )
 
     def _fill_program(self, text: str) -> str:
+        """Return program text with the known values in place."""
         return fill_program(text, self.drawn, self.known)
 
     def _format_problem(self, what: str, rule: str, *place: str) -> BankError:
+        """Return an error at a place of the language file."""
         file = self.drawn.template.path / f"{self.lang}.md"
         return BankError(what, rule=rule, file=file, place=place)
 
@@ -192,6 +203,7 @@ def _take_formula_tail(rest: deque[Inline]) -> str:
 
 @lru_cache(maxsize=4096)
 def _inline_maths(expr: Expr) -> TypesetMaths:
+    """Return a formula typeset for a sentence."""
     return TypesetMaths(typeset.lay_out(expr, inline=True), format_tree(expr))
 
 
@@ -212,6 +224,7 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
     """
 
     def value(name: str) -> str:
+        """Return a value as a program writes it; raise ``BankError`` if it is unknown or not exact."""
         written = format_exact(known[name], minus="-") if name in known else None
         if written is None:
             what = f"{{{{ {name} }}}} cannot stand in a program"
@@ -244,6 +257,7 @@ def inlines_to_text(parts: Iterable[Inline]) -> str:
 
 
 def _get_plain_text(part: Inline) -> str:
+    """Return the text of one piece for people; raise ``BankError`` if it is still a slot."""
     if isinstance(part, Emphasis):
         return inlines_to_text(part.children)
     if isinstance(part, Unfilled | RoundedMarker):

@@ -43,6 +43,11 @@ def localise(lang: str, said: Localisable) -> Localisable:
 
 
 def _localise_inlines(lang: str, said: Any) -> Any:
+    """Return the same structure with its numbers as the language writes them.
+
+    It goes into tuples and structs of any kind, but into none of ``LEFT``. In a language that
+    is read from right to left, numbers with a unit are marked to stay together.
+    """
     if isinstance(said, PlainText):
         text = localise_numbers(lang, said.text)
         return PlainText(

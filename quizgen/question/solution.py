@@ -215,6 +215,7 @@ def _iter_wrong_options(
 
 
 def _format_citation(source: str) -> tuple[Inline, ...]:
+    """Return a source in brackets, to end a sentence; nothing if there is none."""
     return (PlainText(f" [{source}]"),) if source else ()
 
 
@@ -253,6 +254,7 @@ def precision_table(drawn: Variant, lang: str) -> tuple[Block, ...]:
 
 
 def _iter_number_systems(drawn: Variant, name: str) -> Iterator[tuple[str, str]]:
+    """Yield the name of each number system and the value that it gives, with its unit."""
     shown = drawn.template.units.get(name, "")
     yield "float32", _rounded_at_each_step(drawn, name, shown, float32_system())
     yield "float64", _rounded_at_each_step(drawn, name, shown, float64_system())

@@ -67,6 +67,7 @@ def english_translation_files(lang: str) -> dict[str, bytes]:
 
 
 def _locate_locale_folder(lang: str) -> str:
+    """Return where a bank keeps its own words of a language, relative to its root."""
     return f"templates/locale/{lang}"
 
 
@@ -97,6 +98,7 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
 
 
 def _fill_scaffold_file(file: Traversable, blanks: dict[str, str]) -> bytes:
+    """Return a file of the scaffold with each ``@name@`` replaced."""
     text = file.read_text("utf-8")
     for name, value in blanks.items():
         text = text.replace(f"@{name}@", value)
@@ -104,4 +106,5 @@ def _fill_scaffold_file(file: Traversable, blanks: dict[str, str]) -> bytes:
 
 
 def _make_title_from_name(name: str) -> str:
+    """Return a title made of a name: words instead of hyphens, a capital in front."""
     return name.replace("-", " ").replace("_", " ").capitalize()

@@ -38,6 +38,7 @@ class PerturbationPair:
         drawn, target = self.first.drawn, self.first.target
 
         def because(each: str) -> tuple[Inline, ...]:
+            """Return the results of both changes, in a language."""
             return translate_inlines(
                 each, "transfer.two_results",
                 target=quantity_inlines(drawn, target, each),
@@ -47,6 +48,7 @@ class PerturbationPair:
             )  # fmt: skip
 
         def option(name: str) -> LevelOption:
+            """Return the option of this name, and whether it is right."""
             wording = f"transfer.{name}"
             return LevelOption(
                 lambda each: translate_inlines(each, wording), name == self.answer, because, name
@@ -88,6 +90,7 @@ def choose_comparison(changes: Perturbations, asked: Consequence | None) -> Pert
 
 
 def _is_same_perturbation(change: Perturbation, asked: Consequence | None) -> bool:
+    """Return whether another part asks about this change; nothing is asked twice."""
     return asked is not None and (change.target, change.given, change.scale) == (
         asked.change.target, asked.change.given, asked.change.scale
     )  # fmt: skip

@@ -106,6 +106,7 @@ def _way_of(change: Perturbation) -> str:
 def _build_effect_body(
     change: Perturbation, lang: str, key: str, hint: str = ""
 ) -> tuple[Block, ...]:
+    """Return the paragraph that states a change and asks for its effect."""
     only = translate_inlines(lang, "transfer.only", change=change.describe(lang))
     asked = translate_inlines(lang, key, target=quantity_inlines(change.drawn, change.target, lang))
     tail = (PlainText(" "), *translate_inlines(lang, hint)) if hint else ()
@@ -144,16 +145,22 @@ def _ask_factor(change: Perturbation, lang: str) -> LevelPart:
 
 
 def _iter_factor_slips(scale: Fraction, found: Fraction) -> Iterator[tuple[str, Fraction]]:
+    """Yield the wrong factors that learners give, each with its name.
+
+    The inverse, the factor of the given quantity itself, and no change at all.
+    """
     yield "upside-down", 1 / found
     yield "plain", scale
     yield "unchanged", Fraction(1)
 
 
 def _build_slip_sentence(change: Perturbation, trap: str, lang: str) -> tuple[Inline, ...]:
+    """Return the sentence for somebody who gave a wrong factor."""
     return translate_inlines(lang, f"transfer.trap_{trap}", **_name_target_and_given(change, lang))
 
 
 def _name_target_and_given(change: Perturbation, lang: str) -> dict[str, tuple[Inline, ...]]:
+    """Return the names of the result and of the changed quantity, for the blanks of a sentence."""
     drawn = change.drawn
     return {
         "target": quantity_inlines(drawn, change.target, lang),
@@ -193,6 +200,7 @@ def _typeset_ratio(change: Perturbation, found: Fraction) -> TypesetMaths:
 
 
 def _format_number(value: Value) -> str:
+    """Return a number as text: exact if it is short, else rounded."""
     return format_exact(value) or format_rounded(value)
 
 
@@ -235,6 +243,7 @@ def _ask_direction(change: Perturbation, lang: str) -> LevelPart:
     right = _way_of(change)
 
     def because(each: str) -> tuple[Inline, ...]:
+        """Return the result before and after the change, in a language."""
         return translate_inlines(
             each, "transfer.before_after",
             target=quantity_inlines(change.drawn, change.target, each),
@@ -243,6 +252,7 @@ def _ask_direction(change: Perturbation, lang: str) -> LevelPart:
         )  # fmt: skip
 
     def option(way: str) -> LevelOption:
+        """Return the option of this direction, and whether it is right."""
         return LevelOption(
             lambda each: translate_inlines(each, f"transfer.{way}"), way == right, because, way
         )

@@ -69,6 +69,7 @@ def _compare_first_length(ways: list[FormulaOption]) -> int:
 
 
 def _measure_formula(way: FormulaOption) -> int:
+    """Return the length of a formula in characters of plain text."""
     return len(inlines_to_text((way.shown,)))
 
 

@@ -78,6 +78,7 @@ class FaultySolution:
         )
 
     def _get_misconception_steps(self) -> tuple[ChainStep, ...]:
+        """Return the wrong steps of the misconception; none if the solution is right."""
         return self.drawn.template.chain.traps.get(self.trap, ())
 
     def _has_different_value(self, place: int) -> bool:
@@ -94,10 +95,12 @@ class FaultySolution:
     def _build_step_paragraph(
         self, shown: Variant, step: ChainStep, lang: str
     ) -> tuple[Block, ...]:
+        """Return one line of the solution: its quantity and the typeset step."""
         name = quantity_inlines(self.drawn, step.name, lang)
         return (Paragraph((*name, PlainText(": "), typeset_step(shown, step))),)
 
     def _build_step_option(self, place: int) -> LevelOption:
+        """Return the option that names a step, counted from 0, as the first wrong one."""
         number = (PlainText(str(place + 1)),)
         return LevelOption(
             lambda each: translate_inlines(each, "transfer.step", n=number),
@@ -121,6 +124,7 @@ class FaultySolution:
         return translate_inlines(lang, "transfer.right_step", n=number, why=why)
 
     def _about_none(self, lang: str) -> tuple[Inline, ...]:
+        """Return why the option "no step is wrong" is wrong, or right."""
         return translate_inlines(lang, "transfer.one_wrong" if self.trap else "transfer.all_right")
 
 

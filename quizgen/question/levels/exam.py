@@ -39,6 +39,11 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 def _build_asked_part(
     hidden: Interpolator, told: Interpolator, index: int, built: AskedPart[Any]
 ) -> LevelPart:
+    """Return one authored part with its solution.
+
+    Two interpolators: the question's knows drawn values alone, the solution's all of them.
+    Raises ``BankError`` if the language file has no section for the part.
+    """
     template = hidden.drawn.template
     label = template.labels[index]
     body = _build_part_body(hidden, label, built.statements)
@@ -71,4 +76,5 @@ def _build_part_body(
 
 
 def _label_choices(filler: Interpolator, names: tuple[LabelledName, ...]) -> tuple[Choice, ...]:
+    """Return the marks of options with their wordings."""
     return tuple((mark, filler.sentence("options", name)) for mark, name in names)

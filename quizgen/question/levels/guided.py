@@ -94,6 +94,7 @@ def guided_stages(drawn: Variant) -> tuple[GuidedStage, ...]:
 
 
 def _build_stage(drawn: Variant, index: int, asked: frozenset[str]) -> GuidedStage:
+    """Return what is asked before one authored part; ``asked`` are the quantities asked so far."""
     of, numeric = (
         asked_quantities(authored_answer(drawn, index)),
         authored_answer(drawn, index)["kind"] in NUMERIC,
@@ -180,6 +181,7 @@ class _Guide:
     """Puts the stages of a draw into words."""
 
     def __init__(self, drawn: Variant, lang: str) -> None:
+        """Take the variant's sentences in one language."""
         self.drawn, self.lang = drawn, lang
         self.filler = Interpolator(drawn, lang)
 
@@ -213,9 +215,14 @@ class _Guide:
         return [label] if label else part_labels(self.drawn, count)
 
     def _build_strong_paragraph(self, key: str, **blanks: tuple[Inline, ...]) -> tuple[Block, ...]:
+        """Return a sentence of the interface as a bold paragraph: it is what is asked."""
         return (Paragraph((Emphasis("strong", translate_inlines(self.lang, key, **blanks)),)),)
 
     def _ask_step_value(self, stage: GuidedStage, step: ChainStep, place: int) -> LevelPart:
+        """Return a part that asks for the value of one step.
+
+        A quantity without a name in the bank is asked for by its formula.
+        """
         key = "guided.value" if place else "guided.value_first"
         spec = step_value_spec(self.drawn, stage.index, step)
         if has_name(self.drawn, step.name):
@@ -269,6 +276,7 @@ class _Guide:
         return replace(usual, body=body, spec=spec, solved=solved)
 
     def _list_quantities(self, of: tuple[str, ...]) -> tuple[Inline, ...]:
+        """Return the names of quantities, with commas between them."""
         return join_inlines((quantity_inlines(self.drawn, name, self.lang) for name in of), ", ")
 
     def _ask_step_formula(self, stage: GuidedStage, step: ChainStep, place: int) -> LevelPart:
@@ -283,7 +291,10 @@ class _Guide:
         )
 
     def _build_formula_option(self, step: ChainStep, way: FormulaOption) -> LevelOption:
+        """Return an option that shows a formula, with the reason why it is right or wrong."""
+
         def because(lang: str) -> tuple[Inline, ...]:
+            """Return the sentence on the slip, the misconception, or the right step."""
             if way.slip:
                 return translate_inlines(lang, f"guided.slip_{way.slip}")
             section, name = ("traps", way.trap) if way.trap else ("steps", step.name)

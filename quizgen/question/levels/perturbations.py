@@ -135,6 +135,7 @@ class Perturbations:
     """
 
     def __init__(self, drawn: Variant) -> None:
+        """Take a variant; changes of it are solved when they are asked for."""
         self.drawn = drawn
         self._solved: dict[tuple[str, Fraction], Variant | None] = {}
 
@@ -162,6 +163,7 @@ class Perturbations:
                 yield Perturbation(self.drawn, index, target, given, scale, changed)
 
     def _solve_perturbed(self, given: str, scale: Fraction) -> Variant | None:
+        """Return the variant after a change, solved once; None if it is not admissible."""
         if (given, scale) not in self._solved:
             self._solved[given, scale] = _scale_given(self.drawn, given, scale)
         return self._solved[given, scale]
@@ -174,6 +176,7 @@ def _is_printed_integer(drawn: Variant, index: int, target: str) -> bool:
 
 
 def _is_whole(value: Value) -> bool:
+    """Return whether a value is an exact integer."""
     return isinstance(value, fmpq) and value.q == 1
 
 
@@ -197,6 +200,7 @@ def _find_dependent_quantities(drawn: Variant, given: str) -> frozenset[str]:
 
 
 def _can_change(drawn: Variant, given: str) -> bool:
+    """Return whether the task states a quantity that may change: named, not fixed, not zero."""
     named = has_name(drawn, given) and given in stated_quantities(drawn)
     return named and given not in drawn.template.quantities.fixed and drawn.shown[given] != 0
 
@@ -259,6 +263,7 @@ def _has_same_formulas(drawn: Variant, changed: Variant, steps: list[ChainStep])
 
 
 def _compute_sign(value: Value) -> int:
+    """Return -1, 0 or 1."""
     return bool(value > 0) - bool(value < 0)
 
 

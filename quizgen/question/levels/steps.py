@@ -131,6 +131,7 @@ _CAPITAL = re.compile(r"(?<![\w'])[B-HJ-Z](?!\w)")
 
 
 def _iter_mentioned_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
+    """Yield the letters that prose uses, in formulas, programs, and as capitals in words."""
     for part in leaves(parts):
         match part:
             case InlineFormula(expr):
@@ -262,6 +263,7 @@ def differs_in_unit_only(wrong: Expr, right: Expr) -> bool:
     """
 
     def numbers(expr: Expr) -> set[object]:
+        """Return the numbers that a formula is written with."""
         return {node.value for node in walk_tree(expr) if isinstance(node, Num)}
 
     odd = numbers(wrong) - numbers(right)
@@ -307,6 +309,7 @@ def step_value_spec(drawn: Variant, index: int, step: ChainStep) -> ScalarSpec:
 
 
 def _decode_step_spec(table: Mapping[str, object]) -> ScalarSpec:
+    """Return a table as the specification of its kind."""
     return decode_spec(_SHAPES[str(table["kind"])], table)
 
 

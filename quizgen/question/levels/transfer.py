@@ -75,6 +75,7 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 
 
 def _relabel_part(part: LevelPart, label: str, points: Fraction) -> LevelPart:
+    """Return a part with another label and other marks."""
     return replace(part, points=points, solved=replace(part.solved, label=label))
 
 
