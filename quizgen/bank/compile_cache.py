@@ -27,7 +27,7 @@ _UNFIT = msgspec.MsgspecError, ValueError, OverflowError, RecursionError
 
 
 class CompileCache(Generic[T]):
-    """Things of one kind that are kept.
+    """Cache of what sources are compiled to, of one type.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class CompileCache(Generic[T]):
         self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
 
     def get(self, *sources: bytes) -> T | None:
-        """What sources came to, if it is kept."""
+        """Return what sources were compiled to, or None if the cache does not hold it."""
         found = read_cached(self.kind, self._compute_key(sources))
         if found is None:
             return None
@@ -55,7 +55,7 @@ class CompileCache(Generic[T]):
         return None
 
     def store_compiled(self, thing: T, *sources: bytes) -> T:
-        """Keep what sources came to, if it comes back the same."""
+        """Store what sources were compiled to, if it survives being written and read."""
         with suppress(*_UNFIT):
             data = msgspec.msgpack.encode(thing, enc_hook=str)
             if self._decoder.decode(data) == thing:
@@ -69,7 +69,7 @@ class CompileCache(Generic[T]):
 
 @cache
 def _compute_code_digest(package: str) -> bytes:
-    """Digest of the code that makes of sources what is kept."""
+    """Return the digest of the code that compiles sources."""
     return compute_digest(*(file.read_bytes() for file in _iter_code_files(package))).encode()
 
 

@@ -42,13 +42,13 @@ class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=Tru
     index: int = msgspec.field(default=0, name=_INDEX)
 
     def fault(self, what: str, rule: str, *keys: str) -> BankError:
-        """An error about it, or about one of its keys."""
+        """Return an error about the entry, or about one of its keys."""
         place: Place = ("entry", self.index, *keys)
         return BankError(f"entry {self.id!r}: {what}", rule=rule, file=Path(self.file), place=place)
 
     @contextmanager
     def name_in_errors(self, *keys: str) -> Iterator[None]:
-        """Have errors about what it says name it."""
+        """Add the entry's name to errors about what it says."""
         try:
             yield
         except BankError as error:

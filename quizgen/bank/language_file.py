@@ -105,7 +105,7 @@ def _breaks(text: str) -> int:
 
 
 def _by_label(content: str) -> tuple[str, str]:
-    """The paragraphs of an explanation, and its list of sentences by part if it ends in one."""
+    """Return the paragraphs of an explanation, and its closing list of sentences by part."""
     found = re.search(r"^- [a-j](?: \[[^\]\n]*\])?:", content, flags=re.MULTILINE)
     return (content[: found.start()], content[found.start() :]) if found else (content, "")
 

@@ -52,7 +52,7 @@ class BankMetadata(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     @property
     def system(self) -> UnitRegistry:
-        """The listed units and its own."""
+        """Return the units that quizgen lists, with the bank's own added."""
         return build_unit_registry(self.units)
 
 
@@ -69,7 +69,7 @@ class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     @property
     def inventory(self) -> Mapping[str, tuple[str, ...]]:
-        """Group to the names of its items, rows of numbers written out."""
+        """Return the names of the items of each group, rows of numbers written out."""
         return {
             group: tuple(item for row in rows for item in _expand_range(row))
             for group, rows in self.groups.items()
@@ -77,7 +77,7 @@ class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 def _expand_range(row: str) -> Iterator[str]:
-    """Yield the names that a row such as ``B01-B12`` stands for; any other row as it is."""
+    """Yield the names that a row such as ``B01..B12`` stands for; any other row as it is."""
     match = _RANGE.fullmatch(row)
     if match is None:
         yield row
@@ -130,7 +130,7 @@ def read_metadata(path: Path) -> BankMetadata:
 
 
 def _first_unsound(units: tuple[str, ...]) -> int:
-    """Which definition cannot be read with those before it."""
+    """Return the first definition that cannot be read with those before it."""
     for count in range(len(units)):
         try:
             build_unit_registry(units[: count + 1])
@@ -165,7 +165,7 @@ def pick_language(texts: Mapping[str, str], lang: str, otherwise: str) -> str:
 
 
 def grading_words(about: BankMetadata, answers: Sequence[Mapping[str, object]]) -> Iterator[bytes]:
-    """The words of ``bank.toml`` that a template's answers are marked with."""
+    """Return the words of ``bank.toml`` that a template's answers are graded with."""
     if any("counts" in answer for answer in answers):
         yield msgspec.json.encode(about.counted)
     if any(answer.get("kind") == "gap" for answer in answers):

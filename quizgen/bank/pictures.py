@@ -62,17 +62,17 @@ class PictureFile(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def file(self) -> str:
-        """What a file with it is called: the same for the same picture."""
+        """Return the file name of the picture, the same for the same picture."""
         return f"qg_{sha256(self.data).hexdigest()[:16]}.{self.kind.removesuffix('+xml')}"
 
     @property
     def uri(self) -> str:
-        """The picture as an address, for pages that bring everything along."""
+        """Return the picture as a ``data:`` address, for pages that bring everything along."""
         return f"data:image/{self.kind};base64,{b64encode(self.data).decode()}"
 
     @property
     def svg(self) -> str:
-        """The picture as an SVG, for Typst, which is given texts alone."""
+        """Return the picture as an SVG, for Typst, which is given texts alone."""
         if self.kind == "svg+xml":
             return self.data.decode()
         wide, high = f"{self.width_pt:g}", f"{self.height_pt:g}"
@@ -86,7 +86,7 @@ _PICTURES = CompileCache("pictures", PictureFile, "PIL")
 
 
 def pictures_beside(folder: Path) -> list[Path]:
-    """Files with pictures in a template's folder."""
+    """Return the picture files in a template's folder."""
     return sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
 
 
@@ -125,7 +125,7 @@ def read_pictures(folder: Path, texts: Mapping[str, LanguageFile]) -> dict[str, 
 
 
 def _check_words(link: PictureLink) -> None:
-    """Raise ``BankError`` if a picture has no description: who cannot see it would learn nothing."""
+    """Raise ``BankError`` if a picture has no description for those who cannot see it."""
     if not any(not isinstance(part, PlainText) or part.text.strip() for part in link.alt):
         raise BankError(
             f"picture {link.file!r} has no words: describe the picture in words for those who "
@@ -161,7 +161,7 @@ def read_picture(folder: Path, name: str) -> PictureFile:
 
 
 def _fit_picture(data: bytes, kind: str, width: float, height: float) -> PictureFile:
-    """A picture in its natural size in points, as far as it fits on a page."""
+    """Return a picture in its natural size in points, made smaller to fit on a page."""
     if not 0 < min(width, height) <= max(width, height) < 1e6:
         raise BankError("its size is not positive")
     share = min(1.0, LARGEST[0] / width, LARGEST[1] / height)
@@ -195,7 +195,7 @@ def _pack_pixels(data: bytes) -> PictureFile:
 
 
 def _reencode_pixels(picture: Image, kind: str) -> bytes:
-    """The pixels, no more of them than a page shows, and nothing beside them."""
+    """Return the pixels as a file, no more of them than a page shows, and nothing else."""
     if kind == "jpeg" and picture.mode not in {"L", "RGB"}:
         picture = picture.convert("RGB")
     if max(picture.size) > FINEST:
@@ -281,7 +281,7 @@ def _check_cost(root: ET.Element) -> None:
 
 
 def _copy_drawing(element: Any, depth: int) -> Any:
-    """An element with what in it only draws."""
+    """Return a copy of an element with only those of its children that draw."""
     if depth > DEEPEST:
         raise BankError(f"has more than {DEEPEST} groups within each other")
     name = element.tag.removeprefix(f"{{{_SVG}}}")
@@ -305,7 +305,7 @@ def _safe_attributes(element: Any, name: str) -> Iterator[tuple[str, str]]:
 
 
 def _stays_inside(style: str) -> bool:
-    """Whether a style refers to nothing but places of its own file."""
+    """Return whether a style refers to nothing outside its own file."""
     return not _REACHES_OUT.search(_OWN_PLACE.sub("", style))
 
 

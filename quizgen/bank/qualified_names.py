@@ -12,7 +12,7 @@ BETWEEN = ":"
 
 
 def qualify_names(names: Mapping[Bank, Iterable[str]]) -> dict[Bank, dict[str, str]]:
-    """What names of several banks become in all: with the bank's before those that two have."""
+    """Return names of several banks as one: with the bank's in front of those that two have."""
     own = {part: [*dict.fromkeys(there)] for part, there in names.items()}
     counts = Counter(name for there in own.values() for name in there)
     return {

@@ -40,12 +40,12 @@ class QuantityNames(_Written, frozen=True):
     said: dict[str, dict[str, tuple[Inline, ...]]] = {}
 
     def name(self, quantity: str, lang: str) -> tuple[Inline, ...]:
-        """What a quantity is called in a sentence; empty if nobody has said so."""
+        """Return what a quantity is called in a sentence; empty if the bank does not say."""
         return self.said.get(quantity, {}).get(lang, ())
 
     @property
     def digest(self) -> str:
-        """Changes with every name."""
+        """Return a digest that changes with every name."""
         written = _Written(self.names, self.fixed)
         return hashlib.sha256(msgspec.json.encode(written)).hexdigest()
 
@@ -54,7 +54,7 @@ _FILES = CompileCache("quantities", dict[str, QuantityNames], "markdown_it")
 
 
 def read_quantities(paths: Iterable[Path]) -> dict[str, QuantityNames]:
-    """Solver to its quantities, from several files.
+    """Return the quantities of each solver, from several files.
 
     Raises
     ------

@@ -81,7 +81,7 @@ class Template:
     pictures: Mapping[str, PictureFile] = field(default_factory=dict)
 
     def __getstate__(self) -> dict[str, object]:
-        """What another process is told: nothing that it can work out again."""
+        """Return what another process is sent: nothing that it can work out again."""
         return {one.name: getattr(self, one.name) for one in fields(self)}
 
     def __repr__(self) -> str:
@@ -90,12 +90,12 @@ class Template:
 
     @property
     def origin(self) -> str:
-        """The name that numbers are drawn under: its first one, so that a rename changes none."""
+        """Return the first name, which numbers are drawn under: a rename changes none of them."""
         return self.rules.formerly or self.id
 
     @property
     def figure(self) -> ModuleType | None:
-        """What draws its figure, imported when it is needed: an author's may load much.
+        """Return the module of its figure, imported on use: an author's may load much.
 
         Raises
         ------
@@ -107,7 +107,7 @@ class Template:
 
     @cached_property
     def file(self) -> Path:
-        """What the rules were read from."""
+        """Return the path of ``template.toml``."""
         return self.path / "template.toml"
 
     @property
@@ -117,24 +117,24 @@ class Template:
 
     @property
     def minutes(self) -> int:
-        """Suggested working time."""
+        """Return the suggested working time in minutes."""
         return suggested_minutes(self.rules)
 
     @cached_property
     def units(self) -> dict[str, str]:
-        """Quantity to the unit it is shown in: drawn ones first, then steps."""
+        """Return the unit that each quantity is shown in: drawn ones first, then steps."""
         drawn = {name: rule.unit for name, rule in self.rules.draw.items() if not rule.words}
         given = dict(self.chain.given)
         steps = {step.name: step.unit for step in self.chain.steps}
         return {**given, **{k: v for k, v in drawn.items() if v or k not in given}, **steps}
 
     def unit_factor(self, unit: str) -> fmpq:
-        """Exact factor from a unit, listed or of the bank, to base units."""
+        """Return the exact factor from a unit, listed or of the bank, to base units."""
         return self.about.system.factor(unit)
 
     @cached_property
     def labels(self) -> tuple[str, ...]:
-        """Part labels: ``a``, ``b``, ...; a single part has none."""
+        """Return the labels of the parts: ``a``, ``b``, ...; a single part has an empty one."""
         count = len(self.rules.part)
         return tuple(PART_LABELS[:count]) if count > 1 else ("",)
 
@@ -179,7 +179,7 @@ class Template:
 
 
 def _quote_formula(formula: str) -> str:
-    """A formula for a message, as much of it as tells which one it is."""
+    """Return a formula for a message, cut to what shows which one it is."""
     return repr(formula if len(formula) <= QUOTED else f"{formula[:QUOTED]}...")
 
 
@@ -218,7 +218,10 @@ def _read_rules(path: Path, source: str) -> Rules:
 
 
 def _whole_or(kind: type) -> Callable[[str], object]:
-    """Reads a number with a point: 3.0 as 3, as editors do that know no other whole numbers."""
+    """Return a reader of numbers with a point that gives 3.0 as the integer 3.
+
+    Some editors write integers that way and know no other.
+    """
     return lambda text: int(text[:-2]) if _WHOLE.fullmatch(text) else kind(text)
 
 
@@ -234,7 +237,7 @@ def _check_draws(rules: Rules) -> None:
 
 
 def check_against_chain(template: Template) -> None:
-    """Check that rules, chain and quantities fit together.
+    """Raise ``BankError`` unless rules, chain and quantities fit together.
 
     Raises
     ------
@@ -260,7 +263,7 @@ def _check_units(template: Template) -> None:
 
 
 def _check_names(template: Template) -> None:
-    """Raise ``BankError`` if the rules name what the solver does not have, or lack what it needs."""
+    """Raise ``BankError`` if the rules name what the solver lacks, or lack what it needs."""
     rules = template.rules
     missing = set(template.chain.given) - set(rules.draw)
     if missing:

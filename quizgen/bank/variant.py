@@ -40,7 +40,7 @@ MAX_TRIES = 5000
 
 
 def leading_digits(value: Value) -> str:
-    """A number by its first four digits: what somebody who copies it would take for the same."""
+    """Return a number's first four digits: what somebody who copies it takes for the same."""
     return f"{abs(to_float(value)):.4g}"
 
 
@@ -104,7 +104,7 @@ class Variant:
 
     @property
     def identity(self) -> str:
-        """Name of the question: two variants ask the same if and only if this is the same.
+        """Return the name of the question: two variants ask the same if and only if it is equal.
 
         Worked out once, when it is first asked for: it makes the selections of the pools, whose
         faults are those of a question and not of its numbers.
@@ -115,11 +115,11 @@ class Variant:
 
     @property
     def sampler(self) -> Sampler:
-        """What does not depend on the numbers."""
+        """Return the sampler of its template, which does not depend on the numbers."""
         return sampler_for(self.template)
 
     def format_value(self, name: str) -> str:
-        """A quantity's number as it is shown: exact if drawn or read at a glance, else rounded."""
+        """Return a quantity's number as text: exact if drawn or short, else rounded."""
         if name not in self._texts:
             value = self.shown_values[name]
             exactly = None if self.is_rounded(name) else format_exact(value)
@@ -127,7 +127,7 @@ class Variant:
         return self._texts[name]
 
     def is_rounded(self, name: str) -> bool:
-        """Whether a quantity's text is not its exact value."""
+        """Return whether a quantity's text is not its exact value."""
         value = self.shown_values[name]
         return not is_readable_exactly(value) and (
             name not in self.shown or format_exact(value) is None
@@ -141,7 +141,7 @@ class Variant:
         return self._computed[formula]
 
     def steps_of_part(self, index: int) -> tuple[ChainStep, ...]:
-        """The steps that lead to a part's answer, those that the template leaves out aside."""
+        """Return the steps to a part's answer, without those that the template leaves out."""
         shown = self.template.rules.part[index].show
         steps = self.sampler.parts[index].steps
         return tuple(step for step in steps if shown is None or step.name in shown)
@@ -151,7 +151,7 @@ class Variant:
         return self._answer_components(index, self.values)
 
     def misconception_answers(self, index: int) -> dict[str, tuple[Value, ...]]:
-        """Each usable mistake of a part and the answer it gives, as ``answer``."""
+        """Return the answer that each usable misconception of a part gives, as ``answer_of_part``."""
         chain = self.template.chain
         return {
             trap: self._answer_components(index, chain.solve_with_misconception(trap, self.values))
@@ -197,7 +197,7 @@ def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> 
 
 
 def _culprit(condition: str, template: Template) -> Place:
-    """Where the condition stands that was met least: all of ``[draw]`` if it is no one's."""
+    """Return where the condition stands that was met least; ``[draw]`` if it is no one's."""
     if condition in template.rules.where:
         return (TEXT, condition)
     kept = condition.removeprefix("keep.")
@@ -205,7 +205,9 @@ def _culprit(condition: str, template: Template) -> Place:
 
 
 def reference_variant(template: Template) -> Variant:
-    """Instance with the numbers printed in the notes; mistakes that coincide there are left out.
+    """Return the variant with the numbers printed in the notes.
+
+    Misconceptions that coincide there are left out.
 
     Raises
     ------

@@ -50,7 +50,7 @@ class KeyChain(msgspec.Struct):
     steps: list[tuple[str, str, str]]
 
     def units(self) -> dict[str, str]:
-        """Step name to the unit it is shown in."""
+        """Return the shown unit of each step, by name."""
         return {name: unit for name, _, unit in self.steps}
 
     def context(self, earlier: Mapping[str, fmpq]) -> QuestionContext:
@@ -80,7 +80,7 @@ def _build_chain(
 
 @lru_cache(maxsize=256)
 def _parse_points(text: str) -> Fraction:
-    """Points as an exact number; a class has few different ones."""
+    """Return points as an exact number, cached: a class has few different ones."""
     return parse_written_number(text)
 
 
@@ -178,7 +178,7 @@ def make_answer_key(paper: Paper) -> AnswerKey:
 
 
 def answer_key_digest(key: AnswerKey, code: str = "") -> str:
-    """Digest of the paper that a key is of: ``Paper.digest``.
+    """Return the digest of the paper that a key is of, equal to ``Paper.digest``.
 
     Parameters
     ----------
@@ -216,7 +216,7 @@ def make_key_question(item: PaperItem) -> KeyQuestion:
 def _key_part(name: str, points: str, spec: dict[str, Any]) -> KeyPart:
     """Return one part of a key, with the order of the mappings that it matters for.
 
-    ``order`` keeps it, since keys are written with sorted names.
+    Objects of JSON have no order, but cells of a table are asked and typed in one.
     """
     order = {
         field: list(value)
@@ -227,14 +227,14 @@ def _key_part(name: str, points: str, spec: dict[str, Any]) -> KeyPart:
 
 
 def write_answer_key(paper: Paper) -> bytes:
-    """``key.json``."""
+    """Return the bytes of ``key.json``; writes no file."""
     table = msgspec.to_builtins(make_answer_key(paper))
     text = json.dumps(table, ensure_ascii=False, indent=1)
     return (text + "\n").encode()
 
 
 def parse_answer_key(table: Mapping[str, Any], place: str = "key") -> AnswerKey:
-    """Validate a key table.
+    """Return a key's table as an answer key, checked.
 
     Raises
     ------
@@ -281,7 +281,7 @@ def _check_points(part: KeyPart, place: str) -> None:
 
 
 def _check_spec(part: KeyPart, place: str) -> None:
-    """Raise ``KeyFileError`` if a part cannot be graded: its specification or its units are wrong."""
+    """Raise ``KeyFileError`` if a part cannot be graded: wrong specification or units."""
     try:
         spec = part.parse_spec()
         for unit in spec.value_units():

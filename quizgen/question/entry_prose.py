@@ -27,7 +27,7 @@ from quizgen.question.formula_lines import typeset_inline
 
 
 def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
-    """A passage of an entry as blocks, its mathematics ready for printing.
+    """Return a passage of an entry as blocks, its mathematics typeset.
 
     Raises
     ------
@@ -39,14 +39,14 @@ def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
 
 
 def entry_inlines(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
-    """The same as ``passage`` for a sentence, as inlines."""
+    """Return a sentence of an entry as inlines; otherwise as ``entry_blocks``."""
     with _iter_field_text(entry, name, lang) as text:
         return fill_inlines(parse_inlines(text), typeset_slot)
 
 
 @contextmanager
 def _iter_field_text(entry: Entry, name: str, lang: str) -> Iterator[str]:
-    """The text of a field; what is wrong with it is located."""
+    """Yield the text of a field once; an error raised by its reader is located in the entry."""
     texts: Passage = getattr(entry, name)
     with entry.name_in_errors(name, lang):
         try:
@@ -57,7 +57,7 @@ def _iter_field_text(entry: Entry, name: str, lang: str) -> Iterator[str]:
 
 
 def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
-    """Mathematics of a sentence, ready for printing.
+    """Return the mathematics of a sentence, typeset.
 
     Raises
     ------

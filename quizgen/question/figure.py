@@ -24,12 +24,12 @@ def draw_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> Figure | N
 
 
 def describe_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> str | None:
-    """The figure of a question in words, without drawing it; None if it has none."""
+    """Return the figure of a question in words, without drawing it; None if it has none."""
     return _draw_question_figure(describe_figure, drawn, lang, quiz=quiz)
 
 
 def has_coloured_figure(drawn: Variant) -> bool:
-    """Whether a question has a figure that cannot be read on grey paper, without drawing it."""
+    """Return whether a question's figure cannot be read on grey paper, without drawing it."""
 
     def judge(figure: ModuleType, values: Mapping[str, Any], **_how: object) -> bool:
         """Return whether the figure needs colour with these values."""
@@ -61,7 +61,7 @@ def _draw_question_figure(
 
 
 def _evaluate_parameter(drawn: Variant, source: Source) -> Any:
-    """A number as written, a drawn phrase by its name, a formula's value, or lists of these."""
+    """Return a parameter: a number, a drawn phrase, a formula's value, or lists of these."""
     if isinstance(source, tuple):
         return [_evaluate_parameter(drawn, one) for one in source]
     if not isinstance(source, str):

@@ -60,7 +60,7 @@ class FormulaSheet(msgspec.Struct, frozen=True):
 
 
 def compose_sheet(bank: Bank, choice: str, topics: Sequence[str] = ()) -> FormulaSheet:
-    """Put the formulas of a bank into words.
+    """Return the formulas of a bank with their words, by topic.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def compose_sheet(bank: Bank, choice: str, topics: Sequence[str] = ()) -> Formul
 
 
 def cite_formula(bank: Bank, name: str, lang: str) -> tuple[Inline, ...]:
-    """A line of the sheet in a sentence: its number, title and formulas; empty if it has none."""
+    """Return a line of the sheet for a sentence: number, title, formulas; empty if it has none."""
     for entry in read_formulas(bank):
         if entry.id == name:
             lines = join_inlines(
@@ -149,7 +149,7 @@ def draw_sketch(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...]) -> tupl
 
 
 def _typeset_sheet_formula(line: str, entry: FormulaEntry) -> TypesetMaths:
-    """A line in one piece."""
+    """Return a line of the sheet typeset as one piece."""
     with entry.name_in_errors("lines"):
         signs, parts = parse_formula_line(line, entry.inside)
     node = typeset.relation_chain(signs, [part.node for part in parts])

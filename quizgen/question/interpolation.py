@@ -118,7 +118,7 @@ class Interpolator:
         return None
 
     def with_sentence(self, name: str, section: str, sentence: str) -> Interpolator:
-        """The same with a blank that a named sentence fills."""
+        """Return a copy with a slot that a named sentence fills."""
         filler = Interpolator(self.drawn, self.lang, hidden=self.hidden)
         filler.own[name] = (section, sentence)
         return filler
@@ -168,7 +168,9 @@ class Interpolator:
 
 
 def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
-    """Cut a sentence into pieces of which no line may end inside: ``f`` and ``= 6 mm`` are one.
+    """Return the pieces of a sentence inside which no line may end.
+
+    ``f`` and ``= 6 mm`` are one.
 
     Browsers and Typst break a line on either side of a formula, even before a comma.
     """
@@ -208,7 +210,7 @@ def _inline_maths(expr: Expr) -> TypesetMaths:
 
 
 def fill_program(text: str, drawn: Variant, known: Values) -> str:
-    """Program text or its output with the drawn values in place, as a program writes them.
+    """Return program text, or its output, with the drawn values as a program writes them.
 
     Parameters
     ----------
@@ -224,7 +226,7 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
     """
 
     def value(name: str) -> str:
-        """Return a value as a program writes it; raise ``BankError`` if it is unknown or not exact."""
+        """Return a value as a program writes it; raise ``BankError`` if it is not exact."""
         written = format_exact(known[name], minus="-") if name in known else None
         if written is None:
             what = f"{{{{ {name} }}}} cannot stand in a program"
@@ -240,7 +242,7 @@ def format_quantity(drawn: Variant, name: str) -> str:
 
 
 def join_unit(text: str, unit: str) -> str:
-    """A number and its unit; only the degree sign stands close."""
+    """Return a number and its unit with a blank between; only the degree sign stands close."""
     shown = format_unit(unit)
     return f"{pretty.format_number(text)}{'' if shown in {'', '°'} else NBSP}{shown}"
 

@@ -30,7 +30,7 @@ _WITH_UNIT = re.compile(r"(?<![\w.,])[âˆ’+-]?\d[\d.,\u202f]*[ \u00a0](?=[A-Za-zÂ
 
 
 def localise(lang: str, said: Localisable) -> Localisable:
-    """What is said in a language, with the decimal sign of that language.
+    """Return blocks or inlines with their numbers as a language writes them.
 
     Parameters
     ----------

@@ -64,7 +64,7 @@ def typeset_step(drawn: Variant, step: ChainStep) -> TypesetMaths:
 
 @lru_cache(maxsize=128)
 def step_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
-    """The sides of a worked step, from formula to rounded value, the same in every language."""
+    """Return the sides of a worked step, from formula to rounded value, for any language."""
     with working_precision():
         expr = select_branch(step.expr, drawn.values, exact_system())
     sides = [WorkedSide("=", typeset.lay_out(expr), format_tree(expr), FORMULA)]
@@ -76,7 +76,7 @@ def step_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
 
 
 def join_sides(name: str, sides: Sequence[WorkedSide]) -> TypesetMaths:
-    """A quantity and some of its sides, one behind another."""
+    """Return a quantity and some of its sides as one worked line."""
     signs = [side.sign for side in sides]
     nodes = [typeset.lay_out_name(name), *(side.node for side in sides)]
     typed = "".join(f" {side.sign} {side.typed}" for side in sides)
@@ -84,7 +84,7 @@ def join_sides(name: str, sides: Sequence[WorkedSide]) -> TypesetMaths:
 
 
 def _with_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
-    """The formula with numbers in place; equal unless one of them is shown rounded."""
+    """Return the formula with numbers in place; equal unless one of them is shown rounded."""
     quantities = sorted(names_in(expr))
     sign = "≈" if any(drawn.is_rounded(name) for name in quantities) else "="
     node = typeset.lay_out(expr, leaves={name: value_node(drawn, name) for name in quantities})

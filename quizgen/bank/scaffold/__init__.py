@@ -53,13 +53,13 @@ def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
 
 
 def scaffold_language(lang: str) -> dict[str, bytes]:
-    """What a bank says of a language that quizgen has no words for, by path in the bank."""
+    """Return what a bank says of a language that quizgen has no words for, by path."""
     said = _fill_scaffold_file(_HERE / "language.toml", {"LANG": lang})
     return {f"{_locate_locale_folder(lang)}/language.toml": said}
 
 
 def english_translation_files(lang: str) -> dict[str, bytes]:
-    """All that quizgen says, to be translated, by path in the bank; what is left out stays."""
+    """Return the sentences of quizgen to be translated, by path; what is left out stays English."""
     return {
         f"{_locate_locale_folder(lang)}/{file.name}": file.read_bytes()
         for file in translatable_files()
