@@ -43,7 +43,7 @@ def available_banks() -> dict[str, Path]:
 
 
 def resolve_bank(named: Path) -> Path:
-    """The folder of a bank: itself, or that of the built-in or an installed bank of this name.
+    """Return the folder of a bank: the given one, or that of a bank of this name.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def python_digest(root: Path) -> str:
 
 
 def is_trust_remembered(root: Path) -> bool:
-    """Whether a person has allowed the Python of a bank to run, as it is now."""
+    """Return whether a person has allowed the Python of a bank to run, as it is now."""
     return python_digest(root) in _read_remembered()
 
 

@@ -123,13 +123,13 @@ def _read_entry(
 
 
 def localised_fields(kind: type[Entry]) -> list[str]:
-    """Names of the fields that are written in every language."""
+    """Return the names of the fields that are written in every language."""
     return [field.name for field in msgspec.structs.fields(kind) if field.type == Passage]
 
 
 @cache
 def read_entries(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
-    """Entries of one file of a bank, read once; none if the bank has no such file.
+    """Return the entries of one file of a bank, read once; none if it has no such file.
 
     Of several banks as one those of each in turn, and what two call the same is told apart.
 

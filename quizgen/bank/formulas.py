@@ -89,7 +89,9 @@ def _index_canonical_forms(bank: Bank) -> dict[Expr, list[str]]:
 
 
 def _right_sides(entry: FormulaEntry) -> Iterator[Expr]:
-    """Return the sides that a formula is computed by: all but the first.
+    """Yield the sides that a formula is computed by: all but the first.
+
+    Pieces outside the grammar are left out.
 
     Pieces outside the grammar are left out.
     """

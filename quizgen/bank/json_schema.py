@@ -26,7 +26,7 @@ _CLASS = re.compile(r'(?<=["/])(?:Authored\w+|ParametricCurve|BankMetadata)(?=")
 
 
 def build_json_schema(name: str) -> bytes:
-    """The schema of ``template.toml`` or ``bank.toml``, as JSON."""
+    """Return the schema of ``template.toml`` or ``bank.toml``, as JSON."""
     shapes: list[Any] = [SCHEMAS[name]]
     if name == "template":
         shapes.append(reduce(or_, (kind.authored for kind in KINDS.values())))

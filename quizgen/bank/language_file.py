@@ -113,7 +113,7 @@ def _by_label(content: str) -> tuple[str, str]:
 def _index_conditional_sentences(
     listed: Mapping[str, list[tuple[str, ConditionalSentence]]],
 ) -> dict[tuple[str, str], tuple[ConditionalSentence, ...]]:
-    """Section and name of the sentences that a condition chooses from."""
+    """Return section and name of the sentences that a condition chooses from."""
     found: dict[tuple[str, str], list[ConditionalSentence]] = {}
     for section, entries in listed.items():
         for name, case in entries:
@@ -138,7 +138,7 @@ _CASE = re.compile(r"(?P<name>[^\[]*?)(?:\s*\[(?P<condition>[^\]]*)\])?\s*")
 def _iter_named_sentences(
     section: str, content: str, line: int
 ) -> Iterator[tuple[str, ConditionalSentence]]:
-    """Names and sentences of a list that begins in a line."""
+    """Yield names and sentences of a list that begins in a line."""
     for entry in re.split(r"^- ", content, flags=re.MULTILINE):
         begin, line = line, line + _breaks(entry)
         if not entry.strip():

@@ -130,7 +130,7 @@ def read_metadata(path: Path) -> BankMetadata:
 
 
 def _first_unsound(units: tuple[str, ...]) -> int:
-    """Return the first definition that cannot be read with those before it."""
+    """Return the index of the first definition that cannot be read with those before it."""
     for count in range(len(units)):
         try:
             build_unit_registry(units[: count + 1])
@@ -160,12 +160,12 @@ def _check_version(requires: str) -> None:
 
 
 def pick_language(texts: Mapping[str, str], lang: str, otherwise: str) -> str:
-    """A text in a language, else in English, else in the first that it has, else another text."""
+    """Return a text in a language, else in English, else in its first, else ``otherwise``."""
     return texts.get(lang) or texts.get(FIRST) or next(iter(texts.values()), "") or otherwise
 
 
 def grading_words(about: BankMetadata, answers: Sequence[Mapping[str, object]]) -> Iterator[bytes]:
-    """Return the words of ``bank.toml`` that a template's answers are graded with."""
+    """Yield the words of ``bank.toml`` that a template's answers are graded with."""
     if any("counts" in answer for answer in answers):
         yield msgspec.json.encode(about.counted)
     if any(answer.get("kind") == "gap" for answer in answers):

@@ -310,7 +310,7 @@ def _stays_inside(style: str) -> bool:
 
 
 def _read_svg_size(root: ET.Element) -> tuple[float, float]:
-    """Natural size in points: what the file says, else its view box in CSS pixels."""
+    """Return the natural size in points: what the file says, else its view box in CSS pixels."""
     found = [_LENGTH.fullmatch(root.get(name, "")) for name in ("width", "height")]
     if all(found):
         width, height = (float(one[1]) * _POINTS[one[2] or ""] for one in found if one)

@@ -112,7 +112,7 @@ class Template:
 
     @property
     def languages(self) -> tuple[str, ...]:
-        """Languages the template is written in."""
+        """Return the languages that the template is written in."""
         return tuple(self.texts)
 
     @property

@@ -134,7 +134,7 @@ class Variant:
         )
 
     def evaluate(self, formula: str) -> Value:
-        """Value of a formula of ``template.toml`` over the quantities in shown units."""
+        """Return the value of a formula of ``template.toml`` over quantities in shown units."""
         if formula not in self._computed:
             with working_precision():
                 self._computed[formula] = self.sampler.compile_formula(formula)(self.shown_values)
@@ -147,11 +147,11 @@ class Variant:
         return tuple(step for step in steps if shown is None or step.name in shown)
 
     def answer_of_part(self, index: int) -> tuple[Value, ...]:
-        """The components of a part's answer, each in the unit it is asked in."""
+        """Return the components of a part's answer, each in the unit it is asked in."""
         return self._answer_components(index, self.values)
 
     def misconception_answers(self, index: int) -> dict[str, tuple[Value, ...]]:
-        """Return the answer that each usable misconception of a part gives, as ``answer_of_part``."""
+        """Return the answer of each usable misconception of a part, as ``answer_of_part``."""
         chain = self.template.chain
         return {
             trap: self._answer_components(index, chain.solve_with_misconception(trap, self.values))

@@ -71,12 +71,12 @@ class FilledForm(msgspec.Struct):
 
     @property
     def is_blank(self) -> bool:
-        """Whether the form has neither an answer nor a name."""
+        """Return whether the form has neither an answer nor a name."""
         known = self.student.name or self.student.matriculation
         return not known and not any(text.strip() for text in self.list_typed_texts().values())
 
     def list_typed_texts(self) -> dict[str, str]:
-        """Texts as typed; a number written without quotes counts as its text."""
+        """Return the texts as typed; a number written without quotes counts as its text."""
         return {
             part: "" if text is None else str(text).lower() if isinstance(text, bool) else str(text)
             for part, text in self.answers.items()
@@ -84,7 +84,7 @@ class FilledForm(msgspec.Struct):
 
 
 def write_blank_form(paper: Paper, form: str = "toml") -> bytes:
-    """A blank form, as TOML or as CSV for a spreadsheet."""
+    """Return a blank form, as TOML or as CSV for a spreadsheet; writes no file."""
     return (
         _format_toml_form(paper).encode()
         if form == "toml"
@@ -116,12 +116,12 @@ def _format_toml_form(paper: Paper) -> str:
 
 
 def _get_holder_details(paper: Paper) -> tuple[str, str]:
-    """Name and matriculation number, where it is known whose paper it is."""
+    """Return name and matriculation number, empty where it is not known whose paper it is."""
     return (paper.holder.name, paper.holder.id) if paper.holder else ("", "")
 
 
 def _compute_seal(text: str) -> str:
-    """Digest of a form's text, whatever its layout."""
+    """Return the digest of a form's text, whatever its layout."""
     return hashlib.sha256(_LAYOUT.sub("", _SEAL.sub("", text)).encode()).hexdigest()[:12]
 
 
@@ -150,7 +150,10 @@ def _format_csv_rows(rows: list[tuple[str, ...]]) -> str:
 
 
 def _csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
-    """What the form asks; digests begin with a sign, or a spreadsheet takes some for numbers."""
+    """Yield what the form asks, one row for each part.
+
+    Digests begin with a sign: a spreadsheet takes some of them for numbers.
+    """
     lang = paper.langs[0]
     yield "code", paper.title(lang), "", paper.code
     yield "paper", "", "", f"#{paper.digest}"
@@ -202,12 +205,12 @@ def _read_table(path: Path) -> Mapping[str, Any]:
 
 
 def _as_meant(text: str) -> str:
-    r"""A form in which backslashes of LaTeX are doubled, as TOML has them: ``"\frac{1}{2}"``."""
+    r"""Return a form with the backslashes of LaTeX doubled, as TOML needs: ``"\frac{1}{2}"``."""
     return _TYPED.sub(lambda line: line[1] + '"' + _BACKSLASH.sub(r"\\\\", line[2]), text)
 
 
 def _read_csv(path: Path) -> dict[str, object]:
-    """The table that the rows of a form stand for."""
+    """Return the table that the rows of a form stand for."""
     rows = parse_csv(read_text(path, KeyFileError), path, KeyFileError)
     head = [cell.strip().lower() for cell in rows[0][1]] if rows else []
     while head and not head[-1]:
@@ -228,7 +231,7 @@ def _read_csv(path: Path) -> dict[str, object]:
 
 
 def _part_and_answer(row: list[str], head: list[str], where: str) -> tuple[str, str]:
-    """Part and answer of a row.
+    """Return part and answer of a row.
 
     Raises
     ------
@@ -246,7 +249,7 @@ def _part_and_answer(row: list[str], head: list[str], where: str) -> tuple[str, 
 
 
 def has_answers(path: Path) -> bool:
-    """Whether anyone has written anything into a form (or it cannot be read, so they might)."""
+    """Return whether someone has written into a form; True also if it cannot be read."""
     if not path.exists():
         return False
     try:
@@ -259,7 +262,7 @@ def has_answers(path: Path) -> bool:
 
 
 def read_form_code(path: Path) -> str:
-    """The code of a form in which someone has written; empty for any other file."""
+    """Return the code of a form in which someone has written; empty for any other file."""
     try:
         return read_filled_form(path).code if has_answers(path) else ""
     except KeyFileError:

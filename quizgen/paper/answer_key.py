@@ -97,11 +97,11 @@ class KeyPart(msgspec.Struct, dict=True):
     order: dict[str, list[str]] = {}
 
     def points_exact(self) -> Fraction:
-        """Points as an exact number."""
+        """Return the points as an exact number."""
         return _parse_points(self.points)
 
     def parse_spec(self, *, proven: bool = False) -> AnySpec:
-        """The specification that answers are judged by, parsed once for all who answer.
+        """Return the specification that answers are judged by, parsed once for all who answer.
 
         Parameters
         ----------
@@ -120,7 +120,7 @@ class KeyPart(msgspec.Struct, dict=True):
         return spec
 
     def _ordered_spec(self) -> dict[str, Any]:
-        """The specification with its mappings in their order.
+        """Return the specification with its mappings in their order.
 
         Raises
         ------
@@ -152,7 +152,7 @@ class KeyQuestion(msgspec.Struct):
     chain: KeyChain | None = None
 
     def known_units(self) -> UnitRegistry:
-        """The units of its chain: those listed, and those that its parts define."""
+        """Return the units of its chain: those listed, and those that its parts define."""
         return build_unit_registry(
             next((tuple(p.spec["define"]) for p in self.parts if "define" in p.spec), ())
         )
@@ -171,7 +171,7 @@ class AnswerKey(msgspec.Struct):
 
 
 def make_answer_key(paper: Paper) -> AnswerKey:
-    """The answer key of a paper."""
+    """Return the answer key of a paper."""
     title = {lang: paper.title(lang) for lang in paper.langs}
     questions = [make_key_question(item) for item in paper.items]
     return AnswerKey(FORMAT, questions, paper.code, paper.digest, title, paper.langs, paper.banks)
@@ -194,7 +194,7 @@ def answer_key_digest(key: AnswerKey, code: str = "") -> str:
 
 
 def make_key_question(item: PaperItem) -> KeyQuestion:
-    """The key of one question."""
+    """Return the key of one question."""
     question, key = item.questions[0], item.keys[0]
     parts = [
         _key_part(part.field.id, str(part.points), msgspec.to_builtins(spec))
@@ -315,7 +315,7 @@ def read_answer_key(path: Path) -> AnswerKey:
 
 
 def read_key_code(path: Path) -> str:
-    """The code of the paper that a key is of; empty for any other file, or none."""
+    """Return the code of the paper that a key is of; empty for any other file, or none."""
     try:
         return str(read_table(path).get("code", ""))
     except KeyFileError:

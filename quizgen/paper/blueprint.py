@@ -74,7 +74,7 @@ class BlueprintFile(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     @property
     def has_constraints(self) -> bool:
-        """Whether it asks for something of the paper as a whole."""
+        """Return whether it asks for something of the paper as a whole."""
         at_least = self.figures or self.figure_kinds or self.photographs
         return bool(self.total or at_least or isinstance(self.minutes, tuple))
 
@@ -98,13 +98,13 @@ MOCK = "mock"
 
 
 def default_blueprint_name(bank: Bank) -> str:
-    """The blueprint of who asks for none: the bank's mock exam; without one, all that there is."""
+    """Return the name of the default: the bank's mock exam; without one, all that there is."""
     alone = len(bank.members) == 1 and MOCK in bank.blueprints
     return MOCK if alone else f"{EVERYTHING}.90"
 
 
 def topic_blueprint(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:
-    """Blueprint without a file: a topic (or ``all``), within a time (0: no limit)."""
+    """Return a blueprint without a file: a topic (or ``all``) in a time, 0 for no limit."""
     name = f"{topic}.{minutes}" if minutes else topic
     title = {lang: f"{translate(lang, 'paper.exam')}: {_find_topic_title(bank, topic, lang)}"
              for lang in list_languages()}  # fmt: skip
@@ -117,12 +117,12 @@ def _find_topic_title(bank: Bank, topic: str, lang: str) -> str:
 
 
 def topic_choices(bank: Bank) -> list[str]:
-    """Topic names of a bank, ``all`` last."""
+    """Return the topic names of a bank, ``all`` last."""
     return [*bank.topics, EVERYTHING]
 
 
 def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
-    """Load a bank's blueprint by name, a topic of the bank, or a file.
+    """Return a blueprint by its name in the bank, by a topic, or from a file.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ def _is_there(path: Path) -> bool:
 
 
 def find_blueprint(name: str, bank: Bank) -> Blueprint | None:
-    """A bank's blueprint by its name, or a topic of the bank; None if it has neither.
+    """Return a bank's blueprint by name, or that of a topic; None if it has neither.
 
     Never a file by its path: names also come from papers' codes, which anyone may have written.
     """
@@ -172,7 +172,10 @@ def find_blueprint(name: str, bank: Bank) -> Blueprint | None:
 
 
 def _qualify_blueprint(plan: Blueprint, name: str, bank: Bank) -> Blueprint:
-    """A bank's own blueprint: mixed with other banks it goes on asking the questions of its own."""
+    """Return a bank's own blueprint with the names that templates have in a combined bank.
+
+    So combined with other banks it goes on asking the questions of its own.
+    """
     names = bank.template_names_for(name)
     if not names:
         return plan
@@ -237,7 +240,7 @@ def _check_blueprint(blueprint: BlueprintFile) -> None:
 
 
 def _check_paper_constraints(blueprint: BlueprintFile) -> Iterator[tuple[str, str]]:
-    """What is wrong in the demands on the paper as a whole."""
+    """Yield the key, and what is wrong with it, of demands on the paper as a whole."""
     span = blueprint.minutes or 1
     first, last = span if isinstance(span, tuple) else (span, span)
     if not 1 <= first <= last <= MOST_MINUTES:
@@ -252,7 +255,7 @@ def _check_paper_constraints(blueprint: BlueprintFile) -> Iterator[tuple[str, st
 
 
 def _check_slot(slot: SlotRule) -> Iterator[tuple[str, str]]:
-    """Key of a slot, and what is wrong with it."""
+    """Yield the key, and what is wrong with it, of a slot."""
     if slot.tier is not None and slot.tier not in tuple("ABCD"):
         yield "tier", f"tier {slot.tier!r} (allowed: A, B, C, D)"
     if slot.points is not None and not 0 < slot.points <= MOST_POINTS:
@@ -269,6 +272,6 @@ def _check_slot(slot: SlotRule) -> Iterator[tuple[str, str]]:
 
 
 def _is_asked(name: str) -> bool:
-    """Whether a text can name a template, with or without its bank before it."""
+    """Return whether a text can name a template, with or without its bank in front."""
     bank, _, own = name.rpartition(BETWEEN)
     return is_identifier(own) and (not bank or is_identifier(bank))

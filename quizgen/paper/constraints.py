@@ -27,7 +27,7 @@ READING = Fraction(11, 10)
 
 
 def paper_minutes(minutes: Fraction | int) -> int:
-    """Minutes for a paper whose questions take so many."""
+    """Return the minutes for a paper whose questions take so many, rounded up."""
     return math.ceil(minutes * READING)
 
 
@@ -85,7 +85,7 @@ class ConstraintSolver:
         self._reach = self._compute_reachable_sums()
 
     def _compute_time_span(self) -> tuple[int, int]:
-        """Fewest and most units of time that the questions may take together."""
+        """Return the fewest and most units of time that the questions may take together."""
         if not isinstance(self.blueprint.minutes, tuple):
             return 0, 0
         first, last = self.blueprint.minutes
@@ -99,7 +99,12 @@ class ConstraintSolver:
         return RunningTotals(points, minutes, bool(one.figure), one.photograph)
 
     def _compute_reachable_sums(self) -> list[dict[tuple[int, int], int]]:
-        """From each place on: at least so many figures and photographs to sums, as bits."""
+        """Return, from each place on, which sums can be reached, as the bits of an integer.
+
+        The key says how many figures and photographs there are at least. The bit ``points * width +
+        minutes`` is set where that sum can be reached, so that one shift and one OR add a candidate
+        to all sums at once.
+        """
         figures, photographs = self.limits
         every = [(f, p) for f in range(figures + 1) for p in range(photographs + 1)]
         whole = (1 << ((self.total + 1) * self.width)) - 1
@@ -115,7 +120,7 @@ class ConstraintSolver:
         return [_at_least(sums) for sums in reversed(reach)]
 
     def is_reachable(self, step: int = 0, sums: RunningTotals = NONE) -> bool:
-        """Whether the places from a step on can still bring what is missing."""
+        """Return whether the places from a step on can still bring what is missing."""
         if sums.points > self.total or sums.minutes > self.last:
             return False
         figures, photographs = self.limits
@@ -125,7 +130,7 @@ class ConstraintSolver:
         return bool(row & ((1 << (last - first + 1)) - 1))
 
     def solve(self) -> list[str]:
-        """Names in order of the paper; none if there is no way, or none found in so many steps."""
+        """Return the names in order of the paper; empty if no way was found in ``STEPS`` steps."""
         self.steps = STEPS
         chosen = self._fill_from(0, NONE, {}) if self.is_reachable() else None
         return [chosen[place].name for place in sorted(chosen)] if chosen else []
@@ -152,7 +157,7 @@ class ConstraintSolver:
         return None
 
     def _open_candidates(self, place: int, chosen: Sequence[Candidate]) -> list[Candidate]:
-        """Who may stand here beside those chosen: of those with numbers left, the least used."""
+        """Return who may stand here beside those chosen: the least used that have numbers left."""
         uses = Counter(one.name for one in chosen)
         left = [o for o in self.places[place] if o.pool is None or uses[o.name] < o.pool]
         least = min((uses[one.name] for one in left), default=0)
@@ -164,7 +169,7 @@ class ConstraintSolver:
 
 
 def explain_infeasible(blueprint: Blueprint, places: Sequence[Sequence[Candidate]]) -> str:
-    """Which demand cannot be met by any choice, or that nothing was found that meets all."""
+    """Return which demand no choice can meet, or that no choice was found that meets all."""
     for name, none in NOTHING.items():
         others = {other: value for other, value in NOTHING.items() if other != name}
         alone = structs.replace(blueprint, **others)
@@ -207,12 +212,12 @@ def _describe_attainable_range(name: str, places: Sequence[Sequence[Candidate]])
 
 
 def _to_units(value: Fraction, unit: int) -> int:
-    """A value in units; its denominator divides them."""
+    """Return a value as an integer number of units, which its denominator divides."""
     return value.numerator * (unit // value.denominator)
 
 
 def _at_least(sums: Mapping[tuple[int, int], int]) -> dict[tuple[int, int], int]:
-    """Sums reached with so many figures and photographs or more."""
+    """Return the sums reached with so many figures and photographs or more."""
     found: dict[tuple[int, int], int] = {}
     for f, p in sorted(sums, reverse=True):
         found[f, p] = sums[f, p] | found.get((f + 1, p), 0) | found.get((f, p + 1), 0)

@@ -47,7 +47,7 @@ def _format_result_row(part: PartResult, lang: str) -> list[str]:
 
 
 def format_table(result: PaperResult, lang: str, columns: int, paint: bool) -> Iterable[str]:
-    """Lay the table out: remarks go on lines of their own so that nothing is cut off."""
+    """Yield the results as a table; remarks have lines of their own, so that none is cut off."""
     import click
 
     table = load_words_inside(lang)
@@ -94,5 +94,5 @@ def _class_row(result: PaperResult) -> list[str]:
 
 
 def part_note(part: PartResult) -> str:
-    """What is to be said of a part in one word."""
+    """Return in one word what there is to say of a part."""
     return part.status if part.is_blank else part.verdict.note or part.verdict.verdict

@@ -41,7 +41,7 @@ class PartResult(msgspec.Struct, frozen=True):
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing was typed."""
+        """Return whether nothing was typed."""
         return not self.typed.strip()
 
     @property

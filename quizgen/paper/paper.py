@@ -43,7 +43,7 @@ ProgressCallback = Callable[[str], None]
 
 
 def silent(_name: str) -> None:
-    """Progress that nobody watches."""
+    """Ignore progress: the callback for whoever watches none."""
 
 
 class PaperItem(msgspec.Struct, frozen=True):
@@ -55,7 +55,7 @@ class PaperItem(msgspec.Struct, frozen=True):
 
     @property
     def points(self) -> Fraction:
-        """Marks of the question."""
+        """Return the marks of the question."""
         return self.questions[0].points
 
 
@@ -96,23 +96,23 @@ class Paper(msgspec.Struct, frozen=True):
 
     @property
     def points(self) -> Fraction:
-        """Marks of all questions."""
+        """Return the marks of all questions."""
         return sum((item.points for item in self.items), Fraction(0))
 
     @property
     def cited_formula(self) -> str:
-        """A formula's number that stands beside a step of the solutions; empty if none does."""
+        """Return the formula's number beside a step of the solutions; empty if there is none."""
         solved = (part for item in self.items for part in item.keys[0].solution.parts)
         return next((line.formula for part in solved for line in part.lines if line.formula), "")
 
     @property
     def has_drawing(self) -> bool:
-        """Whether an answer is drawn."""
+        """Return whether an answer is drawn."""
         return any(one.field.drawing for item in self.items for one in item.questions[0].parts)
 
     @property
     def digest(self) -> str:
-        """Short digest of what is asked and marked; page, form and key that belong together agree.
+        """Return a short digest of what is asked and marked; page, form and key must share it.
 
         It is of names and numbers as they were drawn, so it is the same for all formats.
         """
@@ -129,26 +129,26 @@ class Paper(msgspec.Struct, frozen=True):
 
     @property
     def variety_text(self) -> str:
-        """The number of possible papers, short: 40, or 3.1·10²⁷."""
+        """Return the number of possible papers, short: 40, or 3.1·10²⁷."""
         if self.variety < 10**6:
             return pretty.format_number(str(self.variety))
         return localise_numbers(self.langs[0], pretty.format_number(f"{Decimal(self.variety):.1e}"))
 
     @property
     def minutes(self) -> int:
-        """Working time: what the blueprint says, else that of the questions and of reading."""
+        """Return the working time in minutes: the blueprint's, else of questions and reading."""
         said = self.blueprint.minutes
         if isinstance(said, int):
             return said
         return paper_minutes(sum((i.questions[0].minutes for i in self.items), Fraction(0)))
 
     def aids(self, lang: str) -> str:
-        """What may be used: what the blueprint says, else the usual."""
+        """Return what may be used in the exam: what the blueprint says, else the usual."""
         said = self.blueprint.aids
         return said.get(lang) or said.get("en") or translate(lang, "paper.aids_allowed")
 
     def printing(self, lang: str) -> str:
-        """Which questions have to be printed in colour; empty if none has."""
+        """Return which questions have to be printed in colour; empty if none has."""
         numbers = [
             item.number for item in self.items
             if (figure := item.questions[0].figure) and figure.needs_colour
@@ -159,7 +159,7 @@ class Paper(msgspec.Struct, frozen=True):
         return translate(lang, key, numbers=", ".join(numbers))
 
     def title(self, lang: str) -> str:
-        """Title in a language, else in English, else in another one."""
+        """Return the title in a language, else in English, else in another one."""
         return pick_language(self.blueprint.title, lang, self.blueprint.name)
 
 
@@ -210,7 +210,7 @@ def compose_paper(
     figures: bool = True,
     progress: ProgressCallback = silent,
 ) -> Paper:
-    """The paper of a blueprint's questions once they are drawn; its code gets their digest."""
+    """Return the paper of variants that are already drawn; its code gets their digest."""
     langs = bank.resolve_languages(named.choice)
     asked = [*_iter_question_levels(drawn, slot_levels(blueprint))]
     items = []
@@ -230,7 +230,10 @@ class _Wanted(NamedTuple):
 
 
 def _iter_question_levels(drawn: Iterable[Variant], wanted: Iterable[str]) -> Iterator[_Wanted]:
-    """The level of each question, as far as it has such a form that tells nothing of another."""
+    """Yield the level of each question.
+
+    The wanted one, as far as the question has such a form and it tells nothing of another.
+    """
     pairs = [*zip(drawn, wanted, strict=False)]
     ones = [one for one, _ in pairs]
     made = any(level != EXAM for _, level in pairs)
@@ -281,7 +284,7 @@ def rebuild_paper(
 
 
 def _find_code_blueprint(code: PaperCode, bank: Bank) -> Blueprint:
-    """The blueprint that a code names: one of the bank's own, never a file."""
+    """Return the blueprint that a code names: one of the bank's own, never a file."""
     plan = find_blueprint(code.blueprint, bank)
     if plan is None:
         raise PaperCodeError(
@@ -299,7 +302,7 @@ def build_reference_paper(
     figures: bool = True,
     progress: ProgressCallback = silent,
 ) -> Paper:
-    """The paper with the numbers printed in the notes.
+    """Return the paper with the numbers printed in the notes.
 
     Raises
     ------
@@ -324,7 +327,7 @@ def build_reference_paper(
 def single_question_paper(
     template: Template, seed: str | int, lang: str, *, level: str = EXAM, figures: bool = True
 ) -> Paper:
-    """A paper of one question, for looking at a template."""
+    """Return a paper of one question, for looking at a template."""
     drawn = draw_instance(template, seed)
     wanted = _Wanted(drawn, effective_level(drawn, level))
     item = _build_paper_item(wanted, (lang,), "1", figures=figures)
@@ -365,7 +368,7 @@ def _build_paper_item(
 
 
 def _drop_repeated_blocks(question: Question, first: Question) -> Question:
-    """Leave programs and pictures out of the second language where the first shows the same."""
+    """Return a question without the programs and pictures that the first language shows, too."""
     if question is first:
         return question
     bodies = (first.stem, *(part.body for part in first.parts))
@@ -380,7 +383,7 @@ def _drop_repeated_blocks(question: Question, first: Question) -> Question:
 
 
 def _strip_language(block: Block) -> object:
-    """What of a block looks the same in every language: a program, or pictures alone."""
+    """Return what of a block looks the same in every language: a program, or pictures alone."""
     if isinstance(block, CodeBlock):
         return block
     pieces = block.children if isinstance(block, Paragraph) else ()
@@ -389,7 +392,9 @@ def _strip_language(block: Block) -> object:
 
 
 def _distribute_points(question: Question, points: float | None) -> Question:
-    """Share the marks of a slot out over the parts, as their own marks stand to each other.
+    """Return a question with the marks of its slot shared out over the parts.
+
+    They stand to each other as the parts' own marks do.
 
     The time goes with the marks.
     """

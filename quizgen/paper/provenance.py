@@ -42,7 +42,7 @@ class BankRecord(msgspec.Struct, frozen=True):
     templates: tuple[str, ...]
 
     def __str__(self) -> str:
-        """Name, version and digest, as a page names it."""
+        """Return name, version and digest, as a page names the bank."""
         return " ".join(filter(None, (self.name, self.version, f"({self.digest})")))
 
 

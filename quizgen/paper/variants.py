@@ -48,7 +48,7 @@ class _Seen(msgspec.Struct):
         self.given |= _collect_stated_numbers(one)
 
     def tells(self, one: Variant) -> bool:
-        """Whether a draw asks what is asked or stated already, or states what is asked."""
+        """Return whether a variant asks what is asked or stated, or states what is asked."""
         asked = _collect_notable_answers(one)
         return bool(
             asked & self.asked or asked & self.given or self.asked & _collect_stated_numbers(one)
@@ -88,7 +88,10 @@ def draw_variants(
 def _draw_least_revealing(
     template: Template, seed: str, place: int, seen: _Seen, near: Sequence[Variant], *, colour: bool
 ) -> Variant:
-    """The first draw that is new and tells nothing; if there is none, the one that tells least."""
+    """Return the first variant that is new and tells nothing, else the one that tells least.
+
+    Raises ``SamplingError`` if none is new.
+    """
     new: list[Variant] = []
     for again in range(REDRAWS):
         one = draw_variant(template, seed, f"{place}.{again}" if again else place)
@@ -105,19 +108,26 @@ def _draw_least_revealing(
 
 
 def _find_overlap(one: Variant, seen: _Seen, near: Sequence[Variant]) -> tuple[bool, bool, bool]:
-    """What of a draw tells something: its own paper, the same question beside it, its answer."""
+    """Return the sort key of a variant: the one with the least overlap comes first.
+
+    Three booleans, the gravest first: it tells something of its own paper; the paper beside it
+    has the same question; it shares an answer with that question. False sorts before True.
+    """
     again = any(one.identity == other.identity for other in near)
     return seen.tells(one), again, any(shared_content(one, other) for other in near)
 
 
 def shared_content(one: Variant, other: Variant) -> set[str]:
-    """What two questions have in common: numbers that both ask, or that they are the same."""
+    """Return what two questions share: numbers that both ask, or that they are the same."""
     same = {one.identity} & {other.identity}
     return (_collect_answer_numbers(one) & _collect_answer_numbers(other)) | same
 
 
 def _collect_notable_answers(one: Variant) -> set[str]:
-    """Numbers that are asked for, small whole ones aside."""
+    """Return the numbers that are asked for, small integers aside.
+
+    Those occur everywhere and give nothing away.
+    """
     return {
         leading_digits(v)
         for v in _iter_asked_values(one)
@@ -126,7 +136,7 @@ def _collect_notable_answers(one: Variant) -> set[str]:
 
 
 def _collect_answer_numbers(one: Variant) -> set[str]:
-    """Numbers that are asked for."""
+    """Return all numbers that are asked for."""
     return set(map(leading_digits, _iter_asked_values(one)))
 
 
@@ -137,7 +147,7 @@ def _iter_asked_values(one: Variant) -> Iterator[Value]:
 
 
 def _collect_stated_numbers(one: Variant) -> set[str]:
-    """Numbers that a question states, as far as they have digits enough."""
+    """Return the numbers that a question states, as far as they have digits enough."""
     return {
         text
         for text in map(leading_digits, one.shown.values())
@@ -146,12 +156,12 @@ def _collect_stated_numbers(one: Variant) -> set[str]:
 
 
 def _count_significant_digits(text: str) -> int:
-    """Digits without zeros at the ends."""
+    """Return the number of digits without zeros at the ends."""
     return len(text.partition("e")[0].replace(".", "").strip("0"))
 
 
 def with_siblings(drawn: Sequence[Variant]) -> Iterator[Variant]:
-    """Each draw with what the other questions of its paper ask."""
+    """Yield each variant with what the other questions of its paper ask."""
     formulas = [frozenset(_iter_asked_formulas(one)) for one in drawn]
     numbers = [
         frozenset(
@@ -175,7 +185,10 @@ def _iter_asked_formulas(one: Variant) -> Iterator[CanonicalForm]:
 
 
 def asked_formulas(drawn: Variant, index: int) -> Mapping[CanonicalForm, str]:
-    """Forms of the steps to an answer, each also with the steps before it put in, and the key."""
+    """Return the canonical forms that lead to an answer, and how each is written.
+
+    The steps, each also with the steps before it put in, and the formula that is asked for.
+    """
     found = _formulas_of_steps(sampler_for(drawn.template), index)
     if authored_answer(drawn, index)["kind"] == "expression":
         spec: expression.ExpressionSpec = ask_part(drawn, index).spec
@@ -186,7 +199,7 @@ def asked_formulas(drawn: Variant, index: int) -> Mapping[CanonicalForm, str]:
 
 @lru_cache(maxsize=4096)
 def _formulas_of_steps(plan: Sampler, index: int) -> dict[CanonicalForm, str]:
-    """Those that are the same in every draw."""
+    """Return the forms of the steps, the same for every variant of a template."""
     found: dict[CanonicalForm, str] = {}
     inner: dict[str, Expr] = {}
     for step in plan.parts[index].steps:

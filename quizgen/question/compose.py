@@ -62,17 +62,17 @@ class AnswerField(msgspec.Struct, frozen=True):
 
     @property
     def hints(self) -> tuple[str, ...]:
-        """What to type, as text."""
+        """Return what to type, one text for each line."""
         return tuple(map(inlines_to_text, self.asks))
 
     @property
     def hint(self) -> tuple[Inline, ...]:
-        """What to type, as one run of sentences."""
+        """Return what to type, as one run of sentences."""
         return join_inlines(self.asks, " ")
 
     @property
     def hint_in_fields(self) -> tuple[Inline, ...]:
-        """What to type where every value has a field of its own."""
+        """Return what to type where every value has a field of its own."""
         return join_inlines(self.asks[1:] if self.control.has_several_fields else self.asks, " ")
 
 
@@ -85,7 +85,7 @@ class QuestionPart(msgspec.Struct, frozen=True):
     field: AnswerField
 
     def to_html(self, lang: str) -> Markup:
-        """The part with its options and hints."""
+        """Return the part with its options and hints as HTML."""
         label = Markup("<h4>({})</h4>").format(self.label) if self.label else Markup("")
         choices = Markup("").join(
             Markup("<li>{} {}</li>").format(mark, inlines_to_html(text, lang))
@@ -112,7 +112,7 @@ class Question(msgspec.Struct, frozen=True):
 
     @property
     def points(self) -> Fraction:
-        """Marks of all parts."""
+        """Return the marks of all parts."""
         return sum((part.points for part in self.parts), Fraction(0))
 
     def __repr__(self) -> str:
@@ -120,7 +120,7 @@ class Question(msgspec.Struct, frozen=True):
         return f"<Question {self.number} of {self.template} ({self.lang}): {self.title}>"
 
     def _repr_html_(self) -> str:
-        """The question as a notebook shows it."""
+        """Return the question as a notebook shows it."""
         head = Markup("<h3>{}. {}</h3>").format(self.number, self.title)
         picture = Markup(self.figure.inline_svg.decode()) if self.figure else Markup("")  # noqa: S704
         parts = (part.to_html(self.lang) for part in self.parts)
@@ -195,7 +195,7 @@ def compose_question(
 def compose_variant(
     drawn: Variant, lang: str, *, number: str = "1", level: str = EXAM, figures: bool = True
 ) -> tuple[Question, QuestionKey]:
-    """Compose an instance that has already been drawn.
+    """Return a variant in words: the question, and apart from it its key.
 
     Raises
     ------
@@ -260,7 +260,7 @@ def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
 
 
 def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
-    """The chain with its numbers as plain JSON, for marking without SymPy."""
+    """Return the chain with its numbers as plain JSON, for grading without SymPy."""
     chain = drawn.template.chain
     if not chain.steps:
         return None

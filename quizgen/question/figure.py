@@ -19,7 +19,7 @@ Shown = TypeVar("Shown")
 
 
 def draw_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> Figure | None:
-    """The figure of a question; None if it has none."""
+    """Return the figure of a question; None if it has none."""
     return _draw_question_figure(draw_figure, drawn, lang, quiz=quiz)
 
 

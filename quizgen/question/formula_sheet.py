@@ -157,7 +157,7 @@ def _typeset_sheet_formula(line: str, entry: FormulaEntry) -> TypesetMaths:
 
 
 def _iter_letter_units(entry: FormulaEntry) -> Iterator[Inline]:
-    """Letters with their unit, those of the same unit together: ``f, p′ [mm]; z [m]``."""
+    """Yield letters with their unit, those of one unit together: ``f, p′ [mm]; z [m]``."""
     for place, (unit, letters) in enumerate(entry.units.items()):
         if place:
             yield PlainText("; ")
@@ -169,7 +169,7 @@ def _iter_letter_units(entry: FormulaEntry) -> Iterator[Inline]:
 
 
 def _read_template_title(bank: Bank, name: str, lang: str) -> str:
-    """Title of a template, in the language or else in one that it is written in."""
+    """Return the title of a template, in the language or else in one that it is written in."""
     written = bank.template_languages(name)
     found = lang if lang in written else next(iter(written))
     return read_language_file(bank.template_paths[name] / f"{found}.md").title

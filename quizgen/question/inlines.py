@@ -88,7 +88,7 @@ def _make_words(text: str) -> tuple[Inline, ...]:
 
 
 def name_inline(symbol: str) -> Inline:
-    """The name of a quantity, typeset; a label in words stays text."""
+    """Return the name of a quantity, typeset; a label in words stays text."""
     if not NAME.fullmatch(symbol) or isinstance(node := typeset.lay_out_name(symbol), Word):
         return PlainText(symbol)
     return TypesetMaths(node, symbol)

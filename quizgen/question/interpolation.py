@@ -63,7 +63,7 @@ class Interpolator:
         self.text = drawn.template.texts[lang]
 
     def blocks(self, parts: tuple[Block, ...]) -> tuple[Block, ...]:
-        """Blocks with their slots filled.
+        """Return blocks with their slots filled.
 
         Raises
         ------
@@ -73,11 +73,11 @@ class Interpolator:
         return fill_blocks(parts, self._fill_value, self._fill_program)
 
     def section(self, name: str) -> tuple[Block, ...]:
-        """A section of the language file, filled; empty if there is none."""
+        """Return a section of the language file, filled; empty if there is none."""
         return self.blocks(self.text.sections.get(name, ()))
 
     def sentence(self, section: str, name: str) -> tuple[Inline, ...]:
-        """A named sentence, filled.
+        """Return a named sentence, filled.
 
         Raises
         ------
@@ -94,7 +94,7 @@ class Interpolator:
         return filled
 
     def raw_sentence(self, section: str, name: str) -> tuple[Inline, ...]:
-        """A named sentence as it is written; of several cases the one that fits the draw.
+        """Return a named sentence as it is written; of several cases the one that fits.
 
         Raises
         ------
@@ -111,7 +111,7 @@ class Interpolator:
         return found
 
     def _choose_sentence(self, cases: tuple[ConditionalSentence, ...]) -> tuple[Inline, ...] | None:
-        """The first sentence whose condition holds, else the one without a condition."""
+        """Return the first sentence whose condition holds, else the one without a condition."""
         for condition, sentence in sorted(cases, key=lambda case: not case[0]):
             if not condition or self.drawn.evaluate(condition):
                 return sentence
@@ -168,7 +168,9 @@ class Interpolator:
 
 
 def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
-    """Return the pieces of a sentence inside which no line may end.
+    """Yield the pieces of a sentence inside which no line may end.
+
+    ``f`` and ``= 6 mm`` are one.
 
     ``f`` and ``= 6 mm`` are one.
 
@@ -237,7 +239,7 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
 
 
 def format_quantity(drawn: Variant, name: str) -> str:
-    """A quantity of a draw with its unit as text, exact if that is short."""
+    """Return a quantity of a variant with its unit as text, exact if that is short."""
     return join_unit(drawn.format_value(name), drawn.template.units.get(name, ""))
 
 
@@ -248,7 +250,7 @@ def join_unit(text: str, unit: str) -> str:
 
 
 def inlines_to_text(parts: Iterable[Inline]) -> str:
-    """Text of a filled sentence, for people.
+    """Return the text of a filled sentence, for people.
 
     Raises
     ------
@@ -268,7 +270,7 @@ def _get_plain_text(part: Inline) -> str:
 
 
 def inlines_as_typed(parts: Iterable[Inline]) -> str:
-    """Text of a filled sentence as it would be typed, to compare with what was."""
+    """Return a filled sentence as it would be typed, to compare with what was typed."""
     return "".join(
         inlines_as_typed(part.children)
         if isinstance(part, Emphasis)

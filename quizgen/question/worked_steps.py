@@ -42,7 +42,7 @@ class WorkedSide(NamedTuple):
 
 
 def quantity_inlines(drawn: Variant, name: str, lang: str) -> tuple[Inline, ...]:
-    """A quantity in a sentence: what it is called, and its letter."""
+    """Return a quantity for a sentence: what it is called, and its letter."""
     said = fill_inlines(drawn.template.quantities.name(name, lang), typeset_slot)
     return (
         (*said, PlainText(" ("), name_inline(name), PlainText(")"))
@@ -52,7 +52,7 @@ def quantity_inlines(drawn: Variant, name: str, lang: str) -> tuple[Inline, ...]
 
 
 def typeset_step(drawn: Variant, step: ChainStep) -> TypesetMaths:
-    """One step, printed from formula to rounded value.
+    """Return one step, typeset from formula to rounded value.
 
     Parameters
     ----------
@@ -99,18 +99,18 @@ def _with_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
 
 
 def value_node(drawn: Variant, name: str) -> typeset.Node:
-    """The number of a quantity with its unit, to stand in a formula."""
+    """Return the number of a quantity with its unit, to stand in a formula."""
     return typeset.quantity(drawn.format_value(name), format_unit(drawn.template.units[name]))
 
 
 def value_typed(drawn: Variant, name: str) -> str:
-    """A quantity inside a typed formula: in brackets unless it is a number alone."""
+    """Return a quantity for a typed formula: in brackets unless it is a number alone."""
     text = format_quantity(drawn, name)
     return text if re.fullmatch(rf"[0-9.{pretty.GAP}]+", text) else f"({text})"
 
 
 def _build_value_sides(drawn: Variant, step: ChainStep, *, about: bool) -> list[WorkedSide]:
-    """The exact value if it can be shown, and the rounded one if that says more.
+    """Return the exact value if it can be shown, and the rounded one if that says more.
 
     Behind rounded numbers (``about``) nothing is equal, and only a short exact value says more.
     """

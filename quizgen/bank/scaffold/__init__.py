@@ -28,7 +28,7 @@ FIRST = ("example", "travel-time")
 
 
 def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
-    """The files of a bank with one question, by their path in it.
+    """Return the files of a bank with one question, by their path in it.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def _locate_locale_folder(lang: str) -> str:
 
 
 def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) -> dict[str, bytes]:
-    """The files of a question, by their path in the bank.
+    """Return the files of a question, by their path in the bank.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ class PerturbationPair:
     answer: str
 
     def __call__(self, lang: str) -> LevelPart:
-        """The part in a language."""
+        """Return the part in a language."""
         drawn, target = self.first.drawn, self.first.target
 
         def because(each: str) -> tuple[Inline, ...]:
@@ -67,7 +67,7 @@ class PerturbationPair:
 
 
 def choose_comparison(changes: Perturbations, asked: Consequence | None) -> PerturbationPair | None:
-    """Two changes of one result with a clear answer; None if there are none.
+    """Return two changes of one result with a clear answer; None if there are none.
 
     A change whose effect has been asked is not used again.
     """
@@ -97,7 +97,7 @@ def _is_same_perturbation(change: Perturbation, asked: Consequence | None) -> bo
 
 
 def _build_decidable_pair(first: Perturbation, second: Perturbation) -> PerturbationPair | None:
-    """The pair with its answer; None where nobody could tell without precise numbers.
+    """Return the pair with its answer; None where only precise numbers could tell.
 
     Two factors of one quantity are no comparison, but for one that grows and one that shrinks.
     """

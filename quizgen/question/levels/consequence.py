@@ -58,7 +58,7 @@ class Consequence:
     way: str
 
     def __call__(self, lang: str) -> LevelPart:
-        """The part in a language."""
+        """Return the part in a language."""
         if self.way == "factor":
             return _ask_factor(self.change, lang)
         return (
@@ -69,7 +69,7 @@ class Consequence:
 
 
 def choose_consequence(changes: Perturbations) -> Consequence | None:
-    """What is asked about one change; None if no change makes sense."""
+    """Return what is asked about one change; None if no change makes sense."""
     drawn = changes.drawn
     other: list[Perturbation] = []
     for index, target in shuffle(f"{level_seed(drawn)}/effect", list(askable_results(drawn))):
@@ -86,7 +86,10 @@ def choose_consequence(changes: Perturbations) -> Consequence | None:
 
 
 def _one_way(changes: Perturbations, moving: list[Perturbation]) -> Perturbation:
-    """A change in a drawn direction, if one is left: also of what the result does not rest on."""
+    """Return a change in a drawn direction, or None if none is left.
+
+    It may be one that the result does not rest on: then the answer is "the same".
+    """
     idle = changes.of(moving[0].index, moving[0].target, idle=True)
     first: dict[str, Perturbation] = {}
     for change in (*moving, *islice(idle, 1)):
@@ -96,7 +99,7 @@ def _one_way(changes: Perturbations, moving: list[Perturbation]) -> Perturbation
 
 
 def _way_of(change: Perturbation) -> str:
-    """In which direction a result moves."""
+    """Return the direction in which a result moves."""
     with working_precision():
         if change.after == change.before:
             return "unchanged"
@@ -114,7 +117,10 @@ def _build_effect_body(
 
 
 def _ask_factor(change: Perturbation, lang: str) -> LevelPart:
-    """By what factor? The key follows from the power that the formulas prove."""
+    """Return a part that asks by what factor a result changes.
+
+    The key follows from the power that the formulas prove.
+    """
     found = change.factor or Fraction(1)
     traps: dict[str, str] = {}
     for name, wrong in _iter_factor_slips(change.scale, found):
@@ -169,7 +175,7 @@ def _name_target_and_given(change: Perturbation, lang: str) -> dict[str, tuple[I
 
 
 def _iter_proof_lines(change: Perturbation, found: Fraction, lang: str) -> Iterator[SolutionStep]:
-    """To which power of the quantity the result is proportional, and the same with numbers."""
+    """Yield the power that the result is proportional to, and the same with numbers."""
     both = _name_target_and_given(change, lang)
     if not change.power:
         yield SolutionStep(
@@ -187,7 +193,7 @@ def _iter_proof_lines(change: Perturbation, found: Fraction, lang: str) -> Itera
 
 
 def _typeset_ratio(change: Perturbation, found: Fraction) -> TypesetMaths:
-    """The new value over the old one."""
+    """Return the new value over the old one, typeset."""
     draws = {"new": change.changed, "old": change.drawn}
     leaves = {name: value_node(draw, change.target) for name, draw in draws.items()}
     typed = {name: value_typed(draw, change.target) for name, draw in draws.items()}
@@ -205,7 +211,7 @@ def _format_number(value: Value) -> str:
 
 
 def value_inlines(drawn: Variant, name: str) -> tuple[Inline, ...]:
-    """A quantity with its unit in a sentence, with ≈ in front where it is rounded."""
+    """Return a quantity's value with its unit, with ≈ in front where it is rounded."""
     value, unit = drawn.shown_values[name], drawn.template.units[name]
     exactly = format_exact(value) if is_short_decimal(value) else None
     text = join_unit(exactly or format_rounded(value), unit)
@@ -213,7 +219,7 @@ def value_inlines(drawn: Variant, name: str) -> tuple[Inline, ...]:
 
 
 def _ask_new_value(change: Perturbation, lang: str) -> LevelPart:
-    """The new value, marked as the part marks the old one."""
+    """Return a part that asks for the new value, graded as the authored part grades the old one."""
     step = change.drawn.template.chain.by_name[change.target]
     spec = step_value_spec(change.changed, change.index, step)
     filler = Interpolator(change.changed, lang)
@@ -231,7 +237,7 @@ def _ask_new_value(change: Perturbation, lang: str) -> LevelPart:
 
 
 def _build_solution_lines(change: Perturbation, lang: str) -> tuple[SolutionStep, ...]:
-    """All steps after the change."""
+    """Return all steps after the change."""
     filler = Interpolator(change.changed, lang)
     return tuple(
         solution_step(filler, one) for one in required_steps(change.changed, change.target)
@@ -239,7 +245,7 @@ def _build_solution_lines(change: Perturbation, lang: str) -> tuple[SolutionStep
 
 
 def _ask_direction(change: Perturbation, lang: str) -> LevelPart:
-    """Larger, smaller or the same? Each option is answered with both values."""
+    """Return a part that asks: larger, smaller or the same? Both values answer each option."""
     right = _way_of(change)
 
     def because(each: str) -> tuple[Inline, ...]:

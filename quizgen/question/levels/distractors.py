@@ -48,7 +48,7 @@ _RAISED = frozenset({"pow", "sqrt", "root"})
 def draw_formula_options(
     drawn: Variant, step: ChainStep, known: frozenset[str]
 ) -> list[FormulaOption]:
-    """The right formula and up to three wrong ones, in a drawn order.
+    """Return the right formula and up to three wrong ones, in a drawn order.
 
     The step has at least one wrong formula. A slip may replace the last, so that its length does
     not tell which one is right.
@@ -63,7 +63,7 @@ def draw_formula_options(
 
 
 def _compare_first_length(ways: list[FormulaOption]) -> int:
-    """1 where the first is the longest, -1 where it is the shortest, 0 where neither."""
+    """Return 1 where the first is the longest, -1 where it is the shortest, 0 where neither."""
     right, *others = map(_measure_formula, ways)
     return (right > max(others)) - (right < min(others))
 
@@ -76,7 +76,7 @@ def _measure_formula(way: FormulaOption) -> int:
 def _iter_distinct_slip_formulas(
     drawn: Variant, step: ChainStep, known: frozenset[str], ways: list[FormulaOption], side: int
 ) -> Iterator[FormulaOption]:
-    """Slips at least as long (or as short) as the right formula, with values that none has."""
+    """Yield slips at least as long (or as short) as the right formula, with new values."""
     expr = flatten_sums(applicable_branch(drawn, step.expr))
     slips = list(dict.fromkeys(_iter_slip_formulas(expr)))
     for name, wrong in shuffle(f"{level_seed(drawn)}/{step.name}/slips", slips):
@@ -91,7 +91,7 @@ def _iter_distinct_slip_formulas(
 
 
 def _iter_slip_formulas(expr: Expr) -> Iterator[tuple[str, Expr]]:
-    """The formula with one slip, and what kind of slip it is."""
+    """Yield the formula with one slip, and what kind of slip it is."""
     yield from _iter_operator_slips(expr)
     if isinstance(expr, Call) and expr.op not in _RAISED:
         yield "doubled", Call("mul", (Num(Fraction(2)), expr))
@@ -99,7 +99,7 @@ def _iter_slip_formulas(expr: Expr) -> Iterator[tuple[str, Expr]]:
 
 
 def _iter_operator_slips(expr: Expr) -> Iterator[tuple[str, Expr]]:
-    """Slips in one operator of a formula; exponents stay as they are."""
+    """Yield slips in one operator of a formula; exponents stay as they are."""
     if not isinstance(expr, Call):
         return
     first, *rest = expr.args or (expr,)
@@ -116,7 +116,7 @@ def _iter_operator_slips(expr: Expr) -> Iterator[tuple[str, Expr]]:
 
 
 def _group_operands(op: str, args: tuple[Expr, ...]) -> Expr:
-    """An operator between the last argument and the others."""
+    """Return an operator between the last argument and the others."""
     if op in {"sub", "div"} and len(args) > 2:
         inner = "add" if op == "sub" else "mul"
         return Call(op, (Call(inner, args[:-1]), args[-1]))

@@ -20,13 +20,13 @@ STATEMENT = "claim"
 
 
 def is_applicable(_drawn: Variant) -> bool:
-    """Every draw can be asked as it was written."""
+    """Return True: every variant can be asked as it was written."""
     return True
 
 
 @lru_cache(maxsize=32)
 def ask(drawn: Variant, lang: str) -> LevelQuestion:
-    """Stem and parts as authored, with the whole worked solution."""
+    """Return stem and parts as authored, with the whole worked solution."""
     built = [ask_part(drawn, index) for index in range(len(drawn.template.rules.part))]
     hidden, told = Interpolator(drawn, lang, hidden=True), Interpolator(drawn, lang)
     parts = tuple(_build_asked_part(hidden, told, index, part) for index, part in enumerate(built))
@@ -64,7 +64,7 @@ def _build_asked_part(
 def _build_part_body(
     filler: Interpolator, label: str, statements: tuple[LabelledName, ...]
 ) -> tuple[Block, ...]:
-    """The section of a part, and what it asks: its statement, or several in a numbered list."""
+    """Return the section of a part with its statement, or several in a numbered list."""
     section = filler.text.sections.get(label, ()) if label else ()
     if len(statements) == 1 and statements[0][0] == "claims":
         if STATEMENT in slot_names(section):

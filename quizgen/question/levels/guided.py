@@ -78,13 +78,13 @@ class GuidedStage:
 
     @property
     def alone(self) -> bool:
-        """Whether nothing but the part itself is asked."""
+        """Return whether nothing but the part itself is asked."""
         return not self.before and self.formula is None
 
 
 @lru_cache(maxsize=128)
 def guided_stages(drawn: Variant) -> tuple[GuidedStage, ...]:
-    """What is asked before each authored part, whatever the language."""
+    """Return what is asked before each authored part, whatever the language."""
     found, asked = [], set[str]()
     for index in range(len(drawn.template.rules.part)):
         stage = _build_stage(drawn, index, frozenset(asked))
@@ -115,7 +115,7 @@ def _build_stage(drawn: Variant, index: int, asked: frozenset[str]) -> GuidedSta
 
 
 def _list_required_steps(drawn: Variant, index: int) -> list[ChainStep]:
-    """The steps on which the answer rests in the branches that apply to this draw."""
+    """Return the steps that the answer rests on, in the branches that apply to this variant."""
     todo, found = list(asked_quantities(authored_answer(drawn, index))), set[str]()
     steps = {step.name: step for step in drawn.steps_of_part(index)}
     while todo:
@@ -127,7 +127,7 @@ def _list_required_steps(drawn: Variant, index: int) -> list[ChainStep]:
 
 
 def _is_askable_at_once(drawn: Variant, of: tuple[str, ...], steps: list[ChainStep]) -> bool:
-    """Whether what a part asks can be asked at once, when the steps before have been."""
+    """Return whether a part can be asked at once after the steps before it."""
     chain = drawn.template.chain
     if any(chain.required_steps(name) & {*of} > {name} for name in of):
         return False
@@ -138,7 +138,7 @@ def _is_askable_at_once(drawn: Variant, of: tuple[str, ...], steps: list[ChainSt
 def _to_choose(
     drawn: Variant, index: int, steps: list[ChainStep], known: frozenset[str]
 ) -> ChainStep | None:
-    """The step whose formula is asked: one of those with several known mistakes."""
+    """Return the step whose formula is asked: one of those with several misconceptions, or None."""
     told = defined_quantities(drawn)
     found = [
         step for step in steps
@@ -150,19 +150,19 @@ def _to_choose(
 
 
 def _other_unit(drawn: Variant, step: ChainStep) -> bool:
-    """Whether a step is the same quantity in another unit: bits as bytes are no formula."""
+    """Return whether a step is the same quantity in another unit: bits as bytes are no formula."""
     right, units = applicable_branch(drawn, step.expr), drawn.template.units
     return isinstance(right, Sym) and units.get(right.name, "") != step.unit
 
 
 def is_applicable(drawn: Variant) -> bool:
-    """Whether some part has a step before it, or a formula to choose."""
+    """Return whether some part has a step before it, or a formula to choose."""
     allowed = "guided" in drawn.template.rules.levels
     return allowed and not all(stage.alone for stage in guided_stages(drawn))
 
 
 def ask(drawn: Variant, lang: str) -> LevelQuestion:
-    """Each authored part with the steps before it."""
+    """Return the question with steps before each authored part."""
     usual = exam.ask(drawn, lang)
     guide = _Guide(drawn, lang)
     groups = [guide.group(stage, usual.parts[stage.index]) for stage in guided_stages(drawn)]
@@ -186,7 +186,7 @@ class _Guide:
         self.filler = Interpolator(drawn, lang)
 
     def group(self, stage: GuidedStage, usual: LevelPart) -> list[LevelPart]:
-        """The parts that take the place of an authored one."""
+        """Return the parts that take the place of an authored one."""
         if stage.alone:
             return [usual]
         found: list[LevelPart] = []
@@ -209,7 +209,7 @@ class _Guide:
         ]
 
     def _make_substep_labels(self, label: str, count: int) -> list[str]:
-        """Labels of the parts that take the place of one."""
+        """Return the labels of the parts that take the place of one."""
         if label and count > 1:
             return [f"{label}{n}" for n in range(1, count + 1)]
         return [label] if label else part_labels(self.drawn, count)
@@ -245,7 +245,7 @@ class _Guide:
         return LevelPart(Fraction(1), body, spec, solved)
 
     def _ask_authored_part(self, stage: GuidedStage, usual: LevelPart) -> LevelPart:
-        """The authored part, with the mistakes that can still happen in it."""
+        """Return the authored part, with the misconceptions that can still happen in it."""
         before = {step.name for step in stage.before}
         traps = self.drawn.template.chain.traps
         gone = {
@@ -280,7 +280,7 @@ class _Guide:
         return join_inlines((quantity_inlines(self.drawn, name, self.lang) for name in of), ", ")
 
     def _ask_step_formula(self, stage: GuidedStage, step: ChainStep, place: int) -> LevelPart:
-        """Which formula? The right one among those of the step's mistakes."""
+        """Return a part that asks for a formula: the right one among those of misconceptions."""
         key = "guided.formula" if place else "guided.formula_first"
         body = self._build_strong_paragraph(
             key, thing=quantity_inlines(self.drawn, step.name, self.lang)
