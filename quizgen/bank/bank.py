@@ -305,7 +305,7 @@ class Bank:
             what = f"solver {name!r}: no such solver"
             raise _MissingError(what, rule="QG126", place=("solver",))
         if file.exists():
-            self._must_be_trusted(file)
+            self._require_trust(file)
         return file.exists()
 
     @cached_property
@@ -334,7 +334,7 @@ class Bank:
         """
         if name in self.figures:
             file = self._figure_folder / f"{name}.py"
-            self._must_be_trusted(file)
+            self._require_trust(file)
             return file
         if name not in builtin_bank().figures:
             known = sorted({*self.figures, *builtin_bank().figures})
@@ -342,7 +342,7 @@ class Bank:
             raise _MissingError(what, rule="QG127", place=("figure", "name"))
         return builtin_bank().figure_file(name)
 
-    def _figure_of(self, name: str) -> Path | None:
+    def _find_figure_file(self, name: str) -> Path | None:
         """Return the file that draws a template's figure; None if it shows none.
 
         It is the module that the template names, or the one in its folder. Raises ``BankError`` as
@@ -355,10 +355,10 @@ class Bank:
         if not file.is_file():
             what = f"[figure] has no name, and there is no {file.name} beside it"
             raise _MissingError(what, rule="QG127", place=("figure",))
-        self._must_be_trusted(file)
+        self._require_trust(file)
         return file
 
-    def _must_be_trusted(self, file: Path) -> None:
+    def _require_trust(self, file: Path) -> None:
         """Raise ``BankError`` at a file with Python of a bank that is not trusted."""
         if not self.trusted:
             what = "this bank brings its own Python; allow it with --trust"
@@ -477,7 +477,7 @@ class Bank:
         solver = Path(SOLVERS, f"{rules.solver}.py")
         roots = [root for root in (self.root, builtin_root()) if (root / solver).is_file()]
         python = [*(root / solver for root in roots[:1]), self._figure_folder / f"{figure}.py"]
-        python += self._beside_template(name)
+        python += self._list_own_figure(name)
         return [
             self.folder_of(name) / "template.toml",
             *self._list_prose_files(name),
@@ -485,7 +485,7 @@ class Bank:
             *filter(Path.is_file, python),
         ]
 
-    def _beside_template(self, name: str) -> list[Path]:
+    def _list_own_figure(self, name: str) -> list[Path]:
         """Return the figure in a template's own folder as a list of one, or an empty list.
 
         A figure that the template names is shared and no part of it.
@@ -513,7 +513,7 @@ class Bank:
         folder = self.folder_of(name)
         rules = self.rules(name)
         prose = self._list_prose_files(name)
-        files = [folder / "template.toml", *prose, *self._beside_template(name)]
+        files = [folder / "template.toml", *prose, *self._list_own_figure(name)]
         files += pictures_beside(folder)
         chain, source = self.chain(rules.solver) if rules.solver else (Chain({}, ()), b"")
         texts = {path.stem: read_language_file(path) for path in prose}
@@ -523,7 +523,7 @@ class Bank:
         digest = compute_digest(*(read_bytes(path, BankError) for path in files), source, *words)
         ordered: dict[str, LanguageFile] = {lang: texts[lang] for lang in order}
         quantities = self.quantities.get(rules.solver, QuantityNames())
-        figure = self._figure_of(name)
+        figure = self._find_figure_file(name)
         template = Template(
             name, rules, chain, ordered, digest, folder, self.metadata, quantities, figure,
             self._solver_file(rules.solver), read_pictures(folder, ordered),

@@ -20,7 +20,7 @@ NAME = "formulas"
 """The file without its suffix."""
 
 Piece = Mapping[str, str | tuple[str, ...]]
-"""What the grammar of formulas does not have, described: see ``question.equations``."""
+"""What the grammar of formulas does not have, described: see ``question.formula_lines``."""
 
 _SIGN = re.compile(r"\s(!=|<=|>=|[=<>≠≤≥∝≈→∈~≪≫⇒])\s")
 _ANYWHERE = frozenset({"add", "sub", "neg", "div"})
@@ -83,12 +83,12 @@ def _index_canonical_forms(bank: Bank) -> dict[Expr, list[str]]:
     """Return the formulas that have a form, by each form that is rare enough."""
     found = dict[Expr, set[str]]()
     for entry in read_formulas(bank):
-        for expr in filter(_is_rare_form, _right_sides(entry)):
+        for expr in filter(_is_rare_form, _iter_right_sides(entry)):
             found.setdefault(_erase_letters(expr), set()).add(entry.id)
     return {form: sorted(ids) for form, ids in found.items()}
 
 
-def _right_sides(entry: FormulaEntry) -> Iterator[Expr]:
+def _iter_right_sides(entry: FormulaEntry) -> Iterator[Expr]:
     """Yield the sides that a formula is computed by: all but the first.
 
     Pieces outside the grammar are left out.

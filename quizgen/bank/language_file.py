@@ -73,15 +73,19 @@ def parse_language_file(source: str) -> LanguageFile:
     title, body = _split_title(source)
     pieces = re.split(r"^## +(\S.*)$", body, flags=re.MULTILINE)
     # The body begins where the source ends with it; each piece where those before it end.
-    begins = accumulate(map(_breaks, pieces), initial=_breaks(source) - _breaks(body))
+    begins = accumulate(
+        map(_count_breaks, pieces), initial=_count_breaks(source) - _count_breaks(body)
+    )
     lines = [begin + 1 for begin in begins]
     sections: dict[str, tuple[Block, ...]] = {}
     listed: dict[str, list[tuple[str, ConditionalSentence]]] = {}
     for heading, whole, line in zip(pieces[1::2], pieces[2::2], lines[2::2], strict=False):
         name = heading.strip()
-        content, labelled = _by_label(whole) if name == "why" else (whole, "")
+        content, labelled = _split_off_labelled(whole) if name == "why" else (whole, "")
         if labelled:
-            listed[name] = list(_iter_named_sentences(name, labelled, line + _breaks(content)))
+            listed[name] = list(
+                _iter_named_sentences(name, labelled, line + _count_breaks(content))
+            )
         if name in NAMED_SECTIONS:
             listed[name] = list(_iter_named_sentences(name, content, line))
         elif name in PROSE_SECTIONS or re.fullmatch(r"[a-j]", name):
@@ -99,12 +103,12 @@ def parse_language_file(source: str) -> LanguageFile:
     )
 
 
-def _breaks(text: str) -> int:
+def _count_breaks(text: str) -> int:
     """Return the number of line breaks in a text."""
     return text.count("\n")
 
 
-def _by_label(content: str) -> tuple[str, str]:
+def _split_off_labelled(content: str) -> tuple[str, str]:
     """Return the paragraphs of an explanation, and its closing list of sentences by part."""
     found = re.search(r"^- [a-j](?: \[[^\]\n]*\])?:", content, flags=re.MULTILINE)
     return (content[: found.start()], content[found.start() :]) if found else (content, "")
@@ -140,7 +144,7 @@ def _iter_named_sentences(
 ) -> Iterator[tuple[str, ConditionalSentence]]:
     """Yield names and sentences of a list that begins in a line."""
     for entry in re.split(r"^- ", content, flags=re.MULTILINE):
-        begin, line = line, line + _breaks(entry)
+        begin, line = line, line + _count_breaks(entry)
         if not entry.strip():
             continue
         name, colon, sentence = entry.partition(":")

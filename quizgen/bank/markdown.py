@@ -85,7 +85,7 @@ if TYPE_CHECKING:
     )
 else:  # what a file gives, and what is kept of it
     Inline = PlainText | Slot | InlineFormula | InlineCode | Emphasis | PictureLink
-"""A piece of a sentence; once filled, without ``Slot``, ``Formula``, ``PictureLink``, ``About``."""
+"""A piece of a sentence; filled ones have no ``Slot``, ``InlineFormula`` or ``PictureLink``."""
 Unfilled = Slot | InlineFormula | PictureLink
 SlotValue = Callable[[Unfilled], tuple[Inline, ...]]
 """What a slot, a formula or a picture is replaced by."""
@@ -155,7 +155,7 @@ class LanguageFile(msgspec.Struct, frozen=True, dict=True):
 TIED = "\u00a0=\u00a0"
 """``f = 50 mm`` stays on one line: the blanks around an equals sign do not break.
 
-This holds in every output, also in plain text; ``question.filling.tied`` holds a formula to what
+This holds in every output, also in plain text; ``question.interpolation.unbreakable_groups`` holds a formula to what
 follows it where an output could break between them.
 """
 _POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
@@ -235,7 +235,7 @@ def parse_inlines(source: str, line: int = 0) -> tuple[Inline, ...]:
 def _sentence(source: str) -> tuple[Inline, ...]:
     """Return the pieces of a sentence on one line; none if it is empty."""
     tokens = _build_markdown_parser().parseInline(source)
-    return _inline(tokens[0]) if tokens else ()
+    return _parse_inline_token(tokens[0]) if tokens else ()
 
 
 def _breaks_before_fault(source: str) -> int:
@@ -251,7 +251,7 @@ def _breaks_before_fault(source: str) -> int:
     return 0
 
 
-class _Pieces:
+class _PieceIterator:
     """Pieces of a sentence, one by one, and how many ends of lines have come.
 
     An error is located by the count: markdown-it gives lines to blocks alone.
@@ -273,9 +273,9 @@ class _Pieces:
         return piece
 
 
-def _inline(token: Any) -> tuple[Inline, ...]:
+def _parse_inline_token(token: Any) -> tuple[Inline, ...]:
     """Return the pieces of one inline token; a fault in it gets its line, from 1."""
-    pieces = _Pieces(token)
+    pieces = _PieceIterator(token)
     try:
         return tuple(_iter_inlines(pieces, None))
     except BankError as error:
@@ -294,7 +294,7 @@ def _iter_blocks(tokens: Iterator[Any], until: str | None) -> Iterator[Block]:
         if token.type == "paragraph_open":
             inline = next(tokens)
             next(tokens)
-            yield Paragraph(_inline(inline))
+            yield Paragraph(_parse_inline_token(inline))
         elif token.type in {"bullet_list_open", "ordered_list_open"}:
             close = token.type.replace("open", "close")
             yield ListBlock(
@@ -328,7 +328,7 @@ def _parse_table(tokens: Iterator[Any]) -> TableBlock:
         if token.type == "tr_open":
             row = []
         elif token.type == "inline":
-            row.append(_inline(token))
+            row.append(_parse_inline_token(token))
         elif token.type == "tr_close":
             rows.append(tuple(row))
     return TableBlock(rows[0], tuple(rows[1:]))

@@ -122,14 +122,14 @@ def read_metadata(path: Path) -> BankMetadata:
         try:
             build_unit_registry(about.units)
         except FormulaError as error:
-            place = ("units", _first_unsound(about.units))
+            place = ("units", _find_unsound_unit(about.units))
             raise BankError(f"units: {error}", rule="QG122", place=place) from error
         if about.requires:
             _check_version(about.requires)
     return about
 
 
-def _first_unsound(units: tuple[str, ...]) -> int:
+def _find_unsound_unit(units: tuple[str, ...]) -> int:
     """Return the index of the first definition that cannot be read with those before it."""
     for count in range(len(units)):
         try:

@@ -1,7 +1,7 @@
-"""No wrong method scores: which mistakes give a usable wrong answer in a draw.
+"""No wrong method scores: which mistakes give a usable wrong answer in a variant.
 
-A mistake's answer is computed in floats, with a margin, because it only ever rejects a draw; what
-is kept is solved exactly. ``PartPlan`` holds what does not depend on the seed.
+The answer of a misconception is computed in floats, with a margin, because it only ever rejects a
+variant; what is accepted is solved exactly. ``PartChecker`` holds what does not depend on the seed.
 """
 
 from __future__ import annotations
@@ -119,7 +119,7 @@ class PartChecker:
         key = self._evaluate_answer(env)
         pairs = zip(self.tolerances, key, strict=True)
         widths = tuple([self.apart * rule.outer_width(k) for rule, k in pairs])
-        if not lenient and self._near_tie(key):
+        if not lenient and self._is_near_tie(key):
             return "rounding tie"
         exact_values, seen = {"the key": key}, {"the key": key}
         for trap, plan in self.traps.items():
@@ -132,7 +132,7 @@ class PartChecker:
                 twin = "the key"
             if twin is None:
                 exact_values[trap], seen[trap] = value, written
-            elif not (lenient or self._may_vanish(trap, twin, value, exact_values[twin])):
+            elif not (lenient or self._is_droppable(trap, twin, value, exact_values[twin])):
                 return f"trap {trap!r} cannot be told from {twin!r}"
         return tuple(name for name in seen if name != "the key")
 
@@ -149,7 +149,7 @@ class PartChecker:
         slack = (MARGIN - 1) * max(abs(low), abs(high))
         return all(low - slack <= v <= high + slack for v in values)
 
-    def _may_vanish(
+    def _is_droppable(
         self, trap: str, twin: str, value: tuple[float, ...], other: tuple[float, ...]
     ) -> bool:
         """Return whether a misconception that cannot be told apart may be left out.
@@ -159,7 +159,7 @@ class PartChecker:
         """
         return trap in self.may_vanish and (twin != "the key" or _is_same_answer(value, other))
 
-    def _near_tie(self, key: tuple[float, ...]) -> bool:
+    def _is_near_tie(self, key: tuple[float, ...]) -> bool:
         """Return whether a component lies so near half a unit that rules of rounding disagree."""
         return any(
             abs((abs(k) * 10.0**t.decimals) % 1.0 - 0.5) < TIE_MARGIN

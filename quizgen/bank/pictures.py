@@ -285,26 +285,26 @@ def _copy_drawing(element: Any, depth: int) -> Any:
     if depth > DEEPEST:
         raise BankError(f"has more than {DEEPEST} groups within each other")
     name = element.tag.removeprefix(f"{{{_SVG}}}")
-    made = ET.Element(name, dict(_safe_attributes(element, name)))
+    made = ET.Element(name, dict(_iter_safe_attributes(element, name)))
     made.text, made.tail = element.text, element.tail
     for child in element:
         inside = isinstance(child.tag, str) and child.tag.removeprefix(f"{{{_SVG}}}")
-        if inside in _ELEMENTS and (inside != "style" or _stays_inside(child.text or "")):
+        if inside in _ELEMENTS and (inside != "style" or _is_self_contained(child.text or "")):
             made.append(_copy_drawing(child, depth + 1))
     return made
 
 
-def _safe_attributes(element: Any, name: str) -> Iterator[tuple[str, str]]:
+def _iter_safe_attributes(element: Any, name: str) -> Iterator[tuple[str, str]]:
     """Yield the attributes that draw; one that refers outside the file is set to ``none``."""
     for key, value in element.attrib.items():
         if key in _HREF:
             if _SHOWN_BY(value) or (name == "image" and _INSIDE(value)):
                 yield "href", value
         elif key in _ATTRIBUTES or key == _SPACE:
-            yield key, value if _stays_inside(value) else "none"
+            yield key, value if _is_self_contained(value) else "none"
 
 
-def _stays_inside(style: str) -> bool:
+def _is_self_contained(style: str) -> bool:
     """Return whether a style refers to nothing outside its own file."""
     return not _REACHES_OUT.search(_OWN_PLACE.sub("", style))
 

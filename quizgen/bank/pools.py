@@ -1,6 +1,6 @@
-"""What a draw takes of the pools of its parts: claims, options, pairs, steps, gaps.
+"""What a variant takes of the pools of its parts: claims, options, pairs, steps, gaps.
 
-Like every value of a draw it is a function of (origin, version, seed, slot, part, name) through
+Like every value of a variant it is a function of (origin, version, seed, slot, part, name) through
 SHA-256: names are ranked by their own hash, so an entry that is added or taken away leaves the
 order of all others as it was.
 """
@@ -26,7 +26,7 @@ from quizgen.maths.numbers import format_for_key
 from quizgen.maths.values import Value
 
 MIXED = 3
-"""Claims of one draw from which on they are neither all true nor all false."""
+"""Claims of one variant from which on they are neither all true nor all false."""
 
 
 class PoolVariant(Protocol):
@@ -60,7 +60,7 @@ class PoolVariant(Protocol):
 
 
 class PoolSelection(msgspec.Struct, frozen=True):
-    """What one part shows in a draw.
+    """What one part shows in a variant.
 
     Parameters
     ----------
@@ -128,17 +128,17 @@ def selected_claims(drawn: PoolVariant) -> Mapping[int, str]:
 def count_pool_variants(drawn: PoolVariant) -> int:
     """Return how many different questions its pools can make of the numbers of one variant."""
     parts = range(len(drawn.template.rules.part))
-    return _claim_sets(drawn) * prod(_count_selections(drawn, index) for index in parts)
+    return _count_claim_sets(drawn) * prod(_count_selections(drawn, index) for index in parts)
 
 
 def build_identity(drawn: PoolVariant) -> str:
     """Return the name of a variant: two ask the same if and only if this is the same."""
     numbers = [f"{name}={format_for_key(value)}" for name, value in sorted(drawn.shown.items())]
     words = [f"{name}={value}" for name, value in sorted(drawn.words.items())]
-    return f"{drawn.template.id}({', '.join([*numbers, *words, *_selected_names(drawn)])})"
+    return f"{drawn.template.id}({', '.join([*numbers, *words, *_iter_selected_names(drawn)])})"
 
 
-def _selected_names(drawn: PoolVariant) -> Iterator[str]:
+def _iter_selected_names(drawn: PoolVariant) -> Iterator[str]:
     """Yield what its pools gave, one ``name=...`` for each of them."""
     asked = sorted(selected_claims(drawn).values())
     if asked:
@@ -184,7 +184,7 @@ def _select_options(
     if take is None:
         return tuple(options)
     right, wrong = _split_right_and_wrong(drawn, options)
-    counts = _right_counts(drawn, index, len(right), len(wrong))
+    counts = _list_right_counts(drawn, index, len(right), len(wrong))
     key = _build_selection_key(drawn, index)
     count = counts[pick_index(f"{key}/right", len(counts))]
     chosen = {*_rank_by_hash(key, right)[:count], *_rank_by_hash(key, wrong)[: take - count]}
@@ -199,7 +199,7 @@ def _split_right_and_wrong(
     return right, [name for name in options if name not in right]
 
 
-def _right_counts(drawn: PoolVariant, index: int, right: int, wrong: int) -> list[int]:
+def _list_right_counts(drawn: PoolVariant, index: int, right: int, wrong: int) -> list[int]:
     """Return the numbers of right options that a variant can have.
 
     Raises
@@ -250,7 +250,7 @@ def _select_pairs(drawn: PoolVariant, index: int) -> PoolSelection:
     return PoolSelection(tuple(name for name in pairs if name in names), spare)
 
 
-def _claim_sets(drawn: PoolVariant) -> int:
+def _count_claim_sets(drawn: PoolVariant) -> int:
     """Return how many sets of claims the parts can ask.
 
     Those all true or all false are left out where ``selected_claims`` never gives them.
@@ -268,10 +268,10 @@ def _count_selections(drawn: PoolVariant, index: int) -> int:
     answer: Mapping[str, Any] = drawn.template.rules.part[index].answer
     if "options" in answer and "take" in answer:
         right, wrong = map(len, _split_right_and_wrong(drawn, answer["options"]))
-        counts = _right_counts(drawn, index, right, wrong)
+        counts = _list_right_counts(drawn, index, right, wrong)
         return sum(comb(right, n) * comb(wrong, answer["take"] - n) for n in counts)
     if "pairs" in answer:
-        return _pair_sets(answer, matching_pairs(drawn, index))
+        return _count_pair_sets(answer, matching_pairs(drawn, index))
     listed = answer.get("steps", answer.get("gaps", ()))
     strangers = len(answer.get("distractors", ()))
     return comb(len(listed), answer.get("take", len(listed))) * comb(
@@ -279,7 +279,7 @@ def _count_selections(drawn: PoolVariant, index: int) -> int:
     )
 
 
-def _pair_sets(answer: Mapping[str, Any], pairs: Mapping[str, str]) -> int:
+def _count_pair_sets(answer: Mapping[str, Any], pairs: Mapping[str, str]) -> int:
     """Return how many sets of pairs there are, counted with their right sides that fit nowhere."""
     strangers, targets = {*answer.get("distractors", ())}, {*pairs.values()}
     take = answer.get("take", len(pairs))

@@ -60,18 +60,18 @@ def find_problems(rules: Rules) -> FieldProblems:
     yield from _check_ignored_codes(rules)
     yield from _check_claims(rules)
     for name, rule in rules.draw.items():
-        yield from _below(("draw", name), _check_draw_rule(rule))
+        yield from _prefix_places(("draw", name), _check_draw_rule(rule))
     for name, keep in rules.keep.items():
-        yield from _below(("keep", name), _check_keep_rule(keep))
+        yield from _prefix_places(("keep", name), _check_keep_rule(keep))
     for name, value in (rules.reference or {}).items():
         if not rules.draw.get(name) or not rules.draw[name].words:
             yield from _check_numbers_readable(("reference", name), (value,))
     for index, part in enumerate(rules.part):
-        yield from _below(("part", index, "answer"), _check_answer(part.answer))
-        yield from _out_of(("part", index, "points"), part.points, MOST_POINTS)
+        yield from _prefix_places(("part", index, "answer"), _check_answer(part.answer))
+        yield from _check_between(("part", index, "points"), part.points, MOST_POINTS)
 
 
-def _below(place: Place, found: FieldProblems) -> FieldProblems:
+def _prefix_places(place: Place, found: FieldProblems) -> FieldProblems:
     """Yield problems of a table with the table's own place put before theirs."""
     return (((*place, *field), code, what) for field, code, what in found)
 
@@ -199,7 +199,7 @@ def _check_numbers_readable(place: Place, values: Iterable[Scalar]) -> FieldProb
             yield place, "QG109", str(error)
 
 
-def _out_of(place: Place, value: Scalar, most: int) -> FieldProblems:
+def _check_between(place: Place, value: Scalar, most: int) -> FieldProblems:
     """Yield a number that is not above 0 and at most ``most``, or cannot be read."""
     wrong = list(_check_numbers_readable(place, (value,)))
     yield from wrong

@@ -1,8 +1,8 @@
 """From a template and a seed to admissible numbers.
 
 Every value is a function of (template origin, version, paper seed, slot, variable, try) through
-SHA-256, so adding a template, a variable, a language or a format changes no other value. A draw is
-kept only if it meets every condition of the template *and* no known mistake would be accepted or
+SHA-256, so adding a template, a variable, a language or a format changes no other value. A variant
+is kept only if it meets every condition of the template *and* no misconception would be accepted or
 could be taken for another one.
 """
 
@@ -73,7 +73,7 @@ class Variant:
     elsewhere : SiblingContent
         What this question must not tell, because others of its paper ask it.
     shown_values : mapping of str to flint.fmpq or flint.arb
-        Every quantity, drawn or solved, in the unit it is shown in. Computed when the draw is made:
+        Every quantity, drawn or solved, in the unit it is shown in. Computed at once:
         a property cached later would wait for the lock of the precision under a lock of its own.
     """
 
@@ -193,10 +193,12 @@ def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> 
         reasons[result] += 1
     worst, count = reasons.most_common(1)[0]
     what = f"no admissible draw in {MAX_TRIES} tries; {worst!r} rejected {count} of them"
-    raise SamplingError(what, rule="QG140", file=template.file, place=_culprit(worst, template))
+    raise SamplingError(
+        what, rule="QG140", file=template.file, place=_locate_condition(worst, template)
+    )
 
 
-def _culprit(condition: str, template: Template) -> Place:
+def _locate_condition(condition: str, template: Template) -> Place:
     """Return where the condition stands that was met least; ``[draw]`` if it is no one's."""
     if condition in template.rules.where:
         return (TEXT, condition)

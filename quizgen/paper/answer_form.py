@@ -109,7 +109,7 @@ def _format_toml_form(paper: Paper) -> str:
         'decimal = "auto"   # auto, point or comma',
         "",
         "[answers]",
-        *(line for item in paper.items for line in _question_lines(item)),
+        *(line for item in paper.items for line in _iter_question_lines(item)),
     ]
     seal = _compute_seal("\n".join([*before, *after]))
     return "\n".join([*before, f'seal = "{seal}"   # {SEALED}', *after]) + "\n"
@@ -125,7 +125,7 @@ def _compute_seal(text: str) -> str:
     return hashlib.sha256(_LAYOUT.sub("", _SEAL.sub("", text)).encode()).hexdigest()[:12]
 
 
-def _question_lines(item: PaperItem) -> Iterator[str]:
+def _iter_question_lines(item: PaperItem) -> Iterator[str]:
     """Yield the lines of one question: its title, then one for each part with its hint."""
     question = item.questions[0]
     yield f"# {item.number}. {question.title}"
@@ -136,7 +136,7 @@ def _question_lines(item: PaperItem) -> Iterator[str]:
 
 def _format_csv_form(paper: Paper) -> str:
     """Return a blank form as CSV; its last row seals the others."""
-    rows = [HEAD, *_csv_rows(paper)]
+    rows = [HEAD, *_iter_csv_rows(paper)]
     return _format_csv_rows(
         [*rows, ("seal", "", SEALED, f"#{_compute_seal(_format_csv_rows(rows))}")]
     )
@@ -149,7 +149,7 @@ def _format_csv_rows(rows: list[tuple[str, ...]]) -> str:
     return out.getvalue()
 
 
-def _csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
+def _iter_csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
     """Yield what the form asks, one row for each part.
 
     Digests begin with a sign: a spreadsheet takes some of them for numbers.
@@ -195,7 +195,7 @@ def _read_table(path: Path) -> Mapping[str, Any]:
     Raises ``KeyFileError``; on a syntax error it adds the quotes that are forgotten most.
     """
     try:
-        return read_table(path, _as_meant)
+        return read_table(path, _double_backslashes)
     except KeyFileError as error:
         if "not valid TOML" not in str(error):
             raise
@@ -204,7 +204,7 @@ def _read_table(path: Path) -> Mapping[str, Any]:
         ) from (None)
 
 
-def _as_meant(text: str) -> str:
+def _double_backslashes(text: str) -> str:
     r"""Return a form with the backslashes of LaTeX doubled, as TOML needs: ``"\frac{1}{2}"``."""
     return _TYPED.sub(lambda line: line[1] + '"' + _BACKSLASH.sub(r"\\\\", line[2]), text)
 
@@ -220,7 +220,7 @@ def _read_csv(path: Path) -> dict[str, object]:
                            "'answer' as the last")  # fmt: skip
     found: dict[str, str] = {}
     for line, row in rows[1:]:
-        part, answer = _part_and_answer(row, head, f"{path}: line {line}")
+        part, answer = _parse_csv_row(row, head, f"{path}: line {line}")
         if part in found:
             raise KeyFileError(f"{path}: line {line}: part {part!r} stands there twice")
         if part:
@@ -230,7 +230,7 @@ def _read_csv(path: Path) -> dict[str, object]:
     return {**marks, "student": student, "answers": found}
 
 
-def _part_and_answer(row: list[str], head: list[str], where: str) -> tuple[str, str]:
+def _parse_csv_row(row: list[str], head: list[str], where: str) -> tuple[str, str]:
     """Return part and answer of a row.
 
     Raises

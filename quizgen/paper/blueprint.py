@@ -141,7 +141,7 @@ def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
     if found is not None:
         return found
     path = Path(name_or_file)
-    if not _is_there(path):
+    if not _path_exists(path):
         names = ", ".join(bank.blueprints) or "none"
         raise BlueprintError(
             f"no blueprint {name_or_file!r} (the bank has: {names}; or the path of a TOML file;"
@@ -150,7 +150,7 @@ def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
     return _read_blueprint(path)
 
 
-def _is_there(path: Path) -> bool:
+def _path_exists(path: Path) -> bool:
     """Return whether a path exists; False also for a text that can be no path."""
     try:
         return path.exists()
@@ -229,7 +229,7 @@ def _check_blueprint(blueprint: BlueprintFile) -> None:
             what = f"slot {index + 1}: {problem}"
             raise BlueprintError(what, rule="QG107", place=("slot", index, key))
     for index, name in enumerate(blueprint.reference):
-        if not _is_asked(name):
+        if not _is_template_name(name):
             what, place = f"reference: {name!r} is no name (allowed: {NAMES})", ("reference", index)
             raise BlueprintError(what, rule="QG108", place=place)
     total = max(sum(slot.count for slot in blueprint.slot), len(blueprint.reference))
@@ -267,11 +267,11 @@ def _check_slot(slot: SlotRule) -> Iterator[tuple[str, str]]:
     names = [("templates", name) for name in slot.templates]
     names += [] if slot.topic is None else [("topic", slot.topic)]
     for key, name in names:
-        if not _is_asked(name):
+        if not _is_template_name(name):
             yield key, f"{name!r} is no name (allowed: {NAMES})"
 
 
-def _is_asked(name: str) -> bool:
+def _is_template_name(name: str) -> bool:
     """Return whether a text can name a template, with or without its bank in front."""
     bank, _, own = name.rpartition(BETWEEN)
     return is_identifier(own) and (not bank or is_identifier(bank))

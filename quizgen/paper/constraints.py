@@ -94,8 +94,8 @@ class ConstraintSolver:
 
     def _count_candidate(self, one: Candidate) -> RunningTotals:
         """Return what a candidate adds to the totals; 0 for what the blueprint does not limit."""
-        points = _to_units(one.points, self.point) if self.blueprint.total else 0
-        minutes = _to_units(one.minutes, self.minute) if self.last else 0
+        points = _convert_to_units(one.points, self.point) if self.blueprint.total else 0
+        minutes = _convert_to_units(one.minutes, self.minute) if self.last else 0
         return RunningTotals(points, minutes, bool(one.figure), one.photograph)
 
     def _compute_reachable_sums(self) -> list[dict[tuple[int, int], int]]:
@@ -117,7 +117,7 @@ class ConstraintSolver:
                     key = min(figures, f + add.figures), min(photographs, p + add.photographs)
                     now[key] |= (sums << (add.points * self.width + add.minutes)) & whole
             reach.append(now)
-        return [_at_least(sums) for sums in reversed(reach)]
+        return [_accumulate_sums(sums) for sums in reversed(reach)]
 
     def is_reachable(self, step: int = 0, sums: RunningTotals = NONE) -> bool:
         """Return whether the places from a step on can still bring what is missing."""
@@ -147,7 +147,7 @@ class ConstraintSolver:
             kinds = {one.figure for one in chosen.values()} - {""}
             return chosen if len(kinds) >= self.blueprint.figure_kinds else None
         place = self.order[step]
-        for one in self._open_candidates(place, list(chosen.values())):
+        for one in self._list_open_candidates(place, list(chosen.values())):
             self.steps -= 1
             after = RunningTotals(*map(sum, zip(sums, self._count_candidate(one), strict=True)))
             if self.steps > 0 and self.is_reachable(step + 1, after):
@@ -156,7 +156,7 @@ class ConstraintSolver:
                     return found
         return None
 
-    def _open_candidates(self, place: int, chosen: Sequence[Candidate]) -> list[Candidate]:
+    def _list_open_candidates(self, place: int, chosen: Sequence[Candidate]) -> list[Candidate]:
         """Return who may stand here beside those chosen: the least used that have numbers left."""
         uses = Counter(one.name for one in chosen)
         left = [o for o in self.places[place] if o.pool is None or uses[o.name] < o.pool]
@@ -211,12 +211,12 @@ def _describe_attainable_range(name: str, places: Sequence[Sequence[Candidate]])
     return f"the slots together can make {float(least):g} to {float(most):g}"
 
 
-def _to_units(value: Fraction, unit: int) -> int:
+def _convert_to_units(value: Fraction, unit: int) -> int:
     """Return a value as an integer number of units, which its denominator divides."""
     return value.numerator * (unit // value.denominator)
 
 
-def _at_least(sums: Mapping[tuple[int, int], int]) -> dict[tuple[int, int], int]:
+def _accumulate_sums(sums: Mapping[tuple[int, int], int]) -> dict[tuple[int, int], int]:
     """Return the sums reached with so many figures and photographs or more."""
     found: dict[tuple[int, int], int] = {}
     for f, p in sorted(sums, reverse=True):

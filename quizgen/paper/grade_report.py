@@ -81,11 +81,11 @@ def write_class_csv(results: list[tuple[str, str, str, PaperResult]]) -> str:
     ids = [part.id for part in results[0][3].parts] if results else []
     head = ["file", "name", "matriculation", "marks", "points", "asked_back", "to_decide"]
     titles = [f"{name} {what}" for what in ("marks", "note") for name in ids]
-    rows = ([*student, *_class_row(result)] for *student, result in results)
+    rows = ([*student, *_format_class_row(result)] for *student, result in results)
     return format_csv([[*head, *titles], *rows])
 
 
-def _class_row(result: PaperResult) -> list[str]:
+def _format_class_row(result: PaperResult) -> list[str]:
     """Return the cells of one student in the table of a class."""
     totals = [format_points(result.marks), format_points(result.points)]
     counts = [str(result.asked_back), str(result.to_decide)]

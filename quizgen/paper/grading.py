@@ -164,7 +164,7 @@ class QuestionGrader:
     ----------
     question : KeyQuestion
         The question's key.
-    options : Options
+    options : GradingOptions
         How to read, and the language of the messages.
     proven : bool
         Whether the key is known to be as it was written.

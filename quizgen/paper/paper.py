@@ -222,14 +222,16 @@ def compose_paper(
     return Paper(code, blueprint, langs, tuple(items), banks=banks)
 
 
-class _Wanted(NamedTuple):
-    """A draw and the level that it is asked at."""
+class _WantedQuestion(NamedTuple):
+    """A variant and the level that it is asked at."""
 
     drawn: Variant
     level: str
 
 
-def _iter_question_levels(drawn: Iterable[Variant], wanted: Iterable[str]) -> Iterator[_Wanted]:
+def _iter_question_levels(
+    drawn: Iterable[Variant], wanted: Iterable[str]
+) -> Iterator[_WantedQuestion]:
     """Yield the level of each question.
 
     The wanted one, as far as the question has such a form and it tells nothing of another.
@@ -238,7 +240,7 @@ def _iter_question_levels(drawn: Iterable[Variant], wanted: Iterable[str]) -> It
     ones = [one for one, _ in pairs]
     made = any(level != EXAM for _, level in pairs)
     for one, (_, level) in zip(with_siblings(ones) if made else ones, pairs, strict=True):
-        yield _Wanted(one, effective_level(one, level))
+        yield _WantedQuestion(one, effective_level(one, level))
 
 
 def rebuild_paper(
@@ -329,7 +331,7 @@ def single_question_paper(
 ) -> Paper:
     """Return a paper of one question, for looking at a template."""
     drawn = draw_instance(template, seed)
-    wanted = _Wanted(drawn, effective_level(drawn, level))
+    wanted = _WantedQuestion(drawn, effective_level(drawn, level))
     item = _build_paper_item(wanted, (lang,), "1", figures=figures)
     title, slot = {"en": template.id}, SlotRule(templates=(template.id,))
     minutes = math.ceil(item.questions[0].minutes)
@@ -337,7 +339,7 @@ def single_question_paper(
     return Paper(f"{template.id}-{seed}", blueprint, (lang,), (item,))
 
 
-def _add_digest(code: PaperCode, blueprint: Blueprint, asked: list[_Wanted]) -> PaperCode:
+def _add_digest(code: PaperCode, blueprint: Blueprint, asked: list[_WantedQuestion]) -> PaperCode:
     """Return the code with the digest of the blueprint, the templates and the levels."""
     templates = [one.drawn.template for one in asked]
     digest = source_digest(blueprint.source, templates, [one.level for one in asked])
@@ -345,7 +347,7 @@ def _add_digest(code: PaperCode, blueprint: Blueprint, asked: list[_Wanted]) -> 
 
 
 def _build_paper_item(
-    one: _Wanted,
+    one: _WantedQuestion,
     langs: tuple[str, ...],
     number: str,
     points: float | None = None,

@@ -38,16 +38,16 @@ def select_templates(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[
     """
     if blueprint.topic:
         return _fill_minutes(bank.candidates(), blueprint, seed)
-    slots = _candidates_per_slot(bank, blueprint)
+    slots = _list_slot_candidates(bank, blueprint)
     if blueprint.has_constraints:
-        return _as_a_whole(slots, blueprint, seed)
+        return _fill_under_constraints(slots, blueprint, seed)
     tries = (_fill_slots(slots, blueprint, f"{seed}/{n}" if n else str(seed)) for n in range(TRIES))
     first = next(tries)
     found = next((one for one in chain((first,), tries) if not _is_overused(one)), first)
     return [one.name for one in found]
 
 
-def _as_a_whole(
+def _fill_under_constraints(
     slots: Sequence[Sequence[Candidate]], blueprint: Blueprint, seed: int | str
 ) -> list[str]:
     """Return the names of templates that meet what the blueprint asks of the paper as a whole.
@@ -185,17 +185,17 @@ def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> lis
     They have its tier, topic, points and minutes, and a figure if it has one; none may stand in two
     places, and none tells what another one asks. So papers that take any one of each are alike.
     """
-    slots = _candidates_per_slot(bank, blueprint)
+    slots = _list_slot_candidates(bank, blueprint)
     places = [fitting for slot, fitting in zip(blueprint.slot, slots, strict=True)
               for _ in range(slot.count)]  # fmt: skip
     taken = bank.candidates(chosen)
     found = []
     for place, (one, worth) in enumerate(zip([*taken], slot_points(blueprint), strict=False)):
-        like = _comparable_features(one.scale_to(worth))
+        like = _get_comparable_features(one.scale_to(worth))
         family = [one]
         fitting = places[place] if place < len(places) else bank.candidates()
         for other in sorted(fitting, key=lambda one: one.origin):
-            alike = other not in taken and _comparable_features(other.scale_to(worth)) == like
+            alike = other not in taken and _get_comparable_features(other.scale_to(worth)) == like
             if alike and not any(other.excludes(said) for said in taken if said not in family):
                 family.append(other)
                 taken.append(other)
@@ -203,7 +203,7 @@ def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> lis
     return found
 
 
-def _comparable_features(one: Candidate) -> tuple[object, ...]:
+def _get_comparable_features(one: Candidate) -> tuple[object, ...]:
     """Return what templates must share to stand for each other in equal papers."""
     return (
         one.tier,
@@ -222,7 +222,7 @@ def count_papers(bank: Bank, blueprint: Blueprint) -> int:
     Questions count as a set; a template without numbers counts as one question.
     """
     total = 1 if blueprint.slot else 0
-    for slot, fitting in zip(blueprint.slot, _candidates_per_slot(bank, blueprint), strict=True):
+    for slot, fitting in zip(blueprint.slot, _list_slot_candidates(bank, blueprint), strict=True):
         pools = [one.pool or 1 for one in fitting]
         rounds, rest = divmod(slot.count, len(pools))
         ways = [1] + [0] * rest
@@ -233,7 +233,7 @@ def count_papers(bank: Bank, blueprint: Blueprint) -> int:
     return total
 
 
-def _candidates_per_slot(bank: Bank, blueprint: Blueprint) -> list[list[Candidate]]:
+def _list_slot_candidates(bank: Bank, blueprint: Blueprint) -> list[list[Candidate]]:
     """Return the templates that may fill each slot of a blueprint.
 
     Raises
@@ -270,12 +270,12 @@ def find_coloured_templates(bank: Bank) -> frozenset[str]:
         # One that is wrong says so when a paper is to hold it.
         with suppress(QuizgenError):
             (one,) = bank.candidates((name,))
-            if one.figure and _may_need_colour(bank.template(name)):
+            if one.figure and _needs_colour(bank.template(name)):
                 found.add(name)
     return frozenset(found)
 
 
-def _may_need_colour(template: Template) -> bool:
+def _needs_colour(template: Template) -> bool:
     """Return whether a template's figure says so, or does for one of ``DRAWN`` variants."""
     says = getattr(template.figure, "COLOUR", False)
     return (

@@ -34,7 +34,7 @@ DIGITS = 3
 """Digits of a number that is not in another question by chance."""
 
 
-class _Seen(msgspec.Struct):
+class _SeenContent(msgspec.Struct):
     """What the questions so far ask and state."""
 
     questions: set[str] = msgspec.field(default_factory=set)
@@ -67,7 +67,7 @@ def draw_variants(
     names : sequence of str
         The templates.
     seed : str
-    beside : sequence of sequences of Draw
+    beside : sequence of sequences of Variant
         Other papers of the same templates, with which no question is to share what it asks.
     colour : bool
         Whether a figure may need colour to be read.
@@ -77,7 +77,7 @@ def draw_variants(
     SamplingError
         If a question would stand in the paper again and has no other numbers.
     """
-    seen = _Seen()
+    seen = _SeenContent()
     for place, name in enumerate(names, 1):
         near = [paper[place - 1] for paper in beside]
         one = _draw_least_revealing(bank.template(name), seed, place, seen, near, colour=colour)
@@ -86,7 +86,13 @@ def draw_variants(
 
 
 def _draw_least_revealing(
-    template: Template, seed: str, place: int, seen: _Seen, near: Sequence[Variant], *, colour: bool
+    template: Template,
+    seed: str,
+    place: int,
+    seen: _SeenContent,
+    near: Sequence[Variant],
+    *,
+    colour: bool,
 ) -> Variant:
     """Return the first variant that is new and tells nothing, else the one that tells least.
 
@@ -100,14 +106,16 @@ def _draw_least_revealing(
             if not seen.tells(one) and not any(shared_content(one, other) for other in near):
                 return one
         if new and again >= OTHER_ANSWERS:
-            return min(new, key=lambda one: _find_overlap(one, seen, near))
+            return min(new, key=lambda one: _rank_overlap(one, seen, near))
     raise SamplingError(
         f"{template.file}: would stand in the paper again, and has no other numbers: "
         "ask for fewer questions, or let other templates take the place"
     )
 
 
-def _find_overlap(one: Variant, seen: _Seen, near: Sequence[Variant]) -> tuple[bool, bool, bool]:
+def _rank_overlap(
+    one: Variant, seen: _SeenContent, near: Sequence[Variant]
+) -> tuple[bool, bool, bool]:
     """Return the sort key of a variant: the one with the least overlap comes first.
 
     Three booleans, the gravest first: it tells something of its own paper; the paper beside it
@@ -189,7 +197,7 @@ def asked_formulas(drawn: Variant, index: int) -> Mapping[CanonicalForm, str]:
 
     The steps, each also with the steps before it put in, and the formula that is asked for.
     """
-    found = _formulas_of_steps(sampler_for(drawn.template), index)
+    found = _build_step_formulas(sampler_for(drawn.template), index)
     if authored_answer(drawn, index)["kind"] == "expression":
         spec: expression.ExpressionSpec = ask_part(drawn, index).spec
         formula = parse_authored(spec.value, tuple(spec.symbols))
@@ -198,7 +206,7 @@ def asked_formulas(drawn: Variant, index: int) -> Mapping[CanonicalForm, str]:
 
 
 @lru_cache(maxsize=4096)
-def _formulas_of_steps(plan: Sampler, index: int) -> dict[CanonicalForm, str]:
+def _build_step_formulas(plan: Sampler, index: int) -> dict[CanonicalForm, str]:
     """Return the forms of the steps, the same for every variant of a template."""
     found: dict[CanonicalForm, str] = {}
     inner: dict[str, Expr] = {}

@@ -1,4 +1,4 @@
-"""From a draw to a question and its key, two separate values.
+"""From a variant to a question and its key, two separate values.
 
 ``Question`` holds what a learner sees before answering; ``Key`` holds the rest. Whatever is handed
 only a ``Question`` cannot leak an answer.
@@ -179,7 +179,7 @@ def compose_question(
 
     Returns
     -------
-    (Question, Key)
+    (Question, QuestionKey)
 
     Raises
     ------

@@ -35,7 +35,7 @@ def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
         Naming file, entry, field, language and column.
     """
     with _iter_field_text(entry, name, lang) as text:
-        return fill_blocks(parse_blocks(text), typeset_slot, _no_program)
+        return fill_blocks(parse_blocks(text), typeset_slot, _refuse_program)
 
 
 def entry_inlines(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
@@ -71,6 +71,6 @@ def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
     return (typeset_inline(part.expr),)
 
 
-def _no_program(text: str) -> str:
+def _refuse_program(text: str) -> str:
     """Raise ``BankError``: an entry draws no numbers that a program could hold."""
     raise BankError(f"program {text!r} cannot stand here")

@@ -146,7 +146,7 @@ def _render_paragraph(part: markdown.Paragraph, lang: str, way: HtmlDialect) -> 
 
 
 @_render_block.register
-def _code_block(part: markdown.CodeBlock, _lang: str, way: HtmlDialect) -> str:
+def _render_code_block(part: markdown.CodeBlock, _lang: str, way: HtmlDialect) -> str:
     """Return a block of program text; a long line scrolls, also by keyboard."""
     scrolls = ' tabindex="0"' if way.ours else ""
     return f"<pre{scrolls}><code>{_escape_html(part.text)}</code></pre>"
@@ -165,14 +165,14 @@ def _render_list(part: markdown.ListBlock, lang: str, way: HtmlDialect) -> str:
 @_render_block.register
 def _render_table(part: markdown.TableBlock, lang: str, way: HtmlDialect) -> str:
     """Return rows under a head; a wide table scrolls, also by keyboard."""
-    head = "".join([_head_cell(cell, lang, way) for cell in part.head])
+    head = "".join([_render_head_cell(cell, lang, way) for cell in part.head])
     rows = [[f"<td>{_render_piece(cell, lang, way)}</td>" for cell in cells] for cells in part.rows]
     body = "".join([f"<tr>{''.join(row)}</tr>" for row in rows])
     table = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
     return f'<div class="scroll" tabindex="0">{table}</div>' if way.ours else table
 
 
-def _head_cell(cell: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -> str:
+def _render_head_cell(cell: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -> str:
     """Return a head cell; a lone formula is spelled out for listeners.
 
     An empty cell is no head: a screen reader would announce it for every row.

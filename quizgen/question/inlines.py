@@ -69,10 +69,10 @@ def to_inlines(shown: TextOrInlines) -> tuple[Inline, ...]:
 @lru_cache(maxsize=4096)
 def _split_powers(text: str) -> tuple[Inline, ...]:
     """Return a text as inlines, with blanks that do not break before units."""
-    return tuple(_with_powers(_BEFORE_UNIT.sub("\u00a0", text)))
+    return tuple(_iter_powers(_BEFORE_UNIT.sub("\u00a0", text)))
 
 
-def _with_powers(text: str) -> Iterator[Inline]:
+def _iter_powers(text: str) -> Iterator[Inline]:
     """Yield words, and powers of ten as mathematics."""
     last = 0
     for found in pretty.POWER.finditer(text):

@@ -1,4 +1,4 @@
-"""Sentences of a template with their blanks filled from a draw."""
+"""Sentences of a template with their blanks filled from a variant."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ _TAIL = re.compile(r"[^ \n]*(?: [=≈<>≤≥≠] [^ \n]*)?")
 
 
 class Interpolator:
-    """Puts the numbers and phrases of a draw into the sentences of one language.
+    """Puts the numbers and phrases of a variant into the sentences of one language.
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     lang : str
     hidden : bool
         Refuse quantities that are solved for, so that a stem cannot give an answer away.
@@ -217,7 +217,7 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
     Parameters
     ----------
     text : str
-    drawn : Draw
+    drawn : Variant
     known : mapping of str to number
         The quantities that may stand there, in shown units.
 

@@ -1,7 +1,7 @@
 """A composed question with its numbers as a language writes them.
 
-Numbers come with a decimal point, from draws, templates and figures. What a learner reads of them
-gets the sign of its language here, once it is all put together; formulas get it where they are
+Numbers come with a decimal point, from variants, templates and figures. What a learner reads of
+them gets the sign of its language here, once it is all put together; formulas get it where they are
 written. Programs, keys and what is typed back stay as they are.
 """
 

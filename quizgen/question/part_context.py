@@ -1,4 +1,4 @@
-"""What answer kinds may ask of a part of a draw: its values, its sentences, their order."""
+"""What answer kinds may ask of a part of a variant: its values, its sentences, their order."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The worked solution of a draw in one language: answers, steps with their why, mistakes, remarks.
+"""The worked solution of a variant in one language: answers, steps, misconceptions, remarks.
 
 The steps come from the solver's chain; the language files add one sentence of why per step.
 """
@@ -82,7 +82,7 @@ class SolutionStep(msgspec.Struct, frozen=True):
 
 
 class SolvedMisconception(msgspec.Struct, frozen=True):
-    """A known mistake: its name, what went wrong, and the answer it would give.
+    """A misconception: its name, what went wrong, and the answer it would give.
 
     Of one that is drawn no answer is shown: its points would tell nobody what it looks like.
     """
@@ -256,12 +256,12 @@ def precision_table(drawn: Variant, lang: str) -> tuple[Block, ...]:
 def _iter_number_systems(drawn: Variant, name: str) -> Iterator[tuple[str, str]]:
     """Yield the name of each number system and the value that it gives, with its unit."""
     shown = drawn.template.units.get(name, "")
-    yield "float32", _rounded_at_each_step(drawn, name, shown, float32_system())
-    yield "float64", _rounded_at_each_step(drawn, name, shown, float64_system())
+    yield "float32", _compute_with_rounding(drawn, name, shown, float32_system())
+    yield "float64", _compute_with_rounding(drawn, name, shown, float64_system())
     yield "exact", join_unit(format_rounded(drawn.shown_values[name], figures=FIGURES), shown)
 
 
-def _rounded_at_each_step(drawn: Variant, name: str, shown: str, numbers: NumberSystem) -> str:
+def _compute_with_rounding(drawn: Variant, name: str, shown: str, numbers: NumberSystem) -> str:
     """Return a quantity as floats give it, or a dash where they give nothing."""
     chain = drawn.template.chain
     env = {n: numbers.constant(to_fraction(drawn.values[n])) for n in chain.given}

@@ -56,7 +56,7 @@ def typeset_step(drawn: Variant, step: ChainStep) -> TypesetMaths:
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     step : ChainStep
     """
     return join_sides(step.name, step_sides(drawn, step))
@@ -69,7 +69,7 @@ def step_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
         expr = select_branch(step.expr, drawn.values, exact_system())
     sides = [WorkedSide("=", typeset.lay_out(expr), format_tree(expr), FORMULA)]
     if names_in(expr):
-        sides.append(_with_numbers(drawn, expr))
+        sides.append(_substitute_numbers(drawn, expr))
     values = _build_value_sides(drawn, step, about=sides[-1].sign == "≈")
     sides += [side for side in values if side.typed != sides[-1].typed]
     return tuple(sides)
@@ -83,7 +83,7 @@ def join_sides(name: str, sides: Sequence[WorkedSide]) -> TypesetMaths:
     return TypesetMaths(typeset.relation_chain(signs, nodes), f"{name}{typed}")
 
 
-def _with_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
+def _substitute_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
     """Return the formula with numbers in place; equal unless one of them is shown rounded."""
     quantities = sorted(names_in(expr))
     sign = "≈" if any(drawn.is_rounded(name) for name in quantities) else "="

@@ -1,6 +1,6 @@
 """Levels: the same draw as in an exam, step by step, or turned round; a module for each.
 
-In: a draw and a language. Out: an ``Asking``: stem, parts with their specifications, solution.
+In: a variant and a language. Out: a ``LevelQuestion``: stem, parts with their specifications, solution.
 Must never know: an output, a paper.
 """
 

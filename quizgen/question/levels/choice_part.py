@@ -39,11 +39,11 @@ def make_choice_part(
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     lang : str
     body : tuple of blocks
         What is asked.
-    options : sequence of Option
+    options : sequence of LevelOption
         In the order in which they are shown.
     lines : tuple of Line
         The worked lines of its solution.

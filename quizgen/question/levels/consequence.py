@@ -81,24 +81,25 @@ def choose_consequence(changes: Perturbations) -> Consequence | None:
     if not other:
         return None
     if pick_index(f"{level_seed(drawn)}/effect/way", 2):
-        return Consequence(_one_way(changes, other), "direction")
+        return Consequence(_draw_directed_change(changes, other), "direction")
     return Consequence(other[0], "value")
 
 
-def _one_way(changes: Perturbations, moving: list[Perturbation]) -> Perturbation:
-    """Return a change in a drawn direction, or None if none is left.
+def _draw_directed_change(changes: Perturbations, moving: list[Perturbation]) -> Perturbation:
+    """Return a change whose result moves in a drawn direction.
 
-    It may be one that the result does not rest on: then the answer is "the same".
+    Among the directions is "unchanged", by a change that the result does not rest on, if there
+    is one: larger and smaller are then not the only answers.
     """
     idle = changes.of(moving[0].index, moving[0].target, idle=True)
     first: dict[str, Perturbation] = {}
     for change in (*moving, *islice(idle, 1)):
-        first.setdefault(_way_of(change), change)
+        first.setdefault(_get_direction(change), change)
     ways = [way for way in DIRECTIONS if way in first]
     return first[ways[pick_index(f"{level_seed(changes.drawn)}/effect/direction", len(ways))]]
 
 
-def _way_of(change: Perturbation) -> str:
+def _get_direction(change: Perturbation) -> str:
     """Return the direction in which a result moves."""
     with working_precision():
         if change.after == change.before:
@@ -246,7 +247,7 @@ def _build_solution_lines(change: Perturbation, lang: str) -> tuple[SolutionStep
 
 def _ask_direction(change: Perturbation, lang: str) -> LevelPart:
     """Return a part that asks: larger, smaller or the same? Both values answer each option."""
-    right = _way_of(change)
+    right = _get_direction(change)
 
     def because(each: str) -> tuple[Inline, ...]:
         """Return the result before and after the change, in a language."""

@@ -1,4 +1,4 @@
-"""What a level makes of a draw: parts before they have a place in a paper."""
+"""What a level makes of a variant: parts before they have a place in a paper."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class LevelQuestion(msgspec.Struct, frozen=True):
 
 
 class Level(Protocol):
-    """A module of ``quizgen/question/levels``."""
+    """What a module of ``quizgen/question/levels`` offers."""
 
     def is_applicable(self, drawn: Variant) -> bool:
         """Return whether a variant has a form at this level."""
@@ -57,7 +57,7 @@ class Level(Protocol):
 
 
 def without_bold_questions(block: Block) -> Block:
-    """Return a block without its bold questions, where others are asked in their place."""
+    """Return a paragraph in plain type: its bold questions are not asked, but others instead."""
     if not isinstance(block, Paragraph):
         return block
     plain: list[Inline] = []

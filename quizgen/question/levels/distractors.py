@@ -1,4 +1,4 @@
-"""The formulas to choose from: those of known mistakes, and slips of about the right one's length.
+"""The formulas to choose from: those of misconceptions, and slips of about the right one's length.
 
 Where the right formula is longer, or shorter, than those of all its mistakes, its length would tell
 it. Most times one of them then gives way to the right formula with a slip in it.

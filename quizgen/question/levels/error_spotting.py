@@ -1,4 +1,4 @@
-"""A worked solution that somebody else made, with one of the known mistakes in it or with none."""
+"""A worked solution that somebody else made, with one of the misconceptions in it or with none."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class FaultySolution:
         none = LevelOption(
             lambda each: translate_inlines(each, "transfer.none"),
             not self.trap,
-            self._about_none,
+            self._explain_no_error,
             "none",
         )
         right = Interpolator(self.drawn, lang)
@@ -123,8 +123,8 @@ class FaultySolution:
         why = filler.sentence("steps", self.steps[place].name)
         return translate_inlines(lang, "transfer.right_step", n=number, why=why)
 
-    def _about_none(self, lang: str) -> tuple[Inline, ...]:
-        """Return why the option "no step is wrong" is wrong, or right."""
+    def _explain_no_error(self, lang: str) -> tuple[Inline, ...]:
+        """Return whether one step is wrong or all are right: the reason for the last option."""
         return translate_inlines(lang, "transfer.one_wrong" if self.trap else "transfer.all_right")
 
 

@@ -111,7 +111,7 @@ def _build_stage(drawn: Variant, index: int, asked: frozenset[str]) -> GuidedSta
     ]  # fmt: skip
     whole = not numeric or _is_askable_at_once(drawn, of, steps)
     before = tuple(step for step in steps if not (whole and numeric and step.name in of))
-    return GuidedStage(index, before, _to_choose(drawn, index, steps, known), whole, known)
+    return GuidedStage(index, before, _find_formula_step(drawn, index, steps, known), whole, known)
 
 
 def _list_required_steps(drawn: Variant, index: int) -> list[ChainStep]:
@@ -135,22 +135,25 @@ def _is_askable_at_once(drawn: Variant, of: tuple[str, ...], steps: list[ChainSt
     return len(of) == 1 or not alone or not all(has_name(drawn, name) for name in of)
 
 
-def _to_choose(
+def _find_formula_step(
     drawn: Variant, index: int, steps: list[ChainStep], known: frozenset[str]
 ) -> ChainStep | None:
     """Return the step whose formula is asked: one of those with several misconceptions, or None."""
     told = defined_quantities(drawn)
     found = [
         step for step in steps
-        if step.name not in told and not _other_unit(drawn, step)
+        if step.name not in told and not _is_unit_conversion(drawn, step)
         and has_name(drawn, step.name) and not gives_away(drawn, step, known)
         and len(wrong_options(drawn, step, known)) > 1
     ]  # fmt: skip
     return found[pick_index(f"{level_seed(drawn)}/{index}/formula", len(found))] if found else None
 
 
-def _other_unit(drawn: Variant, step: ChainStep) -> bool:
-    """Return whether a step is the same quantity in another unit: bits as bytes are no formula."""
+def _is_unit_conversion(drawn: Variant, step: ChainStep) -> bool:
+    """Return whether a step is the same quantity in another unit.
+
+    Nobody has to choose a formula for bits as bytes.
+    """
     right, units = applicable_branch(drawn, step.expr), drawn.template.units
     return isinstance(right, Sym) and units.get(right.name, "") != step.unit
 
@@ -178,7 +181,7 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 
 
 class _Guide:
-    """Puts the stages of a draw into words."""
+    """Puts the stages of a variant into words."""
 
     def __init__(self, drawn: Variant, lang: str) -> None:
         """Take the variant's sentences in one language."""

@@ -44,7 +44,7 @@ class Perturbation:
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
         As it was asked.
     index : int
         The part that asks for the result.
@@ -54,7 +54,7 @@ class Perturbation:
         What is multiplied.
     scale : Fraction
         By what.
-    changed : Draw
+    changed : Variant
         The same after the change.
     """
 
@@ -127,11 +127,11 @@ def dependencies(drawn: Variant, target: str) -> frozenset[str]:
 
 
 class Perturbations:
-    """Every change of a draw that makes sense, each solved once.
+    """Every change of a variant that makes sense, each solved once.
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     """
 
     def __init__(self, drawn: Variant) -> None:
@@ -149,7 +149,7 @@ class Perturbations:
             (given, scale)
             for given in self.drawn.template.chain.given
             if (given in used) is not idle
-            and _can_change(self.drawn, given)
+            and _is_changeable(self.drawn, given)
             and not used & _find_dependent_quantities(self.drawn, given)
             for scale in (*SCALES, *SLIGHT)
         ]
@@ -199,7 +199,7 @@ def _find_dependent_quantities(drawn: Variant, given: str) -> frozenset[str]:
     return frozenset(found - {given})
 
 
-def _can_change(drawn: Variant, given: str) -> bool:
+def _is_changeable(drawn: Variant, given: str) -> bool:
     """Return whether the task states a quantity that may change: named, not fixed, not zero."""
     named = has_name(drawn, given) and given in stated_quantities(drawn)
     return named and given not in drawn.template.quantities.fixed and drawn.shown[given] != 0

@@ -290,7 +290,7 @@ def is_same_value(a: Value, b: Value) -> bool:
 
 def step_value_spec(drawn: Variant, index: int, step: ChainStep) -> ScalarSpec:
     """Return what a step's value is graded by: its part's rule, the step's misconceptions."""
-    answer, about = _rule_of(drawn, index, step), drawn.template.about
+    answer, about = _select_answer_rule(drawn, index, step), drawn.template.about
     unit = str(answer.get("unit", step.unit))
     table = _build_answer_table(answer, unit, _find_count_nouns(drawn, index, step))
     table |= {"define": about.units} if about.units else {}
@@ -334,7 +334,7 @@ def _iter_telling_misconceptions(
             yield trap, format_for_key(wrong / factor)
 
 
-def _rule_of(drawn: Variant, index: int, step: ChainStep) -> Mapping[str, Any]:
+def _select_answer_rule(drawn: Variant, index: int, step: ChainStep) -> Mapping[str, Any]:
     """Return the part's answer as far as it concerns a step.
 
     Unit and rule of the part hold for its own quantities alone.
