@@ -66,7 +66,7 @@ def builtin_root() -> Path:
 
 
 class _MissingError(BankError):
-    """A template asks for a solver or a figure that is not there."""
+    """Raised where a template asks for a solver or a figure that does not exist."""
 
 
 class Bank:
@@ -574,7 +574,7 @@ def find_template_folders(templates: Path, beside: Collection[str]) -> dict[str,
 
 
 def check_name(folders: Sequence[Path]) -> None:
-    """Refuse a template that cannot be called by its name; the others stay what they are.
+    """Raise ``BankError`` for a template that its name does not lead to; the others stay usable.
 
     Raises
     ------

@@ -79,7 +79,10 @@ class CombinedBank(Bank):
     """
 
     def __init__(self, parts: tuple[Bank, ...]) -> None:
-        """Put the banks together; their names must be usable in front of a template's."""
+        """Put the banks together.
+
+        Their names must be identifiers: they stand in front of template names that two banks share.
+        """
         super().__init__(parts[0].root, trusted=all(part.trusted for part in parts))
         self._parts = parts
         for part in parts:
@@ -169,17 +172,20 @@ class CombinedBank(Bank):
 
     @cached_property
     def _template_names_by_bank(self) -> dict[Bank, dict[str, str]]:
-        """Return, for each bank, its own template names and what they are here."""
+        """Return, for each bank, the name in the combined bank of each of its template names.
+
+        A name that two banks have gets the bank's name in front.
+        """
         return qualify_names({part: part.template_paths for part in self._parts})
 
     @cached_property
     def _origin_names_by_bank(self) -> dict[Bank, dict[str, str]]:
-        """Return, for each bank, its templates' origins and what they are here."""
+        """Return, for each bank, the name in the combined bank of each of its origins."""
         return qualify_names({part: [*_iter_template_origins(part)] for part in self._parts})
 
     @cached_property
     def _homes_by_template(self) -> dict[str, tuple[Bank, str]]:
-        """Return, for each template name here, its bank and its name there."""
+        """Return the bank of each template and its name there, by its name in the combined bank."""
         return {
             here: (part, own)
             for part, names in self._template_names_by_bank.items()
@@ -217,12 +223,12 @@ class CombinedBank(Bank):
 
     @cached_property
     def _homes_by_blueprint(self) -> dict[str, tuple[Bank, str]]:
-        """Return, for each blueprint name here, its bank and its name there."""
+        """Return the bank of each blueprint and its name there, as ``_homes_by_template``."""
         called = qualify_names({part: part.blueprints for part in self._parts})
         return {here: (part, own) for part, names in called.items() for own, here in names.items()}
 
     def template_names_for(self, plan: str) -> Mapping[str, str]:
-        """Return the names here of the templates of a blueprint's own bank.
+        """Return the names in the combined bank of the templates of a blueprint's own bank.
 
         A blueprint was written for one bank and knows no names of the others.
         """
@@ -248,12 +254,12 @@ class CombinedBank(Bank):
         return self._rules[name]
 
     def _translate_formula_id(self, part: Bank, name: str) -> str:
-        """Return the id here of a formula of one of the banks; an unknown one stays as it is."""
+        """Return the id in the combined bank of a bank's formula; an unknown one stays as it is."""
         return self._formula_ids_by_bank.get(part, {}).get(name, name)
 
     @cached_property
     def _formula_ids_by_bank(self) -> dict[Bank, dict[str, str]]:
-        """Return, for each bank, its own formula ids and what they are here."""
+        """Return, for each bank, the id in the combined bank of each of its formula ids."""
         return qualify_names(
             {part: [entry.id for entry in read_formulas(part)] for part in self._parts}
         )

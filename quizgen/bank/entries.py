@@ -31,7 +31,7 @@ Passage = dict[str, str]
 
 
 class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True):
-    """What every entry has, and the file that it was read from."""
+    """The fields of every entry of a bank's content, and the file that it was read from."""
 
     id: str
     topic: str
@@ -64,7 +64,7 @@ E = TypeVar("E", bound=Entry)
 def load_entries(
     source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()
 ) -> tuple[E, ...]:
-    """Read entries.
+    """Return the entries of a file's text, each converted to its type.
 
     Parameters
     ----------

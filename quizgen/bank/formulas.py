@@ -92,8 +92,6 @@ def _iter_right_sides(entry: FormulaEntry) -> Iterator[Expr]:
     """Yield the sides that a formula is computed by: all but the first.
 
     Pieces outside the grammar are left out.
-
-    Pieces outside the grammar are left out.
     """
     for line in entry.lines:
         for text in split_relations(line)[1][1:]:

@@ -51,7 +51,7 @@ _TEXTS = CompileCache("prose", LanguageFile, "markdown_it")
 
 
 def read_language_file(path: Path) -> LanguageFile:
-    """Read a language file.
+    """Return the parsed content of a language file.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def read_language_file(path: Path) -> LanguageFile:
 
 
 def parse_language_file(source: str) -> LanguageFile:
-    """Parse the content of a language file."""
+    """Return the parsed content of the text of a language file."""
     title, body = _split_title(source)
     pieces = re.split(r"^## +(\S.*)$", body, flags=re.MULTILINE)
     # The body begins where the source ends with it; each piece where those before it end.

@@ -100,7 +100,7 @@ class Paragraph(msgspec.Struct, frozen=True, array_like=True, tag="p"):
 
 
 class ListBlock(msgspec.Struct, frozen=True, array_like=True, tag="i"):
-    """A list; ``ordered`` counts from 1."""
+    """A list; if ``ordered``, it is numbered from 1."""
 
     items: tuple[tuple[Block, ...], ...]
     ordered: bool = False
@@ -155,8 +155,8 @@ class LanguageFile(msgspec.Struct, frozen=True, dict=True):
 TIED = "\u00a0=\u00a0"
 """``f = 50 mm`` stays on one line: the blanks around an equals sign do not break.
 
-This holds in every output, also in plain text; ``question.interpolation.unbreakable_groups`` holds a formula to what
-follows it where an output could break between them.
+This holds in every output, also in plain text; ``unbreakable_groups`` in
+``question.interpolation`` holds a formula to what follows it where an output could break between.
 """
 _POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
 _EQUALS = re.compile(r"=(?=\s*$)")
@@ -228,7 +228,7 @@ def parse_inlines(source: str, line: int = 0) -> tuple[Inline, ...]:
     try:
         return _sentence(" ".join(source.split()))
     except BankError as error:
-        error.line = line and line + _breaks_before_fault(source.strip("\n "))
+        error.line = line and line + _count_breaks_before_fault(source.strip("\n "))
         raise
 
 
@@ -238,10 +238,10 @@ def _sentence(source: str) -> tuple[Inline, ...]:
     return _parse_inline_token(tokens[0]) if tokens else ()
 
 
-def _breaks_before_fault(source: str) -> int:
+def _count_breaks_before_fault(source: str) -> int:
     """Return how many line breaks stand before the fault of a sentence.
 
-    ``parse_inlines`` joins the lines first, and the joined line knows no breaks, so the sentence
+    ``parse_inlines`` joins the lines first, and the joined line has no breaks, so the sentence
     is read once more as it is broken in the file.
     """
     try:

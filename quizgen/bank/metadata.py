@@ -88,7 +88,7 @@ def _expand_range(row: str) -> Iterator[str]:
 
 
 def read_optional(path: Path, kind: type[S]) -> S:
-    """Read one of a bank's files; a missing one is an empty one.
+    """Return the content of one of a bank's files; for a missing file, that of an empty one.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def read_optional(path: Path, kind: type[S]) -> S:
 
 
 def read_metadata(path: Path) -> BankMetadata:
-    """Read ``bank.toml``; a missing one says nothing.
+    """Return what ``bank.toml`` says; empty metadata if there is no such file.
 
     Raises
     ------

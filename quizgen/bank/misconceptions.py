@@ -30,7 +30,7 @@ APART = 2.0
 
 
 class PartChecker:
-    """What must hold for one part so that no wrong method scores."""
+    """Check for one part that no wrong method leads to an accepted answer."""
 
     def __init__(self, template: Template, index: int) -> None:
         """Compile the misconceptions that change the part's answer, and its tolerances.
@@ -180,7 +180,7 @@ class PartChecker:
         return self._evaluate_answer(changed)
 
     def _evaluate_answer(self, env: Mapping[str, float]) -> tuple[float, ...]:
-        """Return the components of the answer in the units they are asked in."""
+        """Return the components of the answer in the units they are asked in, from base units."""
         return tuple([env[name] / factor for name, factor in self.asked])
 
 

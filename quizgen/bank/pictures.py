@@ -91,13 +91,13 @@ def pictures_beside(folder: Path) -> list[Path]:
 
 
 def read_pictures(folder: Path, texts: Mapping[str, LanguageFile]) -> dict[str, PictureFile]:
-    """Read the pictures that the words of a template show.
+    """Return the pictures that the words of a template show, by file name.
 
     Parameters
     ----------
     folder : pathlib.Path
         Of the template.
-    texts : mapping of str to Text
+    texts : mapping of str to LanguageFile
         Language to its words.
 
     Returns
@@ -134,7 +134,7 @@ def _check_words(link: PictureLink) -> None:
 
 
 def read_picture(folder: Path, name: str) -> PictureFile:
-    """Read a picture.
+    """Return one picture file, made safe to show.
 
     Raises
     ------
@@ -270,7 +270,7 @@ def _pack_svg(data: bytes) -> PictureFile:
 
 
 def _check_cost(root: ET.Element) -> None:
-    """Refuse what is small to read and endless to draw."""
+    """Raise ``BankError`` for an SVG that is small to read and endless to draw."""
     if sum(1 for _ in root.iter()) > MOST_ELEMENTS:
         raise BankError(f"has more than {MOST_ELEMENTS} elements")
     uses = root.findall(f".//{{{_SVG}}}use")

@@ -28,7 +28,7 @@ from quizgen.core.untrusted import error_context, parse_toml, read_text
 
 
 class _Written(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """What stands in a file."""
+    """The names of one solver's quantities as a file holds them."""
 
     names: dict[str, dict[str, str]] = {}
     fixed: tuple[str, ...] = ()

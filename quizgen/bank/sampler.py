@@ -81,7 +81,7 @@ class _Variable(msgspec.Struct, frozen=True):
 
 
 class _Condition(msgspec.Struct, frozen=True):
-    """A condition over shown values, and the quantities it needs."""
+    """A condition over shown values, and the quantities that it reads."""
 
     text: str
     test: Callable[[Values], bool]
@@ -94,7 +94,7 @@ def _make_test_of_name(name: str, test: Callable[[Value], bool]) -> Callable[[Va
 
 
 class Sampler:
-    """Everything about drawing a template that does not depend on the seed."""
+    """What drawing a template needs and the seed does not change: ranges, conditions, factors."""
 
     def __init__(self, template: Template) -> None:
         """Compile a template's draws, conditions and misconceptions.

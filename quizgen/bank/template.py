@@ -144,7 +144,7 @@ class Template:
         return {}
 
     def parse_formula(self, text: str) -> Expr:
-        """Read a formula of ``template.toml`` over the template's quantities, once.
+        """Return a formula over the template's quantities as a tree, parsed once.
 
         Raises
         ------
@@ -184,7 +184,7 @@ def _quote_formula(formula: str) -> str:
 
 
 def read_rules(path: Path) -> Rules:
-    """Read and check ``template.toml``.
+    """Return the checked content of ``template.toml``.
 
     Raises
     ------

@@ -167,7 +167,7 @@ class Variant:
 
 
 def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> Variant:
-    """Draw an admissible instance.
+    """Return the variant of a template that belongs to a seed and a slot.
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> 
     Raises
     ------
     SamplingError
-        If no try within ``MAX_TRIES`` is admissible; names the condition met most often.
+        If no try within ``MAX_TRIES`` is admissible; names the condition that rejected most tries.
     """
     plan, seed, slot = sampler_for(template), str(seed), str(slot)
     stem = f"{template.origin}/{template.rules.version}/{seed}/{slot}"
@@ -199,7 +199,7 @@ def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> 
 
 
 def _locate_condition(condition: str, template: Template) -> Place:
-    """Return where the condition stands that was met least; ``[draw]`` if it is no one's."""
+    """Return the place of a condition in ``template.toml``; ``[draw]`` if it is no author's."""
     if condition in template.rules.where:
         return (TEXT, condition)
     kept = condition.removeprefix("keep.")

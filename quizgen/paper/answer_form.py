@@ -52,7 +52,7 @@ _BACKSLASH = re.compile(
 
 
 class FormStudent(msgspec.Struct):
-    """Who filled in the form, and how they write."""
+    """The person who filled in the form, and how they write numbers."""
 
     name: str | int = ""
     matriculation: str | int = ""
@@ -169,7 +169,7 @@ def _iter_csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
 
 
 def read_filled_form(path: Path) -> FilledForm:
-    """Read a filled-in form: TOML, CSV (by its suffix) or JSON.
+    """Return a filled-in form, read from TOML, CSV (by its suffix) or JSON.
 
     Raises
     ------

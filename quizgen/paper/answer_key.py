@@ -71,7 +71,7 @@ class KeyChain(msgspec.Struct):
 def _build_chain(
     units: tuple[tuple[str, str], ...], steps: tuple[tuple[str, str, str], ...]
 ) -> Chain:
-    """Build a chain once for all students of a paper."""
+    """Return a chain, built once for all students of a paper."""
     from quizgen.maths.notation import parse_formula
 
     built = tuple(ChainStep(name, parse_formula(formula), unit) for name, formula, unit in steps)
@@ -159,7 +159,7 @@ class KeyQuestion(msgspec.Struct):
 
 
 class AnswerKey(msgspec.Struct):
-    """A paper's answer key."""
+    """Everything that grading a paper needs, as ``key.json`` holds it."""
 
     format: str
     questions: list[KeyQuestion]
@@ -304,7 +304,7 @@ def _check_chain(question: KeyQuestion, place: str) -> None:
 
 
 def read_answer_key(path: Path) -> AnswerKey:
-    """Read ``key.json``.
+    """Return the answer key in a file, checked.
 
     Raises
     ------

@@ -191,7 +191,7 @@ def _qualify_blueprint(plan: Blueprint, name: str, bank: Bank) -> Blueprint:
 
 
 def _read_blueprint(path: Path) -> Blueprint:
-    """Read a blueprint's file; its name becomes part of every code."""
+    """Return a blueprint from its file; the file's name becomes part of every code."""
     if not _CODE_NAME.fullmatch(path.stem):
         raise BlueprintError(
             f"{path.stem!r} cannot stand in a code (allowed: letters, digits, blanks, '_', "

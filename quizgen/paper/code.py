@@ -42,7 +42,7 @@ _CODE = re.compile(
 
 
 class PaperCode(msgspec.Struct, frozen=True):
-    """A code taken apart; its text is what is printed.
+    """The fields of a paper's code; its text is what is printed.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def is_class_code(text: str) -> bool:
 
 
 def parse_code(text: str) -> PaperCode:
-    """Take a paper's code apart.
+    """Return the fields of a paper's code.
 
     Raises
     ------

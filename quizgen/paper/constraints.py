@@ -48,7 +48,7 @@ NONE = RunningTotals()
 
 
 class ConstraintSolver:
-    """A blueprint's places and demands, and what can still be reached from each place on.
+    """Search for templates that meet all demands of a blueprint on the paper as a whole.
 
     Parameters
     ----------

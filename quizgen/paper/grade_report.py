@@ -28,7 +28,7 @@ MOST_UNKNOWN = 10
 
 
 def format_points(value: Fraction | None) -> str:
-    """Write marks: ``2``, ``1.75``; a dash where a person decides."""
+    """Return marks as text: ``2``, ``1.75``; a dash where a person decides."""
     return "–" if value is None else f"{float(value):g}"
 
 
@@ -71,7 +71,7 @@ def format_table(result: PaperResult, lang: str, columns: int, paint: bool) -> I
 
 
 def write_class_csv(results: list[tuple[str, str, str, PaperResult]]) -> str:
-    """Write one row per student: marks, then notes, of every part.
+    """Return the CSV table of a class, one row per student: marks, then notes; writes no file.
 
     Parameters
     ----------

@@ -172,7 +172,7 @@ def build_paper(
     figures: bool = True,
     progress: ProgressCallback = silent,
 ) -> Paper:
-    """Build a paper.
+    """Return the paper that a blueprint and a seed make.
 
     Parameters
     ----------
@@ -251,7 +251,7 @@ def rebuild_paper(
     figures: bool = True,
     progress: ProgressCallback = silent,
 ) -> Paper:
-    """Build the paper of a code again.
+    """Return the paper that a code stands for, built again.
 
     Parameters
     ----------

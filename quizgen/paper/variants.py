@@ -35,7 +35,7 @@ DIGITS = 3
 
 
 class _SeenContent(msgspec.Struct):
-    """What the questions so far ask and state."""
+    """What the questions drawn so far ask and state, so that the next tells none of it."""
 
     questions: set[str] = msgspec.field(default_factory=set)
     asked: set[str] = msgspec.field(default_factory=set)
@@ -59,7 +59,7 @@ def draw_variants(
     bank: Bank, names: Sequence[str], seed: str, beside: Sequence[Sequence[Variant]] = (),
     *, colour: bool = True,
 ) -> Iterator[Variant]:  # fmt: skip
-    """Draw the questions of a paper in order.
+    """Yield the variants of a paper in order.
 
     Parameters
     ----------

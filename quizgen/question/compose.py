@@ -146,7 +146,7 @@ class QuestionKey(msgspec.Struct, frozen=True):
 
 
 def draw_instance(template: Template, seed: str | int, slot: str | int = "0") -> Variant:
-    """Draw a template, or take its reference instance for ``seed="reference"``."""
+    """Return a variant of a template, or its reference instance for ``seed="reference"``."""
     return (
         reference_variant(template) if seed == "reference" else draw_variant(template, seed, slot)
     )
@@ -161,7 +161,7 @@ def compose_question(
     level: str = EXAM,
     figures: bool = True,
 ) -> tuple[Question, QuestionKey]:
-    """Draw a template and put it into words.
+    """Return a question and its key, drawn from a template and put into words.
 
     Parameters
     ----------

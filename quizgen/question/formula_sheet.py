@@ -133,7 +133,7 @@ def _build_sheet_line(
 
 
 def draw_sketch(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...]) -> tuple[Figure, ...]:
-    """Draw the sketch of a formula for each language; none if it has no sketch.
+    """Return the sketch of a formula in each language; none if it has no sketch.
 
     Raises
     ------

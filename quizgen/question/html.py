@@ -20,7 +20,7 @@ from quizgen.question.interpolation import NBSP, unbreakable_groups
 
 
 class HtmlDialect(NamedTuple):
-    """What a page understands: how its formulas are written, and whether it has our style.
+    """How a page writes formulas and finds pictures, and whether it has our style.
 
     ``maths`` writes a formula in a line of text, ``display`` one that is a line of its own;
     ``source`` is where the page finds a picture.
@@ -141,7 +141,7 @@ def _render_block(part: markdown.Block, lang: str, _way: HtmlDialect) -> str:
 
 @_render_block.register
 def _render_paragraph(part: markdown.Paragraph, lang: str, way: HtmlDialect) -> str:
-    """Return a paragraph."""
+    """Return a ``p`` element around the sentence."""
     return f"<p>{_render_piece(part.children, lang, way)}</p>"
 
 

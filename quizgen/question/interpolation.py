@@ -171,10 +171,6 @@ def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
     """Yield the pieces of a sentence inside which no line may end.
 
     ``f`` and ``= 6 mm`` are one.
-
-    ``f`` and ``= 6 mm`` are one.
-
-    Browsers and Typst break a line on either side of a formula, even before a comma.
     """
     rest = deque(parts)
     while rest:
@@ -193,7 +189,7 @@ def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
 
 
 def _take_formula_tail(rest: deque[Inline]) -> str:
-    """Take away what belongs to a formula in front."""
+    """Remove from the pieces what belongs to the formula in front, and return it."""
     text = ""
     while rest and isinstance(words := rest[0], PlainText):
         text += words.text

@@ -41,7 +41,7 @@ def inlines_to_plain(shown: tuple[Inline, ...]) -> str:
 
 
 class SolutionHint(msgspec.Struct, frozen=True):
-    """A hint: what it is, and what it shows.
+    """A hint to a step: what kind it is, and what it shows.
 
     ``kind`` is ``quantity`` (which one is needed, and why), ``formula`` (with its number on the
     formula sheet), ``numbers``, ``result``, or ``why`` where nothing else is known of the step.

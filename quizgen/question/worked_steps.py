@@ -29,7 +29,7 @@ FORMULA, NUMBERS, RESULT = "formula", "numbers", "result"
 
 
 class WorkedSide(NamedTuple):
-    """One side of a worked line.
+    """One side of a worked line: formula, numbers, exact or rounded value.
 
     The sign before it, its layout, how it would be typed, and what it is: the formula, the formula
     with numbers, or the result.

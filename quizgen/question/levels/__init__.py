@@ -1,7 +1,7 @@
-"""Levels: the same draw as in an exam, step by step, or turned round; a module for each.
+"""Levels: one variant as in an exam, step by step, or turned round; a module for each.
 
-In: a variant and a language. Out: a ``LevelQuestion``: stem, parts with their specifications, solution.
-Must never know: an output, a paper.
+In: a variant and a language. Out: a ``LevelQuestion``: stem, parts with their specifications,
+solution. Must never know: an output, a paper.
 """
 
 from __future__ import annotations

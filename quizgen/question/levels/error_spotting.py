@@ -36,7 +36,7 @@ FEWEST, MOST = 2, 8
 
 @dataclass(frozen=True)
 class FaultySolution:
-    """A solution: its steps, the mistake in it (or none) and the place of its first wrong step."""
+    """A solution: its steps, the misconception in it (or none), its first wrong step."""
 
     drawn: Variant
     steps: tuple[ChainStep, ...]

@@ -54,7 +54,7 @@ from quizgen.question.worked_steps import quantity_inlines
 
 @dataclass(frozen=True, slots=True)
 class GuidedStage:
-    """What takes the place of one authored part.
+    """The questions that take the place of one authored part.
 
     Parameters
     ----------
@@ -181,7 +181,7 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 
 
 class _Guide:
-    """Puts the stages of a variant into words."""
+    """Writer of the parts of guided stages, for one variant in one language."""
 
     def __init__(self, drawn: Variant, lang: str) -> None:
         """Take the variant's sentences in one language."""

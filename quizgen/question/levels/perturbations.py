@@ -40,7 +40,7 @@ _ROOTS = {(2, Fraction(4)): Fraction(2), (2, Fraction(1, 4)): Fraction(1, 2)}
 
 @dataclass(frozen=True)
 class Perturbation:
-    """What one change does to one result.
+    """One given quantity multiplied by a factor, and what that does to one result.
 
     Parameters
     ----------

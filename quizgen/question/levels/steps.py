@@ -52,7 +52,7 @@ _DEGREES = Call("div", (Num(Fraction(180)), Call("pi", ())))
 
 
 class FormulaOption(NamedTuple):
-    """A formula that may be taken for a step: the right one, that of a mistake, or of a slip."""
+    """A formula that may be taken for a step: the right one, a misconception's, or a slip's."""
 
     trap: str
     shown: TypesetMaths

@@ -48,7 +48,7 @@ def is_applicable(drawn: Variant) -> bool:
 
 @lru_cache(maxsize=128)
 def _list_part_builders(drawn: Variant) -> tuple[Maker, ...]:
-    """Return what can be asked of this variant, in the order in which it is asked."""
+    """Return the builders of the parts that can be asked of this variant, in order."""
     changes = Perturbations(drawn)
     asked = choose_consequence(changes)
     makers = (asked, choose_comparison(changes, asked), choose_faulty_solution(drawn))
