@@ -259,7 +259,7 @@ def _has_short_decimals(value: Value, decimals: int) -> bool:
 
 _PLANS: dict[str, Sampler] = {}
 MOST_PLANS = 1000
-"""Plans that are kept: a process that reads templates as they are edited meets ever new ones."""
+"""Samplers in the cache: a process that reads templates as they are edited meets ever new ones."""
 
 
 def sampler_for(template: Template) -> Sampler:

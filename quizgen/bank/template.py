@@ -202,8 +202,8 @@ def read_rules(path: Path) -> Rules:
 def _read_rules(path: Path, source: str) -> Rules:
     """Return the checked content of ``template.toml``.
 
-    It is parsed twice: answers take numbers as floats, the rules as they are written, since
-    0.1 is to stay exact.
+    It is parsed twice: with floats, to check the types in answers, and then with numbers as they
+    are written, so that 0.1 stays exact.
     """
     try:
         table = parse_toml(source, path, BankError, _whole_or(float))
