@@ -199,9 +199,9 @@ class Bank:
         return self._list_toml_files("blueprints")
 
     def template_names_for(self, plan: str) -> Mapping[str, str]:
-        """Return the names here of the templates that a blueprint names.
+        """Return what a blueprint's template names are called in this bank.
 
-        Empty if they are the same, as they are in a single bank; see ``CombinedBank``.
+        Empty if they are the same, as they are in a single bank; ``CombinedBank`` renames some.
         """
         del plan
         return {}

@@ -157,7 +157,10 @@ class ConstraintSolver:
         return None
 
     def _list_open_candidates(self, place: int, chosen: Sequence[Candidate]) -> list[Candidate]:
-        """Return who may stand here beside those chosen: the least used that have numbers left."""
+        """Return the candidates that may stand here beside those chosen.
+
+        Of those with numbers left, the least used: each is used once before any is used again.
+        """
         uses = Counter(one.name for one in chosen)
         left = [o for o in self.places[place] if o.pool is None or uses[o.name] < o.pool]
         least = min((uses[one.name] for one in left), default=0)

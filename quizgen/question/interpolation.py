@@ -170,7 +170,8 @@ class Interpolator:
 def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
     """Yield the pieces of a sentence inside which no line may end.
 
-    ``f`` and ``= 6 mm`` are one.
+    ``f`` and ``= 6 mm`` are one. Browsers and Typst break a line on either side of a formula, even
+    before a comma.
     """
     rest = deque(parts)
     while rest:

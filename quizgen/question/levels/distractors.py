@@ -63,7 +63,7 @@ def draw_formula_options(
 
 
 def _compare_first_length(ways: list[FormulaOption]) -> int:
-    """Return 1 where the first is the longest, -1 where it is the shortest, 0 where neither."""
+    """Return 1 if the first option is the longest, -1 if it is the shortest, else 0."""
     right, *others = map(_measure_formula, ways)
     return (right > max(others)) - (right < min(others))
 
