@@ -32,7 +32,7 @@ _UNFIT = msgspec.MsgspecError, ValueError, OverflowError, RecursionError
 
 
 class CompileCache(Generic[T]):
-    """Things of one kind that are kept.
+    """Cache of what sources are compiled to, of one type.
 
     Parameters
     ----------
@@ -45,12 +45,13 @@ class CompileCache(Generic[T]):
     """
 
     def __init__(self, kind: str, shape: type[T], *packages: str) -> None:
+        """Prepare a decoder for ``shape``; nothing is read yet."""
         self.kind, self.packages = kind, packages
         prepare_type(shape)
         self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
 
     def get(self, *sources: bytes) -> T | None:
-        """What sources came to, if it is kept."""
+        """Return what sources were compiled to, or None if the cache does not hold it."""
         found = read_cached(self.kind, self._compute_key(sources))
         if found is None:
             return None
@@ -59,7 +60,7 @@ class CompileCache(Generic[T]):
         return None
 
     def store_compiled(self, thing: T, *sources: bytes) -> T:
-        """Keep what sources came to, if it comes back the same."""
+        """Store what sources were compiled to, if it survives being written and read."""
         with suppress(*_UNFIT):
             data = msgspec.msgpack.encode(thing, enc_hook=str)
             if self._decoder.decode(data) == thing:
@@ -67,16 +68,22 @@ class CompileCache(Generic[T]):
         return thing
 
     def _compute_key(self, sources: tuple[bytes, ...]) -> str:
+        """Return the key of sources: a digest of them and of the code that compiles them."""
         return compute_digest(_compute_code_digest(*self.packages), *sources)
 
 
 @cache
 def _compute_code_digest(*packages: str) -> bytes:
-    """Digest of the code that makes of sources what is kept."""
+    """Return the digest of the code that compiles sources."""
     return compute_digest(*(file.read_bytes() for file in _iter_code_files(packages))).encode()
 
 
 def _iter_code_files(packages: Iterable[str]) -> Iterator[Path]:
+    """Yield the files whose change makes a compiled value out of date.
+
+    Of packages that compile (SymPy, math-core) the file with the version is enough: they never
+    change in place.
+    """
     own = Path(__file__).parent.parent
     for folder in ("bank", "core", "kinds", "maths", "typeset"):
         yield from sorted((own / folder).rglob("*.py"))

@@ -25,7 +25,7 @@ from quizgen.typeset.nodes import Display, Leaf, Node
 
 
 class PlainText(msgspec.Struct, frozen=True, array_like=True, tag="w"):
-    """Plain text."""
+    """Words of a sentence, without mathematics."""
 
     text: str
 
@@ -77,11 +77,11 @@ class TypesetFormula(Protocol):
 
     @property
     def typed(self) -> str:
-        """How it would be typed."""
+        """Return the formula as a learner would type it."""
 
     @property
     def text(self) -> str:
-        """How it is written in plain text, for people."""
+        """Return the formula in plain text, for people."""
 
 
 class RoundedMarker(msgspec.Struct, frozen=True):
@@ -117,7 +117,7 @@ class Paragraph(msgspec.Struct, frozen=True, array_like=True, tag="p"):
 
 
 class ListBlock(msgspec.Struct, frozen=True, array_like=True, tag="i"):
-    """A list; ``ordered`` counts from 1."""
+    """A list; if ``ordered``, it is numbered from 1."""
 
     items: tuple[tuple[Block, ...], ...]
     ordered: bool = False
@@ -156,20 +156,24 @@ class LanguageFile(msgspec.Struct, frozen=True, dict=True):
     pictures: tuple[PictureLink, ...] = ()
 
     def sentence(self, section: str, name: str) -> tuple[Inline, ...] | None:
-        """A named sentence, or None."""
+        """Return a named sentence, or None if the file has none of this name."""
         return self.named.get(section, {}).get(name)
 
     @cached_property
     def unslotted_sentences(self) -> dict[tuple[str, str], tuple[Inline, ...]]:
-        """Named sentences without blanks, each as it stands in every draw once it was asked for."""
+        """Return the cache of filled sentences without slots, by section and name.
+
+        Such a sentence is the same in every variant, so it is filled once; ``Interpolator`` writes
+        into the dict.
+        """
         return {}
 
 
 TIED = "\u00a0=\u00a0"
 """``f = 50 mm`` stays on one line: the blanks around an equals sign do not break.
 
-This holds in every output, also in plain text; ``question.filling.tied`` holds a formula to what
-follows it where an output could break between them.
+This holds in every output, also in plain text; ``unbreakable_groups`` in
+``question.interpolation`` holds a formula to what follows it where an output could break between.
 """
 _POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
 _EQUALS = re.compile(r"=(?=\s*$)")
@@ -186,6 +190,11 @@ _BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")
 
 @cache
 def _build_markdown_parser() -> Any:
+    """Return the parser of the subset: CommonMark without links, headings and HTML.
+
+    Slots and formulas are tokens of their own, looked for before escapes: a backslash or an
+    underscore inside them belongs to them.
+    """
     from markdown_it import MarkdownIt
 
     parser = MarkdownIt("zero", {"html": False})
@@ -199,7 +208,10 @@ def _build_markdown_parser() -> Any:
 
 
 def _make_inline_rule(pattern: re.Pattern[str], kind: str) -> Callable[[Any, bool], bool]:
+    """Return a rule of markdown-it that makes a token ``kind`` of what a pattern matches."""
+
     def match(state: Any, silent: bool) -> bool:
+        """Return whether the pattern matches here, and move past it; ``silent`` pushes no token."""
         found = pattern.match(state.src, state.pos)
         if found is None:
             return False
@@ -212,7 +224,7 @@ def _make_inline_rule(pattern: re.Pattern[str], kind: str) -> Callable[[Any, boo
 
 
 def parse_blocks(source: str, line: int = 0) -> tuple[Block, ...]:
-    """Parse prose.
+    """Return the blocks of prose.
 
     Parameters
     ----------
@@ -245,20 +257,29 @@ def _release_bars(text: str) -> str:
 
 
 def parse_inlines(source: str, line: int = 0) -> tuple[Inline, ...]:
-    """Parse one sentence, however it is broken into lines; ``line`` as for ``blocks``."""
+    """Return the pieces of one sentence, however it is broken into lines.
+
+    ``line`` and errors as for ``parse_blocks``.
+    """
     try:
         return _sentence(" ".join(source.split()))
     except BankError as error:
-        error.line = line and line + _breaks_before_fault(source.strip("\n "))
+        error.line = line and line + _count_breaks_before_fault(source.strip("\n "))
         raise
 
 
 def _sentence(source: str) -> tuple[Inline, ...]:
+    """Return the pieces of a sentence on one line; none if it is empty."""
     tokens = _build_markdown_parser().parseInline(source)
-    return _inline(tokens[0]) if tokens else ()
+    return _parse_inline_token(tokens[0]) if tokens else ()
 
 
-def _breaks_before_fault(source: str) -> int:
+def _count_breaks_before_fault(source: str) -> int:
+    """Return how many line breaks stand before the fault of a sentence.
+
+    ``parse_inlines`` joins the lines first, and the joined line has no breaks, so the sentence
+    is read once more as it is broken in the file.
+    """
     try:
         _sentence(source)
     except BankError as error:
@@ -266,24 +287,31 @@ def _breaks_before_fault(source: str) -> int:
     return 0
 
 
-class _Pieces:
-    """Pieces of a sentence, one by one, and how many ends of lines have come."""
+class _PieceIterator:
+    """Pieces of a sentence, one by one, and how many ends of lines have come.
+
+    An error is located by the count: markdown-it gives lines to blocks alone.
+    """
 
     def __init__(self, token: Any) -> None:
+        """Start at the first piece; ``breaks`` at the line that the block begins in, from 0."""
         self._rest = iter(token.children or ())
         self.breaks = token.map[0] if token.map else 0
 
     def __iter__(self) -> Iterator[Any]:
+        """Return itself: the count belongs to one pass."""
         return self
 
     def __next__(self) -> Any:
+        """Return the next piece, and count it if it ends a line."""
         piece = next(self._rest)
         self.breaks += piece.type in {"softbreak", "hardbreak"}
         return piece
 
 
-def _inline(token: Any) -> tuple[Inline, ...]:
-    pieces = _Pieces(token)
+def _parse_inline_token(token: Any) -> tuple[Inline, ...]:
+    """Return the pieces of one inline token; a fault in it gets its line, from 1."""
+    pieces = _PieceIterator(token)
     try:
         return tuple(_iter_inlines(pieces, None))
     except BankError as error:
@@ -292,13 +320,17 @@ def _inline(token: Any) -> tuple[Inline, ...]:
 
 
 def _iter_blocks(tokens: Iterator[Any], until: str | None) -> Iterator[Block]:
+    """Yield blocks up to the closing token ``until``; None reads to the end.
+
+    Raises ``BankError`` for a block that is not part of the subset.
+    """
     for token in tokens:
         if token.type == until:
             return
         if token.type == "paragraph_open":
             inline = next(tokens)
             next(tokens)
-            yield Paragraph(_inline(inline))
+            yield Paragraph(_parse_inline_token(inline))
         elif token.type in {"bullet_list_open", "ordered_list_open"}:
             close = token.type.replace("open", "close")
             yield ListBlock(
@@ -315,6 +347,7 @@ def _iter_blocks(tokens: Iterator[Any], until: str | None) -> Iterator[Block]:
 
 
 def _iter_list_items(tokens: Iterator[Any], until: str) -> Iterator[tuple[Block, ...]]:
+    """Yield the blocks of each item of a list, up to its closing token ``until``."""
     for token in tokens:
         if token.type == until:
             return
@@ -322,6 +355,7 @@ def _iter_list_items(tokens: Iterator[Any], until: str) -> Iterator[tuple[Block,
 
 
 def _parse_table(tokens: Iterator[Any]) -> TableBlock:
+    """Return the table whose opening token has just been read; its first row is the head."""
     rows: list[tuple[tuple[Inline, ...], ...]] = []
     row: list[tuple[Inline, ...]] = []
     for token in tokens:
@@ -330,13 +364,17 @@ def _parse_table(tokens: Iterator[Any]) -> TableBlock:
         if token.type == "tr_open":
             row = []
         elif token.type == "inline":
-            row.append(_inline(token))
+            row.append(_parse_inline_token(token))
         elif token.type == "tr_close":
             rows.append(tuple(row))
     return TableBlock(rows[0], tuple(rows[1:]))
 
 
 def _iter_inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
+    """Yield pieces up to the closing token ``until``; None reads to the end.
+
+    Raises ``BankError`` for a piece that is not part of the subset.
+    """
     for token in tokens:
         if token.type == until:
             return
@@ -353,7 +391,14 @@ def _iter_inlines(tokens: Iterator[Any], until: str | None) -> Iterator[Inline]:
 
 
 def _iter_words_and_numbers(text: str) -> Iterator[Inline]:
-    """Words; a number such as ``6e-8`` in them is set as mathematics."""
+    """Yield words; a number such as ``6e-8`` in them becomes mathematics.
+
+    Raises
+    ------
+    BankError
+        If braces or an exclamation mark with a bracket are left: a slot or a picture with a
+        typing error would otherwise be printed as it stands.
+    """
     if "![" in text:
         what = f"a picture is not like ![words](file.png), without blanks, in {text!r}"
         raise BankError(what, rule="QG156")
@@ -372,7 +417,10 @@ def _iter_words_and_numbers(text: str) -> Iterator[Inline]:
 
 
 def _parse_prose_formula(text: str) -> InlineFormula | LaidOutFormula:
-    """A formula in the grammar that students type; in LaTeX where it is not of that grammar."""
+    """Return a formula between dollars: of the grammar that students type, else of LaTeX.
+
+    Raises ``BankError`` if neither reads it, or it begins with a sign + that nothing would print.
+    """
     if "\\" not in text:
         if text.lstrip().startswith("+"):
             what = f"mathematics ${text}$: a sign + in front is not printed: set it as words"
@@ -418,7 +466,7 @@ def _parse_typed_formula(text: str) -> InlineFormula | LaidOutFormula:
 
 
 def leaves(parts: Iterable[Block | Inline]) -> Iterator[Block | Inline]:
-    """What holds nothing else, in order."""
+    """Yield what holds no other piece, in order."""
     for part in parts:
         match part:
             case Paragraph(children) | Emphasis(_, children):
@@ -432,7 +480,7 @@ def leaves(parts: Iterable[Block | Inline]) -> Iterator[Block | Inline]:
 
 
 def _parse_picture_link(token: Any) -> PictureLink:
-    """A picture; nobody sees a style in its words."""
+    """Return a picture link; styles in its words are dropped, since nobody sees them."""
     said = (one for one in token.children or () if one.type == "text" or one.type in _ALONE)
     return PictureLink(token.attrs["src"], tuple(_iter_inlines(said, None)))
 
@@ -450,7 +498,7 @@ _ALONE: dict[str, Callable[[Any], Inline]] = {
 
 
 def slot_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
-    """Names of all slots in blocks or inlines."""
+    """Yield the names of all slots in blocks or inlines, also those in programs and captions."""
     for part in leaves(parts):
         match part:
             case Slot(name):
@@ -468,7 +516,11 @@ def slot_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
 def fill_inlines(
     parts: tuple[Inline, ...], value: SlotValue, program: Program = str
 ) -> tuple[Inline, ...]:
-    """Fill a sentence: what is unfilled with what ``value`` gives, code as ``program`` does."""
+    """Return a sentence with slots, formulas and pictures replaced by what ``value`` gives.
+
+    Code is replaced by what ``program`` makes of it. A ``RoundedMarker`` among the values turns
+    the equals sign in front of it into ≈ and leaves no piece of its own.
+    """
     done: list[Inline] = []
     for part in parts:
         if isinstance(part, PlainText):
@@ -483,6 +535,7 @@ def fill_inlines(
 
 
 def _fill_part(part: Inline, value: SlotValue, program: Program) -> tuple[Inline, ...]:
+    """Return what one piece becomes; what holds no slot is returned as it is."""
     if isinstance(part, Unfilled):
         return value(part)
     if isinstance(part, Emphasis):
@@ -493,9 +546,13 @@ def _fill_part(part: Inline, value: SlotValue, program: Program) -> tuple[Inline
 
 
 def fill_blocks(parts: tuple[Block, ...], value: SlotValue, program: Program) -> tuple[Block, ...]:
-    """Fill every sentence of blocks as ``fill`` does, and programs by ``program``."""
+    """Return blocks with every sentence filled as by ``fill_inlines``.
+
+    ``program`` gives what blocks of program text become.
+    """
 
     def fill_one_block(block: Block) -> Block:
+        """Return one block, filled."""
         match block:
             case Paragraph(children):
                 return Paragraph(fill_inlines(children, value, program))
@@ -507,11 +564,12 @@ def fill_blocks(parts: tuple[Block, ...], value: SlotValue, program: Program) ->
                 return TableBlock(row(head), tuple(map(row, rows)))
 
     def row(cells: tuple[tuple[Inline, ...], ...]) -> tuple[tuple[Inline, ...], ...]:
+        """Return one row of a table, each cell filled."""
         return tuple(fill_inlines(cell, value, program) for cell in cells)
 
     return tuple(map(fill_one_block, parts))
 
 
 def fill_text(text: str, value: Callable[[str], str]) -> str:
-    """Replace ``{{ name }}`` in program text by what ``value`` gives for the name."""
+    """Return program text in which ``value`` gives what stands for each ``{{ name }}``."""
     return _SLOT.sub(lambda found: value(found[1]), text)

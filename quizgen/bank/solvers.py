@@ -38,28 +38,28 @@ _IMPURE = {"__file__", "__import__", "open"}
 
 
 class _AsWritten(SourceFileLoader):
-    """Compiles a file as it stands there, and keeps no bytecode.
+    """Loader that compiles a file as it stands there, and writes no bytecode.
 
     What lies in ``__pycache__`` is not what a person read and trusted: whoever may write there
     would run anything, since Python believes bytecode by the date of its source.
     """
 
     def get_code(self, fullname: str) -> CodeType:
-        """Compile it."""
+        """Return the code of the source, whatever bytecode there is."""
         path = self.get_filename(fullname)
         return self.source_to_code(self.get_data(path), path)
 
 
 class _Finder(MetaPathFinder):
-    """Finds modules of the packages that ``mount`` makes: sources, and folders of them.
+    """Finder for modules of the packages that ``_mount_folder`` makes: sources, and their folders.
 
-    No bytecode without a source and no extension module, which ``digest_of_python`` cannot count.
+    No bytecode without a source and no extension module: no digest of sources covers them.
     """
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Find one of them, and nothing else.
+        """Return where a module of such a package stands; None for any other module.
 
         Raises
         ------
@@ -88,17 +88,19 @@ _FINDER = _Finder()
 
 
 def _make_module_spec(name: str, file: Path, inside: list[str] | None) -> ModuleSpec | None:
+    """Return the spec of a source file; ``inside`` lists the folder of a package."""
     loader = _AsWritten(name, str(file))
     return spec_from_file_location(name, file, loader=loader, submodule_search_locations=inside)
 
 
 @lru_cache(maxsize=64)
 def _make_package_name(folder: Path) -> str:
+    """Return the private package name of a folder: two banks may have files of one name."""
     return _PRIVATE + compute_digest(str(folder.resolve()).encode())[:8]
 
 
 def _mount_folder(folder: Path) -> str:
-    """Private name of the package that a folder of solvers or figures is."""
+    """Return the private name of the package that a folder is, and make it importable."""
     name = _make_package_name(folder.absolute())
     with LOCK:
         if _FINDER not in sys.meta_path:
@@ -110,7 +112,7 @@ def _mount_folder(folder: Path) -> str:
 
 
 def import_module_file(folder: Path, name: str) -> ModuleType:
-    """Import a solver or a figure.
+    """Return a solver or a figure, imported.
 
     Raises
     ------
@@ -122,7 +124,7 @@ def import_module_file(folder: Path, name: str) -> ModuleType:
 
 
 def unload_modules(folder: Path) -> None:
-    """Have all modules of a folder read again."""
+    """Forget all modules of a folder, so that the next import reads them again."""
     inside = f"{_mount_folder(folder)}."
     for module in [module for module in list(sys.modules) if module.startswith(inside)]:
         del sys.modules[module]
@@ -130,7 +132,7 @@ def unload_modules(folder: Path) -> None:
 
 
 def load_chain(folder: Path, name: str) -> tuple[Chain, bytes]:
-    """The chain of a solver, kept or compiled, and the solver's source.
+    """Return the chain of a solver, cached or compiled, and the solver's source.
 
     Parameters
     ----------
@@ -155,14 +157,17 @@ def load_chain(folder: Path, name: str) -> tuple[Chain, bytes]:
 
 
 def _read_solver_sources(folder: Path, name: str) -> list[bytes]:
-    """A solver, and all of its bank if it imports some of them."""
+    """Return the source of a solver, and of all of its bank if it imports some of them."""
     own = read_bytes(folder / f"{name}.py", BankError)
     every = sorted(folder.rglob("*.py")) if _RELATIVE.search(own) else []
     return [own, *(read_bytes(path, BankError) for path in every)]
 
 
 def _compile_solver(folder: Path, name: str) -> Chain:
-    """Run a solver as it is now, and what it imports."""
+    """Return the chain of a solver as it is now, with what it imports.
+
+    Raises ``BankError`` if the file cannot be run, or holds no model.
+    """
     unload_modules(folder)
     model = getattr(import_module_file(folder, name), "MODEL", None)
     file = folder / f"{name}.py"
@@ -173,7 +178,10 @@ def _compile_solver(folder: Path, name: str) -> Chain:
 
 
 def _is_pure(source: bytes) -> bool:
-    """Whether what a solver gives follows from solvers alone, and not from files or settings."""
+    """Return whether what a solver gives follows from solvers alone.
+
+    One that reads files or settings is not cached: its result may change without its source.
+    """
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]

@@ -30,7 +30,7 @@ from quizgen.typeset.leaves import list_leaf_names
 
 
 def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
-    """A passage of an entry as blocks, its mathematics ready for printing.
+    """Return a passage of an entry as blocks, its mathematics typeset.
 
     Raises
     ------
@@ -38,18 +38,18 @@ def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
         Naming file, entry, field, language and column.
     """
     with _iter_field_text(entry, name, lang) as text:
-        return fill_blocks(parse_blocks(text), typeset_slot, _no_program)
+        return fill_blocks(parse_blocks(text), typeset_slot, _refuse_program)
 
 
 def entry_inlines(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
-    """The same as ``passage`` for a sentence, as inlines."""
+    """Return a sentence of an entry as inlines; otherwise as ``entry_blocks``."""
     with _iter_field_text(entry, name, lang) as text:
         return fill_inlines(parse_inlines(text), typeset_slot)
 
 
 @contextmanager
 def _iter_field_text(entry: Entry, name: str, lang: str) -> Iterator[str]:
-    """The text of a field; what is wrong with it is located."""
+    """Yield the text of a field once; an error raised by its reader is located in the entry."""
     texts: Passage = getattr(entry, name)
     with entry.name_in_errors(name, lang):
         try:
@@ -60,7 +60,7 @@ def _iter_field_text(entry: Entry, name: str, lang: str) -> Iterator[str]:
 
 
 def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
-    """Mathematics of a sentence, ready for printing.
+    """Return the mathematics of a sentence, typeset.
 
     Raises
     ------
@@ -78,5 +78,6 @@ def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
     return (typeset_inline(part.expr),)
 
 
-def _no_program(text: str) -> str:
+def _refuse_program(text: str) -> str:
+    """Raise ``BankError``: an entry draws no numbers that a program could hold."""
     raise BankError(f"program {text!r} cannot stand here")

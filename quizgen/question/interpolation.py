@@ -1,4 +1,4 @@
-"""Sentences of a template with their blanks filled from a draw."""
+"""Sentences of a template with their blanks filled from a variant."""
 
 from __future__ import annotations
 
@@ -52,24 +52,28 @@ _TAIL = re.compile(r"[^ \n]*(?: [=≈<>≤≥≠] [^ \n]*)?")
 
 
 class Interpolator:
-    """Puts the numbers and phrases of a draw into the sentences of one language.
+    """Puts the numbers and phrases of a variant into the sentences of one language.
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     lang : str
     hidden : bool
         Refuse quantities that are solved for, so that a stem cannot give an answer away.
     """
 
     def __init__(self, drawn: Variant, lang: str, *, hidden: bool = False) -> None:
+        """Take the prose of one language; ``hidden`` makes only drawn values known.
+
+        A question must not print what is solved; a solution may.
+        """
         self.drawn, self.lang, self.hidden = drawn, lang, hidden
         self.own: dict[str, LabelledName] = {}
         self.known: Values = drawn.shown if hidden else drawn.shown_values
         self.text = drawn.template.texts[lang]
 
     def blocks(self, parts: tuple[Block, ...]) -> tuple[Block, ...]:
-        """Blocks with their slots filled.
+        """Return blocks with their slots filled.
 
         Raises
         ------
@@ -79,11 +83,11 @@ class Interpolator:
         return fill_blocks(parts, self._fill_value, self._fill_program)
 
     def section(self, name: str) -> tuple[Block, ...]:
-        """A section of the language file, filled; empty if there is none."""
+        """Return a section of the language file, filled; empty if there is none."""
         return self.blocks(self.text.sections.get(name, ()))
 
     def sentence(self, section: str, name: str) -> tuple[Inline, ...]:
-        """A named sentence, filled.
+        """Return a named sentence, filled.
 
         Raises
         ------
@@ -102,7 +106,7 @@ class Interpolator:
         return filled
 
     def raw_sentence(self, section: str, name: str) -> tuple[Inline, ...]:
-        """A named sentence as it is written; of several cases the one that fits the draw.
+        """Return a named sentence as it is written; of several cases the one that fits.
 
         Raises
         ------
@@ -119,19 +123,20 @@ class Interpolator:
         return found
 
     def _choose_sentence(self, cases: tuple[ConditionalSentence, ...]) -> tuple[Inline, ...] | None:
-        """The first sentence whose condition holds, else the one without a condition."""
+        """Return the first sentence whose condition holds, else the one without a condition."""
         for condition, sentence in sorted(cases, key=lambda case: not case[0]):
             if not condition or self.drawn.evaluate(condition):
                 return sentence
         return None
 
     def with_sentence(self, name: str, section: str, sentence: str) -> Interpolator:
-        """The same with a blank that a named sentence fills."""
+        """Return a copy with a slot that a named sentence fills."""
         filler = Interpolator(self.drawn, self.lang, hidden=self.hidden)
         filler.own[name] = (section, sentence)
         return filler
 
     def _fill_value(self, part: Unfilled) -> tuple[Inline, ...]:
+        """Return what a slot, a formula or a picture is replaced by."""
         if isinstance(part, PictureLink):
             picture = self.drawn.template.pictures[part.file]
             return (
@@ -160,6 +165,10 @@ class Interpolator:
         return make_leaf_value(text, unit, is_rounded=rounded)
 
     def _fill_slot(self, name: str) -> tuple[Inline, ...]:
+        """Return the value, phrase or sentence for a slot; ≈ goes before a rounded value.
+
+        Raises ``BankError`` at the slot if its name is none of these.
+        """
         drawn = self.drawn
         if name in self.own:
             return self.sentence(*self.own[name])
@@ -186,17 +195,20 @@ class Interpolator:
         return value if is_expr(value) else None
 
     def _fill_program(self, text: str) -> str:
+        """Return program text with the known values in place."""
         return fill_program(text, self.drawn, self.known)
 
     def _format_problem(self, what: str, rule: str, *place: str) -> BankError:
+        """Return an error at a place of the language file."""
         file = self.drawn.template.path / f"{self.lang}.md"
         return BankError(what, rule=rule, file=file, place=place)
 
 
 def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
-    """Cut a sentence into pieces of which no line may end inside: ``f`` and ``= 6 mm`` are one.
+    """Yield the pieces of a sentence inside which no line may end.
 
-    Browsers and Typst break a line on either side of a formula, even before a comma.
+    ``f`` and ``= 6 mm`` are one. Browsers and Typst break a line on either side of a formula, even
+    before a comma.
     """
     rest = deque(parts)
     while rest:
@@ -215,7 +227,7 @@ def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
 
 
 def _take_formula_tail(rest: deque[Inline]) -> str:
-    """Take away what belongs to a formula in front."""
+    """Remove from the pieces what belongs to the formula in front, and return it."""
     text = ""
     while rest and isinstance(words := rest[0], PlainText):
         text += words.text
@@ -229,6 +241,7 @@ def _take_formula_tail(rest: deque[Inline]) -> str:
 
 @lru_cache(maxsize=4096)
 def _inline_maths(expr: Expr) -> TypesetMaths:
+    """Return a formula typeset for a sentence."""
     return TypesetMaths(typeset.lay_out(expr, inline=True), format_tree(expr))
 
 
@@ -252,12 +265,12 @@ def _inlines_to_node(parts: Iterable[Inline]) -> Node:
 
 
 def fill_program(text: str, drawn: Variant, known: Values) -> str:
-    """Program text or its output with the drawn values in place, as a program writes them.
+    """Return program text, or its output, with the drawn values as a program writes them.
 
     Parameters
     ----------
     text : str
-    drawn : Draw
+    drawn : Variant
     known : mapping of str to number
         The quantities that may stand there, in shown units.
 
@@ -268,6 +281,7 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
     """
 
     def value(name: str) -> str:
+        """Return a value as a program writes it; raise ``BankError`` if it is not exact."""
         written = format_exact(known[name], minus="-") if name in known else None
         if written is None:
             what = f"{{{{ {name} }}}} cannot stand in a program"
@@ -278,18 +292,18 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
 
 
 def format_quantity(drawn: Variant, name: str) -> str:
-    """A quantity of a draw with its unit as text, exact if that is short."""
+    """Return a quantity of a variant with its unit as text, exact if that is short."""
     return join_unit(drawn.format_value(name), drawn.template.units.get(name, ""))
 
 
 def join_unit(text: str, unit: str) -> str:
-    """A number and its unit; only the degree sign stands close."""
+    """Return a number and its unit with a blank between; only the degree sign stands close."""
     shown = format_unit(unit)
     return f"{pretty.format_number(text)}{'' if shown in {'', '°'} else NBSP}{shown}"
 
 
 def inlines_to_text(parts: Iterable[Inline]) -> str:
-    """Text of a filled sentence, for people.
+    """Return the text of a filled sentence, for people.
 
     Raises
     ------
@@ -300,6 +314,7 @@ def inlines_to_text(parts: Iterable[Inline]) -> str:
 
 
 def _get_plain_text(part: Inline) -> str:
+    """Return the text of one piece for people; raise ``BankError`` if it is still a slot."""
     if isinstance(part, Emphasis):
         return inlines_to_text(part.children)
     if isinstance(part, Unfilled | RoundedMarker):
@@ -308,7 +323,7 @@ def _get_plain_text(part: Inline) -> str:
 
 
 def inlines_as_typed(parts: Iterable[Inline]) -> str:
-    """Text of a filled sentence as it would be typed, to compare with what was."""
+    """Return a filled sentence as it would be typed, to compare with what was typed."""
     return "".join(
         inlines_as_typed(part.children)
         if isinstance(part, Emphasis)
