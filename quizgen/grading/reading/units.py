@@ -193,13 +193,20 @@ class TypedUnit(msgspec.Struct, frozen=True):
 
 
 def listed_unit(listed: str) -> TypedUnit:
-    """Look up a unit in use; radians count as 180/π degrees."""
+    """Return a unit in use with its factor to base units; a radian is 180/π degrees.
+
+    Raises
+    ------
+    FormulaError
+        If it is not listed.
+    """
     return _get_listed_unit(active_units(), listed)
 
 
 @lru_cache(maxsize=2048)
 @working_precision()
 def _get_listed_unit(known: UnitRegistry, listed: str) -> TypedUnit:
+    """Return a unit of a registry with its factor and dimension, angles in degrees."""
     found: Unit = known.unit(listed)
     factor, powers = to_rational(found.factor), dict(found.dimension)
     turned = powers.pop("rad", 0)
@@ -231,7 +238,7 @@ def _find_unit_word(word: str) -> str:
 
 
 def read_unit(text: str) -> TypedUnit:
-    """Read a typed unit such as ``mm``, ``Pixel``, ``µm/px``, ``lx s``, ``mm²``, ``1/mm``.
+    """Return a typed unit such as ``mm``, ``Pixel``, ``µm/px``, ``lx s``, ``mm²``, ``1/mm``.
 
     Raises
     ------
@@ -243,6 +250,13 @@ def read_unit(text: str) -> TypedUnit:
 
 @lru_cache(maxsize=2048)
 def _parse_typed_unit(_known: UnitRegistry, text: str) -> TypedUnit:
+    """Return a typed unit, cached for each registry.
+
+    Raises
+    ------
+    FormulaError
+        If a name in it is not listed.
+    """
     try:
         return listed_unit(_find_unit_word(text))
     except FormulaError:
@@ -251,6 +265,13 @@ def _parse_typed_unit(_known: UnitRegistry, text: str) -> TypedUnit:
 
 
 def _parse_compound_unit(text: str) -> str:
+    """Return a compound unit in the spelling of the registry: ``lx s`` is ``lx*s``.
+
+    Raises
+    ------
+    FormulaError
+        If a name in it is not listed.
+    """
     text = _BRACKETS.sub(r"\1", text)
     if (text[:1], text[-1:]) in {("(", ")"), ("[", "]")} and text.count(text[0]) == 1:
         text = text[1:-1]
@@ -264,6 +285,7 @@ def _parse_compound_unit(text: str) -> str:
 
 
 def _parse_unit_product(piece: str) -> str:
+    """Return one unit word, or several with blanks between them as a product."""
     if piece == "1":
         return "1"
     try:
@@ -273,6 +295,7 @@ def _parse_unit_product(piece: str) -> str:
 
 
 def _parse_unit_power(word: str) -> str:
+    """Return a unit with its exponent, if it has one: ``mm2`` is ``mm^2``."""
     match = re.fullmatch(r"(.*?[^\d^(-])\^?\(?(-?[1-9])\)?", word)
     if match is None:
         return _find_unit_word(word)
