@@ -55,7 +55,7 @@ def to_speech(node: n.Node, lang: str = "en") -> str:
 
 
 def is_simple(node: n.Node | None) -> bool:
-    """Whether a listener hears a node as one thing."""
+    """Return whether a listener hears a node as one thing."""
     match node:
         case n.Digits() | n.Ident() | n.Word() | n.NumberWithUnit() | n.UnitText() | None:
             return True
@@ -73,6 +73,7 @@ def is_simple(node: n.Node | None) -> bool:
 
 
 def _say_phrase(lang: str, key: str, nodes: tuple[n.Node, ...]) -> str:
+    """Return a phrase with its parts, in its short form if all of them are simple."""
     words = load_speech_words(lang)
     table = words.short if all(map(is_simple, nodes)) else words.long
     return str(table[key]).format(*[_say_node(node, lang) for node in nodes])
@@ -80,16 +81,30 @@ def _say_phrase(lang: str, key: str, nodes: tuple[n.Node, ...]) -> str:
 
 @singledispatch
 def _say_node(node: n.Node, lang: str) -> str:
+    """Return a node as it is read aloud; each kind of node registers its own function.
+
+    Raises
+    ------
+    RenderError
+        For a kind that has none.
+    """
     raise RenderError(f"no reading for {type(node).__name__} ({lang})")
 
 
 @_say_node.register
 def _say_digits(node: n.Digits, lang: str) -> str:
+    """Return digits without spaces, which a voice would read as several numbers."""
     return "".join(localise_numbers(lang, node.text).split())
 
 
 def say_letter(char: str, lang: str) -> str:
-    """Say one letter; a capital is announced, since x and X differ."""
+    """Return one letter as it is spoken; a capital is announced, since x and X differ.
+
+    Raises
+    ------
+    RenderError
+        If a language has no name for it.
+    """
     words = load_speech_words(lang)
     lower = char.lower()
     said = words.letters.get(lower) or words.greek.get(lower) or _GREEK_NAMES.get(lower)
@@ -103,12 +118,14 @@ def say_letter(char: str, lang: str) -> str:
 
 @_say_node.register
 def _say_ident(node: n.Ident, lang: str) -> str:
+    """Return a letter, announced if it is bold."""
     said = say_letter(node.text, lang)
     return load_speech_words(lang).short["bold"].format(said) if node.bold else said
 
 
 @_say_node.register
 def _say_word(node: n.Word, lang: str) -> str:
+    """Return a word's name in a language; abbreviations letter by letter if it names letters."""
     words = load_speech_words(lang)
     if node.text.isupper() and words.letters:
         return "".join([words.letters.get(char.lower(), char) for char in node.text])
@@ -117,12 +134,13 @@ def _say_word(node: n.Word, lang: str) -> str:
 
 @_say_node.register
 def _say_reader_word(node: n.ReaderWord, lang: str) -> str:
+    """Return a word between formulas, such as *and*."""
     return _known(load_speech_words(lang).printed, node.key, "word")
 
 
 @lru_cache(maxsize=512)
 def say_unit(text: str, lang: str, *, one: bool = False) -> str:
-    """Say a unit, in the singular after the number one."""
+    """Return a unit as it is spoken, in the singular after the number one."""
     words = load_speech_words(lang)
     said = ""
     for part in split_unit(text):
@@ -135,6 +153,7 @@ def say_unit(text: str, lang: str, *, one: bool = False) -> str:
 
 
 def _simple_unit(part: UnitPart, words: SpeechWords, *, one: bool) -> str:
+    """Return one unit with its prefix; one that a bank defines is returned as it is printed."""
     if part.name in words.units:
         return words.units[part.name][not one]
     prefix = {"µ": "u", "μ": "u"}.get(part.name[0], part.name[0])
@@ -146,23 +165,26 @@ def _simple_unit(part: UnitPart, words: SpeechWords, *, one: bool) -> str:
 
 
 def _insert_word(pattern: str, word: str) -> str:
-    """A word in its place; one that goes on with another word begins with a small letter."""
+    """Return a pattern with a word; one that goes on with another begins with a small letter."""
     return pattern.format(word if pattern.startswith("{}") else word[:1].lower() + word[1:])
 
 
 @_say_node.register
 def _say_unit_text(node: n.UnitText, lang: str) -> str:
+    """Return a unit that stands alone."""
     return say_unit(node.text, lang)
 
 
 @_say_node.register
 def _say_quantity(node: n.NumberWithUnit, lang: str) -> str:
+    """Return a number with its unit, in the singular after one."""
     one = node.value == n.Digits("1")
     return f"{_say_node(node.value, lang)} {say_unit(node.unit.text, lang, one=one)}"
 
 
 @_say_node.register
 def _say_operator(node: n.OperatorSign, lang: str) -> str:
+    """Return an operator's word; nothing for an implied product."""
     return (
         "" if node.name == " " else _known(load_speech_words(lang).operators, node.name, "operator")
     )
@@ -170,6 +192,7 @@ def _say_operator(node: n.OperatorSign, lang: str) -> str:
 
 @_say_node.register
 def _say_row(node: n.MathRow, lang: str) -> str:
+    """Return the items of a row in order; two bounds as two statements."""
     items = node.items
     if node.level == n.ATOM:
         items = tuple([item for item in items if item != n.OperatorSign(",")])
@@ -183,12 +206,12 @@ def _say_row(node: n.MathRow, lang: str) -> str:
 
 
 def _two_bounds(items: tuple[n.Node, ...]) -> bool:
-    """0 ≤ x < 1 is read as two statements about x."""
+    """Return whether a row is like 0 ≤ x < 1, which is read as two statements about x."""
     return len(items) == 5 and all(item in _BOUNDS for item in items[1::2])
 
 
 def _say_with_fraction_end(node: n.Node, following: n.Node | None, lang: str) -> str:
-    """Say where a fraction ends if a factor comes after it."""
+    """Return a node; of a fraction also where it ends, if a factor comes after it."""
     if isinstance(node, n.Frac) and not node.inline and following in _BINDING:
         return _say_fraction(node, lang, "long")
     return _say_node(node, lang)
@@ -196,6 +219,7 @@ def _say_with_fraction_end(node: n.Node, following: n.Node | None, lang: str) ->
 
 @_say_node.register
 def _say_fraction(node: n.Frac, lang: str, length: str = "short") -> str:
+    """Return a fraction; a long one with its beginning and end, a deep one as such."""
     words = load_speech_words(lang)
     said = _say_node(node.top, lang), _say_node(node.bottom, lang)
     if node.inline or (length == "short" and is_simple(node.top) and is_simple(node.bottom)):
@@ -205,6 +229,7 @@ def _say_fraction(node: n.Frac, lang: str, length: str = "short") -> str:
 
 
 def _has_frac(node: n.Node) -> bool:
+    """Return whether a fraction stands inside a node."""
     match node:
         case n.Frac():
             return True
@@ -217,6 +242,7 @@ def _has_frac(node: n.Node) -> bool:
 
 @_say_node.register
 def _say_root(node: n.Root, lang: str) -> str:
+    """Return a root, with its index unless it is a square root."""
     if node.index is None:
         return _say_phrase(lang, "sqrt", (node.body,))
     return _say_phrase(lang, "root", (node.index, node.body))
@@ -224,6 +250,7 @@ def _say_root(node: n.Root, lang: str) -> str:
 
 @_say_node.register
 def _say_scripts(node: n.Scripts, lang: str) -> str:
+    """Return a base with its primes, subscript and power."""
     short = load_speech_words(lang).short
     said = _say_node(node.base, lang)
     for _ in range(node.primes):
@@ -234,6 +261,10 @@ def _say_scripts(node: n.Scripts, lang: str) -> str:
 
 
 def _say_power(node: n.Scripts, base: str, lang: str) -> str:
+    """Return a power; squares and cubes have words of their own, a transpose its sign's.
+
+    ``base`` is the base as it is spoken.
+    """
     words = load_speech_words(lang)
     if isinstance(node.sup, n.Digits) and node.sup.text in words.powers:
         grouped = isinstance(node.base, n.Fenced) and node.base.kind == "()"
@@ -246,6 +277,7 @@ def _say_power(node: n.Scripts, base: str, lang: str) -> str:
 
 @_say_node.register
 def _say_accent(node: n.Accent, lang: str) -> str:
+    """Return a letter with the word for its accent."""
     return _known(load_speech_words(lang).accents, node.kind, "accent").format(
         _say_node(node.base, lang)
     )
@@ -253,6 +285,7 @@ def _say_accent(node: n.Accent, lang: str) -> str:
 
 @_say_node.register
 def _say_fence(node: n.Fenced, lang: str) -> str:
+    """Return what stands in brackets with the words for them; an interval by its bounds."""
     words = load_speech_words(lang)
     if node.kind in words.intervals and isinstance(node.body, n.MathRow):
         bounds = [_say_node(item, lang) for item in node.body.items if item != n.OperatorSign(",")]
@@ -265,6 +298,7 @@ def _say_fence(node: n.Fenced, lang: str) -> str:
 
 @_say_node.register
 def _say_function(node: n.Func, lang: str) -> str:
+    """Return a function with its arguments, in the shortest form that is clear."""
     words = load_speech_words(lang)
     said = [_say_node(arg, lang) for arg in node.args]
     if not all(map(is_simple, node.args)) or not _is_plain_head(node.head):
@@ -283,13 +317,14 @@ def _say_function(node: n.Func, lang: str) -> str:
 
 
 def _is_plain_head(head: n.Node) -> bool:
-    """Whether a head is a bare function name, or a logarithm with its base."""
+    """Return whether a head is a bare function name, or a logarithm with its base."""
     if isinstance(head, n.Scripts):
         return (head.base == n.Word("log")) is (head.sub is not None)
     return isinstance(head, n.Word | n.Ident)
 
 
 def _say_function_head(node: n.Node, lang: str) -> str:
+    """Return a function's name alone, with its power or base."""
     words = load_speech_words(lang)
     if isinstance(node, n.Word):
         return _known(words.functions, node.text, "function")[1]
@@ -307,6 +342,7 @@ def _say_function_head(node: n.Node, lang: str) -> str:
 
 @_say_node.register
 def _say_large_operator(node: n.LargeOperator, lang: str) -> str:
+    """Return a sum, product or integral with its bounds."""
     what, low, high, closing = _known(load_speech_words(lang).signs, node.sign, "sign")
     said = [what]
     said += [low.format(_say_node(node.lower, lang))] if node.lower else []
@@ -316,6 +352,7 @@ def _say_large_operator(node: n.LargeOperator, lang: str) -> str:
 
 @_say_node.register
 def _say_under(node: n.Under, lang: str) -> str:
+    """Return a function's name with what stands below it."""
     return (
         load_speech_words(lang)
         .short["below"]
@@ -325,6 +362,7 @@ def _say_under(node: n.Under, lang: str) -> str:
 
 @_say_node.register
 def _say_cases(node: n.Cases, lang: str) -> str:
+    """Return each branch with its condition, the last with the word for *otherwise*."""
     short = load_speech_words(lang).short
     rows = []
     for value, condition in node.rows:
@@ -337,6 +375,7 @@ def _say_cases(node: n.Cases, lang: str) -> str:
 
 @_say_node.register
 def _say_matrix(node: n.Matrix, lang: str) -> str:
+    """Return a matrix row by row, numbered from 1."""
     words = load_speech_words(lang)
     rows = [", ".join([_say_node(cell, lang) for cell in row]) for row in node.rows]
     said = [words.short["row"].format(f"{i}: {row}") for i, row in enumerate(rows, 1)]
