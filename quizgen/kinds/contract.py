@@ -285,7 +285,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
 
     Parameters
     ----------
-    spec : Spec
+    spec : AnySpec
         What it is graded by.
     control : InputControl
     options, targets : tuple of (str, str)
@@ -302,7 +302,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         Where the reason that tells the right answer is to be found.
     drawn : tuple of lines
         What the solution draws in the field of the control.
-    mistakes : mapping of str to Spec
+    mistakes : mapping of str to AnySpec
         Each known mistake and the spec of which its answer would be the key.
     """
 

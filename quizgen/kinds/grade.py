@@ -53,7 +53,7 @@ def grade_answer(
 
     Parameters
     ----------
-    spec : mapping or Spec
+    spec : mapping or AnySpec
         The answer's spec: ``{"kind": "number", "value": "20/3", "decimals": 3}``, or its struct.
     typed : str
         What the student typed.

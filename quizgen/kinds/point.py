@@ -76,7 +76,13 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
             raise ValueError("a trap needs as many values as the point")
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge typed coordinates."""
+        """Return the verdict on typed coordinates, with the verdicts of each.
+
+        Raises
+        ------
+        FormulaReadError
+            If one cannot be read, or there are too many, too few or other names than asked for.
+        """
         items, tail = read_list(typed, len(self.values), options.decimal)
         # The chain's names of the coordinates stand in every key; others only if authored.
         items = reorder_by_name(items, self.names or list(self.quantities()))

@@ -34,7 +34,7 @@ class AuthoredText(AuthoredAnswer, kw_only=True, tag="text", frozen=True):
     needed: int | None = None
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """There are key points."""
+        """Yield what is wrong with the names of key points."""
         yield from find_name_problems("points", self.points, 0)
 
 

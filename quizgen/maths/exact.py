@@ -234,7 +234,7 @@ def _take_logarithm(a: Value, base: int) -> Value:
 
 
 def _integer_log(a: fmpq, base: int) -> int | None:
-    """Return the exponent of a power of the base, None if the number is none."""
+    """Return the integer logarithm of a power of the base; None for any other number."""
     big, sign = (a, 1) if a >= 1 else (1 / a, -1)
     if big.q != 1:
         return None

@@ -96,7 +96,7 @@ def _convert_euler_number(_expression: sympy.Basic) -> Expr:
 
 
 def _convert_sum(expression: sympy.Basic) -> Expr:
-    """Return a sum; of two terms a difference, if the second has a minus sign."""
+    """Return the tree of a sum; a difference, if its second term has a minus sign."""
     first, *rest = expression.args
     total = [from_sympy(first)]
     for term in rest:

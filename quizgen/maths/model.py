@@ -68,7 +68,7 @@ class Model:
     formulas: Mapping[str, str] = field(default_factory=dict)
 
     def chain(self) -> Chain:
-        """Convert to formula trees.
+        """Return the model as a chain of formula trees, without SymPy.
 
         Raises
         ------

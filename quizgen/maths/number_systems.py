@@ -55,14 +55,14 @@ class NumberSystem(msgspec.Struct, frozen=True):
 
 
 def compile_expr(expr: Expr, system: NumberSystem) -> CompiledFormula:
-    """Compile a tree into a function of an environment, for one number system.
+    """Return a tree compiled into a function of an environment, for one number system.
 
     Parameters
     ----------
     expr : Expr
         The tree.
     system : NumberSystem
-        The number system, for example ``exact()``.
+        The number system, for example ``exact_system()``.
 
     Returns
     -------
@@ -174,7 +174,7 @@ def _compile_piecewise(expr: Call, system: NumberSystem) -> CompiledFormula:
 def select_branch(expr: Expr, env: Environment, system: NumberSystem) -> Expr:
     """Return a formula with each ``piecewise`` replaced by the branch that applies.
 
-    It shows one worked line.
+    A worked solution shows the branch alone.
     """
     if not isinstance(expr, Call) or "piecewise" not in operators_in(expr):
         return expr

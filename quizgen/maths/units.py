@@ -383,7 +383,7 @@ class UnitRegistry:
 
     @contextmanager
     def activate(self) -> Iterator[None]:
-        """Look units up here until the end of the block."""
+        """Make these the units in use until the end of the block."""
         before = _IN_USE.set(self)
         try:
             yield

@@ -35,7 +35,7 @@ _NUMBER = re.compile(
 
 
 def number(value: Fraction | int | str, lang: str = "en") -> Node:
-    """Lay a number out.
+    """Return the layout of a number.
 
     Parameters
     ----------

@@ -74,7 +74,7 @@ _SPECIAL = re.compile(r"([%#&_$])")
 
 
 def to_latex(node: n.Node, lang: str = "en") -> str:
-    r"""Write a layout as LaTeX mathematics, without delimiters.
+    r"""Return a layout as LaTeX mathematics, without delimiters.
 
     Parameters
     ----------
@@ -90,8 +90,8 @@ def to_latex(node: n.Node, lang: str = "en") -> str:
 
     Examples
     --------
-    >>> from quizgen.typeset import latex, name
-    >>> latex(name("p'_x"))
+    >>> from quizgen.typeset import lay_out_name, to_latex
+    >>> to_latex(lay_out_name("p'_x"))
     "p'_{x}"
     """
     return _TOUCHING.sub("} ", _format_node(node, lang))

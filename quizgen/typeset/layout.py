@@ -59,13 +59,13 @@ def needs_dot(left: Node, right: Node) -> OperatorSign:
 
 
 def _has_slash_between(left: Node, right: Node) -> bool:
-    """Whether one factor is a quotient with a slash, whose end would be unclear."""
+    """Return whether one factor is a quotient with a slash, whose end would be unclear."""
     ends = _find_last_visible(left), right
     return any(isinstance(node, Frac) and node.inline for node in ends)
 
 
 def _has_call_look(before: Node, after: Fenced) -> bool:
-    """Whether a factor before a bracket looks like a function, or bars like one pair of bars."""
+    """Return whether a factor before a bracket looks like a function, or bars like one pair."""
     if isinstance(before, Digits | Func):
         return after.kind == "()"
     if isinstance(before, Ident):
@@ -74,7 +74,7 @@ def _has_call_look(before: Node, after: Fenced) -> bool:
 
 
 def _find_first_visible(node: Node) -> Node:
-    """Find what a reader meets first in a factor."""
+    """Return what a reader meets first in a factor."""
     while True:
         match node:
             case MathRow():
@@ -88,7 +88,7 @@ def _find_first_visible(node: Node) -> Node:
 
 
 def _find_last_visible(node: Node) -> Node:
-    """Find what a reader meets last in a factor."""
+    """Return what a reader meets last in a factor."""
     while True:
         match node:
             case MathRow():
@@ -100,7 +100,7 @@ def _find_last_visible(node: Node) -> Node:
 
 
 def _starts_number(node: Node) -> bool:
-    """Whether a factor is a number, maybe in brackets with a sign or a unit."""
+    """Return whether a factor is a number, maybe in brackets with a sign or a unit."""
     if isinstance(node, Fenced):
         node = node.body
         if isinstance(node, MathRow) and node.level == NEGATIVE:

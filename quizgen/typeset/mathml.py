@@ -54,7 +54,7 @@ _OPENING, _CLOSING = "([{|⌊⌈", ")]}|⌋⌉"
 
 
 def to_mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
-    """Write a layout as a ``<math>`` element.
+    """Return a layout as a ``<math>`` element.
 
     Parameters
     ----------

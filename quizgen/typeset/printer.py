@@ -37,7 +37,7 @@ class UnitPart(NamedTuple):
 
 @lru_cache(maxsize=512)
 def split_unit(text: str) -> tuple[UnitPart, ...]:
-    """Split a unit into its simple parts.
+    """Return the simple parts of a unit, in order.
 
     Raises
     ------

@@ -31,7 +31,7 @@ _GREEK_NAMES = {char: word for word, char in GREEK.items() if word != "lamda"}
 
 
 def to_speech(node: n.Node, lang: str = "en") -> str:
-    """Read a layout aloud.
+    """Return a layout as it is read aloud.
 
     Parameters
     ----------
@@ -47,8 +47,8 @@ def to_speech(node: n.Node, lang: str = "en") -> str:
 
     Examples
     --------
-    >>> from quizgen.typeset import name, spoken
-    >>> spoken(name("p'_x"))
+    >>> from quizgen.typeset import lay_out_name, to_speech
+    >>> to_speech(lay_out_name("p'_x"))
     'p prime sub x'
     """
     return _SPACES.sub(" ", _COMMAS.sub(r"\1", _say_node(node, lang))).strip(" ,")

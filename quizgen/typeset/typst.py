@@ -54,7 +54,7 @@ _SIGNS = {"∑": "sum", "∏": "product", "∫": "integral"}
 
 
 def to_typst(node: n.Node, lang: str = "en") -> str:
-    """Write a layout as Typst mathematics.
+    """Return a layout as Typst mathematics.
 
     Parameters
     ----------

@@ -101,10 +101,10 @@ class Feature(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
 
     @abstractmethod
     def holds_for(self, name: str, sheet: DrawingComparison, /) -> bool:
-        """Return whether the line of a name has it."""
+        """Return whether the drawn line of a name has the feature."""
 
     def satisfied_share(self, sheet: DrawingComparison) -> Fraction:
-        """Return which share of its lines has it, 0 to 1."""
+        """Return which share of its lines has the feature, 0 to 1."""
         return Fraction(sum(self.holds_for(name, sheet) for name in self.of), len(self.of))
 
 

@@ -100,10 +100,10 @@ def _freeze_domains(symbols: Mapping[str, Domain]) -> tuple[tuple[str, SampleInt
 
 
 def compile_exact(tree: Expr) -> Callable[[Env], Any]:
-    """Compile a formula for bounded exact evaluation.
+    """Return a formula compiled for bounded exact evaluation, which never raises.
 
-    The result is None where it has no value, and the class ``Undecided`` or ``TooLargeError``
-    where that cannot be told.
+    Its result is None where it has no value, and the class ``UndecidedError`` or
+    ``TooLargeError`` where that cannot be told.
     """
     return _guard_evaluation(compile_expr(tree, bounded_exact_system()))
 

@@ -46,7 +46,11 @@ def decide_by_sympy(
 
 
 def run_decider() -> None:
-    """Read two formulas from standard input and print ``equal``, ``different`` or ``unknown``."""
+    """Print ``equal``, ``different`` or ``unknown`` for two formulas of standard input.
+
+    One formula stands in each line; the first argument of the command names the positive
+    quantities, with commas between.
+    """
     first, second = sys.stdin.read().split("\n")[:2]
     positive = frozenset(filter(None, sys.argv[1].split(",")))
     sys.stdout.write(decide_equality(first, second, positive))

@@ -122,7 +122,10 @@ _NO_UNIT = {"", "1"}
 
 
 def _iter_spoken_words(simple: Container[str]) -> Iterator[tuple[str, str]]:
-    """What units are called when they are read aloud, in every language, with their prefixes."""
+    """Yield each word for a unit as it is read aloud, in every language, and its listed name.
+
+    Words with prefixes are among them.
+    """
     for lang in list_languages():
         words = load_words(lang, "speech")
         for listed, spoken in words["units"].items():
@@ -140,7 +143,7 @@ def _iter_spoken_words(simple: Container[str]) -> Iterator[tuple[str, str]]:
 def _iter_prefixed_words(
     stems: Mapping[str, tuple[str, ...]], simple: Container[str]
 ) -> Iterator[tuple[str, str]]:
-    """``MBytes`` and ``kBit``: a letter that stands for a large prefix, before a word."""
+    """Yield ``MBytes`` and ``kBit``, a prefix letter and a word, and the listed name of each."""
     for listed, words in stems.items():
         for letter in _LARGE:
             if letter + listed in simple:
@@ -149,7 +152,7 @@ def _iter_prefixed_words(
 
 
 def _iter_bank_words(known: UnitRegistry) -> Iterator[tuple[str, str]]:
-    """Words of the units that a bank defines, with English prefixes."""
+    """Yield each word for a unit that a bank defines, with English prefixes, and its symbol."""
     prefixes = load_words(FIRST, "speech")["prefixes"]
     for symbol, words in known.words.items():
         for letter, pattern in prefixes.items():
@@ -167,7 +170,7 @@ class _Spellings(NamedTuple):
 
 @cache
 def _build_unit_spellings(known: UnitRegistry) -> _Spellings:
-    """The words for the listed units, and for those that a bank defines."""
+    """Return the words for the listed units, and for those that a bank defines."""
     words = {
         **dict(_iter_spoken_words(known.simple)),
         **dict(_iter_prefixed_words(known.words, known.simple)),

@@ -90,7 +90,7 @@ _SIGNS = {row.token: row for row in operators_with_syntax(OperatorSyntax.SIGN)}
 
 
 def _fold_operands(begun: _Begun) -> Expr:
-    """Fold from the left; a run of ``+`` (or of ``*``) becomes one node."""
+    """Return operands folded from the left; a run of ``+`` (or of ``*``) becomes one node."""
     result, *rest = begun.operands
     run = ""
     for sign, term in zip(begun.signs, rest, strict=True):

@@ -42,7 +42,7 @@ POWER = re.compile(rf"(?P<sign>[-−]?)(?P<mantissa>{_DIGITS})·10(?P<power>{_RA
 
 
 def group_digits(digits: str) -> str:
-    """Digits in groups of three, from five on; those behind a point stay together.
+    """Return digits in groups of three, from five on; those behind a point stay together.
 
     Few stand there, and a blank among them would end the number for many a reader.
 

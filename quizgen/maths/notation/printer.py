@@ -20,7 +20,7 @@ _RELATIONS = {row.name: row.signs[0] for row in operators_with_syntax(OperatorSy
 
 
 def format_tree(expr: Expr, leaves: Mapping[str, str] | None = None) -> str:
-    """Write a tree in the formula grammar; ``parse(to_text(e)) == e``.
+    """Return a tree in the formula grammar: ``parse_formula(format_tree(e)) == e``.
 
     Constants that are not plain non-negative decimals stand in braces: ``{-1/3}``.
 
