@@ -4,9 +4,9 @@ A unit is a product of powers of base units times an exact factor, so ``um/px``,
 ``mm^2`` work without a units library. Names that are not listed are refused, never guessed
 (a units library reads ``6 EV`` as exavolt and ``5.6 MP`` as megapoise).
 
-A bank may define further ones (``unit_definitions``). They belong to its own questions alone: a
-``System`` holds the listed units and those of one bank; ``unit`` and ``factor`` look names up in
-the system in use, which is the list itself unless somebody says ``with system.in_use()``.
+A bank may define further ones (``UnitDefinition``). They belong to its own questions alone: a
+``UnitRegistry`` holds the listed units and those of one bank; ``get_unit`` and ``unit_factor`` look
+names up in the registry in use, which is the list itself outside ``with registry.activate()``.
 """
 
 from __future__ import annotations

@@ -170,7 +170,7 @@ class _LineMatcher:
         ]
 
     def cost(self, points: Sequence[FieldPoint], most: float) -> float:
-        """Return how unlike the line a piece of a stroke is; infinite if it is another line.
+        """Return how unlike the line a piece of a stroke is; infinite if it is another.
 
         ``most`` is the cost of the best line so far: no distance needs to be measured beyond it.
         Distances only add up, so a line that lies elsewhere is refused after its first points.
