@@ -5,8 +5,8 @@ In: text in the formula grammar, and the names that may occur. Out: trees, or a
 is printed.
 
 ``parse_formula`` reads the strict notation of authors: decimal point, declared names, explicit
-products (or juxtaposition of declared names). ``format_tree`` writes a tree in the same notation. Students'
-spelling is normalised first (``quizgen.grading.reading``) and ends in the same grammar.
+products (or juxtaposition of declared names). ``format_tree`` writes a tree in the same
+notation. Students' spelling is normalised first (``quizgen.grading.reading``) and ends in the same grammar.
 """
 
 from __future__ import annotations
