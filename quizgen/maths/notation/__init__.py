@@ -6,7 +6,8 @@ is printed.
 
 ``parse_formula`` reads the strict notation of authors: decimal point, declared names, explicit
 products (or juxtaposition of declared names). ``format_tree`` writes a tree in the same
-notation. Students' spelling is normalised first (``quizgen.grading.reading``) and ends in the same grammar.
+notation. Students' spelling is normalised first (``quizgen.grading.reading``) and ends in
+the same grammar.
 """
 
 from __future__ import annotations
