@@ -53,7 +53,15 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
     traps: dict[str, str] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
-        """Check the key, its names and the domains."""
+        """Check the key, its names and the domains.
+
+        Raises
+        ------
+        FormulaError
+            If a formula cannot be read or uses names that are not declared.
+        ValueError
+            If a domain is none.
+        """
         used = names_in(parse_authored(self.value, tuple(self.symbols)))
         unknown = used - self.symbols.keys()
         if unknown:
@@ -66,7 +74,13 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
             parse_exact(self.value)
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed formula."""
+        """Return the verdict on a typed formula: equal to the key over the domain, or why not.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
         formula = read_formula(typed, self.symbols, options.decimal)
         verdict = _judge(self, formula.tree, options)
         if formula.other is None or formula.doubt is None:
@@ -79,6 +93,13 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
 
 
 def _check_domain(name: str, domain: Domain) -> None:
+    """Check the domain of one name.
+
+    Raises
+    ------
+    ValueError
+        If it is not ``real``, ``positive`` or two bounds in order.
+    """
     if isinstance(domain, str):
         if domain not in {"real", "positive"}:
             raise ValueError(f"symbols.{name}: {domain!r} is not real, positive or [low, high]")
@@ -87,6 +108,10 @@ def _check_domain(name: str, domain: Domain) -> None:
 
 
 def _judge(spec: ExpressionSpec, tree: Expr, options: GradingOptions) -> Verdict:
+    """Return the verdict on one reading of a formula.
+
+    It is ambiguous where neither sampling nor, if it is allowed, SymPy can decide.
+    """
     read_as = pretty.format_formula(format_tree(tree))
     key = parse_authored(spec.value, tuple(spec.symbols))
     if tree == key:
@@ -105,6 +130,7 @@ def _judge(spec: ExpressionSpec, tree: Expr, options: GradingOptions) -> Verdict
 def _choose(
     spec: ExpressionSpec, formula: TypedFormula, verdict: Verdict, options: GradingOptions
 ) -> Verdict:
+    """Return the verdict on a formula with two readings, or ask back."""
     if formula.other is None or formula.doubt is None or (formula.doubt.native and verdict.credit):
         return verdict
     echoes = (formula.read_as, pretty.format_formula(format_tree(formula.other)))
@@ -114,12 +140,14 @@ def _choose(
 def _settle_equality(
     key: Expr, tree: Expr, spec: ExpressionSpec, found: SamplingResult
 ) -> SamplingResult:
+    """Return what SymPy decides where sampling could not."""
     return msgspec.structs.replace(
         found, equal=decide_by_sympy(key, tree, spec.symbols), ground="settled"
     )
 
 
 def _wrong(spec: ExpressionSpec, tree: Expr, found: SamplingResult, read_as: str) -> Verdict:
+    """Return the wrong verdict: a known mistake, a factor or offset, or a name that is missing."""
     for name, trap in spec.traps.items():
         if are_equal(parse_authored(trap, tuple(spec.symbols)), tree, spec.symbols):
             return wrong(read_as, f"trap:{name}")
@@ -134,12 +162,13 @@ def _wrong(spec: ExpressionSpec, tree: Expr, found: SamplingResult, read_as: str
 
 
 def _missing(spec: ExpressionSpec, tree: Expr) -> str:
-    """Note that a quantity of the key does not occur at all."""
+    """Return the note for a quantity of the key that does not occur at all, else an empty text."""
     key = names_in(parse_authored(spec.value, tuple(spec.symbols)))
     return "name-missing" if key - names_in(tree) else ""
 
 
 def _short(value: Value) -> str:
+    """Return a number for a sentence: exact if it is short, else with four figures."""
     if isinstance(value, fmpq) and value.q < 1000:
         return pretty.format_number(str(value))
     exact = value.mid().fmpq() if isinstance(value, arb) else value
@@ -147,7 +176,7 @@ def _short(value: Value) -> str:
 
 
 def ask(part: PartContext) -> AskedPart[ExpressionSpec]:
-    """The formula as it is written."""
+    """Return the formula as it is written."""
     traps = part.answer.get("traps", {})
     notes = part.misconception_notes(traps) if traps else {}
     spec = make_spec(ExpressionSpec, part, notes=notes)
@@ -155,7 +184,7 @@ def ask(part: PartContext) -> AskedPart[ExpressionSpec]:
 
 
 def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:
-    """The formula as it is written by hand."""
+    """Return the formula as it is written by hand."""
     from quizgen import typeset
     from quizgen.question.inlines import TypesetMaths
 

@@ -36,12 +36,20 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
     value: str
 
     def validate(self) -> None:
-        """Check tolerance and the key's own notation."""
+        """Check tolerance and the key's own notation; errors as ``WordSpec.validate``."""
         super().validate()
         read_interval(self.value, "point")
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed interval: bounds first, then brackets."""
+        """Return the verdict on a typed interval: bounds first, then brackets.
+
+        One wrong bracket costs half, two cost three quarters.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
         interval, read_as = read_interval(typed, options.decimal)
         key, _ = read_interval(self.value, "point")
         low = _same(self, interval.low, key.low)
@@ -81,7 +89,7 @@ _CHAIN = re.compile(
 
 
 def read_interval(typed: str, decimal: str) -> tuple[IntervalValue, str]:
-    """Read an interval and echo it.
+    """Return a typed interval, and its echo.
 
     Raises
     ------
@@ -101,13 +109,20 @@ def read_interval(typed: str, decimal: str) -> tuple[IntervalValue, str]:
 
 
 def _inside(source: SourceText) -> SourceText:
-    """Take away brackets around an interval that has its own."""
+    """Return an interval with its own brackets without others around it."""
     while _WRAPPED.fullmatch(source.text):
         source = source.slice(1, len(source.text) - 1).strip()
     return source
 
 
 def _brackets(source: SourceText, match: re.Match[str], decimal: str) -> IntervalValue:
+    """Return the interval of two bounds in brackets.
+
+    Raises
+    ------
+    FormulaReadError
+        If they are not two, or commas separate and mark decimals at once.
+    """
     inside = source.slice(match.start(2), match.end(2))
     strong = list(re.finditer(r" ?[;|] ?", inside.text))
     cuts = strong or list(re.finditer(r" ?, ?", inside.text))
@@ -121,6 +136,13 @@ def _brackets(source: SourceText, match: re.Match[str], decimal: str) -> Interva
 
 
 def _chain(source: SourceText, decimal: str) -> IntervalValue:
+    """Return the interval of a chain of relations: ``0 < x <= 1``, ``x > 2``.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is none, or its relations point both ways.
+    """
     match = _CHAIN.fullmatch(source.text)
     if match is None or not (match["low"] or match["high"]):
         raise FormulaReadError("interval-expected", source.column(0), source.text)
@@ -143,7 +165,7 @@ def _chain(source: SourceText, decimal: str) -> IntervalValue:
 
 
 def _parse_bound(source: SourceText, decimal: str, side: str) -> Value | None:
-    """Read a bound; None is the infinity of its side.
+    """Return a bound; None is the infinity of its side, ``-`` or ``+``.
 
     Raises
     ------
@@ -162,6 +184,7 @@ def _parse_bound(source: SourceText, decimal: str, side: str) -> Value | None:
 
 
 def _echo(interval: IntervalValue) -> str:
+    """Return an interval with outward brackets for bounds that do not belong to it."""
     low = "-∞" if interval.low is None else format_exact_or_figures(interval.low, 12)
     high = "∞" if interval.high is None else format_exact_or_figures(interval.high, 12)
     low, high = pretty.format_number(low), pretty.format_number(high)
@@ -171,19 +194,20 @@ def _echo(interval: IntervalValue) -> str:
 
 
 def _same(spec: IntervalSpec, value: Value | None, key: Value | None) -> bool:
+    """Return whether a bound is the key's, within the tolerance or both infinite."""
     if value is None or key is None:
         return value is None and key is None
     return spec.accepts(value, key)
 
 
 def ask(part: PartContext) -> AskedPart[IntervalSpec]:
-    """The interval as it is written."""
+    """Return the interval as it is written."""
     spec = make_spec(IntervalSpec, part)
     return AskedPart(spec, mistakes=misconception_specs(spec, "value"))
 
 
 def input_hints(spec: IntervalSpec, lang: str) -> tuple[str, ...]:
-    """How an interval is typed, and rounding."""
+    """Return the sentences on how an interval is typed, and on rounding."""
     return nonempty(translate(lang, "ask.interval"), rounding_hint(spec, spec.value, lang))
 
 

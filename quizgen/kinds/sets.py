@@ -31,7 +31,13 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
     """Set: ``values``; ``unit`` of all."""
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed set."""
+        """Return the verdict on a typed set, in any order.
+
+        Raises
+        ------
+        FormulaReadError
+            If an element cannot be read, or ``{0,5}`` can be one or two.
+        """
         if typed.strip() in _EMPTY:
             return _judge(self, [])
         if not _ONE_COMMA.fullmatch(typed.strip()):
@@ -39,7 +45,13 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
         return self._with_one_comma(typed, options)
 
     def _with_one_comma(self, typed: str, options: GradingOptions) -> Verdict:
-        """Judge ``{0,5}``, which is one decimal or two whole numbers."""
+        """Return the verdict on ``{0,5}``, which is one decimal or two whole numbers.
+
+        Raises
+        ------
+        FormulaReadError
+            If both readings are possible and are not marked alike.
+        """
         two = _judge(self, _elements(self, typed, 2, options))
         one = _judge(self, _elements(self, typed, 1, options))
         own = one if options.decimal == "comma" else two
@@ -69,11 +81,13 @@ _EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"
 def _elements(
     spec: SetSpec, typed: str, count: int | None, options: GradingOptions
 ) -> list[ReadNumber]:
+    """Return the typed elements in the asked unit; ``count`` of them, or any number if None."""
     items, _ = read_list(typed, count, options.decimal)
     return read_items(items, spec.unit, None, options.decimal)[0]
 
 
 def _judge(spec: SetSpec, numbers: list[ReadNumber]) -> Verdict:
+    """Return the verdict on elements: those found less those that do not belong, of all."""
     read_as = "{" + "; ".join(number.read_as for number in numbers) + "}"
     keys = spec.keys()
     found, extra, twice = _match_elements(spec, numbers, keys)
@@ -91,7 +105,7 @@ def _judge(spec: SetSpec, numbers: list[ReadNumber]) -> Verdict:
 def _match_elements(
     spec: SetSpec, numbers: list[ReadNumber], keys: list[Value]
 ) -> tuple[set[int], int, bool]:
-    """Elements found, elements that do not belong, and whether one came twice."""
+    """Return the indices found, how many do not belong, and whether one came twice."""
     found: set[int] = set()
     extra, twice = 0, False
     for number in numbers:
@@ -106,18 +120,19 @@ def _match_elements(
 
 
 def _covers(spec: SetSpec, numbers: list[ReadNumber], wanted: list[Value]) -> bool:
+    """Return whether the numbers are those of a mistake, in any order."""
     return len(numbers) == len(wanted) and all(
         any(matches_target(spec, n, n.value, value) for n in numbers) for value in wanted
     )
 
 
 def ask(part: PartContext) -> AskedPart[SetSpec]:
-    """The elements, and those that each mistake gives."""
+    """Return the elements, and those that each mistake gives."""
     return ask_numeric(SetSpec, part)
 
 
 def input_hints(spec: SetSpec, lang: str) -> tuple[str, ...]:
-    """Shape, unit and rounding."""
+    """Return the sentences on shape, unit and rounding."""
     return numeric_hints(spec, lang, translate(lang, "ask.set"), unit_hint(spec.unit, lang))
 
 

@@ -68,13 +68,14 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _trap_plans(self) -> dict[str, CompiledSteps]:
+        """Misconception to the steps that it changes, compiled for exact numbers."""
         return {
             name: self.compile_affected_steps(wrong, exact_system())
             for name, wrong in self.traps.items()
         }
 
     def compile_steps(self, system: NumberSystem) -> dict[str, CompiledFormula]:
-        """Step name to its formula in a number system, compiled once, in order."""
+        """Return step name to its formula in a number system, compiled once, in order."""
         found = self._compiled_by_system.get(system.name)
         if found is None:
             found = {step.name: compile_nested(step.expr, system) for step in self.steps}
@@ -89,14 +90,14 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         changed: Iterable[str] = (),
         within: Container[str] | None = None,
     ) -> CompiledSteps:
-        """Only the steps that a change touches, compiled, in order.
+        """Return only the steps that a change touches, compiled, in order.
 
         Parameters
         ----------
         wrong : iterable of ChainStep
             Steps that stand in for the right ones of the same name.
         system : NumberSystem
-            What the plan computes in.
+            What the steps compute in.
         changed : iterable of str
             Given quantities that take other values.
         within : container of str, optional
@@ -118,7 +119,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         return tuple(plan)
 
     def solve(self, given: Values, precision: int = PRECISION) -> dict[str, Value]:
-        """Every quantity of the chain, exactly or as a certified ball.
+        """Return every quantity of the chain in base units, exactly or as a certified ball.
 
         Parameters
         ----------
@@ -137,7 +138,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
     def solve_with_misconception(
         self, trap: str, solved: Values, precision: int = PRECISION
     ) -> dict[str, Value]:
-        """The quantities as a student in this trap would get them.
+        """Return the quantities as somebody with this misconception gets them, in base units.
 
         Raises
         ------
@@ -147,13 +148,22 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         return _run_steps(self._trap_plans[trap], dict(solved), precision)
 
     def solve_with_steps(self, wrong: Iterable[ChainStep], solved: Values) -> dict[str, Value]:
-        """Recompute with some steps replaced (mutations, a student's own earlier answer)."""
+        """Return the quantities with some steps replaced: mutations, a student's own earlier value.
+
+        Raises
+        ------
+        MathError
+            If a step has no finite real value.
+        """
         return _run_steps(
             self.compile_affected_steps(wrong, exact_system()), dict(solved), PRECISION
         )
 
     def required_steps(self, name: str, known: Iterable[str] = ()) -> frozenset[str]:
-        """Step names that ``name`` rests on, not looking through quantities already known."""
+        """Return the names of the steps that ``name`` rests on, itself included.
+
+        Steps behind a quantity in ``known`` do not count.
+        """
         stop, seen, todo = set(known), set[str](), [name]
         while todo:
             current = todo.pop()
@@ -167,6 +177,13 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
 def _run_steps(
     plan: Iterable[tuple[str, CompiledFormula]], env: dict[str, Value], precision: int
 ) -> dict[str, Value]:
+    """Return the values with those of some steps, computed in order.
+
+    Raises
+    ------
+    MathError
+        If a step has no finite real value.
+    """
     with working_precision(precision):
         for name, compiled in plan:
             try:

@@ -68,7 +68,7 @@ class Model:
     formulas: Mapping[str, str] = field(default_factory=dict)
 
     def chain(self) -> Chain:
-        """Convert to formula trees.
+        """Return the model as a chain of formula trees, without SymPy.
 
         Raises
         ------
@@ -93,6 +93,13 @@ class Model:
 
 
 def _convert_step(step: Step) -> ChainStep:
+    """Return a step without SymPy.
+
+    Raises
+    ------
+    BankError
+        That names the step, if its expression is no formula.
+    """
     from quizgen.maths.from_sympy import from_sympy
 
     try:
@@ -107,6 +114,13 @@ def _check_order(
     steps: tuple[ChainStep, ...],
     traps: Mapping[str, tuple[ChainStep, ...]],
 ) -> None:
+    """Check that each step uses what is given or defined before it, wrong steps too.
+
+    Raises
+    ------
+    BankError
+        That names the step or the misconception.
+    """
     known = set(given)
     before: dict[str, set[str]] = {}
     for step in steps:

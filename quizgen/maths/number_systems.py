@@ -55,14 +55,14 @@ class NumberSystem(msgspec.Struct, frozen=True):
 
 
 def compile_expr(expr: Expr, system: NumberSystem) -> CompiledFormula:
-    """Compile a tree into a function of an environment, for one number system.
+    """Return a tree compiled into a function of an environment, for one number system.
 
     Parameters
     ----------
     expr : Expr
         The tree.
     system : NumberSystem
-        The number system, for example ``exact()``.
+        The number system, for example ``exact_system()``.
 
     Returns
     -------
@@ -74,7 +74,7 @@ def compile_expr(expr: Expr, system: NumberSystem) -> CompiledFormula:
 
 
 def compile_nested(expr: Expr, system: NumberSystem) -> CompiledFormula:
-    """Compile a formula that runs among others, where the precision is stated once around all."""
+    """Return a formula compiled to run among others: who runs it sets the precision."""
     if isinstance(expr, Num):
         constant = system.constant(expr.value)
         return lambda _env: constant
@@ -90,6 +90,7 @@ def compile_nested(expr: Expr, system: NumberSystem) -> CompiledFormula:
 
 
 def _make_binary_call(op: str, first: Expr, second: Expr) -> Expr:
+    """Return an operator applied to two arguments."""
     return Call(op, (first, second))
 
 
@@ -116,6 +117,7 @@ _PAIRS: dict[
 
 
 def _compile_call(expr: Call, system: NumberSystem) -> CompiledFormula:
+    """Return an operator with its operands, compiled by their kinds."""
     op, kinds = system.ops[expr.op], tuple(map(type, expr.args))
     operands = [_compile_operand(arg, system) for arg in expr.args]
     if len(kinds) == 1:
@@ -126,7 +128,7 @@ def _compile_call(expr: Call, system: NumberSystem) -> CompiledFormula:
 
 
 def _compile_operand(expr: Expr, system: NumberSystem) -> AnyNumber:
-    """What an operator is compiled with: a name, a constant or a compiled formula."""
+    """Return what an operator is compiled with: a name, a constant or a compiled formula."""
     if isinstance(expr, Sym):
         return expr.name
     return system.constant(expr.value) if isinstance(expr, Num) else compile_nested(expr, system)
@@ -135,6 +137,7 @@ def _compile_operand(expr: Expr, system: NumberSystem) -> AnyNumber:
 def _compile_many(
     op: OperatorFunction, args: Iterable[Expr], system: NumberSystem
 ) -> CompiledFormula:
+    """Return an operator of three or more operands, compiled."""
     parts = [compile_nested(arg, system) for arg in args]
     return lambda env: op(*[part(env) for part in parts])
 
@@ -142,12 +145,16 @@ def _compile_many(
 def _compile_run(
     op: OperatorFunction, args: Iterable[Expr], system: NumberSystem
 ) -> CompiledFormula:
-    """A run of one sign as long as a line may be, in a loop: nested it would be too deep."""
+    """Return a long run of one sign compiled as a loop: nested calls would be too deep."""
     parts = [compile_nested(arg, system) for arg in args]
     return lambda env: reduce(op, (part(env) for part in parts))
 
 
 def _compile_piecewise(expr: Call, system: NumberSystem) -> CompiledFormula:
+    """Return branches compiled so that only the one that applies is computed.
+
+    Arrays compute all of them and select element by element.
+    """
     if "piecewise" in system.ops:
         return _compile_many(system.ops["piecewise"], expr.args, system)
     parts = [compile_nested(arg, system) for arg in expr.args]
@@ -155,6 +162,7 @@ def _compile_piecewise(expr: Call, system: NumberSystem) -> CompiledFormula:
     otherwise = parts[-1]
 
     def choose(env: Environment) -> AnyNumber:
+        """Return the value of the first branch whose condition holds."""
         for value, condition in pairs:
             if system.truth(condition(env)):
                 return value(env)
@@ -164,7 +172,10 @@ def _compile_piecewise(expr: Call, system: NumberSystem) -> CompiledFormula:
 
 
 def select_branch(expr: Expr, env: Environment, system: NumberSystem) -> Expr:
-    """Replace each ``piecewise`` by the branch that applies, for showing one worked line."""
+    """Return a formula with each ``piecewise`` replaced by the branch that applies.
+
+    A worked solution shows the branch alone.
+    """
     if not isinstance(expr, Call) or "piecewise" not in operators_in(expr):
         return expr
     if expr.op != "piecewise":
@@ -178,7 +189,7 @@ def select_branch(expr: Expr, env: Environment, system: NumberSystem) -> Expr:
 def operator_functions(
     system: str, *sources: object, **own: OperatorFunction
 ) -> dict[str, OperatorFunction]:
-    """What each operator of the table does in a number system.
+    """Return what computes each operator of the table in a number system.
 
     Parameters
     ----------
@@ -188,6 +199,11 @@ def operator_functions(
         Where functions are looked up, in order.
     **own : callable
         Functions that none of them has, under the name that the table gives.
+
+    Raises
+    ------
+    StopIteration
+        If nothing has a function.
     """
     found = {}
     for row in OPERATORS.values():
@@ -198,6 +214,7 @@ def operator_functions(
 
 
 def _looked_up(name: str, sources: tuple[object, ...]) -> OperatorFunction:
+    """Return the function of a name from the first source that has it."""
     op: OperatorFunction = next(
         getattr(source, name) for source in sources if hasattr(source, name)
     )
@@ -206,7 +223,7 @@ def _looked_up(name: str, sources: tuple[object, ...]) -> OperatorFunction:
 
 @cache
 def exact_system() -> NumberSystem:
-    """Exact rationals (``flint.fmpq``), and certified balls (``flint.arb``) beyond them."""
+    """Return exact rationals (``flint.fmpq``), and certified balls (``flint.arb``) beyond them."""
     from quizgen.maths import exact as own
     from quizgen.maths.numbers import to_rational
     from quizgen.maths.precision import at_working_precision
@@ -217,7 +234,7 @@ def exact_system() -> NumberSystem:
 
 @cache
 def float64_system() -> NumberSystem:
-    """Python floats: the fast approximation used by figures."""
+    """Return Python floats: the fast approximation used by figures."""
     own: dict[str, OperatorFunction] = {
         "sign": lambda a: 0.0 if a == 0 else math.copysign(1.0, a),
         "floor": lambda a: float(math.floor(a)),
@@ -231,15 +248,16 @@ def float64_system() -> NumberSystem:
 
 
 def round_to_float32(x: float) -> float:
-    """Round to float32."""
+    """Return the nearest float32."""
     return float(unpack("f", pack("f", x))[0])
 
 
 @cache
 def float32_system() -> NumberSystem:
-    """Numbers rounded to float32 after every operation; truth values stay."""
+    """Return numbers rounded to float32 after every operation; truth values stay."""
 
     def rounding(name: str, op: OperatorFunction) -> OperatorFunction:
+        """Return an operator whose result is rounded, unless it is a condition."""
         return op if name in CONDITIONS else lambda *args: round_to_float32(op(*args))
 
     ops = {name: rounding(name, op) for name, op in float64_system().ops.items()}
@@ -248,7 +266,7 @@ def float32_system() -> NumberSystem:
 
 @cache
 def array_system(bits: int) -> NumberSystem:
-    """NumPy arrays of 32 or 64 bits, the formula as it is printed."""
+    """Return NumPy arrays of 32 or 64 bits, which compute the formula as it is printed."""
     import numpy as np
 
     number = np.float32 if bits == 32 else np.float64
@@ -267,7 +285,7 @@ def array_system(bits: int) -> NumberSystem:
 
 
 def _find_special_function(name: str, bits: int) -> OperatorFunction:
-    """SciPy's function if SciPy is there, else the C library's, element by element."""
+    """Return SciPy's function if SciPy is there, else the C library's, element by element."""
     import numpy as np
 
     try:
@@ -280,6 +298,7 @@ def _find_special_function(name: str, bits: int) -> OperatorFunction:
 
 
 def _select_array_branch(*args: AnyNumber) -> AnyNumber:
+    """Return, element by element, the value of the first branch whose condition holds."""
     import numpy as np
 
     value = args[-1]
@@ -290,7 +309,7 @@ def _select_array_branch(*args: AnyNumber) -> AnyNumber:
 
 @cache
 def sympy_system() -> NumberSystem:
-    """SymPy expressions on exact rationals."""
+    """Return SymPy expressions on exact rationals."""
     import sympy
 
     own: dict[str, OperatorFunction] = {
@@ -306,7 +325,7 @@ def sympy_system() -> NumberSystem:
 
 
 def evaluate(expr: Expr, env: Environment, system: NumberSystem | None = None) -> AnyNumber:
-    """Evaluate a tree once (compile it instead when it is needed often).
+    """Return the value of a tree (compile it instead when it is needed often).
 
     Raises
     ------

@@ -66,23 +66,26 @@ class Operator(msgspec.Struct, frozen=True):
     absent: frozenset[str] = frozenset()
 
     def function_in(self, system: str) -> str:
-        """Name of its function in a number system."""
+        """Return the name of its function in a number system."""
         return self.called.get(system, self.name)
 
 
 def _make_function_operator(
     name: str, library: str = "", least: int = 1, most: int = 1, **other: str
 ) -> Operator:
+    """Return a function, under the name that libraries share and those in ``other`` systems."""
     libraries = dict.fromkeys(("floats", "arrays", "sympy"), library or name)
     return Operator(name, least, most, folds=most == MANY, called=libraries | other)
 
 
 def _make_relation_operator(name: str, *signs: str, exact: str, sympy: str) -> Operator:
+    """Return a relation of two sides, with its signs."""
     called = {"exact": exact, "sympy": sympy}
     return Operator(name, 2, 2, OperatorSyntax.RELATION, signs, "RELATION", called=called)
 
 
 def _make_word_operator(name: str, most: int, python: str, arrays: str, sympy: str) -> Operator:
+    """Return a word between conditions, or before one."""
     called = dict.fromkeys(SYSTEMS, python) | {"arrays": arrays, "sympy": sympy}
     return Operator(
         name, min(2, most), most, OperatorSyntax.WORD, (name,), name.upper(),
@@ -144,5 +147,5 @@ CONDITIONS = frozenset(
 
 
 def operators_with_syntax(way: OperatorSyntax) -> tuple[Operator, ...]:
-    """The operators that are typed in one way."""
+    """Return the operators that are typed in one way."""
     return tuple(row for row in OPERATORS.values() if row.typed is way)

@@ -47,7 +47,7 @@ def is_expr(value: object) -> TypeGuard[Expr]:
 
 
 def make_number(value: int | str | Fraction) -> Num:
-    """Make a constant node from an integer, a fraction or a decimal text."""
+    """Return the constant node of an integer, a fraction or a decimal text."""
     decimal = isinstance(value, str) and "." in value
     return Num(Fraction(value), decimal)
 
@@ -63,7 +63,7 @@ def walk_tree(expr: Expr) -> Iterator[Expr]:
 
 
 def names_in(expr: Expr) -> frozenset[str]:
-    """Names of the quantities that occur in a tree."""
+    """Return the names of the quantities that occur in a tree."""
     found, todo = set[str](), [expr]
     while todo:
         node = todo.pop()
@@ -75,7 +75,7 @@ def names_in(expr: Expr) -> frozenset[str]:
 
 
 def operators_in(expr: Expr) -> frozenset[str]:
-    """Names of the operators that occur in a tree."""
+    """Return the names of the operators that occur in a tree."""
     found, todo = set[str](), [expr]
     while todo:
         node = todo.pop()
@@ -86,7 +86,7 @@ def operators_in(expr: Expr) -> frozenset[str]:
 
 
 def substitute(expr: Expr, values: Mapping[str, Expr]) -> Expr:
-    """Replace named quantities by other trees."""
+    """Return a tree with named quantities replaced by other trees."""
     if isinstance(expr, Sym):
         return values.get(expr.name, expr)
     if isinstance(expr, Call):

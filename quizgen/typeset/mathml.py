@@ -81,7 +81,7 @@ _TALL = re.compile(f"<(?:mfrac|msqrt|mroot|mtable|munder|mo>[{''.join(LARGE)}])"
 
 
 def to_mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
-    """Write a layout as a ``<math>`` element.
+    """Return a layout as a ``<math>`` element.
 
     Parameters
     ----------
@@ -104,6 +104,7 @@ def to_mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
 
 
 def _join_items(items: tuple[n.Node, ...], lang: str) -> str:
+    """Return the items of a row, with a language's separators and space before functions."""
     items = insert_separators(items, lang)
     written = [_format_node(item, lang) for item in items]
     for index, item in enumerate(items):
@@ -117,7 +118,7 @@ def _join_items(items: tuple[n.Node, ...], lang: str) -> str:
 
 
 def _widen_before_function(written: list[str], index: int) -> None:
-    """Leave a thin space between a factor and a function's name."""
+    """Put a thin space between a factor and a function's name, in ``written`` itself."""
     if index and written[index - 1] == _TIMES:
         written[index - 1] = _TIMES_NAMED
 
@@ -139,16 +140,25 @@ def _is_function_name(node: n.Node) -> bool:
 
 @singledispatch
 def _format_node(node: n.Node, lang: str) -> str:
+    """Return a node in MathML; each kind of node registers its own function.
+
+    Raises
+    ------
+    RenderError
+        For a kind that has none.
+    """
     raise RenderError(f"no MathML for {type(node).__name__} ({lang})")
 
 
 @_format_node.register
 def _format_digits(node: n.Digits, lang: str) -> str:
+    """Return digits with the signs of a language."""
     return f"<mn>{localise_numbers(lang, node.text).replace(' ', chr(0x202F))}</mn>"
 
 
 @_format_node.register
 def _format_letter(node: n.Ident, _lang: str) -> str:
+    """Return a letter, bold if it stands for a vector or matrix."""
     if node.bold:
         return f"<mi>{bold_letter(node.text)}</mi>"
     if node.style:
@@ -158,11 +168,16 @@ def _format_letter(node: n.Ident, _lang: str) -> str:
 
 
 def bold_letter(letter: str) -> str:
-    """Find the mathematical bold form of a letter, which maths fonts have even when bold is not.
+    """Return the mathematical bold form of a letter, which maths fonts have even when bold is not.
+
+    Raises
+    ------
+    RenderError
+        If there is none.
 
     Examples
     --------
-    >>> bold("p"), bold("μ")
+    >>> bold_letter("p"), bold_letter("μ")
     ('𝐩', '𝛍')
     """
     for first, count, start in _BOLD:
@@ -176,6 +191,7 @@ _UPRIGHT = LETTERLIKE.keys() - {*"ℓϑϕϵϱς∂"}
 
 @_format_node.register
 def _format_word(node: n.Word | n.FunctionName, _lang: str) -> str:
+    """Return a name of several letters, upright."""
     shape = ' mathvariant="normal"' if len(node.text) == 1 else ""
     return f"<mi{shape}>{escape(node.text)}</mi>"
 
@@ -194,11 +210,13 @@ def _format_gap(node: n.Gap, _lang: str) -> str:
 
 @_format_node.register
 def _format_reader_word(node: n.ReaderWord, lang: str) -> str:
+    """Return a word between formulas, such as *and*, with blanks around it."""
     return f"<mtext>\u00a0{_known(load_speech_words(lang).printed, node.key, 'word')}\u00a0</mtext>"
 
 
 @lru_cache(maxsize=512)
 def _unit_text(text: str) -> str:
+    """Return a unit in MathML, cached since a paper repeats it."""
     written, plain = "", ""
     for part in split_unit(text):
         plain += part.sign.replace("·", "⋅") + part.shown
@@ -212,27 +230,32 @@ def _unit_text(text: str) -> str:
 
 @_format_node.register
 def _format_unit(node: n.UnitText, _lang: str) -> str:
+    """Return a unit that stands alone."""
     return _unit_text(node.text)
 
 
 @_format_node.register
 def _format_quantity(node: n.NumberWithUnit, lang: str) -> str:
+    """Return a number with its unit, a thin space between them unless the unit has none."""
     space = "" if node.unit.text in TIGHT else THIN
     return f"<mrow>{_format_node(node.value, lang)}{space}{_unit_text(node.unit.text)}</mrow>"
 
 
 @_format_node.register
 def _format_operator(node: n.OperatorSign, _lang: str) -> str:
+    """Return an operator's sign; RenderError if there is none."""
     return _known(_OPERATORS, node.name, "operator")
 
 
 @_format_node.register
 def _format_row(node: n.MathRow, lang: str) -> str:
+    """Return the items of a row one after the other."""
     return f"<mrow>{_join_items(node.items, lang)}</mrow>"
 
 
 @_format_node.register
 def _format_fraction(node: n.Frac, lang: str) -> str:
+    """Return a fraction with a bar, or with a slash within a line."""
     top, bottom = _format_node(node.top, lang), _format_node(node.bottom, lang)
     if node.inline:
         return f"<mrow>{top}{_OPERATORS['/']}{bottom}</mrow>"
@@ -241,6 +264,7 @@ def _format_fraction(node: n.Frac, lang: str) -> str:
 
 @_format_node.register
 def _format_root(node: n.Root, lang: str) -> str:
+    """Return a root, with its index unless it is a square root."""
     body = _format_node(node.body, lang)
     if node.index is None:
         return f"<msqrt>{body}</msqrt>"
@@ -249,6 +273,7 @@ def _format_root(node: n.Root, lang: str) -> str:
 
 @_format_node.register
 def _format_scripts(node: n.Scripts, lang: str) -> str:
+    """Return a base with primes, subscript and superscript."""
     base = _format_node(node.base, lang)
     sup = "" if node.sup is None else _format_node(node.sup, lang)
     if node.sub is None:
@@ -263,6 +288,7 @@ def _format_scripts(node: n.Scripts, lang: str) -> str:
 
 @_format_node.register
 def _format_accent(node: n.Accent, lang: str) -> str:
+    """Return a letter with its accent; RenderError if there is none."""
     accent = _known(ACCENTS, node.kind, "accent")
     base = _format_node(node.base, lang)
     if accent.below:
@@ -277,16 +303,25 @@ def _format_accent(node: n.Accent, lang: str) -> str:
 
 @_format_node.register
 def _format_fence(node: n.Fenced, lang: str) -> str:
+    """Return brackets around a node, as tall as it is."""
     return f"<mrow>{_format_brackets(node.kind, _format_inside(node.body, lang))}</mrow>"
 
 
 def _format_inside(node: n.Node, lang: str) -> str:
+    """Return a node for the inside of brackets, without a group of its own."""
     return (
         _join_items(node.items, lang) if isinstance(node, n.MathRow) else _format_node(node, lang)
     )
 
 
 def _format_brackets(kind: str, body: str) -> str:
+    """Return brackets around MathML, stretched only if it is tall.
+
+    Raises
+    ------
+    RenderError
+        If there are no such brackets.
+    """
     left, right = kind[0], kind[-1]
     if left not in FENCES or right not in FENCES:
         raise RenderError(f"no MathML for the brackets {kind!r}")
@@ -301,6 +336,7 @@ def _format_brackets(kind: str, body: str) -> str:
 
 @_format_node.register
 def _format_function(node: n.Func, lang: str) -> str:
+    """Return a function with its arguments in brackets, separated as a language does."""
     arguments = _OPERATORS[list_separator(node.args, lang).name].join(
         [_format_inside(arg, lang) for arg in node.args]
     )
@@ -310,6 +346,7 @@ def _format_function(node: n.Func, lang: str) -> str:
 
 @_format_node.register
 def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
+    """Return a sum, product or integral sign with its bounds."""
     if node.sign not in LARGE:
         raise RenderError(f"no MathML for the sign {node.sign!r}")
     sign = f"<mo>{node.sign}</mo>"
@@ -325,6 +362,7 @@ def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
 
 @_format_node.register
 def _format_under(node: n.Under, lang: str) -> str:
+    """Return a node with another one below it."""
     return f"<munder>{_format_node(node.base, lang)}{_format_node(node.below, lang)}</munder>"
 
 
@@ -355,6 +393,7 @@ def _format_binomial(node: n.Binomial, lang: str) -> str:
 
 @_format_node.register
 def _format_cases(node: n.Cases, lang: str) -> str:
+    """Return branches behind a brace, the last one with the word for *otherwise*."""
     rows = []
     for value, condition in node.rows:
         when = f"<mtext>{load_speech_words(lang).printed['otherwise']}</mtext>"
@@ -366,10 +405,12 @@ def _format_cases(node: n.Cases, lang: str) -> str:
 
 
 def _format_cell(body: str) -> str:
+    """Return a cell of a table of branches."""
     return f'<mtd style="text-align:left;padding:0.2em 0.4em">{body}</mtd>'
 
 
 def _format_case_condition(condition: str, lang: str) -> str:
+    """Return a condition between the words that a language has for *if*."""
     before, after = (half.strip() for half in load_speech_words(lang).printed["if"].split("{}"))
     left = f"<mtext>{before}\u00a0</mtext>" if before else ""
     return left + condition + (f"<mtext>\u00a0{after}</mtext>" if after else "")
@@ -377,6 +418,7 @@ def _format_case_condition(condition: str, lang: str) -> str:
 
 @_format_node.register
 def _format_matrix(node: n.Matrix, lang: str) -> str:
+    """Return a matrix in round brackets."""
     rows = [
         "<mtr>" + "".join([f"<mtd>{_format_node(cell, lang)}</mtd>" for cell in row]) + "</mtr>"
         for row in node.rows

@@ -85,7 +85,7 @@ _PART = re.compile(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
 
 @lru_cache(maxsize=4096)
 def lay_out_name(symbol: str) -> Node:
-    """Lay a quantity's name out.
+    """Return the layout of a quantity's name.
 
     Parameters
     ----------
@@ -116,7 +116,10 @@ def lay_out_name(symbol: str) -> Node:
 
 
 def _lay_out_stem(stem: str) -> tuple[Node, str]:
-    """Letter, Greek letter, accented letter, difference or word; and the accent's name."""
+    """Return a letter, Greek letter, accented letter, difference or word; and the accent's name.
+
+    The accent is empty if there is none.
+    """
     letter = GREEK.get(stem, stem)
     if len(letter) == 1:
         return Ident(letter), ""
@@ -131,6 +134,13 @@ def _lay_out_stem(stem: str) -> tuple[Node, str]:
 
 
 def _lay_out_subscript(part: str, symbol: str) -> Node:
+    """Return one part of a subscript: digits, a sign, letters of axes or a name.
+
+    Raises
+    ------
+    RenderError
+        If it is none of them; ``symbol`` is the whole name, for the message.
+    """
     if part.isdigit():
         return Digits(part)
     if part in _SIGNS:
@@ -148,6 +158,7 @@ def _lay_out_subscript(part: str, symbol: str) -> Node:
 
 
 def _join_subscripts(subs: list[Node]) -> Node | None:
+    """Return the parts of a subscript with commas between; None if there are none."""
     if len(subs) < 2:
         return subs[0] if subs else None
     items: list[Node] = [subs[0]]

@@ -38,7 +38,7 @@ _GREEK_NAMES = {char: word for word, char in GREEK.items() if word != "lamda"}
 
 
 def to_speech(node: n.Node, lang: str = "en") -> str:
-    """Read a layout aloud.
+    """Return a layout as it is read aloud.
 
     Parameters
     ----------
@@ -54,15 +54,15 @@ def to_speech(node: n.Node, lang: str = "en") -> str:
 
     Examples
     --------
-    >>> from quizgen.typeset import name, spoken
-    >>> spoken(name("p'_x"))
+    >>> from quizgen.typeset import lay_out_name, to_speech
+    >>> to_speech(lay_out_name("p'_x"))
     'p prime sub x'
     """
     return _SPACES.sub(" ", _COMMAS.sub(r"\1", _say_node(node, lang))).strip(" ,")
 
 
 def is_simple(node: n.Node | None) -> bool:
-    """Whether a listener hears a node as one thing."""
+    """Return whether a listener hears a node as one thing."""
     match node:
         case (
             n.Digits()
@@ -88,6 +88,7 @@ def is_simple(node: n.Node | None) -> bool:
 
 
 def _say_phrase(lang: str, key: str, nodes: tuple[n.Node, ...]) -> str:
+    """Return a phrase with its parts, in its short form if all of them are simple."""
     words = load_speech_words(lang)
     table = words.short if all(map(is_simple, nodes)) else words.long
     return str(table[key]).format(*[_say_node(node, lang) for node in nodes])
@@ -95,16 +96,30 @@ def _say_phrase(lang: str, key: str, nodes: tuple[n.Node, ...]) -> str:
 
 @singledispatch
 def _say_node(node: n.Node, lang: str) -> str:
+    """Return a node as it is read aloud; each kind of node registers its own function.
+
+    Raises
+    ------
+    RenderError
+        For a kind that has none.
+    """
     raise RenderError(f"no reading for {type(node).__name__} ({lang})")
 
 
 @_say_node.register
 def _say_digits(node: n.Digits, lang: str) -> str:
+    """Return digits without spaces, which a voice would read as several numbers."""
     return "".join(localise_numbers(lang, node.text).split())
 
 
 def say_letter(char: str, lang: str) -> str:
-    """Say one letter; a capital is announced, since x and X differ."""
+    """Return one letter as it is spoken; a capital is announced, since x and X differ.
+
+    Raises
+    ------
+    RenderError
+        If a language has no name for it.
+    """
     words = load_speech_words(lang)
     lower = char.lower()
     said = words.letters.get(lower) or words.greek.get(lower) or _GREEK_NAMES.get(lower)
@@ -118,6 +133,7 @@ def say_letter(char: str, lang: str) -> str:
 
 @_say_node.register
 def _say_ident(node: n.Ident, lang: str) -> str:
+    """Return a letter, announced if it is bold."""
     words = load_speech_words(lang)
     if node.style:
         whole = words.greek.get(find_styled_letter(node.text, node.style))
@@ -143,6 +159,7 @@ def _say_function_name(node: n.FunctionName, lang: str) -> str:
 
 @_say_node.register
 def _say_word(node: n.Word, lang: str) -> str:
+    """Return a word's name in a language; abbreviations letter by letter if it names letters."""
     words = load_speech_words(lang)
     if words.letters and (node.text.isupper() or len(node.text) == 1):
         return "".join([words.letters.get(char.lower(), char) for char in node.text])
@@ -151,12 +168,13 @@ def _say_word(node: n.Word, lang: str) -> str:
 
 @_say_node.register
 def _say_reader_word(node: n.ReaderWord, lang: str) -> str:
+    """Return a word between formulas, such as *and*."""
     return _known(load_speech_words(lang).printed, node.key, "word")
 
 
 @lru_cache(maxsize=512)
 def say_unit(text: str, lang: str, *, one: bool = False) -> str:
-    """Say a unit, in the singular after the number one."""
+    """Return a unit as it is spoken, in the singular after the number one."""
     words = load_speech_words(lang)
     said = ""
     for part in split_unit(text):
@@ -169,6 +187,7 @@ def say_unit(text: str, lang: str, *, one: bool = False) -> str:
 
 
 def _simple_unit(part: UnitPart, words: SpeechWords, *, one: bool) -> str:
+    """Return one unit with its prefix; one that a bank defines is returned as it is printed."""
     if part.name in words.units:
         return words.units[part.name][not one]
     prefix = {"µ": "u", "μ": "u"}.get(part.name[0], part.name[0])
@@ -180,23 +199,26 @@ def _simple_unit(part: UnitPart, words: SpeechWords, *, one: bool) -> str:
 
 
 def _insert_word(pattern: str, word: str) -> str:
-    """A word in its place; one that goes on with another word begins with a small letter."""
+    """Return a pattern with a word; one that goes on with another begins with a small letter."""
     return pattern.format(word if pattern.startswith("{}") else word[:1].lower() + word[1:])
 
 
 @_say_node.register
 def _say_unit_text(node: n.UnitText, lang: str) -> str:
+    """Return a unit that stands alone."""
     return say_unit(node.text, lang)
 
 
 @_say_node.register
 def _say_quantity(node: n.NumberWithUnit, lang: str) -> str:
+    """Return a number with its unit, in the singular after one."""
     one = node.value == n.Digits("1")
     return f"{_say_node(node.value, lang)} {say_unit(node.unit.text, lang, one=one)}"
 
 
 @_say_node.register
 def _say_operator(node: n.OperatorSign, lang: str) -> str:
+    """Return an operator's word; nothing for an implied product."""
     return (
         "" if node.name == " " else _known(load_speech_words(lang).operators, node.name, "operator")
     )
@@ -204,6 +226,7 @@ def _say_operator(node: n.OperatorSign, lang: str) -> str:
 
 @_say_node.register
 def _say_row(node: n.MathRow, lang: str) -> str:
+    """Return the items of a row in order; two bounds as two statements."""
     if not node.items:
         return ""
     items = tuple([item for item in node.items if not _is_silent_gap(item)])
@@ -247,6 +270,7 @@ def _binds(following: n.Node | None) -> bool:
 
 @_say_node.register
 def _say_fraction(node: n.Frac, lang: str, length: str = "short") -> str:
+    """Return a fraction; a long one with its beginning and end, a deep one as such."""
     words = load_speech_words(lang)
     said = _say_node(node.top, lang), _say_node(node.bottom, lang)
     if node.inline or (length == "short" and is_simple(node.top) and is_simple(node.bottom)):
@@ -256,6 +280,7 @@ def _say_fraction(node: n.Frac, lang: str, length: str = "short") -> str:
 
 
 def _has_frac(node: n.Node) -> bool:
+    """Return whether a fraction stands inside a node."""
     match node:
         case n.Frac():
             return True
@@ -268,6 +293,7 @@ def _has_frac(node: n.Node) -> bool:
 
 @_say_node.register
 def _say_root(node: n.Root, lang: str) -> str:
+    """Return a root, with its index unless it is a square root."""
     if node.index is None:
         return _say_phrase(lang, "sqrt", (node.body,))
     return _say_phrase(lang, "root", (node.index, node.body))
@@ -275,6 +301,7 @@ def _say_root(node: n.Root, lang: str) -> str:
 
 @_say_node.register
 def _say_scripts(node: n.Scripts, lang: str) -> str:
+    """Return a base with its primes, subscript and power."""
     short = load_speech_words(lang).short
     if node.base == n.Phrase(""):
         return _say_indices_before(node, lang)
@@ -306,6 +333,10 @@ def _say_indices_before(node: n.Scripts, lang: str) -> str:
 
 
 def _say_power(node: n.Scripts, base: str, lang: str) -> str:
+    """Return a power; squares and cubes have words of their own, a transpose its sign's.
+
+    ``base`` is the base as it is spoken.
+    """
     words = load_speech_words(lang)
     if isinstance(node.sup, n.Digits) and node.sup.text in words.powers:
         grouped = isinstance(node.base, n.Fenced) and node.base.kind == "()"
@@ -321,6 +352,7 @@ def _say_power(node: n.Scripts, base: str, lang: str) -> str:
 
 @_say_node.register
 def _say_accent(node: n.Accent, lang: str) -> str:
+    """Return a letter with the word for its accent."""
     accents, long = load_speech_words(lang).accents, node.kind + "…"
     key = long if long in accents and not is_simple(node.base) else node.kind
     return _known(accents, key, "accent").format(_say_node(node.base, lang))
@@ -328,6 +360,7 @@ def _say_accent(node: n.Accent, lang: str) -> str:
 
 @_say_node.register
 def _say_fence(node: n.Fenced, lang: str) -> str:
+    """Return what stands in brackets with the words for them; an interval by its bounds."""
     words = load_speech_words(lang)
     if node.kind in words.intervals and isinstance(node.body, n.MathRow):
         bounds = [_say_node(item, lang) for item in node.body.items if item != n.OperatorSign(",")]
@@ -343,6 +376,7 @@ def _say_fence(node: n.Fenced, lang: str) -> str:
 
 @_say_node.register
 def _say_function(node: n.Func, lang: str) -> str:
+    """Return a function with its arguments, in the shortest form that is clear."""
     words = load_speech_words(lang)
     said = [_say_node(arg, lang) for arg in node.args]
     if not all(map(is_simple, node.args)) or not _is_plain_head(node.head):
@@ -363,13 +397,14 @@ def _say_function(node: n.Func, lang: str) -> str:
 
 
 def _is_plain_head(head: n.Node) -> bool:
-    """Whether a head is a bare function name, or a logarithm with its base."""
+    """Return whether a head is a bare function name, or a logarithm with its base."""
     if isinstance(head, n.Scripts):
         return (head.base == n.Word("log")) is (head.sub is not None)
     return isinstance(head, n.Word | n.Ident)
 
 
 def _say_function_head(node: n.Node, lang: str) -> str:
+    """Return a function's name alone, with its power or base."""
     words = load_speech_words(lang)
     if isinstance(node, n.FunctionName):
         return _say_function_head(n.Word(node.text), lang)
@@ -390,6 +425,7 @@ def _say_function_head(node: n.Node, lang: str) -> str:
 
 @_say_node.register
 def _say_large_operator(node: n.LargeOperator, lang: str) -> str:
+    """Return a sum, product or integral with its bounds."""
     what, low, high, closing = _known(load_speech_words(lang).signs, node.sign, "sign")
     said = [what]
     said += [low.format(_say_node(node.lower, lang))] if node.lower else []
@@ -399,6 +435,7 @@ def _say_large_operator(node: n.LargeOperator, lang: str) -> str:
 
 @_say_node.register
 def _say_under(node: n.Under, lang: str) -> str:
+    """Return a function's name with what stands below it."""
     short = load_speech_words(lang).short
     if not isinstance(node.base, n.Word | n.FunctionName):
         return short["under"].format(_say_node(node.base, lang), _say_node(node.below, lang))
@@ -434,6 +471,7 @@ def _say_binomial(node: n.Binomial, lang: str) -> str:
 
 @_say_node.register
 def _say_cases(node: n.Cases, lang: str) -> str:
+    """Return each branch with its condition, the last with the word for *otherwise*."""
     short = load_speech_words(lang).short
     rows = []
     for value, condition in node.rows:
@@ -446,6 +484,7 @@ def _say_cases(node: n.Cases, lang: str) -> str:
 
 @_say_node.register
 def _say_matrix(node: n.Matrix, lang: str) -> str:
+    """Return a matrix row by row, numbered from 1."""
     words = load_speech_words(lang)
     rows = [", ".join([_say_node(cell, lang) for cell in row]) for row in node.rows]
     said = [words.short["row"].format(f"{i}: {row}") for i, row in enumerate(rows, 1)]

@@ -73,7 +73,7 @@ _SIGNS = {sign: sign for sign in LARGE} | {"∑": "sum", "∏": "product", "∫"
 
 
 def to_typst(node: n.Node, lang: str = "en") -> str:
-    """Write a layout as Typst mathematics.
+    """Return a layout as Typst mathematics.
 
     Parameters
     ----------
@@ -91,11 +91,11 @@ def to_typst(node: n.Node, lang: str = "en") -> str:
 
 
 def typst_string(text: str) -> str:
-    r"""Make a Typst string literal.
+    r"""Return a Typst string literal.
 
     Examples
     --------
-    >>> quoted('a "b"')
+    >>> typst_string('a "b"')
     '"a \\"b\\""'
     """
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
@@ -103,17 +103,26 @@ def typst_string(text: str) -> str:
 
 @singledispatch
 def _format_node(node: n.Node, lang: str) -> str:
+    """Return a node in Typst; each kind of node registers its own function.
+
+    Raises
+    ------
+    RenderError
+        For a kind that has none.
+    """
     raise RenderError(f"no Typst for {type(node).__name__} ({lang})")
 
 
 @_format_node.register
 def _format_digits(node: n.Digits, lang: str) -> str:
+    """Return digits with the signs of a language."""
     text = localise_numbers(lang, node.text).replace(" ", "\u202f")
     return text if text.replace(".", "", 1).isdigit() and text.isascii() else typst_string(text)
 
 
 @_format_node.register
 def _format_letter(node: n.Ident, _lang: str) -> str:
+    """Return a letter, bold if it stands for a vector or matrix."""
     if node.style:
         return f"{_known(ALPHABETS, node.style, 'alphabet').typst}({node.text})"
     return f"upright(bold({node.text}))" if node.bold else node.text
@@ -121,6 +130,7 @@ def _format_letter(node: n.Ident, _lang: str) -> str:
 
 @_format_node.register
 def _format_word(node: n.Word, _lang: str) -> str:
+    """Return a name of several letters, upright."""
     return typst_string(node.text)
 
 
@@ -141,11 +151,13 @@ def _format_gap(node: n.Gap, _lang: str) -> str:
 
 @_format_node.register
 def _format_reader_word(node: n.ReaderWord, lang: str) -> str:
+    """Return a word between formulas, such as *and*, with blanks around it."""
     return typst_string(f" {_known(load_speech_words(lang).printed, node.key, 'word')} ")
 
 
 @lru_cache(maxsize=512)
 def _unit_text(text: str) -> str:
+    """Return a unit in Typst, cached since a paper repeats it."""
     written = ""
     for part in split_unit(text):
         sign = {"·": "dot.op", "/": "slash", "": ""}[part.sign]
@@ -156,22 +168,26 @@ def _unit_text(text: str) -> str:
 
 @_format_node.register
 def _format_unit(node: n.UnitText, _lang: str) -> str:
+    """Return a unit that stands alone."""
     return _unit_text(node.text)
 
 
 @_format_node.register
 def _format_quantity(node: n.NumberWithUnit, lang: str) -> str:
+    """Return a number with its unit, a thin space between them unless the unit has none."""
     space = "" if node.unit.text in TIGHT else " thin"
     return f"{_format_node(node.value, lang)}{space}{_unit_text(node.unit.text)}"
 
 
 @_format_node.register
 def _format_operator(node: n.OperatorSign, _lang: str) -> str:
+    """Return an operator's sign; RenderError if there is none."""
     return _known(_OPERATORS, node.name, "operator")
 
 
 @_format_node.register
 def _format_row(node: n.MathRow, lang: str) -> str:
+    """Return the items of a row one after the other."""
     if not node.items:
         return '""'  # an argument must be something
     return _join_with_spaces(
@@ -180,7 +196,7 @@ def _format_row(node: n.MathRow, lang: str) -> str:
 
 
 def _join_with_spaces(texts: list[str]) -> str:
-    """Join by spaces, except beside a string literal, where Typst would print the space."""
+    """Return texts with spaces between, except next to a string, where Typst prints the space."""
     written = ""
     for text in texts:
         tight = not written or not text or written[-1] == '"' or text[0] == '"'
@@ -190,6 +206,7 @@ def _join_with_spaces(texts: list[str]) -> str:
 
 @_format_node.register
 def _format_fraction(node: n.Frac, lang: str) -> str:
+    """Return a fraction with a bar, or with a slash within a line."""
     top, bottom = _format_node(node.top, lang), _format_node(node.bottom, lang)
     if node.inline:
         return _join_with_spaces([top, "slash", bottom])
@@ -198,12 +215,14 @@ def _format_fraction(node: n.Frac, lang: str) -> str:
 
 @_format_node.register
 def _format_root(node: n.Root, lang: str) -> str:
+    """Return a root, with its index unless it is a square root."""
     body = _format_node(node.body, lang)
     return f"root({_format_node(node.index, lang)}, {body})" if node.index else f"sqrt({body})"
 
 
 @_format_node.register
 def _format_scripts(node: n.Scripts, lang: str) -> str:
+    """Return a base with primes, subscript and superscript."""
     written = _format_node(node.base, lang) + "'" * node.primes
     if node.sub is not None:
         written += f"_({_format_node(node.sub, lang)})"
@@ -214,11 +233,13 @@ def _format_scripts(node: n.Scripts, lang: str) -> str:
 
 @_format_node.register
 def _format_accent(node: n.Accent, lang: str) -> str:
+    """Return a letter with its accent; RenderError if there is none."""
     return f"{_known(ACCENTS, node.kind, 'accent').typst}({_format_node(node.base, lang)})"
 
 
 @_format_node.register
 def _format_fence(node: n.Fenced, lang: str) -> str:
+    """Return brackets around a node, as tall as it is."""
     body = _format_node(node.body, lang)
     if node.kind == "()":
         return f"({body})"
@@ -230,12 +251,14 @@ def _format_fence(node: n.Fenced, lang: str) -> str:
 
 @_format_node.register
 def _format_function(node: n.Func, lang: str) -> str:
+    """Return a function with its arguments in brackets, separated as a language does."""
     between = f" {_OPERATORS[list_separator(node.args, lang).name]} "
     arguments = between.join([_format_node(arg, lang) for arg in node.args])
     return f"{_format_function_head(node.head, lang)} ({arguments})"
 
 
 def _format_function_head(node: n.Node, lang: str) -> str:
+    """Return a function's name, or an operator of that name if Typst has none."""
     if isinstance(node, n.Word):
         return node.text if node.text in KNOWN else f"op({typst_string(node.text)})"
     if isinstance(node, n.FunctionName):
@@ -247,11 +270,13 @@ def _format_function_head(node: n.Node, lang: str) -> str:
 
 @_format_node.register
 def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
+    """Return a sum, product or integral sign with its bounds."""
     return _known(_SIGNS, node.sign, "sign") + _format_scripts(node.bounds, lang)
 
 
 @_format_node.register
 def _format_under(node: n.Under, lang: str) -> str:
+    """Return a node with another one below it."""
     base = _format_function_head(node.base, lang)
     if isinstance(node.base, n.Word | n.FunctionName):
         return f"limits({base})_({_format_node(node.below, lang)})"
@@ -281,6 +306,7 @@ def _format_binomial(node: n.Binomial, lang: str) -> str:
 
 @_format_node.register
 def _format_cases(node: n.Cases, lang: str) -> str:
+    """Return branches behind a brace, the last one with the word for *otherwise*."""
     rows = []
     for value, condition in node.rows:
         when = typst_string(load_speech_words(lang).printed["otherwise"])
@@ -291,6 +317,7 @@ def _format_cases(node: n.Cases, lang: str) -> str:
 
 
 def _format_case_condition(condition: str, lang: str) -> str:
+    """Return a condition between the words that a language has for *if*."""
     before, after = (half.strip() for half in load_speech_words(lang).printed["if"].split("{}"))
     left = typst_string(f"{before} ") if before else ""
     return left + condition + (typst_string(f" {after}") if after else "")
@@ -298,6 +325,7 @@ def _format_case_condition(condition: str, lang: str) -> str:
 
 @_format_node.register
 def _format_matrix(node: n.Matrix, lang: str) -> str:
+    """Return a matrix in round brackets."""
     rows = [", ".join([_format_node(cell, lang) for cell in row]) for row in node.rows]
     # in a line of text Typst would set the cells as small as in a fraction
     return f"display(mat({_known(_DELIMITERS, node.kind, 'matrix')}" + "; ".join(rows) + "))"

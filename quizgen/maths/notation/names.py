@@ -61,13 +61,13 @@ GREEK = {
 
 
 def is_plain_name(name: str) -> bool:
-    """Whether a name can stand in a formula without back quotes."""
+    """Return whether a name can stand in a formula without back quotes."""
     reserved = name in CONSTANTS or name in KEYWORDS or name in FUNCTIONS
     return not reserved and NAME.fullmatch(name) is not None
 
 
 def fold_name(name: str) -> str:
-    """Spelling without subscript marks and Greek letters: ``k_1`` and ``k1`` are one name."""
+    """Return a name without subscript marks and Greek letters: ``k_1`` and ``k1`` are one."""
     if not name.isascii():
         for letter, word in GREEK.items():
             name = name.replace(letter, word)
@@ -76,7 +76,7 @@ def fold_name(name: str) -> str:
 
 @cache
 def spellings(symbols: frozenset[str]) -> dict[str, str]:
-    """Every accepted spelling of the declared names, to the declared name.
+    """Return every accepted spelling of the declared names, to the declared name.
 
     Two declared names that fold to one spelling keep only their exact spellings.
     """
@@ -92,6 +92,7 @@ def spellings(symbols: frozenset[str]) -> dict[str, str]:
 
 
 def _list_greek_spellings(name: str) -> set[str]:
+    """Return the name with Greek letters for their words, with and without underscores."""
     return {
         name.replace(word, letter).replace("_", cut)
         for letter, word in GREEK.items()
@@ -101,7 +102,10 @@ def _list_greek_spellings(name: str) -> set[str]:
 
 
 def split_product(word: str, symbols: frozenset[str]) -> list[list[str]]:
-    """All ways to read an undeclared word as a product of declared names (at most two)."""
+    """Return the ways to read an undeclared word as a product of declared names (at most two).
+
+    Two are enough to see that it is ambiguous.
+    """
     table = spellings(symbols)
     ways: list[list[list[str]]] = [[] for _ in range(len(word) + 1)]
     ways[0] = [[]]
@@ -115,5 +119,5 @@ def split_product(word: str, symbols: frozenset[str]) -> list[list[str]]:
 
 
 def _deduplicate_products(ways: list[list[str]]) -> list[list[str]]:
-    """Products of the same factors are the same reading."""
+    """Return the products without those of the same factors, which are the same reading."""
     return list({tuple(sorted(way)): way for way in ways}.values())
