@@ -6,7 +6,6 @@ that this code asks. A wheel brings what its own bank comes to (``quizgen/_build
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
@@ -72,15 +71,23 @@ class CompileCache(Generic[T]):
 
 @cache
 def _compute_code_digest(*packages: str) -> bytes:
-    """Digest of the code that makes of sources what is kept."""
-    return compute_digest(*(file.read_bytes() for file in _iter_code_files(packages))).encode()
+    """Return the digest of the code that makes of sources what is kept."""
+    files = [file for package in packages for file in _list_version_files(package)]
+    return compute_digest(_compute_own_digest(), *(file.read_bytes() for file in files)).encode()
 
 
-def _iter_code_files(packages: Iterable[str]) -> Iterator[Path]:
+@cache
+def _compute_own_digest() -> bytes:
+    """Return the digest of quizgen's own part of that code."""
     own = Path(__file__).parent.parent
-    for folder in ("bank", "core", "kinds", "maths", "typeset"):
-        yield from sorted((own / folder).rglob("*.py"))
-    for package in packages:
-        found = find_spec(package)
-        if found is not None and found.origin is not None:
-            yield from sorted(Path(found.origin).parent.glob(_VERSIONS[package]))
+    folders = ("bank", "core", "kinds", "maths", "typeset")
+    files = [file for folder in folders for file in sorted((own / folder).rglob("*.py"))]
+    return compute_digest(*(file.read_bytes() for file in files)).encode()
+
+
+def _list_version_files(package: str) -> list[Path]:
+    """Return the file that says which version a package is; none if it is not installed."""
+    found = find_spec(package)
+    if found is None or found.origin is None:
+        return []
+    return sorted(Path(found.origin).parent.glob(_VERSIONS[package]))
