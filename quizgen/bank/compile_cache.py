@@ -6,7 +6,6 @@ that this code asks. A wheel brings what its own bank comes to (``quizgen/_build
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
@@ -32,7 +31,7 @@ _UNFIT = msgspec.MsgspecError, ValueError, OverflowError, RecursionError
 
 
 class CompileCache(Generic[T]):
-    """Cache of what sources are compiled to, of one type.
+    """Things of one kind that are kept.
 
     Parameters
     ----------
@@ -45,13 +44,12 @@ class CompileCache(Generic[T]):
     """
 
     def __init__(self, kind: str, shape: type[T], *packages: str) -> None:
-        """Prepare a decoder for ``shape``; nothing is read yet."""
         self.kind, self.packages = kind, packages
         prepare_type(shape)
         self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
 
     def get(self, *sources: bytes) -> T | None:
-        """Return what sources were compiled to, or None if the cache does not hold it."""
+        """What sources came to, if it is kept."""
         found = read_cached(self.kind, self._compute_key(sources))
         if found is None:
             return None
@@ -60,7 +58,7 @@ class CompileCache(Generic[T]):
         return None
 
     def store_compiled(self, thing: T, *sources: bytes) -> T:
-        """Store what sources were compiled to, if it survives being written and read."""
+        """Keep what sources came to, if it comes back the same."""
         with suppress(*_UNFIT):
             data = msgspec.msgpack.encode(thing, enc_hook=str)
             if self._decoder.decode(data) == thing:
@@ -68,26 +66,28 @@ class CompileCache(Generic[T]):
         return thing
 
     def _compute_key(self, sources: tuple[bytes, ...]) -> str:
-        """Return the key of sources: a digest of them and of the code that compiles them."""
         return compute_digest(_compute_code_digest(*self.packages), *sources)
 
 
 @cache
 def _compute_code_digest(*packages: str) -> bytes:
-    """Return the digest of the code that compiles sources."""
-    return compute_digest(*(file.read_bytes() for file in _iter_code_files(packages))).encode()
+    """Return the digest of the code that makes of sources what is kept."""
+    files = [file for package in packages for file in _list_version_files(package)]
+    return compute_digest(_compute_own_digest(), *(file.read_bytes() for file in files)).encode()
 
 
-def _iter_code_files(packages: Iterable[str]) -> Iterator[Path]:
-    """Yield the files whose change makes a compiled value out of date.
-
-    Of packages that compile (SymPy, math-core) the file with the version is enough: they never
-    change in place.
-    """
+@cache
+def _compute_own_digest() -> bytes:
+    """Return the digest of quizgen's own part of that code."""
     own = Path(__file__).parent.parent
-    for folder in ("bank", "core", "kinds", "maths", "typeset"):
-        yield from sorted((own / folder).rglob("*.py"))
-    for package in packages:
-        found = find_spec(package)
-        if found is not None and found.origin is not None:
-            yield from sorted(Path(found.origin).parent.glob(_VERSIONS[package]))
+    folders = ("bank", "core", "kinds", "maths", "typeset")
+    files = [file for folder in folders for file in sorted((own / folder).rglob("*.py"))]
+    return compute_digest(*(file.read_bytes() for file in files)).encode()
+
+
+def _list_version_files(package: str) -> list[Path]:
+    """Return the file that says which version a package is; none if it is not installed."""
+    found = find_spec(package)
+    if found is None or found.origin is None:
+        return []
+    return sorted(Path(found.origin).parent.glob(_VERSIONS[package]))

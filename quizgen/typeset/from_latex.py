@@ -612,6 +612,8 @@ def _join_signs(pieces: list[_Piece]) -> list[_Piece]:
     for piece in pieces:
         if piece in dots and found[-2:] == [piece, piece]:
             found[-2:] = [OperatorSign("…" if piece == dots[0] else "⋯")]
+        elif piece == OperatorSign("!") and found[-1:] == [OperatorSign("∃")]:
+            found[-1] = OperatorSign("∃!")
         elif piece == equals and found[-1:] in ([OperatorSign(":")], [OperatorSign("colon")]):
             found[-1] = OperatorSign("≔")
         elif isinstance(piece, OperatorSign) and piece.name in {"⟹", "⟸", "⟺"}:
@@ -757,11 +759,12 @@ def _is_relation(item: Node) -> bool:
     return isinstance(item, OperatorSign) and item.name in _RELATIONS
 
 
+_AS_OPERANDS = frozenset({"!", "°", "%", "′", "…", "⋯", "⋮", "⋱"})
+
+
 def _waits(items: list[Node]) -> bool:
     """Whether an operand must come next."""
-    return not items or (
-        isinstance(items[-1], OperatorSign) and items[-1].name not in {"!", "°", "%", "…", "′"}
-    )
+    return not items or (isinstance(items[-1], OperatorSign) and items[-1].name not in _AS_OPERANDS)
 
 
 def _make_row(items: list[Node], *, root: bool = False) -> Node:
@@ -787,13 +790,20 @@ def _check_decimal_comma(items: list[Node], *, root: bool) -> None:
             )
 
 
+_PREFIXES: dict[Node, OperatorSign] = {
+    OperatorSign("-"): OperatorSign("neg"), OperatorSign("+"): OperatorSign("pos")
+}  # fmt: skip
+
+
 def _find_signs(items: list[Node]) -> list[Node]:
     """Minus signs that are no differences, colons that are no ratios, a remainder."""
     found: list[Node] = []
     for at, item in enumerate(items):
         after = items[at + 1] if at + 1 < len(items) else None
-        if item == OperatorSign("-") and _waits(found) and after is not None:
-            found.append(OperatorSign("neg"))
+        if item in _PREFIXES and _waits(found) and after is not None:
+            found.append(_PREFIXES[item])
+        elif item == Gap("thin") and found[-1:] and found[-1] in _PREFIXES.values():
+            continue
         elif item == OperatorSign(":") and not (
             found and isinstance(found[-1], Digits | Leaf) and isinstance(after, Digits | Leaf)
         ):
@@ -838,10 +848,13 @@ def _holds_nothing(item: Node) -> bool:
     )
 
 
+_INVERSE = MathRow((OperatorSign("neg"), Digits("1")), NEGATIVE)
+
+
 def _is_called(node: Node | None, *, applied: bool) -> bool:
     """Whether a node with brackets behind it is a function."""
     while isinstance(node, Scripts | Accent):
-        if isinstance(node, Scripts) and node.sup is not None and not applied:
+        if isinstance(node, Scripts) and node.sup not in {None, _INVERSE} and not applied:
             return False
         node = node.base
     if isinstance(node, Ident):

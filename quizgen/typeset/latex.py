@@ -39,6 +39,7 @@ _OPERATORS = {
     "": "",
     " ": r"\,",
     "neg": "-",
+    "pos": "+",
     "·": r"\cdot",
     "×": r"\times",
     "≠": r"\neq",

@@ -39,6 +39,7 @@ _OPERATORS = {
     "": _TIMES,
     " ": THIN,
     "neg": '<mo form="prefix">−</mo>',
+    "pos": '<mo form="prefix">+</mo>',
     "-": "<mo>−</mo>",
     "·": "<mo>⋅</mo>",
     "mod": '<mo lspace="0.22em" rspace="0.22em">mod</mo>',

@@ -6,6 +6,7 @@ What Unicode has no sign for is written so that it can be read in one way only: 
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from functools import singledispatch
 
@@ -23,12 +24,14 @@ from quizgen.typeset.printer import (
 )
 from quizgen.typeset.signs import ACCENTS, INTEGRALS, LARGE, SIGN_COMMANDS, find_styled_letter
 
+_SPACES = re.compile("  +")
 _known = strict_lookup("text")
 
 _BELOW = pretty.TO_BELOW | str.maketrans("=−()", "₌₋₍₎")
 _ABOVE = pretty.RAISED | str.maketrans("−ni", "⁻ⁿⁱ")
 _TIGHT = {
-    "": "·", "·": "·", "neg": "−", "/": "/", "′": "′", "!": "!", "?": "?", "°": "°", "%": "%",
+    "": "·", "·": "·", "neg": "−", "pos": "+", "∃!": "∃!", "/": "/", "′": "′", "!": "!",
+    "?": "?", "°": "°", "%": "%",
     ".": ".", "¬": "¬", "∘": "∘", "∀": "∀", "∃": "∃", "∄": "∄", "ᵀ": "ᵀ", "†": "†", "…": "…",
     "⋯": "⋯", "⋮": "⋮", "⋱": "⋱", "apply": " ", "apply tight": "", " ": " ", ",": ", ", ";": "; ",
     "colon": ": ", "∠": "∠",
@@ -61,7 +64,7 @@ def to_text(node: n.Node, lang: str = "en") -> str:
     >>> to_text(lay_out_latex(r"s^2 = \frac{1}{n-1}\sum_{i=1}^n (x_i - \bar x)^2"))
     's² = 1/(n − 1) ∑ᵢ₌₁ⁿ (xᵢ − x̄)²'
     """
-    return " ".join(unicodedata.normalize("NFC", _format_node(node, lang)).split(" ")).strip()
+    return _SPACES.sub(" ", unicodedata.normalize("NFC", _format_node(node, lang))).strip()
 
 
 @singledispatch

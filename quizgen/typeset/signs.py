@@ -40,8 +40,8 @@ BINARY = {
 """Signs between two operands."""
 
 PLAIN = {
-    "¬": "neg", "∀": "forall", "∃": "exists", "∄": "nexists", "†": "dagger", "∴": "therefore",
-    "∵": "because", "⋯": "cdots", "⋮": "vdots", "⋱": "ddots",
+    "¬": "neg", "∀": "forall", "∃": "exists", "∃!": "exists!", "∄": "nexists", "†": "dagger",
+    "∴": "therefore", "∵": "because", "⋯": "cdots", "⋮": "vdots", "⋱": "ddots",
 }  # fmt: skip
 """Signs that stand before, behind or instead of an operand."""
 
@@ -162,7 +162,7 @@ def has_styled_letter(letter: str, style: str) -> bool:
 def list_formula_characters() -> frozenset[str]:
     """Return the characters that formulas can hold: signs, brackets, marks, letters."""
     tables = (SIGN_COMMANDS, LARGE, FENCES, LETTERLIKE)
-    signs = {sign for table in tables for sign in table}
+    signs = {char for table in tables for sign in table for char in sign}
     marks = {accent.mark for accent in ACCENTS.values()}
     return frozenset({*signs, *marks, *_OTHER_SIGNS, *_iter_styled_letters()})
 

@@ -29,6 +29,7 @@ from quizgen.typeset.signs import RELATIONS as SIGNED_RELATIONS
 _known = strict_lookup("reading")
 
 _BINDING = tuple(map(n.OperatorSign, ("", "·", "×", "mod")))
+_GREEK = frozenset(GREEK.values())
 _MINUS_ONE = n.MathRow((n.OperatorSign("neg"), n.Digits("1")), n.NEGATIVE)
 _BOUNDS = tuple(map(n.OperatorSign, "<≤"))
 _RELATING = tuple(map(n.OperatorSign, (*RELATIONS, *ARROWS, *SIGNED_RELATIONS, ",", ";", "|")))
@@ -163,6 +164,8 @@ def _say_word(node: n.Word, lang: str) -> str:
     words = load_speech_words(lang)
     if words.letters and (node.text.isupper() or len(node.text) == 1):
         return "".join([words.letters.get(char.lower(), char) for char in node.text])
+    if not node.text.isascii() and node.text not in words.names:
+        return " ".join([say_letter(c.lower(), lang) if c in _GREEK else c for c in node.text])
     return words.names.get(node.text, node.text)
 
 
@@ -411,16 +414,22 @@ def _say_function_head(node: n.Node, lang: str) -> str:
     if isinstance(node, n.Word):
         known = words.functions.get(node.text)
         return known[1] if known else _say_node(node, lang)
-    if isinstance(node, n.Scripts) and node.sup is not None:
+    return _say_scripted_head(node, lang) if isinstance(node, n.Scripts) else _say_node(node, lang)
+
+
+def _say_scripted_head(node: n.Scripts, lang: str) -> str:
+    """A function's name with its base or power: ``log`` with 2, ``sin`` squared, an inverse."""
+    words = load_speech_words(lang)
+    if node.sup == _MINUS_ONE:
+        return words.powers["inverse"].format(_say_function_head(replace(node, sup=None), lang))
+    if node.sup is not None:
         bare = n.Scripts(node.base, node.sub) if node.sub else node.base
         return _say_power(node, _say_function_head(bare, lang), lang)
-    if isinstance(node, n.Scripts) and node.sub is not None:
-        if node.base == n.Word("log"):
-            return words.short["base alone"].format(_say_node(node.sub, lang))
-        return words.short["sub"].format(
-            _say_function_head(node.base, lang), _say_node(node.sub, lang)
-        )
-    return _say_node(node, lang)
+    if node.sub is None:
+        return _say_node(node, lang)
+    if node.base == n.Word("log"):
+        return words.short["base alone"].format(_say_node(node.sub, lang))
+    return words.short["sub"].format(_say_function_head(node.base, lang), _say_node(node.sub, lang))
 
 
 @_say_node.register

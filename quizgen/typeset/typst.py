@@ -34,6 +34,7 @@ _OPERATORS = {
     "": "",
     " ": "thin",
     "neg": "-",
+    "pos": "+",
     "·": "dot.op",
     "/": "slash",
     ",": r"\,",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import msgspec
 import pytest
 
+from quizgen.bank import markdown
 from quizgen.bank.bank import Bank
 from quizgen.bank.markdown import (
     InlineFormula,
@@ -216,3 +217,15 @@ def test_a_card_takes_latex_and_no_drawn_value():
     assert piece.text == "p̂ = k/n"
     with pytest.raises(BankError, match=r"\{\{ k \}\} cannot be filled in here"):
         fill_inlines(parse_inlines(r"$\hat p = {{ k }}$"), typeset_slot)
+
+
+def test_latex_is_read_once_and_not_for_each_variant(bank, monkeypatch):
+    template = bank.template("formulas")
+    assert template.texts["en"].stem  # read here
+
+    def read_again(_source):
+        raise AssertionError("LaTeX is read again")
+
+    monkeypatch.setattr(markdown, "lay_out_latex", read_again)
+    stems = [compose_variant(draw_variant(template, seed), "en")[0].stem for seed in range(3)]
+    assert all("x + 3" in "\n".join(blocks_to_plain_text(stem)) for stem in stems)
