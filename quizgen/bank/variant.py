@@ -31,6 +31,7 @@ from quizgen.maths.numbers import (
     to_rational,
 )
 from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value, Values
 
 SHOWN_FIGURES = 6
@@ -90,6 +91,7 @@ class Variant:
     _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
     _identity: list[str] = field(init=False, repr=False, compare=False, default_factory=list)
     _computed: dict[str, Value] = field(init=False, repr=False, compare=False, default_factory=dict)
+    _forms: dict[str, Expr] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<Draw of {self.template.id}, seed {self.seed}, slot {self.slot}>"
@@ -137,6 +139,21 @@ class Variant:
             with working_precision():
                 self._computed[formula] = self.sampler.compile_formula(formula)(self.shown_values)
         return self._computed[formula]
+
+    def form(self, name: str) -> Expr:
+        """A form of the solver with the drawn numbers in place, tidied.
+
+        Raises
+        ------
+        KeyError
+            If the solver has no form of this name.
+        """
+        if name not in self._forms:
+            chain = self.template.chain
+            with working_precision():
+                bound = chain.bind_form(chain.form_by_name[name].expr, self.values)
+            self._forms[name] = bound
+        return self._forms[name]
 
     def steps_of_part(self, index: int) -> tuple[ChainStep, ...]:
         """The steps that lead to a part's answer, those that the template leaves out aside."""
