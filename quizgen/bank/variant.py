@@ -173,6 +173,16 @@ class Variant:
             for trap in self.traps[index]
         }
 
+    def form_of_part(self, index: int) -> Expr:
+        """The form that a part asks for, with the drawn numbers in place."""
+        return self.form(self.sampler.parts[index].form)
+
+    def misconception_forms(self, index: int) -> dict[str, Expr]:
+        """Each usable mistake of a part and the form that it gives."""
+        with working_precision():
+            found = self.sampler.parts[index].wrong_forms(self.values)
+        return {trap: found[trap] for trap in self.traps[index]}
+
     def _answer_components(self, index: int, values: Values) -> tuple[Value, ...]:
         part = self.sampler.parts[index]
         with working_precision():

@@ -26,7 +26,7 @@ from quizgen.maths.numbers import to_fraction
 from quizgen.maths.operators import CHECKED
 from quizgen.maths.precision import PRECISION, working_precision
 from quizgen.maths.tidy import tidy_formula
-from quizgen.maths.tree import Expr, Num, Sym, names_in, operators_in, substitute
+from quizgen.maths.tree import Expr, Num, names_in, operators_in, substitute
 from quizgen.maths.values import Value, Values
 
 CompiledSteps: TypeAlias = tuple[tuple[str, CompiledFormula], ...]
@@ -81,20 +81,24 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         """Name of a form to its step."""
         return {step.name: step for step in self.forms}
 
-    def bind_form(self, expr: Expr, values: Values) -> Expr:
+    def bind_form(
+        self, expr: Expr, values: Values, wrong: Mapping[str, Expr] | None = None
+    ) -> Expr:
         """A form with the numbers of a draw in place, tidied.
 
         A quantity that is irrational stays the formula that gives it, so that the form is exact.
-        """
-        names = names_in(expr) - {*self.free}
-        return tidy_formula(substitute(expr, {n: self._write_exactly(n, values) for n in names}))
 
-    def _write_exactly(self, name: str, values: Values) -> Expr:
-        value = values[name]
-        if isinstance(value, fmpq) or name not in self.by_name:
-            return Num(to_fraction(value)) if isinstance(value, fmpq) else Sym(name)
-        expr = select_branch(self.by_name[name].expr, values, exact_system())
-        return substitute(expr, {n: self._write_exactly(n, values) for n in names_in(expr)})
+        Parameters
+        ----------
+        expr : Expr
+        values : mapping of str to flint.fmpq or flint.arb
+            Every quantity of the chain in base units.
+        wrong : mapping of str to Expr, optional
+            Formulas that a mistake puts in place of those of steps.
+        """
+        steps = {step.name: step.expr for step in self.steps} | dict(wrong or {})
+        names = names_in(expr) - {*self.free}
+        return tidy_formula(substitute(expr, {n: _write_exactly(n, values, steps) for n in names}))
 
     @cached_property
     def certainties(self) -> dict[str, str]:
@@ -216,6 +220,15 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
             seen.add(current)
             todo += [n for n in self.operands[current] if n not in stop]
         return frozenset(seen)
+
+
+def _write_exactly(name: str, values: Values, steps: Mapping[str, Expr]) -> Expr:
+    """A quantity as a rational, else as the formula that gives it."""
+    value = values[name]
+    if isinstance(value, fmpq):
+        return Num(to_fraction(value))
+    expr = select_branch(steps[name], values, exact_system())
+    return substitute(expr, {n: _write_exactly(n, values, steps) for n in names_in(expr)})
 
 
 def _run_steps(

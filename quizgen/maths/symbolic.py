@@ -13,6 +13,7 @@ from typing import Any
 
 import sympy
 from sympy.core.function import AppliedUndef
+from sympy.core.sympify import _sympify as _make_strict  # takes no text
 from sympy.matrices.expressions.matexpr import MatrixExpr
 
 from quizgen.core.errors import BankError
@@ -47,7 +48,7 @@ class FormResolver:
         """
         with sympy.evaluate(True):
             try:
-                written = sympy.sympify(expression)
+                written = _make_strict(expression)
                 whole = self._put_forms_in(written)
                 return self._convert(whole)
             except BankError:
@@ -59,7 +60,7 @@ class FormResolver:
     def remember(self, name: str, expression: Any) -> None:
         """Have later steps see a form under its name."""
         with sympy.evaluate(True):
-            self.forms[name] = self._put_forms_in(sympy.sympify(expression))
+            self.forms[name] = self._put_forms_in(_make_strict(expression))
 
     def _put_forms_in(self, written: Any) -> Any:
         if not self.forms or not hasattr(written, "free_symbols"):

@@ -26,7 +26,7 @@ from quizgen.bank.markdown import (
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
-from quizgen.kinds.contract import LabelledName
+from quizgen.kinds.contract import LabelledName, asked_form
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.numbers import format_exact, format_rounded
 from quizgen.maths.tree import Expr
@@ -137,6 +137,8 @@ class Interpolator:
             return self.sentence("words", drawn.words[name])
         if not self.hidden and ("words", name) in self.text.cases:
             return self.sentence("words", name)
+        if name in drawn.template.chain.form_by_name and self._may_show_form(name):
+            return (_inline_maths(drawn.form(name)),)
         if name not in self.known:
             what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
             raise self._format_problem(what, "QG158", TEXT, blank)
@@ -147,6 +149,11 @@ class Interpolator:
             RoundedMarker(),
             *to_inlines(join_unit(rounded, drawn.template.units.get(name, ""))),
         )
+
+    def _may_show_form(self, name: str) -> bool:
+        """Whether a formula of the solver may stand here: in a stem none that is asked for."""
+        parts = self.drawn.template.rules.part
+        return not self.hidden or all(asked_form(part.answer) != name for part in parts)
 
     def _fill_program(self, text: str) -> str:
         return fill_program(text, self.drawn, self.known)

@@ -20,6 +20,7 @@ from quizgen.kinds.contract import (
     asked_quantities,
 )
 from quizgen.locale import localise_numbers
+from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value
 from quizgen.question.interpolation import (
     Interpolator,
@@ -59,6 +60,12 @@ class VariantPart(PartContext):
 
     def misconception_answers(self) -> dict[str, tuple[Value, ...]]:
         return self.drawn.misconception_answers(self.index)
+
+    def answer_form(self) -> Expr:
+        return self.drawn.form_of_part(self.index)
+
+    def misconception_forms(self) -> dict[str, Expr]:
+        return self.drawn.misconception_forms(self.index)
 
     def count_nouns(self) -> dict[str, Any]:
         stated = self.answer.get("counts")

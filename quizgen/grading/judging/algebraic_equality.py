@@ -32,18 +32,19 @@ def prove_equal(first: Expr, second: Expr) -> bool:
     used = tuple(sorted(names_in(first) | names_in(second)))
     try:
         top1, low1 = _of_key(first, used)
-        top2, low2 = _convert_to_quotient(second, used)
+        top2, low2 = convert_to_quotient(second, used)
     except (ValueError, ZeroDivisionError):
         return False
     return bool(top1 * low2 == top2 * low1)
 
 
-def _convert_to_quotient(tree: Expr, used: tuple[str, ...]) -> Quotient:
+def convert_to_quotient(tree: Expr, used: tuple[str, ...]) -> Quotient:
+    """A formula of arithmetic as a quotient of polynomials, nothing cancelled."""
     ctx, env = _build_polynomial_field(used)
     return _evaluate_quotient(tree, ctx, env)
 
 
-_of_key = lru_cache(maxsize=512)(_convert_to_quotient)
+_of_key = lru_cache(maxsize=512)(convert_to_quotient)
 """The same for a key, which a whole class is compared with."""
 
 

@@ -26,7 +26,8 @@ from quizgen.maths.notation.names import FUNCTIONS, GREEK, fold_name
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.tree import Call, Expr, Num
 
-MULTI_ARGUMENT = rf"(?:{'|'.join(name for name, (_, most) in FUNCTIONS.items() if most > 1 and name not in GREEK.values())})"
+_SEVERAL = (n for n, (_, most) in FUNCTIONS.items() if most > 1 and n not in GREEK.values())
+MULTI_ARGUMENT = rf"(?:{'|'.join(_SEVERAL)})"
 _SYNONYMS = {
     "arctan2": "atan2",
     "arctan": "atan",
