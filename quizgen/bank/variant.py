@@ -23,6 +23,7 @@ from quizgen.core.errors import SamplingError
 from quizgen.core.positions import TEXT, Place
 from quizgen.maths.canonical import CanonicalForm
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import (
     format_exact,
     format_rounded,
@@ -31,7 +32,7 @@ from quizgen.maths.numbers import (
     to_rational,
 )
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import Expr
+from quizgen.maths.tree import Expr, Sym
 from quizgen.maths.values import Value, Values
 
 SHOWN_FIGURES = 6
@@ -172,6 +173,20 @@ class Variant:
             trap: self._answer_components(index, chain.solve_with_misconception(trap, self.values))
             for trap in self.traps[index]
         }
+
+    def exact_texts(self, index: int) -> tuple[str, ...]:
+        """Each irrational component of a part's answer as a formula; empty where it is none.
+
+        A quantity that is asked in another unit than base units has no such formula.
+        """
+        part, chain = self.sampler.parts[index], self.template.chain
+        found = []
+        for name in part.of:
+            plain = self.template.unit_factor(part.unit_of(self.template, name)) == 1
+            known = isinstance(self.values[name], fmpq) or not plain
+            with working_precision():
+                found.append("" if known else format_tree(chain.bind_form(Sym(name), self.values)))
+        return tuple(found)
 
     def form_of_part(self, index: int) -> Expr:
         """The form that a part asks for, with the drawn numbers in place."""

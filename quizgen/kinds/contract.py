@@ -360,6 +360,9 @@ class PartContext(Protocol):
     def misconception_answers(self) -> dict[str, tuple[Value, ...]]:
         """Each usable mistake and the answer it gives, as ``answer_values``."""
 
+    def exact_texts(self) -> tuple[str, ...]:
+        """Each irrational component of the answer as a formula; empty where it is none."""
+
     def answer_form(self) -> Expr:
         """The form that the answer names, with the drawn numbers in place."""
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from flint import fmpq
 
 from quizgen.grading.judging.sampled_equality import values_agree
@@ -10,11 +12,12 @@ from quizgen.grading.reading.numbers import ReadNumber, read_number
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.kinds.contract import PartContext
 from quizgen.maths.constants import parse_exact
-from quizgen.maths.notation import format_tree, parse_formula
+from quizgen.maths.notation import format_tree, parse_formula, pretty
 from quizgen.maths.numbers import is_short_decimal
 from quizgen.maths.tree import Call, Expr, Num
 from quizgen.maths.values import Value
 
+_NUMBER = re.compile(r"-?\d+(?:/\d+)?")
 ROUNDED = fmpq(1, 200)
 """Share of a number that has no short decimal form within which it may be rounded."""
 
@@ -40,6 +43,12 @@ def format_entry(expr: Expr) -> str:
 def format_plain(expr: Expr) -> str:
     """A number of a form as a person types it: ``-1/3``, ``2*sqrt(3)``, ``inf``."""
     return str(expr.value) if isinstance(expr, Num) else format_tree(expr)
+
+
+def show_entry(text: str) -> str:
+    """A number of a key as it is printed, and as it can be typed back."""
+    plain = format_plain(parse_entry(text))
+    return pretty.format_number(plain) if _NUMBER.fullmatch(plain) else pretty.format_formula(plain)
 
 
 def parse_entry(text: str) -> Expr:

@@ -19,9 +19,16 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
-from quizgen.kinds.forms import entry_matches, format_entry, parse_entry, read_entry, require_form
+from quizgen.kinds.forms import (
+    entry_matches,
+    format_entry,
+    parse_entry,
+    read_entry,
+    require_form,
+    show_entry,
+)
 from quizgen.maths.constants import parse_exact
-from quizgen.maths.notation import FormulaReadError, format_tree, pretty
+from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.tree import Call, Expr
 from quizgen.maths.values import Value
 
@@ -70,7 +77,7 @@ class MatrixSpec(WordSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
-        return pretty.format_formula(format_tree(build_matrix(self.entries)))
+        return f"[{'; '.join(', '.join(map(show_entry, row)) for row in self.entries)}]"
 
 
 def build_matrix(entries: Entries) -> Expr:

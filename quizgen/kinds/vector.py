@@ -20,10 +20,16 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
-from quizgen.kinds.forms import entry_matches, format_entry, parse_entry, read_entry, require_form
+from quizgen.kinds.forms import (
+    entry_matches,
+    format_entry,
+    parse_entry,
+    read_entry,
+    require_form,
+    show_entry,
+)
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
-from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.tree import Call, Expr
 from quizgen.maths.values import Value
 
@@ -80,7 +86,7 @@ class ColumnSpec(WordSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
-        return pretty.format_formula(format_tree(build_vector(self.components)))
+        return f"({'; '.join(map(show_entry, self.components))})"
 
 
 def build_vector(components: list[str]) -> Expr:

@@ -61,6 +61,9 @@ class VariantPart(PartContext):
     def misconception_answers(self) -> dict[str, tuple[Value, ...]]:
         return self.drawn.misconception_answers(self.index)
 
+    def exact_texts(self) -> tuple[str, ...]:
+        return self.drawn.exact_texts(self.index)
+
     def answer_form(self) -> Expr:
         return self.drawn.form_of_part(self.index)
 

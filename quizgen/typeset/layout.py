@@ -118,6 +118,9 @@ HEADS: dict[str, Node] = {
     "asin": Word("arcsin"),
     "acos": Word("arccos"),
     "atan": Word("arctan"),
+    "asinh": Word("arsinh"),
+    "acosh": Word("arcosh"),
+    "atanh": Word("artanh"),
     "sign": Word("sgn"),
 }
 """Functions that are printed under another name than they are typed."""
@@ -476,10 +479,10 @@ def _lay_out_vector(run: _Layout, args: tuple[Expr, ...]) -> Node:
     return Fenced("()", Matrix(tuple((run.lay(arg),) for arg in args)))
 
 
-def _list_items(run: _Layout, args: tuple[Expr, ...]) -> Node:
+def _list_items(run: _Layout, args: tuple[Expr, ...], sign: str = ";") -> Node:
     items: list[Node] = []
     for arg in args:
-        items += [OperatorSign(";"), run.lay(arg)] if items else [run.lay(arg)]
+        items += [OperatorSign(sign), run.lay(arg)] if items else [run.lay(arg)]
     return MathRow(tuple(items), WORDS)
 
 
@@ -490,7 +493,8 @@ def _lay_out_set(run: _Layout, args: tuple[Expr, ...]) -> Node:
 def _lay_out_interval(run: _Layout, args: tuple[Expr, ...]) -> Node:
     low, high, *sides = args
     left, right = (isinstance(side, Num) and side.value for side in sides)
-    return Fenced(f"{'[' if left else '('}{']' if right else ')'}", _list_items(run, (low, high)))
+    fence = f"{'[' if left else '('}{']' if right else ')'}"
+    return Fenced(fence, _list_items(run, (low, high), ","))
 
 
 def _lay_out_union(run: _Layout, args: tuple[Expr, ...]) -> Node:

@@ -150,7 +150,7 @@ PARTS = {
     ],
 }  # fmt: skip
 
-STEMS = {"derivative": "Differentiate $f(x)$ = {{ f }}.", "factors": "Factor {{ g }}."}
+STEMS = {"derivative": "Differentiate {{ f }}.", "factors": "Factor {{ g }}."}
 
 STEPS = {
     "derivative": "df D", "antiderivative": "F", "factors": "h", "matrix": "P d I v",
