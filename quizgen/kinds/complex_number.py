@@ -19,7 +19,7 @@ from quizgen.maths.complex_values import ComplexValue, evaluate_complex
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.tidy import tidy_formula
-from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators_in
+from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators_in, walk_tree
 
 if TYPE_CHECKING:
     from quizgen.question.inlines import TextOrInlines
@@ -84,16 +84,17 @@ def find_written_form(tree: Expr) -> str:
     """Whether a number is written ``a + b i`` or by its size and angle; empty if as neither."""
     if operators_in(tree) & {"exp", "sin", "cos"}:
         return "polar"
-    if isinstance(tree, Call) and tree.op in {"mul", "div"} and not _is_term(tree):
-        return ""
-    return "cartesian"
+    return "" if any(map(_works_on_sum, walk_tree(tree))) else "cartesian"
 
 
-def _is_term(tree: Call) -> bool:
-    """Whether a product has no sum of the imaginary unit inside, as ``2(1 + i)`` has."""
-    return not any(
-        isinstance(arg, Call) and arg.op in {"add", "sub", "pow"} and {*names_in(arg)} & {*_UNITS}
-        for arg in tree.args
+def _works_on_sum(node: Expr) -> bool:
+    """Whether a sum with the imaginary unit is still multiplied, raised or divided by."""
+    if not isinstance(node, Call) or node.op not in {"mul", "div", "pow"}:
+        return False
+    looked_at = node.args[1:] if node.op == "div" else node.args
+    return any(
+        isinstance(arg, Call) and arg.op in {"add", "sub"} and bool(names_in(arg) & {*_UNITS})
+        for arg in looked_at
     )
 
 

@@ -20,7 +20,14 @@ from typing import TypeAlias
 import msgspec
 
 from quizgen.core.errors import MathError
-from quizgen.maths.operators import BINDERS, CONDITIONS, MANY, OPERATORS, OperatorSyntax
+from quizgen.maths.operators import (
+    BINDERS,
+    CONDITIONS,
+    DISTRIBUTIONS,
+    MANY,
+    OPERATORS,
+    OperatorSyntax,
+)
 from quizgen.maths.tree import Call, Expr, Num, Sym, operators_in
 from quizgen.maths.values import AnyNumber
 
@@ -80,12 +87,9 @@ def compile_nested(expr: Expr, system: NumberSystem) -> CompiledFormula:
         return lambda _env: constant
     if isinstance(expr, Sym):
         return itemgetter(expr.name)
-    if expr.op == "piecewise":
-        return _compile_piecewise(expr, system)
-    if expr.op in BINDERS:
-        return _compile_binder(expr, system)
-    if expr.op in _PERIODIC and system.name in _EXACT and "pi" in operators_in(expr.args[0]):
-        return _compile_special_angle(expr, system)
+    own = _find_compiler(expr, system)
+    if own is not None:
+        return own(expr, system)
     if OPERATORS[expr.op].folds and len(expr.args) > MANY:
         return _compile_run(system.ops[expr.op], expr.args, system)
     if OPERATORS[expr.op].folds and len(expr.args) != 2:
@@ -235,6 +239,19 @@ def _pi_multiples() -> NumberSystem:
     }
     ops = {name: own.get(name, refuse) for name in OPERATORS}
     return NumberSystem("multiples of pi", lambda q: (to_rational(q), fmpq(0)), ops)
+
+
+def _find_compiler(
+    expr: Call, system: NumberSystem
+) -> Callable[[Call, NumberSystem], CompiledFormula] | None:
+    """What compiles an operator that does not work on the values of its arguments alone."""
+    if expr.op == "piecewise":
+        return _compile_piecewise
+    if expr.op in BINDERS:
+        return _compile_binder
+    if expr.op in _PERIODIC and system.name in _EXACT and "pi" in operators_in(expr.args[0]):
+        return _compile_special_angle
+    return None
 
 
 def _make_binary_call(op: str, first: Expr, second: Expr) -> Expr:
@@ -488,6 +505,7 @@ def sympy_system() -> NumberSystem:
     import sympy
 
     own: dict[str, OperatorFunction] = {
+        **{name: sympy.Function(name) for name in DISTRIBUTIONS},
         "log2": lambda x: sympy.log(x) / sympy.log(2),
         "log10": lambda x: sympy.log(x) / sympy.log(10),
         "round_float_half_away": lambda x: (

@@ -91,11 +91,11 @@ def _make_word_operator(name: str, most: int, python: str, arrays: str, sympy: s
 
 
 def _make_special_operator(
-    name: str, count: int = 1, *, sympy: str = "", exact: str = "", absent: tuple[str, ...] = ()
+    name: str, count: int = 1, *, sympy: str = "", exact: str = ""
 ) -> Operator:
     """Floats and arrays take the value of the ball: the standard library lacks the function."""
     called = {"sympy": sympy or name, "exact": exact or name}
-    return Operator(name, count, count, called=called, absent=frozenset(absent))
+    return Operator(name, count, count, called=called)
 
 
 _DIVIDED = dict.fromkeys(SYSTEMS, "truediv") | {"exact": "divide"}
@@ -141,7 +141,7 @@ _ROWS = (
     _make_special_operator("lowergamma", 2),
     _make_special_operator("uppergamma", 2),
     *(
-        _make_special_operator(f"{name}_{side}", count, absent=("sympy",))
+        _make_special_operator(f"{name}_{side}", count)
         for name, count in (("normal", 1), ("t", 2), ("chi2", 2), ("f", 3))
         for side in ("cdf", "quantile")
     ),
@@ -161,6 +161,9 @@ _ROWS = (
 
 OPERATORS = {row.name: row for row in _ROWS}
 """Every operator by name. ``piecewise`` picks its branch while a formula runs, except on arrays."""
+
+DISTRIBUTIONS = frozenset(name for name in OPERATORS if name.endswith(("_cdf", "_quantile")))
+"""Operators for which SymPy has no class: ``Function("t_quantile")`` writes one."""
 
 BINDERS = frozenset({"sum", "product", "integral"})
 """Operators of a bound name, its first and last value, and what is computed for each of them."""

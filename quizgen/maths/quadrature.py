@@ -61,6 +61,6 @@ def _compute(
 
 
 def _as_ratio(x: Any) -> tuple[int, int]:
-    sign, mantissa, exponent, _ = x._mpf_  # noqa: SLF001 - mpmath has no public name for it
+    sign, mantissa, exponent, _ = x._mpf_
     top = -int(mantissa) if sign else int(mantissa)
     return (top << exponent, 1) if exponent >= 0 else (top, 1 << -exponent)

@@ -131,10 +131,10 @@ def _tidy_product(args: tuple[Expr, ...]) -> Expr:
         return _ZERO
     if not factors:
         return _number(number)
-    if number not in {1, -1}:
-        return Call("mul", (_number(number), *factors))
+    if abs(number) != 1:
+        factors.insert(0, _number(abs(number)))
     product = factors[0] if len(factors) == 1 else Call("mul", tuple(factors))
-    return product if number == 1 else Call("neg", (product,))
+    return product if number > 0 else Call("neg", (product,))
 
 
 def _tidy_quotient(args: tuple[Expr, ...]) -> Expr:
@@ -142,10 +142,6 @@ def _tidy_quotient(args: tuple[Expr, ...]) -> Expr:
     if isinstance(bottom, Num) and bottom.value:
         if isinstance(top, Num):
             return _number(top.value / bottom.value)
-        if bottom.value == 1:
-            return top
-        if bottom.value == -1:
-            return negate_formula(top)
         return _divide_by_number(top, bottom.value)
     if _is_value(top, 0):
         return _ZERO
@@ -162,9 +158,10 @@ def _divide_by_number(top: Expr, bottom: Fraction) -> Expr:
     if isinstance(inner, Call) and inner.op == "mul" and isinstance(inner.args[0], Num):
         first, rest = inner.args[0].value, inner.args[1:]
     factor = (-first if minus else first) / bottom
-    over = _tidy_product((_number(Fraction(factor.numerator)), *rest))
+    over = _tidy_product((_number(Fraction(abs(factor.numerator))), *rest))
     below = factor.denominator
-    return over if below == 1 else Call("div", (over, _number(Fraction(below))))
+    quotient = over if below == 1 else Call("div", (over, _number(Fraction(below))))
+    return quotient if factor > 0 else Call("neg", (quotient,))
 
 
 def _tidy_power(args: tuple[Expr, ...]) -> Expr:

@@ -119,13 +119,13 @@ MODEL = Model(
 }
 
 DRAWS = {
-    "derivative": "a = { range = [2, 9, 1] }\nb = { pick = [-3, -2, -1, 1, 2, 3] }\nc = { range = [1, 4, 1] }",
+    "derivative": "a = { range = [2, 9, 1] }\nb = { pick = [-2, -1, 1, 2] }\nc = { range = [4, 7, 1] }",
     "antiderivative": "a = { range = [2, 9, 1] }\nb = { range = [2, 9, 1] }",
     "factors": "p = { range = [1, 9, 1] }\nq = { range = [2, 9, 1] }",
     "matrix": "a = { range = [2, 9, 1] }\nb = { range = [3, 9, 1] }\nc = { range = [-7, -2, 1] }",
     "solutions": "p = { range = [1, 9, 1] }\nq = { range = [2, 9, 1] }",
     "complex": "a = { range = [1, 9, 1] }\nb = { range = [2, 9, 1] }",
-    "statistics": "n = { range = [5, 30, 1] }\np = { pick = [\"0.1\", \"0.2\", \"0.3\", \"0.4\"] }",
+    "statistics": 'n = { range = [5, 30, 1] }\np = { pick = ["0.1", "0.2", "0.3", "0.4"] }',
 }
 
 PARTS = {

@@ -126,7 +126,10 @@ def _format_power(expr: Call, leaves: Leaves) -> tuple[str, int]:
 
 
 def _format_items(expr: Call, leaves: Leaves, separator: str) -> str:
-    return separator.join(_format_with_level(arg, leaves)[0] for arg in expr.args)
+    return separator.join(
+        str(arg.value) if isinstance(arg, Num) else _format_with_level(arg, leaves)[0]
+        for arg in expr.args
+    )
 
 
 def _format_interval(expr: Call, leaves: Leaves) -> tuple[str, int]:
