@@ -37,7 +37,7 @@ def require_form(part: PartContext, form: Expr, *ops: str) -> Call:
 
 def format_entry(expr: Expr) -> str:
     """A number of a form as a key stores it: a constant formula, exact."""
-    return format_tree(expr)
+    return format_plain(expr)
 
 
 def format_plain(expr: Expr) -> str:

@@ -101,6 +101,11 @@ class TemplateReport:
     certainties: dict[str, str] = field(default_factory=dict)
 
     @property
+    def certainty(self) -> str:
+        """Return the least certain grade of any step: exact, ball, checked or uncertain."""
+        return max(self.certainties.values(), key=GRADES.index, default="exact")
+
+    @property
     def acceptance(self) -> float:
         """Return the share of candidates that no condition rejected, 0 to 1."""
         return self.seeds / self.tries if self.tries else 0.0

@@ -10,7 +10,7 @@ from flint import fmpq
 from quizgen.core.errors import MathError
 from quizgen.maths.constants import bounded_exact_system
 from quizgen.maths.notation import FormulaReadError
-from quizgen.maths.number_systems import NumberSystem, compile_expr
+from quizgen.maths.number_systems import NumberSystem, OperatorFunction, compile_expr
 from quizgen.maths.numbers import to_rational
 from quizgen.maths.operators import OPERATORS
 from quizgen.maths.precision import working_precision
@@ -57,7 +57,7 @@ def complex_system() -> NumberSystem:
 
         return apply
 
-    own = {
+    own: dict[str, OperatorFunction] = {
         "add": lambda a, b: (a[0] + b[0], a[1] + b[1]),
         "sub": lambda a, b: (a[0] - b[0], a[1] - b[1]),
         "neg": lambda a: (-a[0], -a[1]),

@@ -229,7 +229,7 @@ def _pi_multiples() -> NumberSystem:
     def refuse(*_args: AnyNumber) -> AnyNumber:
         raise TypeError
 
-    own = {
+    own: dict[str, OperatorFunction] = {
         "add": lambda a, b: (a[0] + b[0], a[1] + b[1]),
         "sub": lambda a, b: (a[0] - b[0], a[1] - b[1]),
         "neg": lambda a: (-a[0], -a[1]),

@@ -154,7 +154,7 @@ def _divide_by_number(top: Expr, bottom: Fraction) -> Expr:
     """``6*x/4`` becomes ``3*x/2``."""
     minus = isinstance(top, Call) and top.op == "neg"
     inner = top.args[0] if minus and isinstance(top, Call) else top
-    first, rest = Fraction(1), (inner,)
+    first, rest = Fraction(1), tuple[Expr, ...]((inner,))
     if isinstance(inner, Call) and inner.op == "mul" and isinstance(inner.args[0], Num):
         first, rest = inner.args[0].value, inner.args[1:]
     factor = (-first if minus else first) / bottom

@@ -44,10 +44,14 @@ class KeyGiven(msgspec.Struct):
 
 
 class KeyChain(msgspec.Struct):
-    """The chain of a question as plain formulas."""
+    """The chain of a question as plain formulas.
+
+    ``checked`` are steps whose values were computed twice and compared, but are not proved.
+    """
 
     given: dict[str, KeyGiven]
     steps: list[tuple[str, str, str]]
+    checked: list[str] = []
 
     def units(self) -> dict[str, str]:
         """Step name to the unit it is shown in."""

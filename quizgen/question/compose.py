@@ -261,7 +261,9 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     if not chain.steps:
         return None
     units = drawn.template.units
+    checked = [name for name, grade in chain.certainties.items() if grade == "checked"]
     return {
+        **({"checked": checked} if checked else {}),
         "given": {
             name: {
                 "value": format_for_key(

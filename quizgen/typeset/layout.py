@@ -508,7 +508,7 @@ def _lay_out_union(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 def _lay_out_complex(run: _Layout, args: tuple[Expr, ...]) -> Node:
     real, imaginary = args
-    unit = Call("mul", (imaginary, Sym("i")))
+    unit: Expr = Call("mul", (imaginary, Sym("i")))
     minus, size = split_sign(imaginary)
     if size == Num(_ONE):
         unit = Call("neg", (Sym("i"),)) if minus else Sym("i")
