@@ -21,6 +21,8 @@ from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators_in, walk_tree
 
+from quizgen.maths.values import Value
+
 if TYPE_CHECKING:
     from quizgen.question.inlines import TextOrInlines
 
@@ -130,8 +132,8 @@ def _write_angle(parts: list[str], real: Expr, imaginary: Expr) -> Expr:
     return Call("atan2", (imaginary, real))
 
 
-def _same(a: object, b: object) -> bool:
-    return values_agree(a, b) is not False  # type: ignore[arg-type]
+def _same(a: Value, b: Value) -> bool:
+    return values_agree(a, b) is not False
 
 
 def ask(part: PartContext) -> AskedPart[ComplexSpec]:

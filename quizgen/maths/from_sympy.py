@@ -231,7 +231,7 @@ def _convert_own_function(expression: sympy.Basic) -> Expr:
     return Call(name, _convert_arguments(expression))
 
 
-_REWRITES: dict[type, type] = {
+REWRITES: dict[type, type] = {
     sympy.coth: sympy.tanh,
     sympy.sech: sympy.cosh,
     sympy.csch: sympy.sinh,
@@ -247,7 +247,7 @@ _REWRITES: dict[type, type] = {
 
 
 def _rewrite_function(expression: sympy.Basic) -> Expr:
-    other = expression.rewrite(_REWRITES[type(expression)])
+    other = expression.rewrite(REWRITES[type(expression)])
     if type(other) is type(expression):
         raise BankError(f"no formula for {expression}")
     return from_sympy(other)
@@ -281,5 +281,5 @@ _RULES: dict[type, Callable[[sympy.Basic], Expr]] = {
     sympy.Sum: _make_binder_converter("sum"),
     sympy.Product: _make_binder_converter("product"),
     sympy.Integral: _make_binder_converter("integral"),
-    **dict.fromkeys(_REWRITES, _rewrite_function),
+    **dict.fromkeys(REWRITES, _rewrite_function),
 }
