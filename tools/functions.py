@@ -30,26 +30,31 @@ SPELLINGS = {
 
 HEAD = """# What a step may use
 
-This page is made from the table of operators (`quizgen/maths/operators.py`) by `python tools/functions.py`. A step of a solver is any
-SymPy expression that comes to these; what is typed by students and in `template.toml` is read by the same names.
+This page is made from the table of operators (`quizgen/maths/operators.py`) by `uv run python
+tools/functions.py`. A step of a solver is any SymPy expression that comes to these; what is typed
+by students and in `template.toml` is read by the same names.
 
-Values are *exact* where they are rational, also at the angles whose sine, cosine or tangent is rational (`cos(pi/2)` is 0). Others are
-a *ball*: an interval that is proved to hold the value. An integral that has no formula is *checked*: computed at two precisions
-that must agree in 25 digits. `quizgen lint` says the least certain of these for each template, and a key lists the steps that are only checked.
+Values are *exact* where they are rational, also at the angles whose sine, cosine or tangent is
+rational (`cos(pi/2)` is 0). Others are a *ball*: an interval that is proved to hold the value. An
+integral that has no formula is *checked*: computed at two precisions that must agree in 25
+digits. `quizgen lint` says the least certain of these for each template, and a key lists the
+steps that are only checked.
 
 | typed | in SymPy | irrational values |
 |---|---|---|
 """
 
 TAIL = """
-Beside them a step may hold what SymPy works out when the solver is compiled: `diff`, `integrate`, `limit`, `Derivative`,
-`Integral`, `Limit`, `Subs`, `det`, `inv`, matrix products, `re`, `im`, `conjugate`, `arg`, `Abs` and `I`; and {others}, which are
-written by the functions above. Compute before `with evaluate(False)` what needs evaluation, or leave `evaluate` out.
+Beside them a step may hold what SymPy works out when the solver is compiled: `diff`, `integrate`,
+`limit`, `Derivative`, `Integral`, `Limit`, `Subs`, `det`, `inv`, matrix products, `re`, `im`,
+`conjugate`, `arg`, `Abs` and `I`; and {others}, which are written by the functions above. Compute
+before `with evaluate(False)` what needs evaluation, or leave `evaluate` out.
 
-A step is a **form** and no number if its formula holds a name of `free` (`Model(free=("x",), ...)`), or is a complex number, a
-`Matrix`, an `Interval`, a `Union`, a `FiniteSet` or an `Eq`. Later steps see it in place: `Step(f, a*x**2)` with
-`f = Function("f")(x)`, then `Step(df, diff(f, x))` and `Step(D, df.subs(x, c))`; `A = MatrixSymbol("A", 2, 2)`, then
-`Step(d, det(A))`. In words `{{{{ f }}}}` prints it with the drawn numbers, and `of = "df"` asks for it.
+A step is a **form** and no number if its formula holds a name of `free` (`Model(free=("x",),
+...)`), or is a complex number, a `Matrix`, an `Interval`, a `Union`, a `FiniteSet` or an `Eq`.
+Later steps see it in place: `Step(f, a*x**2)` with `f = Function("f")(x)`, then `Step(df, diff(f,
+x))` and `Step(D, df.subs(x, c))`; `A = MatrixSymbol("A", 2, 2)`, then `Step(d, det(A))`. In words
+`{{{{ f }}}}` prints it with the drawn numbers, and `of = "df"` asks for it.
 """
 
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 HEAD = ("template", "draws", "distinct", "kept", "ms/draw", "problems", "certain", "answers")
 TEACH_HEAD = ("template", "part", "level", "code", "finding")
-NOTHING = ("0", "", "", "", "1", "")
+NOTHING = ("0", "", "", "", "1", "", "")
 """Cells of a template that could not be examined."""
 
 A_TEMPLATE, A_DRAW, A_PAPER = 0.02, 0.0003, 0.1

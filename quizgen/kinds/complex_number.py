@@ -20,7 +20,6 @@ from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators_in, walk_tree
-
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:

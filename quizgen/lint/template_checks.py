@@ -139,6 +139,8 @@ def lint_template(
     lessons = QualityReview(template)
     try:
         first = _examine_draws(template, seeds, report, lessons)
+        if "uncertain" in report.certainties.values():
+            return report  # no digit of it can be printed
         known = [reference_variant(template)] if template.rules.reference is not None else []
         composed = [
             _compose_in_all_languages(one) for one in (*first[: COMPOSED.count(seeds)], *known)
@@ -156,7 +158,8 @@ def lint_template(
         report.problems += _diagnose_quality_errors(template, lessons)
         report.problems = [one for one in report.problems if one.code not in ignored]
     except QuizgenError as error:
-        report.problems.append(error.diagnostic(template.file))
+        if "uncertain" not in report.certainties.values():  # which says it with the step
+            report.problems.append(error.diagnostic(template.file))
     report.problems = list(dict.fromkeys(report.problems))
     return report
 
@@ -247,9 +250,8 @@ def _find_uncertain_steps(one: Variant, report: TemplateReport) -> Iterator[Diag
             if met != "uncertain" and value.contains(0) and not value.is_zero():
                 drawn = ", ".join(f"{n} = {one.format_value(n)}" for n in one.shown)
                 what = (
-                    f"step {step.name!r} is 0 or nearly so and cannot be told from it, seed "
-                    f"{one.seed} ({drawn}): keep such draws out by [where] or [draw] skip, or "
-                    "write the step so that it is exactly 0"
+                    f"step {step.name!r} is 0 or nearly so and cannot be told from it, "
+                    f"seed {one.seed} ({drawn})"
                 )
                 yield diagnose("QG229", one.template.file, what, _DRAW)
                 found = "uncertain"

@@ -58,7 +58,7 @@ def from_sympy(expression: sympy.Basic) -> Expr:
         if rule is not None:
             return rule(expression)
     what = f"no formula for SymPy's {type(expression).__name__}: {expression}"
-    raise BankError(f"{what} (allowed: {', '.join(sorted(OPERATORS))})")
+    raise BankError(f"{what} (docs/functions.md lists what there is)")
 
 
 def _convert_arguments(expression: sympy.Basic) -> tuple[Expr, ...]:

@@ -140,11 +140,12 @@ _ROWS = (
     _make_special_operator("lambertw", sympy="LambertW"),
     _make_special_operator("lowergamma", 2),
     _make_special_operator("uppergamma", 2),
+    *(_make_special_operator(name, 1) for name in ("normal_cdf", "normal_quantile")),
     *(
-        _make_special_operator(f"{name}_{side}", count)
-        for name, count in (("normal", 1), ("t", 2), ("chi2", 2), ("f", 3))
-        for side in ("cdf", "quantile")
+        _make_special_operator(name, 2)
+        for name in ("t_cdf", "t_quantile", "chi2_cdf", "chi2_quantile")
     ),
+    *(_make_special_operator(name, 3) for name in ("f_cdf", "f_quantile")),
     *(Operator(name, 4, 4, absent=frozenset(SYSTEMS)) for name in ("sum", "product", "integral")),
     Operator("pi", 0, 0, OperatorSyntax.CONSTANT, ("pi", "π"), "CONSTANT"),
     Operator("piecewise", 3, MANY - 1, absent=frozenset(SYSTEMS) - {"arrays"}),

@@ -9,7 +9,6 @@ tree, too, whose outermost operators are those of ``FORMS``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 import sympy
 from sympy.core.function import AppliedUndef
@@ -18,7 +17,6 @@ from sympy.matrices.expressions.matexpr import MatrixExpr
 
 from quizgen.core.errors import BankError
 from quizgen.maths.from_sympy import from_sympy
-from quizgen.maths.operators import OPERATORS
 from quizgen.maths.tree import Call, Expr, Num, make_number
 
 _COMPLEX = (sympy.re, sympy.im, sympy.conjugate, sympy.arg)
@@ -36,9 +34,9 @@ class FormResolver:
 
     def __init__(self, free: tuple[str, ...]) -> None:
         self.free = frozenset(free)
-        self.forms: dict[str, Any] = {}
+        self.forms: dict[str, sympy.Basic] = {}
 
-    def resolve(self, expression: Any) -> tuple[Expr, bool]:
+    def resolve(self, expression: sympy.Basic) -> tuple[Expr, bool]:
         """The tree of an expression, and whether it is a form.
 
         Raises
@@ -57,12 +55,12 @@ class FormResolver:
                 what = f"SymPy cannot work {expression} out: {type(error).__name__}: {error}"
                 raise BankError(f"{what} (compute it before `with evaluate(False)`)") from error
 
-    def remember(self, name: str, expression: Any) -> None:
+    def remember(self, name: str, expression: sympy.Basic) -> None:
         """Have later steps see a form under its name."""
         with sympy.evaluate(True):
             self.forms[name] = self._put_forms_in(_make_strict(expression))
 
-    def _put_forms_in(self, written: Any) -> Any:
+    def _put_forms_in(self, written: sympy.Basic) -> sympy.Basic:
         if not self.forms or not hasattr(written, "free_symbols"):
             return written
         calls = [
@@ -80,12 +78,12 @@ class FormResolver:
         found = written.subs(place)
         return found.doit() if hasattr(found, "doit") else found
 
-    def _apply_form(self, call: Any) -> Any:
+    def _apply_form(self, call: sympy.Basic) -> sympy.Basic:
         form = self.forms[call.func.__name__]
         names = sorted((s for s in form.free_symbols if s.name in self.free), key=lambda s: s.name)
         return form.subs(dict(zip(names, call.args, strict=False)), simultaneous=True)
 
-    def _convert(self, whole: Any) -> tuple[Expr, bool]:
+    def _convert(self, whole: sympy.Basic) -> tuple[Expr, bool]:
         if isinstance(whole, sympy.MatrixBase | MatrixExpr):
             return _convert_matrix(whole), True
         if isinstance(whole, sympy.Set):
@@ -100,7 +98,7 @@ class FormResolver:
         names = {symbol.name for symbol in getattr(whole, "free_symbols", ())}
         return tree, bool(names & self.free)
 
-    def _convert_complex(self, whole: Any) -> tuple[Expr, bool]:
+    def _convert_complex(self, whole: sympy.Basic) -> tuple[Expr, bool]:
         """A complex number as its real and imaginary part; a real one as itself."""
         real = {s: sympy.Dummy(s.name, real=True) for s in whole.free_symbols if s.is_real is None}
         back = {dummy: symbol for symbol, dummy in real.items()}
@@ -113,11 +111,11 @@ class FormResolver:
         return Call("complex", tuple(map(from_sympy, parts))), True
 
 
-def _has_complex(whole: Any) -> bool:
+def _has_complex(whole: sympy.Basic) -> bool:
     return bool(hasattr(whole, "has") and whole.has(sympy.I, *_COMPLEX))
 
 
-def _evaluate(whole: Any) -> Any:
+def _evaluate(whole: sympy.Basic) -> sympy.Basic:
     """Work derivatives, integrals and limits out; sums stay as they are written."""
     if not hasattr(whole, "has"):
         return whole
@@ -128,7 +126,7 @@ def _evaluate(whole: Any) -> Any:
     return whole
 
 
-def _convert_evaluated(whole: Any) -> Expr:
+def _convert_evaluated(whole: sympy.Basic) -> Expr:
     """The tree of what an expression comes to; an integral without a formula stays one."""
     try:
         return from_sympy(_evaluate(whole))
@@ -138,11 +136,11 @@ def _convert_evaluated(whole: Any) -> Expr:
         return from_sympy(whole)
 
 
-def _is_infinite(part: Any) -> bool:
+def _is_infinite(part: sympy.Basic) -> bool:
     return any(not bound.is_finite for limit in part.limits for bound in limit[1:])
 
 
-def _convert_matrix(whole: Any) -> Expr:
+def _convert_matrix(whole: sympy.Basic) -> Expr:
     explicit = whole.doit().as_explicit() if isinstance(whole, MatrixExpr) else whole
     rows = explicit.tolist()
     if explicit.shape[1] == 1:
@@ -153,14 +151,14 @@ def _convert_matrix(whole: Any) -> Expr:
     )
 
 
-def _convert_set(whole: Any) -> Expr:
+def _convert_set(whole: sympy.Basic) -> Expr:
     if isinstance(whole, sympy.FiniteSet):
         return Call("set", tuple(map(from_sympy, whole.args)))
     pieces = list(_iter_intervals(whole))
     return Call("union", tuple(pieces))
 
 
-def _iter_intervals(whole: Any) -> Iterator[Expr]:
+def _iter_intervals(whole: sympy.Basic) -> Iterator[Expr]:
     if whole is sympy.S.EmptySet:
         return
     if whole is sympy.S.Reals:
@@ -179,18 +177,13 @@ def _iter_intervals(whole: Any) -> Iterator[Expr]:
         raise BankError(f"{whole} is no finite set and no union of intervals")
 
 
-def _bound(value: Any) -> Expr:
+def _bound(value: sympy.Basic) -> Expr:
     if value.is_infinite:
         return Call("infinity", ()) if value > 0 else Call("neg", (Call("infinity", ()),))
     return from_sympy(value)
 
 
-def list_expressible() -> tuple[str, ...]:
-    """Names of all functions that a step may use, as they are typed."""
-    return tuple(sorted(OPERATORS))
-
-
-def step_name(symbol: Any) -> str:
+def step_name(symbol: sympy.Basic | str) -> str:
     """The name that a step defines: of a symbol, a function of free names, a matrix, or a text."""
     if isinstance(symbol, str):
         return symbol
