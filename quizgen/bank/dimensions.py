@@ -20,6 +20,7 @@ from quizgen.core.errors import BankError
 from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree
+from quizgen.maths.operators import BINDERS, OperatorSyntax, operators_with_syntax
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
 from quizgen.maths.units import UnitRegistry
 
@@ -36,6 +37,13 @@ _TRIGONOMETRIC = frozenset({"sin", "cos", "tan"})
 _INVERSE = frozenset({"asin", "acos", "atan", "atan2"})
 _NUMBERS = frozenset({"exp", "ln", "log2", "log10", "asin", "acos", "atan", "erf", "erfc"})
 """Functions of plain numbers."""
+_PLAIN = frozenset(
+    row.name
+    for row in operators_with_syntax(OperatorSyntax.FUNCTION)
+    if row.name not in _ALIKE | _KEPT | _TRIGONOMETRIC | _INVERSE | _NUMBERS | BINDERS
+    and row.name not in {"sqrt", "sign", "piecewise"}
+)
+"""The other functions of plain numbers: hyperbolic ones, factorials, distributions, ..."""
 _DEGREES, _RADIANS = {"deg": Fraction(1)}, {"rad": Fraction(1)}
 _PART_OF_TURN = 45
 """Degrees are made by 180/π, and half or double an angle by 90/π or 360/π."""
@@ -159,7 +167,35 @@ def _infer_dimension(expr: Expr, known: Mapping[str, Dimension]) -> Dimension | 
         return None if expr.value == 0 else {}
     if isinstance(expr, Sym):
         return known[expr.name]
+    if expr.op in BINDERS and isinstance(expr.args[0], Sym):
+        return _infer_binder_dimension(expr, {**known, expr.args[0].name: {}})
+    if expr.op in _PLAIN:
+        args = [_infer_dimension(arg, known) for arg in expr.args]
+        if any(args):
+            raise _ClashError(f"{expr.op} needs plain numbers")
+        return {}
     return _infer_call_dimension(expr, [_infer_dimension(arg, known) for arg in expr.args])
+
+
+def _infer_binder_dimension(call: Call, known: Mapping[str, Dimension]) -> Dimension | None:
+    """Return the dimension of a sum; of a product or an integral only that of plain numbers."""
+    found = _infer_dimension(call.args[3], known)
+    if call.op == "integral":
+        bounds = _require_common_dimension(
+            call, [_infer_dimension(a, known) for a in call.args[1:3]]
+        )
+        return _add_dimensions(found, bounds)
+    if call.op == "product" and found:
+        raise _ClashError("a product over units whose number is not fixed")
+    return found
+
+
+def _add_dimensions(first: Dimension | None, second: Dimension | None) -> Dimension | None:
+    if first is None or second is None:
+        return first if second is None else second
+    total = {base: first.get(base, Fraction(0)) + second.get(base, Fraction(0))
+             for base in {*first, *second}}  # fmt: skip
+    return {base: power for base, power in total.items() if power}
 
 
 def _infer_call_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:

@@ -13,15 +13,17 @@ from typing import Any
 import msgspec
 from flint import fmpq
 
+from quizgen.bank.form_comparison import forms_agree
 from quizgen.bank.template import Template
-from quizgen.core.errors import BankError
-from quizgen.kinds.contract import asked_quantities
+from quizgen.core.errors import BankError, MathError
+from quizgen.kinds.contract import asked_form, asked_quantities
 from quizgen.maths.chain import ChainStep, CompiledSteps
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.number_systems import compile_expr, float64_system
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tolerance import MARGIN, RULES, Tolerance, parse_tolerance
-from quizgen.maths.tree import names_in
+from quizgen.maths.tree import Expr, names_in
+from quizgen.maths.values import Values
 
 TIE_MARGIN = 0.02
 """A value closer than this (in units of the asked decimal) to a rounding tie is redrawn."""
@@ -51,6 +53,10 @@ class PartChecker:
         if unknown:
             what = f"{said}: answer: of: unknown to the solver: {sorted(unknown)}"
             raise BankError(what, rule="QG116", file=template.file, place=(*place, "of"))
+        self.chain, self.form = template.chain, asked_form(self.answer)
+        if self.form and self.form not in template.chain.form_by_name:
+            what = f"{said}: answer: of: {self.form!r} is no formula, matrix or set of the solver"
+            raise BankError(what, rule="QG116", file=template.file, place=(*place, "of"))
         self.known = {n for part in rules.part[:index] for n in asked_quantities(part.answer)}
         needed = frozenset().union(
             *(template.chain.required_steps(n, self.known - {n}) for n in self.of), frozenset()
@@ -64,6 +70,9 @@ class PartChecker:
             for trap, wrong in template.chain.traps.items()
             if trap not in rules.drop and self._is_answer_affected(template, wrong, needed)
         }
+        self.index, self.form_steps = index, tuple[ChainStep, ...]()
+        if self.form:
+            self._plan_form(template)
         self.may_vanish = frozenset(rules.may_vanish)
         try:
             self.tolerances = _list_tolerances(self.answer, self.of)
@@ -76,6 +85,57 @@ class PartChecker:
             t.decimals is not None and parse_exact(t.within) != 1 for t in self.tolerances
         )
         self.apart = 1.0 if self.one_step else APART
+
+    def _plan_form(self, template: Template) -> None:
+        """What the form rests on, and the mistakes that change it."""
+        chain, step = template.chain, template.chain.form_by_name[self.form]
+        used = names_in(step.expr) - {*chain.free}
+        needed = frozenset().union(*(chain.required_steps(name) for name in used), frozenset())
+        self.steps = tuple(one for one in chain.steps if one.name in needed)
+        shown = template.rules.part[self.index].show
+        self.form_steps = (step,) if shown is None or step.name in shown else ()
+        traps = [
+            name for name in (*chain.form_traps, *chain.traps) if name not in template.rules.drop
+        ]
+        changed = {
+            trap: {name for name, _ in chain.compile_affected_steps(wrong, float64_system())}
+            for trap, wrong in chain.traps.items()
+        }
+        self.traps = {
+            trap: ()
+            for trap in dict.fromkeys(traps)
+            if any(wrong.name == self.form for wrong in chain.form_traps.get(trap, ()))
+            or changed.get(trap, set()) & used
+        }
+
+    def wrong_forms(self, values: Values) -> dict[str, Expr]:
+        """What each mistake makes of the form, with the numbers of a draw in place."""
+        chain, found = self.chain, {}
+        for trap in self.traps:
+            own = [wrong for wrong in chain.form_traps.get(trap, ()) if wrong.name == self.form]
+            expr = own[0].expr if own else chain.form_by_name[self.form].expr
+            steps = {wrong.name: wrong.expr for wrong in chain.traps.get(trap, ())}
+            try:
+                wrong = chain.solve_with_misconception(trap, values) if steps else values
+                found[trap] = chain.bind_form(expr, wrong, steps)
+            except (MathError, ZeroDivisionError):
+                continue
+        return found
+
+    def check_form(self, values: Values, *, lenient: bool) -> tuple[str, ...] | str:
+        """Names of the mistakes that give another form, or the reason to redraw."""
+        key = self.chain.bind_form(self.chain.form_by_name[self.form].expr, values)
+        seen = {"the key": key}
+        relation = str(self.answer.get("up_to", ""))
+        for trap, form in self.wrong_forms(values).items():
+            twin = next(
+                (n for n, other in seen.items() if forms_agree(form, other, relation)), None
+            )
+            if twin is None:
+                seen[trap] = form
+            elif not (lenient or trap in self.may_vanish):
+                return f"trap {trap!r} cannot be told from {twin!r}"
+        return tuple(name for name in seen if name != "the key")
 
     def _round_as_reported(self, values: tuple[float, ...]) -> tuple[float, ...]:
         """Return a wrong answer as it would be written down, if that is what is judged."""

@@ -309,7 +309,11 @@ def _usable_traps(
     approximate = {name: to_float(value) for name, value in values.items()}
     traps = []
     for part in plan.parts:
-        usable = part.check(approximate, shown, lenient=lenient)
+        usable = (
+            part.check_form(values, lenient=lenient)
+            if part.form
+            else part.check(approximate, shown, lenient=lenient)
+        )
         if isinstance(usable, str):
             return usable
         traps.append(usable)

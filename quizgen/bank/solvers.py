@@ -169,12 +169,62 @@ def _compile_solver(folder: Path, name: str) -> Chain:
     Raises ``BankError`` if the file cannot be run, or holds no model.
     """
     unload_modules(folder)
+    _refuse_unevaluated(folder / f"{name}.py")
     model = getattr(import_module_file(folder, name), "MODEL", None)
     file = folder / f"{name}.py"
     if not isinstance(model, Model):
         raise BankError("no MODEL in this solver", rule="QG132", file=file)
     with author_error_context(file):
         return model.chain()
+
+
+_EVALUATING = frozenset({
+    "det", "diff", "dsolve", "eigenvals", "eigenvects", "integrate", "inv", "limit", "linsolve",
+    "nsolve", "series", "solve", "solveset", "summation",
+})  # fmt: skip
+"""Functions and methods of SymPy that give nonsense or fail where nothing is evaluated."""
+
+
+def _refuse_unevaluated(file: Path) -> None:
+    """Refuse a computation of SymPy's inside ``with evaluate(False)``.
+
+    There ``integrate`` fails with an AttributeError and ``diff`` gives ``a**3*(0*log(a) + 1*3/a)``;
+    neither names the cause.
+
+    Raises
+    ------
+    BankError
+        Naming the line.
+    """
+    try:
+        tree = ast.parse(read_bytes(file, BankError))
+    except (SyntaxError, ValueError):
+        return  # the import says so, with its place
+    for block in filter(_stops_evaluation, ast.walk(tree)):
+        for node in ast.walk(block):
+            name = _called_name(node)
+            if name in _EVALUATING:
+                what = f"{name}(...) needs evaluation: compute this before `with evaluate(False)`"
+                line = getattr(node, "lineno", 0)
+                raise BankError(what, rule="QG133", file=file, line=line)
+
+
+def _stops_evaluation(node: ast.AST) -> bool:
+    """Whether a node is ``with evaluate(False)``."""
+    return isinstance(node, ast.With) and any(
+        isinstance(item.context_expr, ast.Call)
+        and _called_name(item.context_expr) == "evaluate"
+        and any(isinstance(arg, ast.Constant) and not arg.value for arg in item.context_expr.args)
+        for item in node.items
+    )
+
+
+def _called_name(node: ast.AST) -> str:
+    """The name of a called function or method; empty if a node calls none."""
+    if not isinstance(node, ast.Call):
+        return ""
+    called = node.func
+    return called.id if isinstance(called, ast.Name) else getattr(called, "attr", "")
 
 
 def _is_pure(source: bytes) -> bool:

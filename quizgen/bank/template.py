@@ -274,7 +274,7 @@ def _check_names(template: Template) -> None:
         place = ("keep", min(unknown))
         raise BankError(f"keep names unknown {sorted(unknown)}", rule="QG116", place=place)
     for key, listed in (("may_vanish", rules.may_vanish), ("drop", rules.drop)):
-        strangers = set(listed) - set(template.chain.traps)
+        strangers = set(listed) - {*template.chain.traps, *template.chain.form_traps}
         if strangers:
             what = f"{sorted(strangers)} is not a trap of {rules.solver!r}"
             raise BankError(what, rule="QG116", place=(key,))

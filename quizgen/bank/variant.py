@@ -23,6 +23,7 @@ from quizgen.core.errors import SamplingError
 from quizgen.core.positions import TEXT, Place
 from quizgen.maths.canonical import CanonicalForm
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import (
     format_exact,
     format_rounded,
@@ -31,6 +32,7 @@ from quizgen.maths.numbers import (
     to_rational,
 )
 from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import Expr, Sym
 from quizgen.maths.values import Value, Values
 
 SHOWN_FIGURES = 6
@@ -90,6 +92,7 @@ class Variant:
     _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
     _identity: list[str] = field(init=False, repr=False, compare=False, default_factory=list)
     _computed: dict[str, Value] = field(init=False, repr=False, compare=False, default_factory=dict)
+    _forms: dict[str, Expr] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __repr__(self) -> str:
         """Return template, seed and slot, which rebuild it."""
@@ -140,6 +143,21 @@ class Variant:
                 self._computed[formula] = self.sampler.compile_formula(formula)(self.shown_values)
         return self._computed[formula]
 
+    def form(self, name: str) -> Expr:
+        """A form of the solver with the drawn numbers in place, tidied.
+
+        Raises
+        ------
+        KeyError
+            If the solver has no form of this name.
+        """
+        if name not in self._forms:
+            chain = self.template.chain
+            with working_precision():
+                bound = chain.bind_form(chain.form_by_name[name].expr, self.values)
+            self._forms[name] = bound
+        return self._forms[name]
+
     def steps_of_part(self, index: int) -> tuple[ChainStep, ...]:
         """Return the steps to a part's answer, without those that the template leaves out."""
         shown = self.template.rules.part[index].show
@@ -157,6 +175,30 @@ class Variant:
             trap: self._answer_components(index, chain.solve_with_misconception(trap, self.values))
             for trap in self.traps[index]
         }
+
+    def exact_texts(self, index: int) -> tuple[str, ...]:
+        """Each irrational component of a part's answer as a formula; empty where it is none.
+
+        A quantity that is asked in another unit than base units has no such formula.
+        """
+        part, chain = self.sampler.parts[index], self.template.chain
+        found = []
+        for name in part.of:
+            plain = self.template.unit_factor(part.unit_of(self.template, name)) == 1
+            known = isinstance(self.values[name], fmpq) or not plain
+            with working_precision():
+                found.append("" if known else format_tree(chain.bind_form(Sym(name), self.values)))
+        return tuple(found)
+
+    def form_of_part(self, index: int) -> Expr:
+        """The form that a part asks for, with the drawn numbers in place."""
+        return self.form(self.sampler.parts[index].form)
+
+    def misconception_forms(self, index: int) -> dict[str, Expr]:
+        """Each usable mistake of a part and the form that it gives."""
+        with working_precision():
+            found = self.sampler.parts[index].wrong_forms(self.values)
+        return {trap: found[trap] for trap in self.traps[index]}
 
     def _answer_components(self, index: int, values: Values) -> tuple[Value, ...]:
         """Return the components of a part's answer, each in the unit it is asked in."""

@@ -237,6 +237,8 @@ _CODES = {
                   "name it in formulas of the solver's MODEL"),
     "QG218": Rule("A question tells what another one asks.",
                   "say it in other words, or name the other template in apart"),
+    "QG229": Rule("A step cannot be told from zero.",
+                  "keep such draws out, or write the step so that it is exactly 0"),
     # Item writing: whether a question teaches and cannot be guessed.
     "QG301": Rule("The answer hardly varies.",
                   "let other options, statements or pairs be right in turn"),

@@ -17,7 +17,7 @@ from quizgen.kinds.contract import AskedPart, LabelledName, PartContext, S, aske
 from quizgen.locale import translate
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import pretty
-from quizgen.maths.numbers import format_for_key, is_short_decimal, to_float, to_rational
+from quizgen.maths.numbers import format_for_key, is_short_decimal, to_float
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
@@ -85,6 +85,8 @@ def ask_numeric(
     write = write or (_format_single_value if key == "value" else _format_values)
     wrong = {trap: write(values) for trap, values in part.misconception_answers().items()}
     found = {"of": list(asked_quantities(part.answer)), key: write(part.answer_values())}
+    if key == "value" and part.answer.get("exact") and part.exact_texts()[0]:
+        found["value"] = part.exact_texts()[0]
     found |= {"define": list(part.defined_units)} if part.defined_units else {}
     found |= part.count_nouns() if "counts" in shape.__struct_fields__ else {}
     traps = {"traps": wrong, "notes": part.misconception_notes(wrong)} if wrong else {}
@@ -165,11 +167,14 @@ def as_student_writes(wrong: AnySpec, answer: KeyNumbers) -> AnySpec:
     freed: dict[str, object] = {"accept": None}
     if "form" in wrong.__struct_fields__:
         freed["form"] = ""
-    if wrong.exact and not all(
-        is_short_decimal(to_rational(text)) for text in number_texts(answer)
-    ):
+    if wrong.exact and not all(map(_is_short_text, number_texts(answer))):
         freed |= {"exact": False, "sigfigs": ROUNDED_MISTAKE}
     return msgspec.structs.replace(wrong, **freed)
+
+
+def _is_short_text(text: str) -> bool:
+    value = parse_exact(text)
+    return is_short_decimal(value)
 
 
 def number_texts(key: KeyNumbers) -> list[str]:

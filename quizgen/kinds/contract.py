@@ -37,6 +37,7 @@ from quizgen.grading.judge import show_spec
 from quizgen.grading.spec import AnySpec
 from quizgen.maths.constants import Scalar
 from quizgen.maths.tolerance import Tolerance
+from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value, Values
 
 if TYPE_CHECKING:
@@ -134,9 +135,19 @@ def find_extra_problems(extra: int | None, spare: int) -> Iterator[FieldProblem]
         yield ("extra",), "QG115", f"must be 0 to {spare}, the number of distractors"
 
 
+FORM_KINDS = frozenset({"expression", "interval", "equation", "complex", "matrix", "vector"})
+"""Kinds whose ``of`` names a form of the solver and no number."""
+
+
+def asked_form(answer: Mapping[str, Any]) -> str:
+    """The form of the solver that an authored answer names; empty if it names none."""
+    of, kind = answer.get("of", ()), answer.get("kind")
+    return of if isinstance(of, str) and (kind in FORM_KINDS or kind == "set") else ""
+
+
 def asked_quantities(answer: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the quantities of the chain that an authored answer consists of, in order."""
-    of = answer.get("of", ())
+    of = () if asked_form(answer) else answer.get("of", ())
     if isinstance(of, str):
         return (of,)
     return tuple(of.values()) if isinstance(of, Mapping) else tuple(of)
@@ -354,6 +365,15 @@ class PartContext(Protocol):
 
     def misconception_answers(self) -> dict[str, tuple[Value, ...]]:
         """Return each usable mistake and the answer it gives, as ``answer_values``."""
+
+    def exact_texts(self) -> tuple[str, ...]:
+        """Each irrational component of the answer as a formula; empty where it is none."""
+
+    def answer_form(self) -> Expr:
+        """The form that the answer names, with the drawn numbers in place."""
+
+    def misconception_forms(self) -> dict[str, Expr]:
+        """Each usable mistake and the form that it gives, as ``answer_form``."""
 
     def count_nouns(self) -> dict[str, Any]:
         """Return the field ``counts`` of a spec: the words for what the answer counts."""

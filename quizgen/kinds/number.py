@@ -42,7 +42,7 @@ from quizgen.kinds import quantity
 from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first, unit_hint
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartContext
 from quizgen.locale import translate
-from quizgen.maths.constants import parse_exact
+from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.units import format_unit, get_unit
 from quizgen.maths.values import Value
@@ -103,9 +103,19 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
+        if self.exact and not self.percent and not is_number(self.value):
+            return f"{pretty.format_formula(str(self.value))} {format_unit(self.unit)}".rstrip()
         value = parse_exact(self.value) * (100 if self.percent else 1)
         unit_text = "%" if self.percent else format_unit(self.unit)
         return f"{pretty.format_number(format_key(self, value, self.form))} {unit_text}".rstrip()
+
+
+_NUMBER = re.compile(r"[-+]?[\d./eE+-]+")
+
+
+def is_number(value: Scalar) -> bool:
+    """Whether a key is written in digits, and not as a formula such as ``3*sqrt(3)/2``."""
+    return _NUMBER.fullmatch(str(value)) is not None
 
 
 def _with_unit(spec: NumberSpec, typed: str, options: GradingOptions) -> Verdict:

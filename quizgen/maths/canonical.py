@@ -107,7 +107,7 @@ def _collect_factors(expr: Expr, short: dict[str, str]) -> tuple[Fraction, Power
     if isinstance(expr, Num):
         return expr.value, {}
     if isinstance(expr, Sym):
-        return Fraction(1), {short[expr.name]: Fraction(1)}
+        return Fraction(1), {short.get(expr.name, expr.name): Fraction(1)}  # a sum binds its own
     if expr.op in {"mul", "div", "neg"}:
         return _multiply_factors(expr, short)
     if expr.op == "pow" and isinstance(expr.args[1], Num):

@@ -12,11 +12,21 @@ from functools import cached_property
 from typing import TypeAlias
 
 import msgspec
+from flint import fmpq
 
 from quizgen.core.errors import MathError
-from quizgen.maths.number_systems import CompiledFormula, NumberSystem, compile_nested, exact_system
+from quizgen.maths.number_systems import (
+    CompiledFormula,
+    NumberSystem,
+    compile_nested,
+    exact_system,
+    select_branch,
+)
+from quizgen.maths.numbers import to_fraction
+from quizgen.maths.operators import CHECKED
 from quizgen.maths.precision import PRECISION, working_precision
-from quizgen.maths.tree import Expr, names_in
+from quizgen.maths.tidy import tidy_formula
+from quizgen.maths.tree import Expr, Num, names_in, operators_in, substitute
 from quizgen.maths.values import Value, Values
 
 CompiledSteps: TypeAlias = tuple[tuple[str, CompiledFormula], ...]
@@ -44,17 +54,65 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         Trap name to the wrong steps put in place of the right ones of the same name.
     formulas : mapping of str to str
         Step name to the id of the formula that it applies.
+    forms : tuple of ChainStep
+        Steps that are no single number: formulas over free names, complex numbers, matrices,
+        sets, equations. They use given quantities and steps.
+    form_traps : mapping of str to tuple of ChainStep
+        Trap name to the wrong forms put in place of the right ones.
+    free : tuple of str
+        Names in forms that no draw gives.
     """
 
     given: Mapping[str, str]
     steps: tuple[ChainStep, ...]
     traps: Mapping[str, tuple[ChainStep, ...]] = msgspec.field(default_factory=dict)
     formulas: Mapping[str, str] = msgspec.field(default_factory=dict)
+    forms: tuple[ChainStep, ...] = ()
+    form_traps: Mapping[str, tuple[ChainStep, ...]] = msgspec.field(default_factory=dict)
+    free: tuple[str, ...] = ()
 
     @cached_property
     def by_name(self) -> dict[str, ChainStep]:
         """Step name to step."""
         return {step.name: step for step in self.steps}
+
+    @cached_property
+    def form_by_name(self) -> dict[str, ChainStep]:
+        """Name of a form to its step."""
+        return {step.name: step for step in self.forms}
+
+    def bind_form(
+        self, expr: Expr, values: Values, wrong: Mapping[str, Expr] | None = None
+    ) -> Expr:
+        """A form with the numbers of a draw in place, tidied.
+
+        A quantity that is irrational stays the formula that gives it, so that the form is exact.
+
+        Parameters
+        ----------
+        expr : Expr
+        values : mapping of str to flint.fmpq or flint.arb
+            Every quantity of the chain in base units.
+        wrong : mapping of str to Expr, optional
+            Formulas that a mistake puts in place of those of steps.
+        """
+        steps = {step.name: step.expr for step in self.steps} | dict(wrong or {})
+        names = names_in(expr) - {*self.free}
+        return tidy_formula(substitute(expr, {n: _write_exactly(n, values, steps) for n in names}))
+
+    @cached_property
+    def certainties(self) -> dict[str, str]:
+        """Step name to how far its value is certified where it is irrational.
+
+        ``ball`` is proved by balls; ``checked`` is computed twice and compared, and so is whatever
+        rests on such a step. Rational values are exact all the same.
+        """
+        found: dict[str, str] = {}
+        for step in self.steps:
+            below = {found.get(name) for name in self.operands[step.name]}
+            checked = bool(operators_in(step.expr) & CHECKED) or "checked" in below
+            found[step.name] = "checked" if checked else "ball"
+        return found
 
     @cached_property
     def operands(self) -> dict[str, frozenset[str]]:
@@ -172,6 +230,15 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
             seen.add(current)
             todo += [n for n in self.operands[current] if n not in stop]
         return frozenset(seen)
+
+
+def _write_exactly(name: str, values: Values, steps: Mapping[str, Expr]) -> Expr:
+    """A quantity as a rational, else as the formula that gives it."""
+    value = values[name]
+    if isinstance(value, fmpq):
+        return Num(to_fraction(value))
+    expr = select_branch(steps[name], values, exact_system())
+    return substitute(expr, {n: _write_exactly(n, values, steps) for n in names_in(expr)})
 
 
 def _run_steps(

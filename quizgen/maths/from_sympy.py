@@ -52,7 +52,8 @@ def from_sympy(expression: sympy.Basic) -> Expr:
         rule = _RULES.get(kind)
         if rule is not None:
             return rule(expression)
-    raise BankError(f"no formula for SymPy's {type(expression).__name__}: {expression}")
+    what = f"no formula for SymPy's {type(expression).__name__}: {expression}"
+    raise BankError(f"{what} (docs/functions.md lists what there is)")
 
 
 def _convert_arguments(expression: sympy.Basic) -> tuple[Expr, ...]:
@@ -226,6 +227,52 @@ def _convert_piecewise(expression: sympy.Basic) -> Expr:
     raise BankError(f"the last branch of {expression} must hold otherwise: end with (..., True)")
 
 
+def _make_binder_converter(op: str) -> Callable[[sympy.Basic], Expr]:
+    """Sums, products and integrals with finite bounds, the innermost first."""
+
+    def rule(expression: sympy.Basic) -> Expr:
+        body = from_sympy(expression.function)
+        for limit in expression.limits:
+            if len(limit) != 3 or any(bound.is_infinite for bound in limit[1:]):
+                raise BankError(f"{expression} has no closed form, or lacks finite bounds")
+            name, low, high = limit
+            body = Call(op, (Sym(name.name), from_sympy(low), from_sympy(high), body))
+        return body
+
+    return rule
+
+
+def _convert_own_function(expression: sympy.Basic) -> Expr:
+    """``Function("t_quantile")(p, n)``: operators that SymPy has no class for."""
+    name = expression.func.__name__
+    row = OPERATORS.get(name)
+    if row is None or not row.least <= len(expression.args) <= row.most:
+        raise BankError(f"no formula for {expression}: write a function of your own in Python")
+    return Call(name, _convert_arguments(expression))
+
+
+REWRITES: dict[type, type] = {
+    sympy.coth: sympy.tanh,
+    sympy.sech: sympy.cosh,
+    sympy.csch: sympy.sinh,
+    sympy.acot: sympy.atan,
+    sympy.asec: sympy.acos,
+    sympy.acsc: sympy.asin,
+    sympy.Heaviside: sympy.Piecewise,
+    sympy.erfcinv: sympy.erfinv,
+    sympy.RisingFactorial: sympy.gamma,
+    sympy.FallingFactorial: sympy.gamma,
+}
+"""Functions that are said by another one."""
+
+
+def _rewrite_function(expression: sympy.Basic) -> Expr:
+    other = expression.rewrite(REWRITES[type(expression)])
+    if type(other) is type(expression):
+        raise BankError(f"no formula for {expression}")
+    return from_sympy(other)
+
+
 def _make_function_converter(op: str) -> Callable[[sympy.Basic], Expr]:
     """Return the rule for a function that both have."""
     return lambda expression: Call(op, _convert_arguments(expression))
@@ -258,5 +305,9 @@ _RULES: dict[type, Callable[[sympy.Basic], Expr]] = {
     sympy.Piecewise: _convert_piecewise,
     BooleanTrue: _reject_expression,
     BooleanFalse: _reject_expression,
-    AppliedUndef: _reject_expression,
+    AppliedUndef: _convert_own_function,
+    sympy.Sum: _make_binder_converter("sum"),
+    sympy.Product: _make_binder_converter("product"),
+    sympy.Integral: _make_binder_converter("integral"),
+    **dict.fromkeys(REWRITES, _rewrite_function),
 }

@@ -93,6 +93,14 @@ def _make_word_operator(name: str, most: int, python: str, arrays: str, sympy: s
     )  # fmt: skip
 
 
+def _make_special_operator(
+    name: str, count: int = 1, *, sympy: str = "", exact: str = ""
+) -> Operator:
+    """Floats and arrays take the value of the ball: the standard library lacks the function."""
+    called = {"sympy": sympy or name, "exact": exact or name}
+    return Operator(name, count, count, called=called)
+
+
 _DIVIDED = dict.fromkeys(SYSTEMS, "truediv") | {"exact": "divide"}
 
 _ROWS = (
@@ -122,6 +130,26 @@ _ROWS = (
     _make_function_operator("mod", least=2, most=2, exact="remainder", sympy="Mod"),
     _make_function_operator("min", most=MANY, exact="minimum", arrays="minimum", sympy="Min"),
     _make_function_operator("max", most=MANY, exact="maximum", arrays="maximum", sympy="Max"),
+    *map(_make_function_operator, ("sinh", "cosh", "tanh")),
+    _make_function_operator("asinh", arrays="arcsinh"),
+    _make_function_operator("acosh", arrays="arccosh"),
+    _make_function_operator("atanh", arrays="arctanh"),
+    *map(_make_special_operator, ("sec", "csc", "cot", "factorial", "gamma", "erfinv", "zeta")),
+    *(_make_special_operator(name, 2) for name in ("binomial", "beta")),
+    _make_special_operator("besselj", 2, exact="bessel_first_kind"),
+    _make_special_operator("bessely", 2, exact="bessel_second_kind"),
+    _make_special_operator("besseli", 2, exact="bessel_modified_first_kind"),
+    _make_special_operator("besselk", 2, exact="bessel_modified_second_kind"),
+    _make_special_operator("lambertw", sympy="LambertW"),
+    _make_special_operator("lowergamma", 2),
+    _make_special_operator("uppergamma", 2),
+    *(_make_special_operator(name, 1) for name in ("normal_cdf", "normal_quantile")),
+    *(
+        _make_special_operator(name, 2)
+        for name in ("t_cdf", "t_quantile", "chi2_cdf", "chi2_quantile")
+    ),
+    *(_make_special_operator(name, 3) for name in ("f_cdf", "f_quantile")),
+    *(Operator(name, 4, 4, absent=frozenset(SYSTEMS)) for name in ("sum", "product", "integral")),
     Operator("pi", 0, 0, OperatorSyntax.CONSTANT, ("pi", "π"), "CONSTANT"),
     Operator("piecewise", 3, MANY - 1, absent=frozenset(SYSTEMS) - {"arrays"}),
     _make_relation_operator("eq", "=", "==", exact="equal", sympy="Eq"),
@@ -137,6 +165,15 @@ _ROWS = (
 
 OPERATORS = {row.name: row for row in _ROWS}
 """Every operator by name. ``piecewise`` picks its branch while a formula runs, except on arrays."""
+
+DISTRIBUTIONS = frozenset(name for name in OPERATORS if name.endswith(("_cdf", "_quantile")))
+"""Operators for which SymPy has no class: ``Function("t_quantile")`` writes one."""
+
+BINDERS = frozenset({"sum", "product", "integral"})
+"""Operators of a bound name, its first and last value, and what is computed for each of them."""
+
+CHECKED = frozenset({"integral"})
+"""Operators whose value is computed twice and compared, but not proved."""
 
 CONDITIONS = frozenset(
     row.name

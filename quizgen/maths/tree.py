@@ -16,6 +16,8 @@ from typing import TypeAlias, TypeGuard
 
 import msgspec
 
+from quizgen.maths.operators import BINDERS
+
 
 class Num(msgspec.Struct, frozen=True, tag="n", array_like=True):
     """A rational constant; ``decimal`` asks printers for 2.2 instead of 11/5."""
@@ -68,7 +70,11 @@ def names_in(expr: Expr) -> frozenset[str]:
     while todo:
         node = todo.pop()
         if isinstance(node, Call):
-            todo += node.args
+            if node.op in BINDERS and isinstance(node.args[0], Sym):
+                found |= names_in(node.args[3]) - {node.args[0].name}
+                todo += node.args[1:3]
+            else:
+                todo += node.args
         elif isinstance(node, Sym):
             found.add(node.name)
     return frozenset(found)
@@ -90,6 +96,8 @@ def substitute(expr: Expr, values: Mapping[str, Expr]) -> Expr:
     if isinstance(expr, Sym):
         return values.get(expr.name, expr)
     if isinstance(expr, Call):
+        if expr.op in BINDERS and isinstance(expr.args[0], Sym):
+            values = {name: tree for name, tree in values.items() if name != expr.args[0].name}
         return Call(expr.op, tuple(substitute(arg, values) for arg in expr.args))
     return expr
 

@@ -44,11 +44,16 @@ class KeyGiven(msgspec.Struct):
 
 
 class KeyChain(msgspec.Struct, omit_defaults=True):
-    """The chain of a question as plain formulas; ``define`` holds units of the bank's own."""
+    """The chain of a question as plain formulas.
+
+    ``define`` holds units of the bank's own. ``checked`` are steps whose values were computed
+    twice and compared, but are not proved.
+    """
 
     given: dict[str, KeyGiven]
     steps: list[tuple[str, str, str]]
     define: list[str] = []
+    checked: list[str] = []
 
     def units(self) -> dict[str, str]:
         """Return the shown unit of each step, by name."""

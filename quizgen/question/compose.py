@@ -265,8 +265,10 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     if not chain.steps:
         return None
     units, own = drawn.template.units, drawn.template.about.units
+    checked = [name for name, grade in chain.certainties.items() if grade == "checked"]
     return {
         **({"define": list(own)} if own else {}),
+        **({"checked": checked} if checked else {}),
         "given": {
             name: {
                 "value": format_for_key(

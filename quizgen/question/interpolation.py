@@ -28,10 +28,10 @@ from quizgen.bank.markdown import (
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
-from quizgen.kinds.contract import VALUE_OPTION, LabelledName
+from quizgen.kinds.contract import VALUE_OPTION, LabelledName, asked_form
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.numbers import format_exact, format_rounded
-from quizgen.maths.tree import Expr, is_expr
+from quizgen.maths.tree import Expr
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Values
 from quizgen.question.inlines import (
@@ -154,18 +154,18 @@ class Interpolator:
         return (typeset_layout(fill_leaves(part.node, {n: self._fill_leaf(n) for n in names})),)
 
     def _fill_leaf(self, name: str) -> LeafValue:
-        """What stands for a quantity or a phrase inside a formula."""
+        """Return what stands for a quantity, a formula or a phrase inside a formula."""
+        if name not in self.own and (formula := self._find_formula(name)) is not None:
+            return make_leaf_value(formula)
         if name in self.own or name not in self.known or name in self.drawn.words:
             return LeafValue(_inlines_to_node(self._fill_slot(name)))
-        if (formula := self._find_formula(name)) is not None:
-            return make_leaf_value(formula)
         value, unit = self.known[name], self.drawn.template.units.get(name, "")
         rounded = self.drawn.is_rounded(name)
         text = format_rounded(value) if rounded else self.drawn.format_value(name)
         return make_leaf_value(text, unit, is_rounded=rounded)
 
     def _fill_slot(self, name: str) -> tuple[Inline, ...]:
-        """Return the value, phrase or sentence for a slot; ≈ goes before a rounded value.
+        """Return the value, formula, phrase or sentence for a slot.
 
         Raises ``BankError`` at the slot if its name is none of these.
         """
@@ -176,23 +176,34 @@ class Interpolator:
             return self.sentence("words", drawn.words[name])
         if not self.hidden and ("words", name) in self.text.cases:
             return self.sentence("words", name)
+        if (formula := self._find_formula(name)) is not None:
+            return (_inline_maths(formula),)
         if name not in self.known:
             what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
             raise self._format_problem(what, "QG158", TEXT, blank)
-        if (formula := self._find_formula(name)) is not None:
-            return (_inline_maths(formula),)
-        if not drawn.is_rounded(name):
-            return to_inlines(format_quantity(drawn, name))
+        return self._fill_number(name)
+
+    def _fill_number(self, name: str) -> tuple[Inline, ...]:
+        """Return a quantity with its unit; ≈ goes before a rounded value."""
+        if not self.drawn.is_rounded(name):
+            return to_inlines(format_quantity(self.drawn, name))
         rounded = format_rounded(self.known[name])
         return (
             RoundedMarker(),
-            *to_inlines(join_unit(rounded, drawn.template.units.get(name, ""))),
+            *to_inlines(join_unit(rounded, self.drawn.template.units.get(name, ""))),
         )
 
     def _find_formula(self, name: str) -> Expr | None:
-        """Return the formula that a name stands for, with the drawn numbers in it, if it is one."""
-        value: object = self.known[name]
-        return value if is_expr(value) else None
+        """Return the formula that a step stands for, with the drawn numbers in it, if it is one.
+
+        None in a stem for a formula that is asked for.
+        """
+        parts = self.drawn.template.rules.part
+        if name not in self.drawn.template.chain.form_by_name:
+            return None
+        if self.hidden and any(asked_form(part.answer) == name for part in parts):
+            return None
+        return self.drawn.form(name)
 
     def _fill_program(self, text: str) -> str:
         """Return program text with the known values in place."""

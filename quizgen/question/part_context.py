@@ -21,6 +21,7 @@ from quizgen.kinds.contract import (
 )
 from quizgen.locale import localise_numbers
 from quizgen.maths.numbers import format_exact, format_rounded, is_readable_exactly
+from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value
 from quizgen.question.interpolation import (
     Interpolator,
@@ -72,6 +73,15 @@ class VariantPart(PartContext):
     def misconception_answers(self) -> dict[str, tuple[Value, ...]]:
         """Return the answer that each usable misconception gives, as ``answer_values``."""
         return self.drawn.misconception_answers(self.index)
+
+    def exact_texts(self) -> tuple[str, ...]:
+        return self.drawn.exact_texts(self.index)
+
+    def answer_form(self) -> Expr:
+        return self.drawn.form_of_part(self.index)
+
+    def misconception_forms(self) -> dict[str, Expr]:
+        return self.drawn.misconception_forms(self.index)
 
     def count_nouns(self) -> dict[str, Any]:
         """Return the field ``counts`` of a specification, or an empty dict if there is none.

@@ -29,6 +29,7 @@ from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, 
 from quizgen.question.worked_steps import (
     FORMULA,
     WorkedSide,
+    form_sides,
     join_sides,
     quantity_inlines,
     step_sides,
@@ -160,7 +161,10 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
     explained = filler.text.sentence("why", label or "a") is not None
     return PartSolution(
         label=label,
-        lines=tuple(solution_step(filler, step) for step in drawn.steps_of_part(index)),
+        lines=tuple(
+            solution_step(filler, step)
+            for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps)
+        ),
         shown=to_inlines(KINDS[spec.kind].explain_key(spec, filler.lang)),
         mistakes=tuple(solved_misconceptions(filler, built)),
         options=tuple(
@@ -176,7 +180,8 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
 def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
     """Return a step of the chain as the solution shows it."""
     formula = filler.drawn.template.chain.formulas.get(step.name, "")
-    sides = step_sides(filler.drawn, step)
+    is_form = step.name in filler.drawn.template.chain.form_by_name
+    sides = (form_sides if is_form else step_sides)(filler.drawn, step)
     return SolutionStep(
         join_sides(step.name, sides),
         filler.sentence("steps", step.name),

@@ -75,6 +75,17 @@ def step_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
     return tuple(sides)
 
 
+def form_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
+    """The sides of a form: its formula, and the same with numbers in place, tidied."""
+    with working_precision():
+        expr = select_branch(step.expr, drawn.values, exact_system())
+    sides = [WorkedSide("=", typeset.lay_out(expr), format_tree(expr), FORMULA)]
+    bound = drawn.form(step.name)
+    if bound != expr:
+        sides.append(WorkedSide("=", typeset.lay_out(bound), format_tree(bound), RESULT))
+    return tuple(sides)
+
+
 def join_sides(name: str, sides: Sequence[WorkedSide]) -> TypesetMaths:
     """Return a quantity and some of its sides as one worked line."""
     signs = [side.sign for side in sides]

@@ -36,6 +36,7 @@ from quizgen.typeset.nodes import (
     Ident,
     LargeOperator,
     MathRow,
+    Matrix,
     Node,
     NumberWithUnit,
     OperatorSign,
@@ -518,6 +519,78 @@ def _lay_out_pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
     return Ident("π")
 
 
+# Sums with bounds, and forms: matrices, sets, complex numbers
+
+
+_LARGE = {"sum": "∑", "product": "∏", "integral": "∫"}
+
+
+def _make_binder_rule(op: str) -> LayoutRule:
+    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        name, low, high, body = args
+        lower = run.small(low)
+        if op != "integral":
+            lower = MathRow((run.small(name), OperatorSign("="), lower), RELATION)
+        items: list[Node] = [LargeOperator(_LARGE[op], lower, run.small(high))]
+        items.append(run.lay_out_bracketed(body, PRODUCT))
+        if op == "integral":
+            items += [OperatorSign(" "), Word("d"), OperatorSign(""), run.lay(name)]
+        return MathRow(tuple(items), PRODUCT)
+
+    return rule
+
+
+def _lay_out_matrix(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    rows = [row.args for row in args if isinstance(row, Call)]
+    return Fenced("()", Matrix(tuple(tuple(map(run.lay, row)) for row in rows)))
+
+
+def _lay_out_vector(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    return Fenced("()", Matrix(tuple((run.lay(arg),) for arg in args)))
+
+
+def _list_items(run: _Layout, args: tuple[Expr, ...], sign: str = ";") -> Node:
+    items: list[Node] = []
+    for arg in args:
+        items += [OperatorSign(sign), run.lay(arg)] if items else [run.lay(arg)]
+    return MathRow(tuple(items), WORDS)
+
+
+def _lay_out_set(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    return Fenced("{}", _list_items(run, args))
+
+
+def _lay_out_interval(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    low, high, *sides = args
+    left, right = (isinstance(side, Num) and side.value for side in sides)
+    fence = f"{'[' if left else '('}{']' if right else ')'}"
+    return Fenced(fence, _list_items(run, (low, high), ","))
+
+
+def _lay_out_union(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    if not args:
+        return Fenced("{}", OperatorSign(" "))
+    items = [run.lay(args[0])]
+    for arg in args[1:]:
+        items += [ReaderWord("or"), run.lay(arg)]
+    return MathRow(tuple(items), WORDS)
+
+
+def _lay_out_complex(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    real, imaginary = args
+    unit: Expr = Call("mul", (imaginary, Sym("i")))
+    minus, size = split_sign(imaginary)
+    if size == Num(_ONE):
+        unit = Call("neg", (Sym("i"),)) if minus else Sym("i")
+    if real == Num(Fraction(0)):
+        return run.lay(unit)
+    return _lay_out_sum(run, (real, unit))
+
+
+def _lay_out_infinity(_run: _Layout, _args: tuple[Expr, ...]) -> Node:
+    return Ident("∞")
+
+
 _RULES: dict[str, LayoutRule] = {
     **{
         row.name: _make_function_rule(row) for row in operators_with_syntax(OperatorSyntax.FUNCTION)
@@ -543,4 +616,12 @@ _RULES: dict[str, LayoutRule] = {
     "or": _make_connective_rule("or"),
     **{op: _make_relation_rule(sign) for op, sign in SIGNS.items()},
     **{op: _make_fence_rule(kind) for op, kind in FENCES.items()},
+    **{op: _make_binder_rule(op) for op in _LARGE},
+    "matrix": _lay_out_matrix,
+    "vector": _lay_out_vector,
+    "set": _lay_out_set,
+    "interval": _lay_out_interval,
+    "union": _lay_out_union,
+    "complex": _lay_out_complex,
+    "infinity": _lay_out_infinity,
 }

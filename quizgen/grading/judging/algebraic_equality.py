@@ -34,14 +34,14 @@ def prove_equal(first: Expr, second: Expr) -> bool:
         return False
     used = tuple(sorted(names_in(first) | names_in(second)))
     try:
-        top1, low1 = _convert_key_to_quotient(first, used)
-        top2, low2 = _convert_to_quotient(second, used)
+        top1, low1 = _of_key(first, used)
+        top2, low2 = convert_to_quotient(second, used)
     except (ValueError, ZeroDivisionError):
         return False
     return bool(top1 * low2 == top2 * low1)
 
 
-def _convert_to_quotient(tree: Expr, used: tuple[str, ...]) -> Quotient:
+def convert_to_quotient(tree: Expr, used: tuple[str, ...]) -> Quotient:
     """Return a rational formula as a quotient of polynomials in the names used.
 
     Raises
@@ -55,8 +55,8 @@ def _convert_to_quotient(tree: Expr, used: tuple[str, ...]) -> Quotient:
     return _evaluate_quotient(tree, ctx, env)
 
 
-# A whole class is compared with one key, so its quotient is stored; typed ones are not.
-_convert_key_to_quotient = lru_cache(maxsize=512)(_convert_to_quotient)
+_of_key = lru_cache(maxsize=512)(convert_to_quotient)
+"""The same for a key, which a whole class is compared with."""
 
 
 @lru_cache(maxsize=512)

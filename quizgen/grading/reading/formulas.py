@@ -26,7 +26,8 @@ from quizgen.maths.notation.names import FUNCTIONS, GREEK, fold_name
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.tree import Call, Expr, Num
 
-MULTI_ARGUMENT = r"(?:atan2|min|max|mod|piecewise)"
+_SEVERAL = (n for n, (_, most) in FUNCTIONS.items() if most > 1 and n not in GREEK.values())
+MULTI_ARGUMENT = rf"(?:{'|'.join(_SEVERAL)})"
 _SYNONYMS = {
     "arctan2": "atan2",
     "arctan": "atan",
@@ -53,6 +54,12 @@ _SYNONYMS = {
     "Ln": "ln",
     "Exp": "exp",
     "EXP": "exp",
+    "arsinh": "asinh",
+    "arcosh": "acosh",
+    "artanh": "atanh",
+    "arcsinh": "asinh",
+    "arccosh": "acosh",
+    "arctanh": "atanh",
     "Sin": "sin",
     "Cos": "cos",
     "Tan": "tan",
@@ -263,7 +270,11 @@ MOST = 40
 
 _GREEK = "".join(GREEK)
 _PLAIN = "|".join(
-    sorted((name for name, (_, most) in FUNCTIONS.items() if most == 1), key=len, reverse=True)
+    sorted(
+        (n for n, (_, most) in FUNCTIONS.items() if most == 1 and n not in GREEK.values()),
+        key=len,
+        reverse=True,
+    )
 )
 _CALL = re.compile(
     rf"(?<![^\W\d_])(?P<name>{_PLAIN})(?![^\W\d_{_GREEK}]) ?"

@@ -62,7 +62,8 @@ GREEK = {
 
 def is_plain_name(name: str) -> bool:
     """Return whether a name can stand in a formula without back quotes."""
-    reserved = name in CONSTANTS or name in KEYWORDS or name in FUNCTIONS
+    # gamma and beta are letters of Greek first: functions only in front of a bracket.
+    reserved = name in (CONSTANTS.keys() | KEYWORDS | FUNCTIONS.keys()) - set(GREEK.values())
     return not reserved and NAME.fullmatch(name) is not None
 
 

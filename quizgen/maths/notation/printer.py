@@ -151,6 +151,25 @@ def _format_power(expr: Call, leaves: Leaves) -> tuple[str, int]:
     )
 
 
+def _format_items(expr: Call, leaves: Leaves, separator: str) -> str:
+    return separator.join(
+        str(arg.value) if isinstance(arg, Num) else _format_with_level(arg, leaves)[0]
+        for arg in expr.args
+    )
+
+
+def _format_interval(expr: Call, leaves: Leaves) -> tuple[str, int]:
+    low, high, *sides = expr.args
+    left, right = (isinstance(side, Num) and side.value != 0 for side in sides)
+    bounds = _format_items(Call("", (low, high)), leaves, "; ")
+    return f"{'[' if left else '('}{bounds}{']' if right else ')'}", ATOM
+
+
+def _format_complex(expr: Call, leaves: Leaves) -> tuple[str, int]:
+    real, imaginary = (_format_at_level(part, PRODUCT, leaves) for part in expr.args)
+    return f"{real} + {imaginary}*i", SUM
+
+
 _WRITERS: dict[str, Callable[[Call, Leaves], tuple[str, int]]] = {
     "add": partial(_format_operand_run, sign=" + ", own=SUM),
     "sub": partial(_format_left_associative, sign=" - ", own=SUM),
@@ -162,4 +181,12 @@ _WRITERS: dict[str, Callable[[Call, Leaves], tuple[str, int]]] = {
     "or": partial(_format_connective, word="or", own=EITHER),
     "and": partial(_format_connective, word="and", own=BOTH),
     "not": partial(_format_prefix_operator, sign="not ", inner=TRUTH, own=TRUTH),
+    "row": lambda expr, leaves: (_format_items(expr, leaves, ", "), ATOM),
+    "matrix": lambda expr, leaves: (f"[{_format_items(expr, leaves, '; ')}]", ATOM),
+    "vector": lambda expr, leaves: (f"({_format_items(expr, leaves, '; ')})", ATOM),
+    "set": lambda expr, leaves: (f"{{{_format_items(expr, leaves, '; ')}}}", ATOM),
+    "union": lambda expr, leaves: (_format_items(expr, leaves, " or ") or "{}", ATOM),
+    "interval": _format_interval,
+    "complex": _format_complex,
+    "infinity": lambda _expr, _leaves: ("inf", ATOM),
 }
