@@ -27,12 +27,12 @@ T = TypeVar("T")
 
 
 def pick_index(key: str, count: int) -> int:
-    """Index below ``count`` that belongs to a key, the same on every machine."""
+    """Return the index below ``count`` that belongs to a key, the same on every machine."""
     return int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big") % count
 
 
 def shuffle(key: str, items: Sequence[T]) -> list[T]:
-    """Deterministic permutation that belongs to a key."""
+    """Return the items in an order that belongs to a key, the same on every machine."""
     ranked = sorted(range(len(items)), key=lambda i: hashlib.sha256(f"{key}/{i}".encode()).digest())
     return [items[i] for i in ranked]
 
@@ -47,7 +47,13 @@ class _Variable(msgspec.Struct, frozen=True):
     formula: CompiledFormula | None
 
     def derive(self, shown: dict[str, fmpq], words: dict[str, str]) -> None:
-        """Set the quantity, or the phrase at the place that the formula counts from 0."""
+        """Set the quantity in ``shown``, or in ``words`` the phrase that its formula counts from 0.
+
+        Raises
+        ------
+        BankError
+            If the formula has no value, or one that is no number.
+        """
         value = self._compute_value(shown)
         if isinstance(value, bool):
             raise self._fault("a condition, where a number is needed")
@@ -59,18 +65,23 @@ class _Variable(msgspec.Struct, frozen=True):
             shown[self.name] = value
 
     def _compute_value(self, shown: dict[str, fmpq]) -> Value:
+        """Return the value of the formula; 0 where there is none.
+
+        Raises ``BankError`` if it has no value here.
+        """
         try:
             return self.formula(shown) if self.formula else fmpq(0)
         except (MathError, ZeroDivisionError, OverflowError) as error:
             raise self._fault(str(error)) from error
 
     def _fault(self, what: str) -> BankError:
+        """Return an error at the quantity's table under ``draw``."""
         said = f"draw.{self.name}: {what}"
         return BankError(said, rule="QG120", file=self.file, place=("draw", self.name))
 
 
 class _Condition(msgspec.Struct, frozen=True):
-    """A condition over shown values, and the quantities it needs."""
+    """A condition over shown values, and the quantities that it reads."""
 
     text: str
     test: Callable[[Values], bool]
@@ -78,13 +89,24 @@ class _Condition(msgspec.Struct, frozen=True):
 
 
 def _make_test_of_name(name: str, test: Callable[[Value], bool]) -> Callable[[Values], bool]:
+    """Return a test of all values that tests the one of this name."""
     return lambda env: test(env[name])
 
 
 class Sampler:
-    """Everything about drawing a template that does not depend on the seed."""
+    """What drawing a template needs and the seed does not change: ranges, conditions, factors."""
 
     def __init__(self, template: Template) -> None:
+        """Compile a template's draws, conditions and misconceptions.
+
+        ``early`` conditions need drawn values alone and are tested before the chain is solved,
+        ``late`` ones after it.
+
+        Raises
+        ------
+        BankError
+            If a quantity uses a later one, a draw has no value, or a unit does not fit.
+        """
         self.template = template
         self._compiled: dict[str, CompiledFormula] = {}
         self._check_order()
@@ -100,6 +122,7 @@ class Sampler:
             raise error
 
     def _check_order(self) -> None:
+        """Raise ``BankError`` if a formula under ``draw`` uses what is not drawn before it."""
         known: set[str] = set()
         for name, rule in self.template.rules.draw.items():
             source = rule.formula or rule.by
@@ -111,7 +134,7 @@ class Sampler:
             known.add(name)
 
     def compile_formula(self, formula: str) -> CompiledFormula:
-        """A formula of ``template.toml``, compiled once; the precision is stated around it."""
+        """Return a formula of ``template.toml``, compiled once; the caller sets the precision."""
         if formula not in self._compiled:
             self._compiled[formula] = compile_nested(
                 self.template.parse_formula(formula), exact_system()
@@ -119,6 +142,10 @@ class Sampler:
         return self._compiled[formula]
 
     def _build_variable(self, name: str) -> _Variable:
+        """Return one quantity, ready to be drawn.
+
+        Raises ``BankError`` if its rule leaves no value.
+        """
         rule = self.template.rules.draw[name]
         source = rule.formula or rule.by
         formula = self.compile_formula(source) if source else None
@@ -130,6 +157,7 @@ class Sampler:
         return _Variable(file, name, listed, rule.words, formula)
 
     def _iter_conditions(self) -> Iterator[_Condition]:
+        """Yield the conditions under ``where``, then those under ``keep``."""
         for text in self.template.rules.where:
             yield _Condition(
                 text, self.compile_formula(text), names_in(self.template.parse_formula(text))
@@ -139,7 +167,11 @@ class Sampler:
             yield _Condition(f"keep.{name}", _make_test_of_name(name, test), frozenset({name}))
 
     def propose(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
-        """Values of one try, before any condition; the precision is stated around it."""
+        """Return values and phrases of one try, before any condition.
+
+        The caller sets the precision. Each follows from its own name and the number of the try, so
+        that a quantity added to a template leaves what is drawn for the others as it was.
+        """
         shown: dict[str, fmpq] = {}
         words: dict[str, str] = {}
         for variable in self.variables:
@@ -155,23 +187,23 @@ class Sampler:
 
     @cached_property
     def base_factors(self) -> dict[str, fmpq]:
-        """Given quantity to the factor from its shown unit to base units."""
+        """Return the factor from shown unit to base units of each given quantity."""
         template = self.template
         return {n: template.unit_factor(template.units.get(n, "")) for n in template.chain.given}
 
     @cached_property
     def step_factors(self) -> dict[str, fmpq]:
-        """Step to the factor from its shown unit to base units."""
+        """Return the factor from shown unit to base units of each step."""
         return {
             step.name: self.template.unit_factor(step.unit) for step in self.template.chain.steps
         }
 
     def solve(self, shown: Mapping[str, fmpq]) -> dict[str, Value]:
-        """Run the chain on shown values."""
+        """Return every quantity of the chain in base units, from shown values."""
         return self.template.chain.solve({n: shown[n] * f for n, f in self.base_factors.items()})
 
     def in_shown_units(self, shown: Mapping[str, fmpq], values: Values) -> dict[str, Value]:
-        """Drawn and solved quantities in shown units."""
+        """Return drawn and solved quantities in the units they are shown in."""
         return {**{name: values[name] / f for name, f in self.step_factors.items()}, **shown}
 
 
@@ -179,7 +211,7 @@ class Sampler:
 def list_candidates(
     listed: tuple[Scalar, ...], span: tuple[Scalar, ...], skip: tuple[Scalar, ...]
 ) -> tuple[fmpq, ...]:
-    """The values a rule allows, in order."""
+    """Return the values that a draw rule allows, in order; empty if it lists none."""
     if listed:
         return tuple(to_rational(str(v)) for v in listed)
     if not span:
@@ -192,7 +224,7 @@ def list_candidates(
 
 
 def compile_keep_test(rule: KeepRule) -> Callable[[Value], bool]:
-    """Compile a keep rule into a test of one value."""
+    """Return a test of one value that holds where all limits of a keep rule do."""
     tests = [
         partial(KEEP_TESTS[name], _parse_limit(name, getattr(rule, name)))
         for name in KEEP_TESTS
@@ -202,7 +234,7 @@ def compile_keep_test(rule: KeepRule) -> Callable[[Value], bool]:
 
 
 def _parse_limit(name: str, written: Scalar | tuple[Scalar, ...]) -> object:
-    """A limit as written, made exact."""
+    """Return a limit as its test takes it: exact numbers, a set of them, or a count."""
     if name == "skip":
         return {to_rational(str(v)) for v in written}  # type: ignore[union-attr]
     return written if name in {"decimals", "denominator"} else to_rational(str(written))
@@ -220,20 +252,21 @@ KEEP_TESTS: dict[str, Callable[[Any, Any], bool]] = {
 
 
 def _has_short_decimals(value: Value, decimals: int) -> bool:
+    """Return whether a value is written exactly with at most so many decimals."""
     count = count_decimals(value) if isinstance(value, fmpq) else None
     return count is not None and count <= decimals
 
 
 _PLANS: dict[str, Sampler] = {}
 MOST_PLANS = 1000
-"""Plans that are kept: a process that reads templates as they are edited meets ever new ones."""
+"""Samplers in the cache: a process that reads templates as they are edited meets ever new ones."""
 
 
 def sampler_for(template: Template) -> Sampler:
-    """The drawing plan of a template, built once.
+    """Return the sampler of a template, built once.
 
-    A template of the same content in another bank has a plan of its own: what the banks say about
-    themselves may differ.
+    A template of the same content in another bank has a sampler of its own: what the banks say
+    about themselves may differ.
     """
     key = f"{template.id}/{template.digest}"
     found = _PLANS.get(key)
@@ -248,7 +281,11 @@ def sampler_for(template: Template) -> Sampler:
 def solve_candidate(
     plan: Sampler, shown: Mapping[str, fmpq], *, lenient: bool = False
 ) -> tuple[dict[str, Value], tuple[tuple[str, ...], ...]] | str:
-    """Solve a candidate; its values and traps per part, or the reason to reject it."""
+    """Return values and misconceptions of each part, or the reason to reject the candidate.
+
+    ``lenient`` skips the conditions and leaves out misconceptions that cannot be told apart:
+    numbers that an author prints are taken as they are.
+    """
     try:
         for condition in () if lenient else plan.early:
             if not condition.test(shown):
@@ -268,11 +305,15 @@ def solve_candidate(
 def _usable_traps(
     plan: Sampler, shown: Mapping[str, fmpq], values: Values, *, lenient: bool
 ) -> tuple[tuple[str, ...], ...] | str:
-    """The usable traps of each part, or the reason to reject the candidate."""
+    """Return the usable misconceptions of each part, or the reason to reject the candidate."""
     approximate = {name: to_float(value) for name, value in values.items()}
     traps = []
     for part in plan.parts:
-        usable = part.check(approximate, shown, lenient=lenient)
+        usable = (
+            part.check_form(values, lenient=lenient)
+            if part.form
+            else part.check(approximate, shown, lenient=lenient)
+        )
         if isinstance(usable, str):
             return usable
         traps.append(usable)

@@ -45,7 +45,10 @@ NAMING = frozenset({"cells", "coordinate"})
 
 
 def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
-    """Return the language-free verdict of one answer.
+    """Return the verdict on one typed answer, in no language yet.
+
+    It never raises for what was typed: an answer that cannot be read gets an ``unreadable`` or
+    ``ambiguous`` verdict, which costs nothing.
 
     What cannot be read as it stands is tried again without what people write around an answer;
     what it was read as stands in ``read_as``. If that does not help either, it is the answer as
@@ -109,7 +112,7 @@ def _judge_text(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
 
 
 def read_error_verdict(error: FormulaReadError) -> Verdict:
-    """The verdict on an answer that could not be read."""
+    """Return the verdict on an answer that could not be read: asked back, with its place."""
     note = error.code
     if error.code == "unknown-unit" and error.expected:
         note = "unknown-unit-case"
@@ -118,7 +121,9 @@ def read_error_verdict(error: FormulaReadError) -> Verdict:
 
 
 def explain_verdict(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool = True) -> Verdict:
-    """Put the verdict's note into words of a language.
+    """Return the verdict with its sentence, and those of its cells, in a language.
+
+    A verdict that has nothing to explain is returned as it is.
 
     Parameters
     ----------
@@ -131,20 +136,25 @@ def explain_verdict(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool 
     if not (verdict.note or verdict.cells or verdict.fields):
         return verdict
     cells = tuple(explain_verdict(spec, cell, lang, reveal=reveal) for cell in verdict.cells)
-    return attach_message(verdict, _sentence(spec, verdict, lang, reveal=reveal), cells)
+    return attach_message(verdict, _build_sentence(spec, verdict, lang, reveal=reveal), cells)
 
 
-def _sentence(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool) -> str:
+def _build_sentence(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool) -> str:
+    """Return the sentence for a verdict's note.
+
+    For a misconception it is the author's own sentence, if there is one.
+    """
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
         said = feedback_sentence(lang, verdict.note, verdict.fields) if name else ""
-        reasons = _reasons(spec, verdict, lang) if reveal or not spec.reasons_tell else ""
-        return " ".join(filter(None, (said, _common_reason(verdict, lang), reasons)))
+        withheld = spec.reasons_tell and not reveal
+        reasons = "" if withheld else _join_author_reasons(spec, verdict, lang)
+        return " ".join(filter(None, (said, _find_common_reason(verdict, lang), reasons)))
     return spec.notes.get(lang, {}).get(name) or feedback_sentence(lang, "trap", verdict.fields)
 
 
-def _reasons(spec: AnySpec, verdict: Verdict, lang: str) -> str:
-    """Why what was chosen is wrong, as the question's author says it."""
+def _join_author_reasons(spec: AnySpec, verdict: Verdict, lang: str) -> str:
+    """Return why what was chosen is wrong, in the author's words; empty if there are none."""
     known = spec.why.get(lang) if isinstance(spec, WordSpec) else None
     chosen = verdict.fields.get("because", ())
     if not known or not isinstance(chosen, tuple):
@@ -152,8 +162,11 @@ def _reasons(spec: AnySpec, verdict: Verdict, lang: str) -> str:
     return " ".join(dict.fromkeys(known[label] for label in chosen if label in known))
 
 
-def _common_reason(verdict: Verdict, lang: str) -> str:
-    """What all wrong cells have in common, behind the names of the wrong ones."""
+def _find_common_reason(verdict: Verdict, lang: str) -> str:
+    """Return the sentence for the slip that all wrong cells share; empty if there is none.
+
+    A misconception's own sentence is not for cells: it speaks of the answer.
+    """
     if verdict.note not in NAMING:
         return ""
     missed = [cell for cell in verdict.cells if cell.credit < 1]

@@ -85,7 +85,7 @@ class AuthoredChoice(AuthoredPooled, kw_only=True, tag="choice", frozen=True):
     unit: str | None = None
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """``right`` needs ``take``, and is [least, most] with 1 <= least <= most."""
+        """Yield a problem unless ``right`` is [least, most], 1 <= least <= most, of ``take``."""
         if self.of and not self.options:
             if self.right or not isinstance(self.of, str):
                 yield ("of",), "QG115", "names one quantity, whose values are the options"
@@ -114,11 +114,17 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
     traps: dict[str, int | list[int]] = msgspec.field(default_factory=dict)
 
     def choices(self) -> list[str]:
-        """What there is to choose from."""
+        """Return the wordings to choose from."""
         return self.options or (["true", "false"] if self.kind == "tf" else [])
 
     def validate(self) -> None:
-        """Positions must exist; ``choice`` and ``tf`` have one right option."""
+        """Check that positions exist; ``choice`` and ``tf`` have one right option.
+
+        Raises
+        ------
+        ValueError
+            If not.
+        """
         count = len(self.choices())
         if not count or not all(1 <= i <= count for i in self.correct):
             raise ValueError("correct holds positions from 1 within options")
@@ -126,24 +132,32 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
             raise ValueError("exactly one option can be correct")
 
     def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
-        """Judge chosen options."""
+        """Return the verdict on chosen options, given as letters, numbers or words.
+
+        Raises
+        ------
+        FormulaReadError
+            If no option can be read, or several where one is asked.
+        """
         if len(typed) > 1000:
             raise FormulaReadError("too-long", 1001, "1000")
         if self.kind == "tf":
-            return _judge_one(self, _truth(self, typed))
-        whole = _by_text(self, typed)
+            return _judge_single_option(self, _read_truth_value(self, typed))
+        whole = _find_option_by_text(self, typed)
         chosen = (
-            [whole] if whole else _parse_labelled_options(self, typed) or _positions(self, typed)
+            [whole]
+            if whole
+            else _parse_labelled_options(self, typed) or _read_positions(self, typed)
         )
         if self.kind == "multi":
-            return _judge_many(self, chosen)
+            return _judge_several_options(self, chosen)
         if len(chosen) > 1:
             raise FormulaReadError("one-option", 1, safe_echo(typed))
-        return _judge_one(self, chosen[0])
+        return _judge_single_option(self, chosen[0])
 
     def show(self) -> str:
         """Return the letters of the right options, or the word for true or false."""
-        return _echo(self, self.correct)
+        return _format_options(self, self.correct)
 
     def show_in(self, lang: str, /) -> str:
         """Return the same with the word for true or false in a language."""
@@ -154,38 +168,48 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
         )
 
 
-def _truth(spec: ChoiceSpec, typed: str) -> int:
+def _read_truth_value(spec: ChoiceSpec, typed: str) -> int:
+    """Return 1 for a typed "true", 2 for "false"; the option's own words count, too.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is neither, or a letter and a word that contradict each other.
+    """
     text = normalise_typed(typed, keep_x=True, longest=1000).text
     labelled = _LABELLED.fullmatch(text.translate(BANGLA_LETTERS))
     if labelled and labelled["mark"].lower() in {"a", "b", "1", "2"}:
-        first, second = "ab12".index(labelled["mark"].lower()) % 2 + 1, _word(labelled["words"])
+        first, second = (
+            "ab12".index(labelled["mark"].lower()) % 2 + 1,
+            _find_truth_word(labelled["words"]),
+        )
         if second and first != second:
             raise FormulaReadError("two-readings", 1, safe_echo(typed))
         text = labelled["words"] if second else text
     word = _IT_IS.sub("", text.strip(_AROUND)).casefold()
-    found = _word(word) or _denied(word) or _by_text(spec, typed)
+    found = _find_truth_word(word) or _find_denied_truth(word) or _find_option_by_text(spec, typed)
     if found or word in {"a", "b"}:
         return found or "ab".index(word) + 1
     raise FormulaReadError("true-or-false", 1, safe_echo(typed))
 
 
-def _denied(text: str) -> int:
-    """2 for *not true*; 0 for what is not denied, or denies what is false."""
+def _find_denied_truth(text: str) -> int:
+    """Return 2 for *not true*; 0 for what is not denied, or denies what is false."""
     match = _DENIED.fullmatch(text)
-    return 2 if match and _word(match["word"] or match["before"]) == 1 else 0
+    return 2 if match and _find_truth_word(match["word"] or match["before"]) == 1 else 0
 
 
-def _word(text: str) -> int:
-    """1 for a word that says true, 2 for one that says false, maybe behind *yes* or *no*."""
+def _find_truth_word(text: str) -> int:
+    """Return 1 for a word that says true, 2 for one that says false, maybe behind *yes* or *no*."""
     word = text.strip(_AROUND).casefold()
     first, comma, second = word.partition(", ")
     if comma:
-        return _word(first) if _word(first) == _word(second) else 0
+        return _find_truth_word(first) if _find_truth_word(first) == _find_truth_word(second) else 0
     return 1 if word in _TRUE else 2 if word in _FALSE else 0
 
 
 def _parse_labelled_options(spec: ChoiceSpec, typed: str) -> list[int]:
-    """Positions of options written with their letter and their words; none if they are not.
+    """Return positions of options written with their letter and their words; none if they are not.
 
     Raises
     ------
@@ -193,11 +217,20 @@ def _parse_labelled_options(spec: ChoiceSpec, typed: str) -> list[int]:
         If the words are those of another option than the letter.
     """
     pieces = _PIECES.split(typed.strip()) if spec.kind == "multi" else [typed]
-    found = [_both(spec, piece) or _by_text(spec, piece) for piece in pieces]
+    found = [
+        _parse_labelled_option(spec, piece) or _find_option_by_text(spec, piece) for piece in pieces
+    ]
     return list(dict.fromkeys(found)) if all(found) else []
 
 
-def _both(spec: ChoiceSpec, piece: str) -> int:
+def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
+    """Return the position of an option written as letter and words, ``B) blue``; 0 if it is not.
+
+    Raises
+    ------
+    FormulaReadError
+        If the words are those of another option than the letter.
+    """
     text = normalise_typed(piece, keep_x=True, longest=1000).text.strip(_QUOTED)
     match = _LABELLED.fullmatch(_FILLING.sub("", text)) or _BEHIND.fullmatch(text)
     if match is None:
@@ -213,7 +246,11 @@ def _both(spec: ChoiceSpec, piece: str) -> int:
 
 
 def _find_meant_options(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[int]:
-    """Options that words can mean: whole, in part, or (foreign) in a script they do not use."""
+    """Return positions of options that words can mean: by all of an option, or by part of it.
+
+    ``foreign`` words in a script that the options do not use may mean any of them, since the
+    wordings of a key are in one language.
+    """
     folded = fold_word(words)
     options = [fold_word(option) for option in spec.choices()]
     same = [place for place, option in enumerate(options, 1) if option == folded]
@@ -228,68 +265,93 @@ def _find_meant_options(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[
     ]
 
 
-def _by_text(spec: ChoiceSpec, typed: str) -> int:
+def _find_option_by_text(spec: ChoiceSpec, typed: str) -> int:
+    """Return the position of the one option with these words; 0 if there is none or several."""
     folded = fold_word(typed)
     hits = [i + 1 for i, option in enumerate(spec.choices()) if fold_word(option) == folded]
     return hits[0] if len(hits) == 1 else 0
 
 
-def _positions(spec: ChoiceSpec, typed: str) -> list[int]:
+def _read_positions(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the positions of typed letters or numbers, each once.
+
+    Raises
+    ------
+    FormulaReadError
+        If there is none, one does not exist, or the text ends in a sign that wants another.
+    """
     source = normalise_typed(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
     text = PICTURES.sub(" ", source.text).translate(BANGLA_LETTERS)
     marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:!\[\]{}\"'*_।॥“”«»]", _FILLERS.sub(" ", text))
-    found = [position for mark in marks for position in _mark(spec, mark)]
+    found = [position for mark in marks for position in _parse_mark(spec, mark)]
     if not found or _UNFINISHED.search(text):
-        raise FormulaReadError("option-expected", 1, safe_echo(typed), _range(spec))
+        raise FormulaReadError("option-expected", 1, safe_echo(typed), _list_letters(spec))
     return list(dict.fromkeys(found))
 
 
-def _mark(spec: ChoiceSpec, mark: str) -> list[int]:
-    """Positions of one mark: ``B``, ``2`` or several letters run together."""
+def _parse_mark(spec: ChoiceSpec, mark: str) -> list[int]:
+    """Return the positions of one mark: ``B``, ``2`` or several letters run together.
+
+    Raises
+    ------
+    FormulaReadError
+        If there is no such option.
+    """
     positions = [int(mark)] if mark.isdecimal() else [LETTERS.find(c.upper()) + 1 for c in mark]
     if not all(1 <= position <= len(spec.choices()) for position in positions):
-        raise FormulaReadError("option-expected", 1, mark, _range(spec))
+        raise FormulaReadError("option-expected", 1, mark, _list_letters(spec))
     return positions
 
 
-def _range(spec: ChoiceSpec) -> list[str]:
+def _list_letters(spec: ChoiceSpec) -> list[str]:
+    """Return the letters of all options, for an error."""
     return list(LETTERS[: len(spec.choices())])
 
 
-def _judge_one(spec: ChoiceSpec, chosen: int) -> Verdict:
-    read_as = _echo(spec, [chosen])
+def _judge_single_option(spec: ChoiceSpec, chosen: int) -> Verdict:
+    """Return the verdict on one chosen option, right or wrong."""
+    read_as = _format_options(spec, [chosen])
     if chosen in spec.correct:
         return correct(read_as)
-    return wrong(read_as, _trap(spec, [chosen]), because=_marks([chosen]))
+    return wrong(read_as, _find_misconception_note(spec, [chosen]), because=_list_marks([chosen]))
 
 
-def _judge_many(spec: ChoiceSpec, chosen: list[int]) -> Verdict:
-    read_as = _echo(spec, chosen)
+def _judge_several_options(spec: ChoiceSpec, chosen: list[int]) -> Verdict:
+    """Return the verdict on several chosen options: right less wrong ones, of all right ones.
+
+    Without ``negative`` there is no partial credit.
+    """
+    read_as = _format_options(spec, chosen)
     right = len(set(chosen) & set(spec.correct))
     extra = len(set(chosen) - set(spec.correct))
     if right == len(spec.correct) and not extra:
         return correct(read_as)
     credit = max(Fraction(right - extra, max(len(spec.correct), 1)), Fraction(0))
-    note = _trap(spec, chosen) or ("options-extra" if extra else "options-missing")
-    extras = _marks(sorted(set(chosen) - set(spec.correct)))
+    note = _find_misconception_note(spec, chosen) or (
+        "options-extra" if extra else "options-missing"
+    )
+    extras = _list_marks(sorted(set(chosen) - set(spec.correct)))
     fields = {"right": right, "of": len(spec.correct), "because": extras}
     if spec.negative and 0 < credit < 1:
         return partial(credit, read_as, note, **fields)
     return wrong(read_as, note, **fields)
 
 
-def _trap(spec: ChoiceSpec, chosen: list[int]) -> str:
+def _find_misconception_note(spec: ChoiceSpec, chosen: list[int]) -> str:
+    """Return the note of the mistake that chooses just these options; empty if none does."""
     for name, positions in spec.traps.items():
         if sorted(positions if isinstance(positions, list) else [positions]) == sorted(chosen):
             return f"trap:{name}"
     return ""
 
 
-def _marks(chosen: list[int]) -> tuple[str, ...]:
+def _list_marks(chosen: list[int]) -> tuple[str, ...]:
+    """Return the letters of positions, by which reasons are stored."""
     return tuple(LETTERS[place - 1] for place in chosen)
 
 
-def _echo(spec: ChoiceSpec, chosen: list[int]) -> str:
+def _format_options(spec: ChoiceSpec, chosen: list[int]) -> str:
+    """Return chosen options as letters in order, or as ``true`` and ``false``."""
     if spec.kind == "tf":
         return ("true", "false")[chosen[0] - 1]
     return ", ".join(LETTERS[i - 1] for i in sorted(chosen))
@@ -301,7 +363,13 @@ def has_value_options(answer: Mapping[str, Any]) -> bool:
 
 
 def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
-    """The options in a drawn order; the part's error unless exactly one is right."""
+    """Return the options in a drawn order.
+
+    Raises
+    ------
+    BankError
+        Unless exactly one is right in this variant.
+    """
     if has_value_options(part.answer):
         return _ask_values(part)
     asked = ask_options(part, InputControl("one", lines=0))
@@ -357,14 +425,14 @@ def _ask_values(part: PartContext) -> AskedPart[ChoiceSpec]:
 
 
 def option_order(part: PartContext) -> tuple[list[str], list[str]]:
-    """Names of the options in a drawn order, and of those that are right in this variant."""
+    """Return the options' names in a drawn order, and those right in this variant."""
     conditions = part.answer["options"]
     order = part.shuffle_names(part.selection()[0])
     return order, [name for name in order if part.condition_holds(conditions[name])]
 
 
 def ask_options(part: PartContext, control: InputControl) -> AskedPart[ChoiceSpec]:
-    """The options in a drawn order, with those that are right in this variant."""
+    """Return the options in a drawn order, with those that are right in this variant."""
     order, right = option_order(part)
     wordings, options = part.option_texts(order), assign_letters(order)
     correct = [order.index(name) + 1 for name in right]

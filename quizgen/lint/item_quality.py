@@ -21,6 +21,7 @@ from quizgen.bank.sampler import sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant
 from quizgen.kinds import choice, true_false
+from quizgen.kinds.contract import asked_form
 from quizgen.lint.figures import figure_text
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr
@@ -165,7 +166,8 @@ def _check_authored_reasons(template: Template, index: int) -> Said:
         yield "error", "QG304", f"no reason for {', '.join(lacking)}"
     if answer["kind"] == "tf" and not {"from", "claim"} & answer.keys():
         yield "error", "QG305", "a statement without a name has no reason: make it a claim"
-    if answer["kind"] in {"order", "expression"} and not answer.get("traps"):
+    named = answer.get("traps") or asked_form(answer)
+    if answer["kind"] in {"order", "expression"} and not named:
         yield "error", "QG306", "no trap names a wrong answer"
 
 

@@ -26,7 +26,7 @@ _NAME = re.compile(rf"([^\W\d][\w' ./{SIGNS}-]*?) ?(?::=|[=:≈]|->|→) ?")
 
 
 def split_name(item: SourceText) -> tuple[str, SourceText]:
-    """Split ``u = 420`` into the name and the rest; the name is empty if there is none."""
+    """Return the name and the rest of ``u = 420``; the name is empty if there is none."""
     match = _NAME.match(item.text)
     if match is None or match.end() == len(item.text):
         return "", item
@@ -106,7 +106,7 @@ def _find_unique(found: Iterable[str]) -> str:
 
 
 def split_named_items(items: list[SourceText], names: list[str]) -> list[tuple[str, SourceText]]:
-    """Split each item into the name that it carries, '' for none, and its value.
+    """Return each item as the name that it carries, '' for none, and its value.
 
     Besides ``u = 420`` a name may stand before or after the value without a sign (``R 25``,
     ``25 red``), provided that all items do so and all names are meant: a word after a number is
@@ -123,11 +123,13 @@ def split_named_items(items: list[SourceText], names: list[str]) -> list[tuple[s
 
 
 def _split_name_before(item: SourceText) -> tuple[str, SourceText]:
+    """Return the name and the value of ``R 25``; the name is empty if there is none."""
     match = _BEFORE_NUMBER.match(item.text)
     return (match[1], item.slice(match.end())) if match else ("", item)
 
 
 def _split_name_after(item: SourceText) -> tuple[str, SourceText]:
+    """Return the name and the value of ``25 red``; the name is empty if there is none."""
     match = _AFTER_NUMBER.fullmatch(item.text)
     return (match["name"], item.slice(0, match.end("value"))) if match else ("", item)
 
@@ -154,7 +156,7 @@ def place_by_name(items: list[SourceText], names: list[str]) -> dict[str, Source
 
 
 def reorder_by_name(items: list[SourceText], names: list[str]) -> list[SourceText]:
-    """Put named items into the declared order; items without names keep theirs.
+    """Return the values in the declared order; items without names keep theirs.
 
     Raises
     ------
@@ -175,6 +177,6 @@ _LEADING = re.compile(rf"(?:{NAME}|{WORDS}) ?(?:=|≈|:|:=) ?")
 
 
 def drop_name(source: SourceText) -> SourceText:
-    """Drop a leading ``u =``."""
+    """Return a text without a leading ``u =``."""
     match = _LEADING.match(source.text)
     return source.slice(match.end()) if match and match.end() < len(source.text) else source
