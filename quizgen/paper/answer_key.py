@@ -43,7 +43,7 @@ class KeyGiven(msgspec.Struct):
     unit: str = ""
 
 
-class KeyChain(msgspec.Struct):
+class KeyChain(msgspec.Struct, omit_defaults=True):
     """The chain of a question as plain formulas.
 
     ``checked`` are steps whose values were computed twice and compared, but are not proved.
