@@ -522,24 +522,6 @@ def _lay_out_pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
 # Sums with bounds, and forms: matrices, sets, complex numbers
 
 
-_LARGE = {"sum": "∑", "product": "∏", "integral": "∫"}
-
-
-def _make_binder_rule(op: str) -> LayoutRule:
-    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
-        name, low, high, body = args
-        lower = run.small(low)
-        if op != "integral":
-            lower = MathRow((run.small(name), OperatorSign("="), lower), RELATION)
-        items: list[Node] = [LargeOperator(_LARGE[op], lower, run.small(high))]
-        items.append(run.lay_out_bracketed(body, PRODUCT))
-        if op == "integral":
-            items += [OperatorSign(" "), Word("d"), OperatorSign(""), run.lay(name)]
-        return MathRow(tuple(items), PRODUCT)
-
-    return rule
-
-
 def _lay_out_matrix(run: _Layout, args: tuple[Expr, ...]) -> Node:
     rows = [row.args for row in args if isinstance(row, Call)]
     return Fenced("()", Matrix(tuple(tuple(map(run.lay, row)) for row in rows)))
@@ -616,7 +598,6 @@ _RULES: dict[str, LayoutRule] = {
     "or": _make_connective_rule("or"),
     **{op: _make_relation_rule(sign) for op, sign in SIGNS.items()},
     **{op: _make_fence_rule(kind) for op, kind in FENCES.items()},
-    **{op: _make_binder_rule(op) for op in _LARGE},
     "matrix": _lay_out_matrix,
     "vector": _lay_out_vector,
     "set": _lay_out_set,
