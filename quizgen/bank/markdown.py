@@ -156,7 +156,11 @@ follows it where an output could break between them.
 """
 _POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
 _EQUALS = re.compile(r"=(?=\s*$)")
-_SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*)\s*\}\}")
+_SLOT = re.compile(
+    r"\{\{\s*([A-Za-z_][\w']*(?:\[[0-9]{1,4}\])?|table:(?:\s+[A-Za-z_][\w']*){1,12})\s*\}\}"
+)
+TABLE_MARK = "table:"
+"""Begins a slot that is a table of lists: ``{{ table: x y }}``."""
 _MATH = re.compile(r"\$([^$\n]+)\$")
 _BANNED = re.compile(r"\{\{|\}\}|\{%|%\}|\{#|#\}")
 

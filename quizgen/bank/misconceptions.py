@@ -177,6 +177,11 @@ def _round_half_away(value: float, decimals: int) -> float:
     return math.copysign(math.floor(abs(value) * scale + 0.5) / scale, value)
 
 
+def _divide_values(value: Any, size: float) -> Any:
+    """A number, or each of a list, in a unit of this size."""
+    return tuple(v / size for v in value) if isinstance(value, tuple) else value / size
+
+
 class _Bound:
     """A bound of an interval, as a formula over quantities in the units they are shown in."""
 
@@ -188,7 +193,7 @@ class _Bound:
     def at(self, env: Mapping[str, float], shown: Mapping[str, fmpq]) -> float:
         """Its value in a draw."""
         known = {
-            name: to_float(shown[name]) if name in shown else env[name] / size
+            name: to_float(shown[name]) if name in shown else _divide_values(env[name], size)
             for name, size in self.sizes.items()
         }
         return float(self.compiled(known))

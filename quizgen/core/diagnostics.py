@@ -234,6 +234,8 @@ _CODES = {
                   "name it in formulas of the solver's MODEL"),
     "QG218": Rule("A question tells what another one asks.",
                   "say it in other words, or name the other template in apart"),
+    "QG219": Rule("A quantity is drawn, and nothing uses it.",
+                  "show it, ask for it or compute with it, or take it out"),
     # Item writing: whether a question teaches and cannot be guessed.
     "QG301": Rule("The answer hardly varies.",
                   "let other options, statements or pairs be right in turn"),

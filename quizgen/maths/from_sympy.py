@@ -16,6 +16,7 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import BooleanFalse, BooleanTrue
 
 from quizgen.core.errors import BankError
+from quizgen.maths.lists import ListFunction
 from quizgen.maths.operators import OPERATORS
 from quizgen.maths.tree import Call, Expr, Num, Sym
 
@@ -231,4 +232,5 @@ _RULES: dict[type, Callable[[sympy.Basic], Expr]] = {
     BooleanTrue: _reject_expression,
     BooleanFalse: _reject_expression,
     AppliedUndef: _reject_expression,
+    ListFunction: lambda expression: Call(expression.op, _convert_arguments(expression)),
 }

@@ -80,11 +80,17 @@ def compile_nested(expr: Expr, system: NumberSystem) -> CompiledFormula:
         return lambda _env: constant
     if isinstance(expr, Sym):
         return itemgetter(expr.name)
+    return _compile_any_call(expr, system)
+
+
+def _compile_any_call(expr: Call, system: NumberSystem) -> CompiledFormula:
     if expr.op == "piecewise":
         return _compile_piecewise(expr, system)
     if OPERATORS[expr.op].folds and len(expr.args) > MANY:
         return _compile_run(system.ops[expr.op], expr.args, system)
     if OPERATORS[expr.op].folds and len(expr.args) != 2:
+        if len(expr.args) == 1 and f"list_{expr.op}" in system.ops:  # of one list, or one number
+            return _compile_call(Call(f"list_{expr.op}", expr.args), system)
         return compile_nested(reduce(partial(_make_binary_call, expr.op), expr.args), system)
     return _compile_call(expr, system)
 
@@ -207,18 +213,25 @@ def _looked_up(name: str, sources: tuple[object, ...]) -> OperatorFunction:
 @cache
 def exact_system() -> NumberSystem:
     """Exact rationals (``flint.fmpq``), and certified balls (``flint.arb``) beyond them."""
+    from flint import fmpq
+
     from quizgen.maths import exact as own
+    from quizgen.maths.list_operators import build_list_functions
     from quizgen.maths.numbers import to_rational
     from quizgen.maths.precision import at_working_precision
 
-    ops = operator_functions("exact", own, operator, own.BALLS, **_LOGIC)
+    lists = build_list_functions(own.square_root, fmpq)
+    ops = operator_functions("exact", own, operator, own.BALLS, **_LOGIC, **lists)
     return NumberSystem("exact", to_rational, ops, guard=at_working_precision)
 
 
 @cache
 def float64_system() -> NumberSystem:
     """Python floats: the fast approximation used by figures."""
+    from quizgen.maths.list_operators import build_list_functions
+
     own: dict[str, OperatorFunction] = {
+        **build_list_functions(math.sqrt, float),
         "sign": lambda a: 0.0 if a == 0 else math.copysign(1.0, a),
         "floor": lambda a: float(math.floor(a)),
         "ceil": lambda a: float(math.ceil(a)),
@@ -240,7 +253,7 @@ def float32_system() -> NumberSystem:
     """Numbers rounded to float32 after every operation; truth values stay."""
 
     def rounding(name: str, op: OperatorFunction) -> OperatorFunction:
-        return op if name in CONDITIONS else lambda *args: round_to_float32(op(*args))
+        return op if name in CONDITIONS | {"sort"} else lambda *args: round_to_float32(op(*args))
 
     ops = {name: rounding(name, op) for name, op in float64_system().ops.items()}
     return NumberSystem("float32", lambda q: round_to_float32(float(q)), ops)

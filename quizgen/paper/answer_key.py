@@ -37,10 +37,22 @@ UNORDERED = frozenset({"notes", "traps"})
 
 
 class KeyGiven(msgspec.Struct):
-    """A drawn number in base units, and the unit it is shown in."""
+    """A drawn number, or a list of them, in base units, and the unit it is shown in."""
 
-    value: str
+    value: str | list[str]
     unit: str = ""
+
+    def parse_value(self) -> Any:
+        """The number, or the list as a tuple, exactly.
+
+        Raises
+        ------
+        FormulaError
+            If it cannot be read.
+        """
+        if isinstance(self.value, str):
+            return parse_exact(self.value)
+        return tuple(map(parse_exact, self.value))
 
 
 class KeyChain(msgspec.Struct):
@@ -63,7 +75,7 @@ class KeyChain(msgspec.Struct):
         """
         units = tuple((name, given.unit) for name, given in self.given.items())
         chain = _build_chain(units, tuple(map(tuple, self.steps)))
-        values = {name: parse_exact(given.value) for name, given in self.given.items()}
+        values = {name: given.parse_value() for name, given in self.given.items()}
         return QuestionContext(chain, values, earlier)
 
 

@@ -255,6 +255,14 @@ def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
     return QuestionPart(asked.label, asked.points, asked.body, field)
 
 
+def _format_given_for_key(drawn: Variant, name: str) -> str | list[str]:
+    """A given quantity in base units, of a list each value."""
+    factor = drawn.template.unit_factor(drawn.template.units.get(name, ""))
+    if name in drawn.lists:
+        return [format_for_key(value * factor) for value in drawn.lists[name]]
+    return format_for_key(drawn.shown[name] * factor)
+
+
 def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     """The chain with its numbers as plain JSON, for marking without SymPy."""
     chain = drawn.template.chain
@@ -264,9 +272,7 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     return {
         "given": {
             name: {
-                "value": format_for_key(
-                    drawn.shown[name] * drawn.template.unit_factor(units.get(name, ""))
-                ),
+                "value": _format_given_for_key(drawn, name),
                 "unit": units.get(name, ""),
             }
             for name in chain.given
