@@ -17,7 +17,7 @@ from typing import Any, Literal
 
 from quizgen.bank.pools import count_pool_variants, matching_pairs, select_from_pool
 from quizgen.bank.rules import suggested_minutes, total_points
-from quizgen.bank.sampler import DrawnValues, sampler_for, solve_candidate
+from quizgen.bank.sampler import sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant
 from quizgen.kinds import choice, true_false
@@ -222,7 +222,7 @@ def count_pool(template: Template) -> int:
     A quantity that nothing uses makes no other question. Lists are never counted.
     """
     plan, rules = sampler_for(template), template.rules
-    if plan.has_lists:
+    if plan.has_lists or any(v.lookup for v in plan.variables):
         return 0
     unused = find_unused_draws(template)
     free = [variable for variable in plan.variables if variable.choices]
@@ -237,8 +237,6 @@ def count_pool(template: Template) -> int:
             for variable in plan.variables:
                 if variable.formula is not None:
                     variable.derive(shown, words)
-                elif variable.lookup:
-                    variable.draw("", 0, DrawnValues(shown, words, {}))
         kept = solve_candidate(plan, shown)
         if not isinstance(kept, str):
             total += count_pool_variants(Variant(template, "0", "0", 1, shown, words, *kept))

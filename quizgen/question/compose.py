@@ -24,6 +24,7 @@ from quizgen.kinds import KINDS
 from quizgen.kinds.contract import InputControl
 from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import format_for_key
+from quizgen.question.data_files import build_file_paragraphs
 from quizgen.question.figure import draw_question_figure
 from quizgen.question.html import blocks_to_html, inlines_to_html
 from quizgen.question.inlines import join_inlines, to_inlines
@@ -225,7 +226,7 @@ def _build_question_and_key(
         topic=template.rules.topic,
         title=template.texts[lang].title,
         minutes=Fraction(template.minutes),
-        stem=localise(lang, asking.stem),
+        stem=localise(lang, (*asking.stem, *build_file_paragraphs(drawn, lang, number))),
         parts=localise(lang, tuple(_build_part(part, lang, number) for part in asking.parts)),
         figure=draw_question_figure(drawn, lang, quiz=True) if figures else None,
     )
