@@ -9,7 +9,6 @@ from itertools import zip_longest
 from quizgen.bank.markdown import InlineCode, Paragraph
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
-from quizgen.core.untrusted import format_csv
 from quizgen.maths.numbers import MINUS
 from quizgen.question.inlines import translate_inlines
 
@@ -49,7 +48,9 @@ def iter_data_files(drawn: Variant, number: str) -> Iterator[tuple[str, bytes]]:
         heads = [f"{c} / {units[c]}" if units.get(c) else c for c in columns]
         cells = [[text.replace(MINUS, "-") for text in drawn.format_list(c)] for c in columns]
         rows = zip_longest(*cells, fillvalue="")
-        yield f"{number}-{name}", format_csv([heads, *rows]).encode()
+        # Letters, units and numbers alone: a minus sign must not be guarded from spreadsheets.
+        lines = (",".join(row) for row in (heads, *rows))
+        yield f"{number}-{name}", "".join(f"{line}\n" for line in lines).encode()
 
 
 def build_file_paragraphs(drawn: Variant, lang: str, number: str) -> tuple[Paragraph, ...]:
