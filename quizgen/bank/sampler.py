@@ -251,7 +251,7 @@ class Sampler:
             return DrawnValues({}, {}, {})
         key = f"{stem}/data/{attempt}"
         given = draw_data(module, template.data_file, template.rules.data, key)
-        return given and DrawnValues(given.numbers, given.texts, given.lists)
+        return DrawnValues(given.numbers, given.texts, given.lists) if given else None
 
     @cached_property
     def base_factors(self) -> dict[str, fmpq]:

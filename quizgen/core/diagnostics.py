@@ -158,7 +158,7 @@ _CODES = {
                   "write a sign before the version, as in >=0.1, or install one that fits"),
     "QG125": Rule("Two things have one name.", "rename one of them"),
     "QG126": Rule("There is no such solver.", "mend the name, or write the file"),
-    "QG127": Rule("There is no such figure.",
+    "QG127": Rule("There is no such figure, or no ``data.py``.",
                   "use one of those listed, or write templates/figures/NAME.py in the bank"),
     "QG128": Rule("A bank brings Python and is not trusted.",
                   "run it with --trust if you know who wrote it"),

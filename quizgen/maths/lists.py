@@ -21,7 +21,7 @@ import sympy
 from quizgen.maths.operators import OperatorSyntax, operators_with_syntax
 
 
-class ListFunction(sympy.Function):
+class ListFunction(sympy.Function):  # type: ignore[misc]  # SymPy has no types
     """A function of a list; ``op`` is its name in the table of operators."""
 
     op: ClassVar[str]

@@ -261,11 +261,7 @@ def test_lists_in_words_tables_code_and_files(tmp_path):
     assert "x | y\xa0/\xa0cm\n3.0 | 1\n2.5 | 2\n−1.0 | 3" in text
     assert "a = [3.0, 2.5, -1.0]" in text
     assert "The data are in the file 1-d.csv." in text
-    assert dict(iter_data_files(key.draw, "1")) == {
-        "1-d.csv": b"x,y / cm\n3.0,1\n2.5,2\n-1.0,3\n"
-        if False
-        else b"x,y / cm\n3.0,1\n2.5,2\n-1.0,3\n"
-    }
+    assert dict(iter_data_files(key.draw, "1")) == {"1-d.csv": b"x,y / cm\n3.0,1\n2.5,2\n-1.0,3\n"}
     assert key.chain["given"]["x"]["value"] == ["3", "5/2", "-1"]
     (line,) = key.solution.parts[0].lines
     assert line.maths.text == "m = mean(x) = (3.0 + 2.5 + (−1.0))/3 = 1.5"
