@@ -20,6 +20,7 @@ from quizgen.bank.rules import DataRule
 from quizgen.bank.solvers import author_error_context
 from quizgen.core.errors import BankError
 from quizgen.maths.numbers import to_rational
+from quizgen.maths.values import NumberList
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -111,7 +112,7 @@ def _add_value(found: DrawnData, name: str, value: Any, rule: DataRule) -> None:
         if not 1 <= len(value) <= MOST_VALUES:
             what = f"{name}: a list of {len(value)} values (allowed: 1 to {MOST_VALUES})"
             raise BankError(what, rule="QG133")
-        found.lists[name] = tuple(_convert_number(name, _to_plain(one), rule) for one in value)
+        found.lists[name] = NumberList(_convert_number(name, _to_plain(one), rule) for one in value)
     elif isinstance(value, str) and not _is_number(value):
         if len(value) > LONGEST_TEXT:
             raise BankError(f"{name}: a text of more than {LONGEST_TEXT} letters", rule="QG133")

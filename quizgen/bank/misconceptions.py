@@ -22,6 +22,7 @@ from quizgen.maths.number_systems import compile_expr, float64_system
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tolerance import MARGIN, RULES, Tolerance, parse_tolerance
 from quizgen.maths.tree import names_in
+from quizgen.maths.values import map_numbers
 
 TIE_MARGIN = 0.02
 """A value closer than this (in units of the asked decimal) to a rounding tie is redrawn."""
@@ -177,11 +178,6 @@ def _round_half_away(value: float, decimals: int) -> float:
     return math.copysign(math.floor(abs(value) * scale + 0.5) / scale, value)
 
 
-def _divide_values(value: Any, size: float) -> Any:
-    """A number, or each of a list, in a unit of this size."""
-    return tuple(v / size for v in value) if isinstance(value, tuple) else value / size
-
-
 class _Bound:
     """A bound of an interval, as a formula over quantities in the units they are shown in."""
 
@@ -193,7 +189,9 @@ class _Bound:
     def at(self, env: Mapping[str, float], shown: Mapping[str, fmpq]) -> float:
         """Its value in a draw."""
         known = {
-            name: to_float(shown[name]) if name in shown else _divide_values(env[name], size)
+            name: to_float(shown[name])
+            if name in shown
+            else map_numbers(size.__rtruediv__, env[name])
             for name, size in self.sizes.items()
         }
         return float(self.compiled(known))

@@ -31,7 +31,7 @@ from quizgen.maths.number_systems import CompiledFormula, compile_nested, exact_
 from quizgen.maths.numbers import count_decimals, to_float, to_rational
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import names_in
-from quizgen.maths.values import Value, Values
+from quizgen.maths.values import NumberList, Value, Values, map_numbers
 
 T = TypeVar("T")
 
@@ -90,7 +90,7 @@ class _Variable(msgspec.Struct, frozen=True):
             try:
                 if self.listed is not None:
                     env = drawn.environment
-                    drawn.lists[self.name] = self.listed.draw(stem, attempt, env)
+                    drawn.lists[self.name] = NumberList(self.listed.draw(stem, attempt, env))
                 elif self.lookup is not None:
                     drawn.shown[self.name] = self.lookup.look_up(drawn.environment, drawn.words)
             except BankError as error:
@@ -274,17 +274,12 @@ class Sampler:
             given = {n: shown[n] * f for n, f in self.base_factors.items()}
             return self.template.chain.solve(given)
         known: Mapping[str, Any] = {**shown, **lists}
-        given = {n: scale_value(known[n], f) for n, f in self.base_factors.items()}
+        given = {n: map_numbers(f.__mul__, known[n]) for n, f in self.base_factors.items()}
         return self.template.chain.solve(given)
 
     def in_shown_units(self, shown: Mapping[str, fmpq], values: Values) -> dict[str, Value]:
         """Drawn and solved quantities in shown units."""
         return {**{name: values[name] / f for name, f in self.step_factors.items()}, **shown}
-
-
-def scale_value(value: Any, factor: Any) -> Any:
-    """A number, or each of a list, times a factor."""
-    return tuple(v * factor for v in value) if isinstance(value, tuple) else value * factor
 
 
 @cache
@@ -401,10 +396,11 @@ def _usable_traps(
     plan: Sampler, shown: Mapping[str, fmpq], values: Values, *, lenient: bool
 ) -> tuple[tuple[str, ...], ...] | str:
     """The usable traps of each part, or the reason to reject the candidate."""
-    approximate: dict[str, Any] = {
-        name: tuple(map(to_float, value)) if isinstance(value, tuple) else to_float(value)
-        for name, value in values.items()
-    }
+    approximate: dict[str, Any] = (
+        {name: map_numbers(to_float, value) for name, value in values.items()}
+        if plan.has_lists
+        else {name: to_float(value) for name, value in values.items()}
+    )
     traps = []
     for part in plan.parts:
         usable = part.check(approximate, shown, lenient=lenient)

@@ -1,6 +1,6 @@
 """What operators on lists do, the same for exact rationals as for floats.
 
-A list is a tuple of numbers of one number system. Sums, means, variances, medians and quantiles of
+Sums, means, variances, medians and quantiles of
 rationals are rationals; only a standard deviation and a correlation need a root, which each number
 system takes in its own way.
 """
@@ -9,19 +9,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, TypeAlias
 
 from flint import fmpq
 
 from quizgen.core.errors import MathError
-from quizgen.maths.values import AnyNumber
-
-NumberList: TypeAlias = tuple[Any, ...]
-"""Numbers of one number system."""
+from quizgen.maths.values import AnyNumber, NumberList
 
 
 def _require_list(values: AnyNumber, least: int = 1) -> NumberList:
-    if not isinstance(values, tuple):
+    if not isinstance(values, NumberList):
         raise MathError("a number stands where a list is needed")
     if len(values) < least:
         raise MathError(f"a list of {len(values)} values, where {least} are needed")
@@ -49,7 +45,7 @@ def compute_mean(values: AnyNumber) -> AnyNumber:
 def _sum_products(one: NumberList, other: NumberList) -> AnyNumber:
     """Sum of the products of what two lists differ from their means."""
     left, right = compute_mean(one), compute_mean(other)
-    return add_values(tuple((a - left) * (b - right) for a, b in zip(one, other, strict=True)))
+    return add_values(NumberList((a - left) * (b - right) for a, b in zip(one, other, strict=True)))
 
 
 def compute_variance(values: AnyNumber) -> AnyNumber:
@@ -100,7 +96,7 @@ def compute_median(values: AnyNumber) -> AnyNumber:
 
 def sort_values(values: AnyNumber) -> NumberList:
     """The values, smallest first."""
-    return tuple(sorted(_require_list(values)))
+    return NumberList(sorted(_require_list(values)))
 
 
 def pick_value(values: AnyNumber, place: AnyNumber) -> AnyNumber:

@@ -25,6 +25,7 @@ from quizgen.maths.constants import parse_exact
 from quizgen.maths.numbers import parse_written_number
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import UnitRegistry, build_unit_registry
+from quizgen.maths.values import map_numbers
 from quizgen.paper.code import content_digest
 from quizgen.paper.provenance import BankRecord
 
@@ -50,9 +51,8 @@ class KeyGiven(msgspec.Struct):
         FormulaError
             If it cannot be read.
         """
-        if isinstance(self.value, str):
-            return parse_exact(self.value)
-        return tuple(map(parse_exact, self.value))
+        value = self.value if isinstance(self.value, str) else tuple(self.value)
+        return map_numbers(parse_exact, value)
 
 
 class KeyChain(msgspec.Struct):

@@ -24,6 +24,7 @@ from quizgen.maths.chain import ChainStep
 from quizgen.maths.number_systems import NumberSystem, compile_expr, float32_system, float64_system
 from quizgen.maths.numbers import format_rounded, to_fraction
 from quizgen.maths.units import get_unit
+from quizgen.maths.values import map_numbers
 from quizgen.question.inlines import TextOrInlines, TypesetMaths, to_inlines
 from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, join_unit
 from quizgen.question.worked_steps import (
@@ -259,17 +260,13 @@ def _iter_number_systems(drawn: Variant, name: str) -> Iterator[tuple[str, str]]
     yield "exact", join_unit(format_rounded(drawn.shown_values[name], figures=FIGURES), shown)
 
 
-def _to_system(value: Any, numbers: NumberSystem) -> Any:
-    """A rational, or each of a list, in a number system."""
-    if isinstance(value, tuple):
-        return tuple(_to_system(one, numbers) for one in value)
-    return numbers.constant(to_fraction(value))
-
-
 def _rounded_at_each_step(drawn: Variant, name: str, shown: str, numbers: NumberSystem) -> str:
     """A quantity as floats give it, or a dash where they give nothing."""
     chain = drawn.template.chain
-    env: dict[str, Any] = {n: _to_system(drawn.values[n], numbers) for n in chain.given}
+    env: dict[str, Any] = {
+        n: map_numbers(lambda value: numbers.constant(to_fraction(value)), drawn.values[n])
+        for n in chain.given
+    }
     try:
         for step in chain.steps:
             env[step.name] = compile_expr(step.expr, numbers)(env)

@@ -292,3 +292,15 @@ def test_a_key_with_lists_is_solved_without_drawing_again(tmp_path):
     _, key = compose_question(template, 1)
     chain = convert(json.loads(json.dumps(key.chain)), KeyChain)
     assert chain.context({}).solved_values["m"] == fmpq(3, 2)
+
+
+@pytest.mark.parametrize(
+    ("typed", "verdict", "note"),
+    [("1.5", "correct", ""), ("2.5", "wrong", "t"), ("77", "wrong", "")],
+)
+def test_answers_are_marked_by_a_key_with_lists(tmp_path, typed, verdict, note):
+    template = make_bank(tmp_path, FIXED, words=PROSE, trap="median(x)").template("mine")
+    _, key = compose_question(template, 1)
+    context = convert(json.loads(json.dumps(key.chain)), KeyChain).context({})
+    found = grade_answer(key.specs[0], typed, GradingOptions(question=context))
+    assert (found.verdict, found.trap or "") == (verdict, note)

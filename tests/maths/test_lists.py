@@ -16,13 +16,16 @@ from quizgen.maths.from_sympy import from_sympy
 from quizgen.maths.notation import format_tree, parse_formula
 from quizgen.maths.number_systems import compile_expr, evaluate, exact_system, float64_system
 from quizgen.maths.numbers import to_float, to_fraction
+from quizgen.maths.values import NumberList
 from quizgen.typeset import lay_out, to_latex, to_mathml, to_speech, to_typst
 
 X = ["3.1", "2.4", "5.0", "4.4", "2.2", "-1.3"]
 Y = ["1", "3", "2", "5", "4", "0.5"]
 TEXTS = {"x": X, "y": Y}
-EXACT = {name: tuple(fmpq(*Fraction(t).as_integer_ratio()) for t in TEXTS[name]) for name in TEXTS}
-FLOATS = {name: tuple(map(float, texts)) for name, texts in TEXTS.items()}
+EXACT = {
+    name: NumberList(fmpq(*Fraction(t).as_integer_ratio()) for t in TEXTS[name]) for name in TEXTS
+}
+FLOATS = {name: NumberList(map(float, texts)) for name, texts in TEXTS.items()}
 FX, FY = map(np.array, FLOATS.values())
 EXPECTED = {
     "mean(x)": FX.mean(), "sum(x)": FX.sum(), "var(x)": FX.var(ddof=1), "pvar(x)": FX.var(),
@@ -80,7 +83,7 @@ def test_a_formula_is_written_as_it_is_read_and_printed_everywhere(text):
     ],
 )
 def test_what_has_no_value_says_why(text, what):
-    env = {**EXACT, "z": EXACT["x"][:3], "o": EXACT["x"][:1]}
+    env = {**EXACT, "z": NumberList(EXACT["x"][:3]), "o": NumberList(EXACT["x"][:1])}
     with pytest.raises(MathError, match=what):
         compile_expr(parse_formula(text), exact_system())(env)
 
@@ -108,3 +111,10 @@ def test_a_solver_writes_them_by_name(written, text):
 
 def test_a_letter_has_a_bar_for_its_mean():
     assert to_latex(lay_out(parse_formula("mean(x)"))) == r"\bar{x}"
+
+
+@pytest.mark.parametrize("text", ["mean(x + y)", "2*x", "x*2", "x < y", "max(x, y)", "x + 1", "-x"])
+def test_no_sum_joins_lists_and_no_sign_orders_them(text):
+    for system, env in ((exact_system(), EXACT), (float64_system(), FLOATS)):
+        with pytest.raises(TypeError):
+            compile_expr(parse_formula(text), system)(env)
