@@ -32,7 +32,7 @@ class NumberList(tuple[Any, ...]):
     def _refuse(self, _other: object) -> NoReturn:
         raise TypeError("a list stands where a number is needed")
 
-    __add__ = __mul__ = __rmul__ = __lt__ = __le__ = __gt__ = __ge__ = _refuse  # type: ignore[assignment]
+    __add__ = __mul__ = __rmul__ = __lt__ = __le__ = __gt__ = __ge__ = _refuse
 
 
 def map_numbers(function: Callable[[Any], AnyNumber], value: Any) -> Any:

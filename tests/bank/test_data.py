@@ -18,6 +18,7 @@ from quizgen.bank.frozen_random import FrozenGenerator
 from quizgen.bank.variant import draw_variant
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BankError, SamplingError
+from quizgen.kinds.grade import grade_answer
 from quizgen.lint.item_quality import count_pool
 from quizgen.lint.unused_draws import find_unused_draws
 from quizgen.maths.numbers import to_fraction
@@ -296,11 +297,11 @@ def test_a_key_with_lists_is_solved_without_drawing_again(tmp_path):
 
 @pytest.mark.parametrize(
     ("typed", "verdict", "note"),
-    [("1.5", "correct", ""), ("2.5", "wrong", "t"), ("77", "wrong", "")],
+    [("1.5", "correct", ""), ("2.5", "wrong", "trap:t"), ("77", "wrong", "")],
 )
 def test_answers_are_marked_by_a_key_with_lists(tmp_path, typed, verdict, note):
     template = make_bank(tmp_path, FIXED, words=PROSE, trap="median(x)").template("mine")
     _, key = compose_question(template, 1)
     context = convert(json.loads(json.dumps(key.chain)), KeyChain).context({})
-    found = grade_answer(key.specs[0], typed, GradingOptions(question=context))
-    assert (found.verdict, found.trap or "") == (verdict, note)
+    found = grade_answer(key.specs[0], typed, context=context)
+    assert (found.verdict, found.note) == (verdict, note)
