@@ -28,6 +28,7 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     "bounds": ([sys.executable, "tests/numerics/prove.py"],),
     "pins": ([sys.executable, "tools/pin.py"],),
     "fonts": ([sys.executable, "tools/pack_fonts.py"],),
+    "formulas": ([sys.executable, "tools/list_formulas.py"],),
     "figures": ([sys.executable, "tools/figures.py"],),
     "picture": ([sys.executable, "tools/picture.py"],),
     "scenes": ([sys.executable, "tools/scenes.py"],),

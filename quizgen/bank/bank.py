@@ -62,14 +62,14 @@ PROSE = re.compile(rf"{TAG}\.md")
 
 
 def builtin_root() -> Path:
-    """Folder of the built-in bank: inside the installed package, else the checkout."""
+    """Return the folder of the built-in bank: inside the installed package, else the checkout."""
     package = Path(__file__).parent.parent
     installed = package / "builtin"
     return installed if installed.is_dir() else package.parent
 
 
 class _MissingError(BankError):
-    """A template asks for a solver or a figure that is not there."""
+    """Raised where a template asks for a solver or a figure that does not exist."""
 
 
 class Bank:
@@ -84,6 +84,13 @@ class Bank:
     """
 
     def __init__(self, root: Path, *, trusted: bool = False) -> None:
+        """Open the folder; nothing in it is read yet but its languages.
+
+        Raises
+        ------
+        BankError
+            If it has no folder ``templates``.
+        """
         self.root = root
         self.trusted = trusted
         self._templates: dict[str, Template] = {}
@@ -97,51 +104,53 @@ class Bank:
 
     @property
     def members(self) -> tuple[Bank, ...]:
-        """The banks that it consists of: itself, unless it is a mixed one."""
+        """Return the banks that it consists of: itself, unless it is a ``CombinedBank``."""
         return (self,)
 
     def owner_of(self, name: str) -> tuple[Bank, str]:
-        """The bank that a template stands in, and what it is called there.
+        """Return the bank that a template stands in, and its name there.
 
         Raises
         ------
         BankError
-            If there is none of this name; tells similar ones.
+            If there is none of this name; suggests similar ones.
         """
         self.folder_of(name)
         return self, name
 
     @property
     def name(self) -> str:
-        """What the bank is called: as it says, else as its folder is."""
+        """Return the name in ``bank.toml``, else that of the folder."""
         return self.metadata.name or self.root.resolve().name
 
     @property
     def _solver_folder(self) -> Path:
+        """Return the folder of its own solvers, which may not exist."""
         return self.root / SOLVERS
 
     @cached_property
     def _figure_folder(self) -> Path:
+        """Return the folder of its own figures, which may not exist."""
         return self.root / FIGURES
 
     @property
     def folder(self) -> Path:
-        """Where templates and what is about them stand."""
+        """Return the folder ``templates``: templates, metadata, cards, blueprints."""
         return self.root / "templates"
 
     @cached_property
     def metadata(self) -> BankMetadata:
-        """What ``bank.toml`` says; nothing if there is none."""
+        """Return what ``bank.toml`` says; empty metadata if there is no such file."""
         return read_metadata(self.folder / "bank.toml")
 
     @cached_property
     def curriculum(self) -> Curriculum:
-        """What the bank is to cover; nothing if it does not say."""
+        """Return what the bank is to cover; empty if it has no such file."""
         return read_optional(self.folder / "curriculum.toml", Curriculum)
 
     @cached_property
     def languages(self) -> tuple[str, ...]:
-        """Languages that the bank says it is written in, else those of its templates."""
+        """Return the languages that ``bank.toml`` lists, else those of its templates."""
         found = self.metadata.languages or sorted(
             {lang for name in self.template_paths for lang in self.template_languages(name)}
         )
@@ -149,7 +158,10 @@ class Bank:
         return self.metadata.languages or tuple(lang for lang in list_languages() if lang in found)
 
     def resolve_languages(self, choice: str) -> tuple[str, ...]:
-        """Languages of a choice, the leading one first; ``both`` stands for those of the bank.
+        """Return the languages of a choice, the leading one first.
+
+        ``both`` stands for those of the bank. A language that only some templates are written in
+        may be chosen, too.
 
         Raises
         ------
@@ -169,46 +181,50 @@ class Bank:
 
     @cached_property
     def topics(self) -> tuple[str, ...]:
-        """Topics in the order of ``bank.toml``, else those of the templates."""
+        """Return the topics in the order of ``bank.toml``, else those of the templates by name."""
         return tuple(self.metadata.topics) or tuple(
             sorted({self.rules(n).topic for n in self.template_paths})
         )
 
     def title(self, lang: str) -> str:
-        """Title of the chapter."""
+        """Return the title of the chapter, made from the bank's name if it has none."""
         return pick_language(self.metadata.title, lang, _make_title_from_name(self.name))
 
     def topic_title(self, topic: str, lang: str) -> str:
-        """Title of a topic."""
+        """Return the title of a topic, made from its name if it has none."""
         return pick_language(
             self.metadata.topics.get(topic, {}), lang, _make_title_from_name(topic)
         )
 
     @cached_property
     def blueprints(self) -> dict[str, Path]:
-        """Name of each blueprint to its file."""
+        """Return the file of each blueprint by its name."""
         return self._list_toml_files("blueprints")
 
     def template_names_for(self, plan: str) -> Mapping[str, str]:
-        """What a blueprint calls templates to their names here; nothing if these are the same."""
+        """Return what a blueprint's template names are called in this bank.
+
+        Empty if they are the same, as they are in a single bank; ``CombinedBank`` renames some.
+        """
         del plan
         return {}
 
     @cached_property
     def cards(self) -> dict[str, Path]:
-        """Name of each file of card content to the file."""
+        """Return the files of card content by their names."""
         return self._list_toml_files("cards")
 
     @cached_property
     def quantities(self) -> dict[str, QuantityNames]:
-        """Solver to what its letters mean."""
+        """Return the names of a solver's quantities, by solver."""
         return read_quantities(self._list_toml_files("quantities").values())
 
     def _list_toml_files(self, name: str) -> dict[str, Path]:
+        """Return the TOML files of a folder by their stems; empty if there is no such folder."""
         return {path.stem: path for path in sorted((self.folder / name).glob("*.toml"))}
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Another process opens the folder for itself."""
+        """Return how another process opens the folder for itself: no template is sent."""
         return (
             (builtin_bank, ())
             if self is builtin_bank()
@@ -216,19 +232,24 @@ class Bank:
         )
 
     def __repr__(self) -> str:
+        """Return the folder's name and the number of templates."""
         return f"<Bank {self.root.name}: {len(self)} templates>"
 
     @cached_property
     def template_paths(self) -> dict[str, Path]:
-        """Template name to its folder, in alphabetical order; of one name the first stands here."""
+        """Return the folder of each template by name, in alphabetical order.
+
+        If several folders share a name, the first stands here; ``rules`` refuses it.
+        """
         return {name: folders[0] for name, folders in self._template_folders.items()}
 
     @cached_property
     def _template_folders(self) -> dict[str, list[Path]]:
+        """Return all folders of each template name."""
         return find_template_folders(self.folder, _BESIDE)
 
     def reload(self) -> Bank:
-        """The same bank, its files and solvers read again."""
+        """Return the same bank, its files, figures and solvers to be read again."""
         unload_modules(self._figure_folder)
         for folder in self.template_paths.values():
             if any((folder / f"{own}.py").is_file() for own in (OWN_FIGURE, OWN_DATA)):
@@ -236,7 +257,7 @@ class Bank:
         return Bank(self.root, trusted=self.trusted)
 
     def solver(self, name: str) -> ModuleType:
-        """Import a solver module of this bank.
+        """Return a solver module, imported: the bank's own, else the built-in one of this name.
 
         Raises
         ------
@@ -250,7 +271,7 @@ class Bank:
         )
 
     def chain(self, name: str) -> tuple[Chain, bytes]:
-        """The chain of a solver, once, and its source.
+        """Return the chain of a solver, loaded once, and its source.
 
         Raises
         ------
@@ -264,14 +285,21 @@ class Bank:
         return self._chains[name]
 
     def _solver_file(self, name: str) -> Path | None:
-        """The module of a solver, this bank's or the built-in one's."""
+        """Return the file of a solver, this bank's or the built-in one's; None for no name."""
         if not name:
             return None
         root = self.root if self._has_own_solver(name) else builtin_root()
         return root / SOLVERS / f"{name}.py"
 
     def _has_own_solver(self, name: str) -> bool:
-        """Whether a solver is one of this bank, not of the built-in one."""
+        """Return whether a solver is one of this bank, not of the built-in one.
+
+        Raises
+        ------
+        BankError
+            If its name is none, if it is the bank's own and the bank is not trusted, or if it is
+            missing from the built-in bank, which has nowhere else to look.
+        """
         if not all(map(is_identifier, name.split("/"))):
             what = f"solver: {name!r} is no name (allowed: {NAMES}, folders by '/')"
             raise _MissingError(what, rule="QG108", place=("solver",))
@@ -280,16 +308,16 @@ class Bank:
             what = f"solver {name!r}: no such solver"
             raise _MissingError(what, rule="QG126", place=("solver",))
         if file.exists():
-            self._must_be_trusted(file)
+            self._require_trust(file)
         return file.exists()
 
     @cached_property
     def figures(self) -> tuple[str, ...]:
-        """Names of the figures that it brings."""
+        """Return the names of the figures that it brings, without those of the built-in bank."""
         return tuple(sorted(path.stem for path in self._figure_folder.glob("[a-z]*.py")))
 
     def figure(self, name: str) -> ModuleType:
-        """Import a figure of this bank, or of the built-in one if it has none of this name.
+        """Return a figure module, imported: the bank's own, else the built-in one of this name.
 
         Raises
         ------
@@ -300,10 +328,16 @@ class Bank:
         return import_module_file(file.parent, file.stem)
 
     def figure_file(self, name: str) -> Path:
-        """The module of a figure, not imported; errors as ``figure``, but those of its code."""
+        """Return the file of a figure without importing it.
+
+        Raises
+        ------
+        BankError
+            If it does not exist or the bank is not trusted.
+        """
         if name in self.figures:
             file = self._figure_folder / f"{name}.py"
-            self._must_be_trusted(file)
+            self._require_trust(file)
             return file
         if name not in builtin_bank().figures:
             known = sorted({*self.figures, *builtin_bank().figures})
@@ -311,8 +345,12 @@ class Bank:
             raise _MissingError(what, rule="QG127", place=("figure", "name"))
         return builtin_bank().figure_file(name)
 
-    def _figure_of(self, name: str) -> Path | None:
-        """What draws a template's figure: the module that it names, or the one beside it."""
+    def _find_figure_file(self, name: str) -> Path | None:
+        """Return the file that draws a template's figure; None if it shows none.
+
+        It is the module that the template names, or the one in its folder. Raises ``BankError`` as
+        ``figure_file``.
+        """
         rule = self.rules(name).figure
         if rule is None or rule.name:
             return self.figure_file(rule.name) if rule else None
@@ -320,7 +358,7 @@ class Bank:
         if not file.is_file():
             what = f"[figure] has no name, and there is no {file.name} beside it"
             raise _MissingError(what, rule="QG127", place=("figure",))
-        self._must_be_trusted(file)
+        self._require_trust(file)
         return file
 
     def _data_of(self, name: str) -> Path | None:
@@ -331,16 +369,23 @@ class Bank:
         if not file.is_file():
             what = f"there is [data], and no {file.name} beside it"
             raise _MissingError(what, rule="QG127", place=("data",))
-        self._must_be_trusted(file)
+        self._require_trust(file)
         return file
 
-    def _must_be_trusted(self, file: Path) -> None:
+    def _require_trust(self, file: Path) -> None:
+        """Raise ``BankError`` at a file with Python of a bank that is not trusted."""
         if not self.trusted:
             what = "this bank brings its own Python; allow it with --trust"
             raise BankError(what, rule="QG128", file=file)
 
     def rules(self, name: str) -> Rules:
-        """Checked ``template.toml`` of a template, without loading solver or prose."""
+        """Return the checked ``template.toml`` of a template, without loading solver or prose.
+
+        Raises
+        ------
+        BankError
+            If the template is unknown, its rules are wrong, or its topic is not in ``bank.toml``.
+        """
         if name not in self._rules:
             path = self.folder_of(name) / "template.toml"
             check_name(self._template_folders[name])
@@ -353,11 +398,11 @@ class Bank:
         return self._rules[name]
 
     def origin(self, name: str) -> str:
-        """The name that a template's numbers are drawn under: its first one."""
+        """Return the first name of a template, which its numbers are drawn under."""
         return self.rules(name).formerly or name
 
     def candidates(self, names: Iterable[str] | None = None) -> list[Candidate]:
-        """What a paper may choose from: the templates named, or all of them.
+        """Return what a paper may choose from: the templates named, or all of them.
 
         Only the rules of those are read, so that one that is wrong stops no paper that lists
         others.
@@ -370,6 +415,7 @@ class Bank:
         return [self._candidate(name) for name in (self.template_paths if names is None else names)]
 
     def _candidate(self, name: str) -> Candidate:
+        """Return what a template adds to a paper, worked out once."""
         if name not in self._candidates:
             rules, (owner, _) = self.rules(name), self.owner_of(name)
             # A figure of the template's own has no name: it is a kind by itself.
@@ -391,7 +437,7 @@ class Bank:
         return self._candidates[name]
 
     def template(self, name: str) -> Template:
-        """Load a template, once.
+        """Return a template, loaded once.
 
         Raises
         ------
@@ -404,18 +450,23 @@ class Bank:
         return self._templates[name]
 
     def folder_of(self, name: str) -> Path:
-        """Folder of a template.
+        """Return the folder of a template.
 
         Raises
         ------
         BankError
-            If there is none of this name; tells similar ones.
+            If there is none of this name; suggests similar ones.
         """
         if name not in self.template_paths:
             raise BankError(f"unknown template {name!r}{self._suggest_template(name)}")
         return self.template_paths[name]
 
     def _suggest_template(self, name: str) -> str:
+        """Return how to go on after an unknown name, to end the message of an error.
+
+        It gives the present name of a renamed template, else up to three similar ones, else where
+        all are listed.
+        """
         renamed = [known for known in self.template_paths if self.rules(known).formerly == name]
         if renamed:
             return f"; it is now called {renamed[0]!r}"
@@ -427,11 +478,14 @@ class Bank:
         return f" (there are {len(self.template_paths)}; quizgen templates lists them)"
 
     def template_files(self, name: str) -> tuple[bytes, ...]:
-        """The files behind a template; none of them is run."""
+        """Return the bytes of the files that make a template; none of them is run.
+
+        They are what a paper's record of its banks is hashed from.
+        """
         return tuple(read_bytes(file, BankError) for file in self._list_template_files(name))
 
     def _list_template_files(self, name: str) -> list[Path]:
-        """Rules, words, pictures, solver and figure of a template."""
+        """Return the paths of rules, words, pictures, solver and figure of a template."""
         rules = self.rules(name)
         figure = rules.figure.name if rules.figure else ""
         solver = Path(SOLVERS, f"{rules.solver}.py")
@@ -454,16 +508,22 @@ class Bank:
         return [file for file in files if file.is_file()]
 
     def template_languages(self, name: str) -> tuple[str, ...]:
-        """Languages that a template is written in, without reading them."""
+        """Return the languages that a template is written in, without reading them."""
         return tuple(path.stem for path in self._list_prose_files(name))
 
     def _list_prose_files(self, name: str) -> list[Path]:
+        """Return the language files of a template, by name."""
         if name not in self._pages:
             found = sorted(self.folder_of(name).iterdir())
             self._pages[name] = [path for path in found if PROSE.fullmatch(path.name)]
         return self._pages[name]
 
     def _load_template(self, name: str) -> Template:
+        """Return a template read from its files, and checked against its chain.
+
+        The digest covers all that its questions follow from: files, solver, and the bank's words
+        that grading uses. Raises ``BankError`` at the file that is wrong.
+        """
         folder = self.folder_of(name)
         rules = self.rules(name)
         prose = self._list_prose_files(name)
@@ -477,7 +537,7 @@ class Bank:
         digest = compute_digest(*(read_bytes(path, BankError) for path in files), source, *words)
         ordered: dict[str, LanguageFile] = {lang: texts[lang] for lang in order}
         quantities = self.quantities.get(rules.solver, QuantityNames())
-        figure, data = self._figure_of(name), self._data_of(name)
+        figure, data = self._find_figure_file(name), self._data_of(name)
         template = Template(
             name, rules, chain, ordered, digest, folder, self.metadata, quantities, figure,
             self._solver_file(rules.solver), data, read_pictures(folder, ordered),
@@ -486,30 +546,32 @@ class Bank:
         return template
 
     def __iter__(self) -> Iterator[Template]:
-        """All templates in alphabetical order."""
+        """Yield all templates in alphabetical order, each loaded when it comes."""
         return (self.template(name) for name in self.template_paths)
 
     def __len__(self) -> int:
-        """How many templates there are."""
+        """Return how many templates there are; loads none."""
         return len(self.template_paths)
 
 
 def _open_bank(root: Path, trusted: bool) -> Bank:
+    """Return a bank; ``pickle`` calls it by name, as it cannot pass ``trusted`` by keyword."""
     return Bank(root, trusted=trusted)
 
 
 def _make_title_from_name(name: str) -> str:
+    """Return a title made of a name: words instead of hyphens, a capital in front."""
     return name.replace("-", " ").replace("_", " ").capitalize()
 
 
 @cache
 def builtin_bank() -> Bank:
-    """The built-in bank."""
+    """Return the built-in bank, opened once; it is always trusted."""
     return Bank(builtin_root(), trusted=True)
 
 
 def find_template_folders(templates: Path, beside: Collection[str]) -> dict[str, list[Path]]:
-    """Name to all folders that are called so, although one alone may be.
+    """Return all folders of each template name, although only one may have it.
 
     Parameters
     ----------
@@ -526,7 +588,7 @@ def find_template_folders(templates: Path, beside: Collection[str]) -> dict[str,
 
 
 def check_name(folders: Sequence[Path]) -> None:
-    """Refuse a template that cannot be called by its name; the others stay what they are.
+    """Raise ``BankError`` for a template that its name does not lead to; the others stay usable.
 
     Raises
     ------

@@ -47,12 +47,12 @@ class Candidate(msgspec.Struct, frozen=True):
     pool: int | None
 
     def scale_to(self, points: float | None) -> Candidate:
-        """The same worth so many points; None leaves it its own."""
+        """Return the same candidate worth so many points; None leaves its own."""
         if points is None:
             return self
         worth = Fraction(str(points))
         return replace(self, points=worth, minutes=self.minutes * worth / self.points)
 
     def excludes(self, other: Candidate) -> bool:
-        """Whether one of the two says that they may not stand in one paper."""
+        """Return whether one of the two says that they may not stand in one paper."""
         return self.name in other.apart or other.name in self.apart

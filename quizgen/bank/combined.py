@@ -32,7 +32,7 @@ BankSource = tuple[str, bool]
 
 
 def bank_sources(bank: Bank) -> tuple[BankSource, ...]:
-    """What ``opened`` opens a bank by."""
+    """Return what ``open_banks`` opens the parts of a bank by."""
     return tuple(
         ("" if part is builtin_bank() else str(part.root.resolve()), part.trusted)
         for part in bank.members
@@ -40,7 +40,7 @@ def bank_sources(bank: Bank) -> tuple[BankSource, ...]:
 
 
 def open_banks(places: Iterable[BankSource]) -> Bank:
-    """The bank of a folder, several of them as one, or the built-in one if there is none."""
+    """Return the bank of a folder, several as one, or the built-in one if there is none."""
     parts = tuple(_open_bank(root, trusted) for root, trusted in places)
     if len(parts) > 1:
         return CombinedBank(parts)
@@ -48,12 +48,17 @@ def open_banks(places: Iterable[BankSource]) -> Bank:
 
 
 def _open_bank(root: str, trusted: bool) -> Bank:
+    """Return the built-in bank for its own folder or an empty one, else a new bank."""
     is_ours = not root or Path(root).resolve() == builtin_root().resolve()
     return builtin_bank() if is_ours else Bank(Path(root), trusted=trusted)
 
 
 def _iter_template_origins(part: Bank) -> Iterator[str]:
-    """Origins of the templates of a bank; one that cannot be read stops none of the others."""
+    """Yield the origins of the templates of a bank.
+
+    One that cannot be read is passed over here: it is reported when it is used, and stops none
+    of the others.
+    """
     for name in part.template_paths:
         with suppress(BankError):
             yield part.origin(name)
@@ -74,6 +79,10 @@ class CombinedBank(Bank):
     """
 
     def __init__(self, parts: tuple[Bank, ...]) -> None:
+        """Put the banks together.
+
+        Their names must be identifiers: they stand in front of template names that two banks share.
+        """
         super().__init__(parts[0].root, trusted=all(part.trusted for part in parts))
         self._parts = parts
         for part in parts:
@@ -86,24 +95,28 @@ class CombinedBank(Bank):
                 )
 
     def __reduce__(self) -> tuple[object, ...]:
-        """Another process opens the folders for itself."""
+        """Return how another process opens the folders for itself."""
         return CombinedBank, (self._parts,)
 
     def __repr__(self) -> str:
+        """Return the names of the banks and the number of templates."""
         return f"<Banks {self.name}: {len(self)} templates>"
 
     @property
     def members(self) -> tuple[Bank, ...]:
-        """The banks that it consists of."""
+        """Return the banks that it consists of."""
         return self._parts
 
     def reload(self) -> Bank:
-        """The same banks, their files and solvers read again."""
+        """Return the same banks, their files and solvers to be read again."""
         return CombinedBank(tuple(part.reload() for part in self._parts))
 
     @cached_property
     def metadata(self) -> BankMetadata:
-        """Names and titles of all, and the topics of each in turn."""
+        """Return the names and titles of all joined by ``+``, and the topics of each in turn.
+
+        The first bank that has a topic names it.
+        """
         topics: dict[str, dict[str, str]] = {}
         for part in self._parts:
             for topic in part.topics:
@@ -115,7 +128,7 @@ class CombinedBank(Bank):
 
     @cached_property
     def languages(self) -> tuple[str, ...]:
-        """Languages that all of them are written in.
+        """Return the languages that all of them are written in.
 
         Raises
         ------
@@ -130,12 +143,15 @@ class CombinedBank(Bank):
 
     @property
     def _describe_languages(self) -> str:
+        """Return which languages each bank is written in, for an error."""
         return "; ".join(
             f"{one.name} is written in {', '.join(one.languages)}" for one in self._parts
         )
 
     def resolve_languages(self, choice: str) -> tuple[str, ...]:
-        """Languages of a choice, the leading one first; ``both`` stands for those of all banks.
+        """Return the languages of a choice, the leading one first.
+
+        ``both`` stands for those of all banks.
 
         Raises
         ------
@@ -156,14 +172,20 @@ class CombinedBank(Bank):
 
     @cached_property
     def _template_names_by_bank(self) -> dict[Bank, dict[str, str]]:
+        """Return, for each bank, the name in the combined bank of each of its template names.
+
+        A name that two banks have gets the bank's name in front.
+        """
         return qualify_names({part: part.template_paths for part in self._parts})
 
     @cached_property
     def _origin_names_by_bank(self) -> dict[Bank, dict[str, str]]:
+        """Return, for each bank, the name in the combined bank of each of its origins."""
         return qualify_names({part: [*_iter_template_origins(part)] for part in self._parts})
 
     @cached_property
     def _homes_by_template(self) -> dict[str, tuple[Bank, str]]:
+        """Return the bank of each template and its name there, by its name in the combined bank."""
         return {
             here: (part, own)
             for part, names in self._template_names_by_bank.items()
@@ -172,18 +194,19 @@ class CombinedBank(Bank):
 
     @cached_property
     def template_paths(self) -> dict[str, Path]:
-        """Template name to its folder, in alphabetical order."""
+        """Return the folder of each template by its name here, in alphabetical order."""
         return {
             name: self._homes_by_template[name][0].template_paths[self._homes_by_template[name][1]]
             for name in sorted(self._homes_by_template)
         }
 
     def owner_of(self, name: str) -> tuple[Bank, str]:
-        """The bank that a template stands in, and what it is called there."""
+        """Return the bank that a template stands in, and its name there."""
         self.folder_of(name)
         return self._homes_by_template[name]
 
     def _suggest_template(self, name: str) -> str:
+        """Return the full names of a template that several banks have, else similar names."""
         clashing = [names[name] for names in self._template_names_by_bank.values() if name in names]
         return (
             f"; did you mean {' or '.join(clashing)}?"
@@ -193,27 +216,31 @@ class CombinedBank(Bank):
 
     @cached_property
     def blueprints(self) -> dict[str, Path]:
-        """Name of each blueprint to its file."""
+        """Return the file of each blueprint by its name here."""
         return {
             here: part.blueprints[own] for here, (part, own) in self._homes_by_blueprint.items()
         }
 
     @cached_property
     def _homes_by_blueprint(self) -> dict[str, tuple[Bank, str]]:
+        """Return the bank of each blueprint and its name there, as ``_homes_by_template``."""
         called = qualify_names({part: part.blueprints for part in self._parts})
         return {here: (part, own) for part, names in called.items() for own, here in names.items()}
 
     def template_names_for(self, plan: str) -> Mapping[str, str]:
-        """What the templates of a blueprint's own bank are called here."""
+        """Return the names in the combined bank of the templates of a blueprint's own bank.
+
+        A blueprint was written for one bank and knows no names of the others.
+        """
         return self._template_names_by_bank[self._homes_by_blueprint[plan][0]]
 
     @cached_property
     def cards(self) -> dict[str, Path]:
-        """Name of each file of card content to that of the first bank which has one."""
+        """Return the files of card content by name; of one name that of the first bank."""
         return {name: path for part in reversed(self._parts) for name, path in part.cards.items()}
 
     def rules(self, name: str) -> Rules:
-        """Checked ``template.toml`` of a template, its names as they are here."""
+        """Return the checked ``template.toml`` of a template, with the names that hold here."""
         if name not in self._rules:
             part, own = self.owner_of(name)
             found, called = part.rules(own), self._template_names_by_bank[part]
@@ -227,16 +254,18 @@ class CombinedBank(Bank):
         return self._rules[name]
 
     def _translate_formula_id(self, part: Bank, name: str) -> str:
-        """What a formula of one of the banks is called here."""
+        """Return the id in the combined bank of a bank's formula; an unknown one stays as it is."""
         return self._formula_ids_by_bank.get(part, {}).get(name, name)
 
     @cached_property
     def _formula_ids_by_bank(self) -> dict[Bank, dict[str, str]]:
+        """Return, for each bank, the id in the combined bank of each of its formula ids."""
         return qualify_names(
             {part: [entry.id for entry in read_formulas(part)] for part in self._parts}
         )
 
     def _load_template(self, name: str) -> Template:
+        """Return a template of one of the banks, with the names that hold here."""
         part, own = self.owner_of(name)
         found = part.template(own)
         cites = {

@@ -6,7 +6,6 @@ that this code asks. A wheel brings what its own bank comes to (``quizgen/_build
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache
 from importlib.util import find_spec
@@ -20,7 +19,12 @@ from quizgen.core.decoding import prepare_type
 
 T = TypeVar("T")
 
-_VERSIONS = {"sympy": "release.py", "markdown_it": "__init__.py", "PIL": "_version.py"}
+_VERSIONS = {
+    "sympy": "release.py",
+    "markdown_it": "__init__.py",
+    "PIL": "_version.py",
+    "math_core": "../math_core-*.dist-info/METADATA",
+}
 """A package's file that says which version it is: to import it would take longer."""
 _UNFIT = msgspec.MsgspecError, ValueError, OverflowError, RecursionError
 """What is raised where a thing cannot be written, or what is found is none."""
@@ -35,12 +39,12 @@ class CompileCache(Generic[T]):
         Names them in the cache.
     shape : type
         What they are.
-    package : str
+    *packages : str
         What else has a say in them, if anything.
     """
 
-    def __init__(self, kind: str, shape: type[T], package: str = "") -> None:
-        self.kind, self.package = kind, package
+    def __init__(self, kind: str, shape: type[T], *packages: str) -> None:
+        self.kind, self.packages = kind, packages
         prepare_type(shape)
         self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
 
@@ -62,19 +66,28 @@ class CompileCache(Generic[T]):
         return thing
 
     def _compute_key(self, sources: tuple[bytes, ...]) -> str:
-        return compute_digest(_compute_code_digest(self.package), *sources)
+        return compute_digest(_compute_code_digest(*self.packages), *sources)
 
 
 @cache
-def _compute_code_digest(package: str) -> bytes:
-    """Digest of the code that makes of sources what is kept."""
-    return compute_digest(*(file.read_bytes() for file in _iter_code_files(package))).encode()
+def _compute_code_digest(*packages: str) -> bytes:
+    """Return the digest of the code that makes of sources what is kept."""
+    files = [file for package in packages for file in _list_version_files(package)]
+    return compute_digest(_compute_own_digest(), *(file.read_bytes() for file in files)).encode()
 
 
-def _iter_code_files(package: str) -> Iterator[Path]:
+@cache
+def _compute_own_digest() -> bytes:
+    """Return the digest of quizgen's own part of that code."""
     own = Path(__file__).parent.parent
-    for folder in ("bank", "core", "kinds", "maths"):
-        yield from sorted((own / folder).rglob("*.py"))
-    found = find_spec(package) if package else None
-    if found is not None and found.origin is not None:
-        yield Path(found.origin).with_name(_VERSIONS[package])
+    folders = ("bank", "core", "kinds", "maths", "typeset")
+    files = [file for folder in folders for file in sorted((own / folder).rglob("*.py"))]
+    return compute_digest(*(file.read_bytes() for file in files)).encode()
+
+
+def _list_version_files(package: str) -> list[Path]:
+    """Return the file that says which version a package is; none if it is not installed."""
+    found = find_spec(package)
+    if found is None or found.origin is None:
+        return []
+    return sorted(Path(found.origin).parent.glob(_VERSIONS[package]))

@@ -20,7 +20,7 @@ from quizgen.core.errors import BankError
 from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree
-from quizgen.maths.operators import OPERATORS, OperatorSyntax
+from quizgen.maths.operators import BINDERS, OPERATORS, OperatorSyntax, operators_with_syntax
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
 from quizgen.maths.units import UnitRegistry
 
@@ -37,6 +37,13 @@ _TRIGONOMETRIC = frozenset({"sin", "cos", "tan"})
 _INVERSE = frozenset({"asin", "acos", "atan", "atan2"})
 _NUMBERS = frozenset({"exp", "ln", "log2", "log10", "asin", "acos", "atan", "erf", "erfc"})
 """Functions of plain numbers."""
+_PLAIN = frozenset(
+    row.name
+    for row in operators_with_syntax(OperatorSyntax.FUNCTION)
+    if row.name not in _ALIKE | _KEPT | _TRIGONOMETRIC | _INVERSE | _NUMBERS | BINDERS
+    and row.name not in {"sqrt", "sign", "piecewise"}
+)
+"""The other functions of plain numbers: hyperbolic ones, factorials, distributions, ..."""
 _DEGREES, _RADIANS = {"deg": Fraction(1)}, {"rad": Fraction(1)}
 _PART_OF_TURN = 45
 """Degrees are made by 180/π, and half or double an angle by 90/π or 360/π."""
@@ -48,7 +55,7 @@ class _ClashError(Exception):
 
 
 def find_unit_errors(template: Template) -> Iterator[BankError]:
-    """Units that do not fit: of what is drawn, of steps, of what is asked.
+    """Yield units that do not fit: of what is drawn, of steps, of what is asked.
 
     Each is an error with its code, file and place, for ``lint`` to list and for whatever draws
     numbers to raise; those that the template ignores are left out.
@@ -58,6 +65,10 @@ def find_unit_errors(template: Template) -> Iterator[BankError]:
 
 
 def _iter_unit_errors(template: Template) -> Iterator[BankError]:
+    """Yield all errors in units, also those that the template ignores.
+
+    A step that is wrong itself is reported once: a part that asks for it is passed over.
+    """
     units = template.about.system
     for name, unit in template.chain.given.items():
         drawn = template.units[name]
@@ -105,7 +116,7 @@ def _check_step(
     plain = not any(known[name] for name in names_in(step.expr))
     if shown == _DEGREES and (found == _RADIANS or (found == {} and _is_angle(step.expr, plain))):
         yield f"{written} is in radians, and the step says {step.unit!r}: write 180/pi*(...)"
-    elif found is not None and not plain and _without_angles(found) != _without_angles(shown):
+    elif found is not None and not plain and _remove_angles(found) != _remove_angles(shown):
         yield (
             f"{written} is in {_format_dimension(found)}, and "
             f"the step says {step.unit or 'a plain number'!r}"
@@ -115,7 +126,7 @@ def _check_step(
 
 
 def _is_angle(expr: Expr, plain: bool) -> bool:
-    """Whether a formula without a unit must be an angle in radians.
+    """Return whether a formula without a unit must be an angle in radians.
 
     So is what has lengths that cancel (an arc by its radius) or a π in it. ``360/n`` is not.
     """
@@ -123,13 +134,15 @@ def _is_angle(expr: Expr, plain: bool) -> bool:
 
 
 def _iter_calls(expr: Expr) -> Iterator[Call]:
+    """Yield every operation of a formula, from the outside in."""
     if isinstance(expr, Call):
         yield expr
         for arg in expr.args:
             yield from _iter_calls(arg)
 
 
-def _without_angles(dimension: Dimension) -> Dimension:
+def _remove_angles(dimension: Dimension) -> Dimension:
+    """Return a dimension without degrees and radians, which are plain numbers to the others."""
     return {base: power for base, power in dimension.items() if base not in {"deg", "rad"}}
 
 
@@ -154,10 +167,37 @@ def _infer_dimension(expr: Expr, known: Mapping[str, Dimension]) -> Dimension | 
         return None if expr.value == 0 else {}
     if isinstance(expr, Sym):
         return known[expr.name]
-    args = [_infer_dimension(arg, known) for arg in expr.args]
+    if expr.op in BINDERS and isinstance(expr.args[0], Sym):
+        return _infer_binder_dimension(expr, {**known, expr.args[0].name: {}})
+    if expr.op in _PLAIN:
+        args = [_infer_dimension(arg, known) for arg in expr.args]
+        if any(args):
+            raise _ClashError(f"{expr.op} needs plain numbers")
+        return {}
     if OPERATORS[expr.op].typed is OperatorSyntax.LIST:
-        return _infer_list_dimension(expr, args)
-    return _infer_call_dimension(expr, args)
+        return _infer_list_dimension(expr, [_infer_dimension(arg, known) for arg in expr.args])
+    return _infer_call_dimension(expr, [_infer_dimension(arg, known) for arg in expr.args])
+
+
+def _infer_binder_dimension(call: Call, known: Mapping[str, Dimension]) -> Dimension | None:
+    """Return the dimension of a sum; of a product or an integral only that of plain numbers."""
+    found = _infer_dimension(call.args[3], known)
+    if call.op == "integral":
+        bounds = _require_common_dimension(
+            call, [_infer_dimension(a, known) for a in call.args[1:3]]
+        )
+        return _add_dimensions(found, bounds)
+    if call.op == "product" and found:
+        raise _ClashError("a product over units whose number is not fixed")
+    return found
+
+
+def _add_dimensions(first: Dimension | None, second: Dimension | None) -> Dimension | None:
+    if first is None or second is None:
+        return first if second is None else second
+    total = {base: first.get(base, Fraction(0)) + second.get(base, Fraction(0))
+             for base in {*first, *second}}  # fmt: skip
+    return {base: power for base, power in total.items() if power}
 
 
 def _infer_call_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:
@@ -174,7 +214,7 @@ def _infer_call_dimension(call: Call, args: list[Dimension | None]) -> Dimension
     if call.op in _TRIGONOMETRIC:
         if args[0] == _DEGREES:
             raise _ClashError(f"{call.op} of degrees, where radians are needed: write pi/180*(...)")
-        args = [_without_angles(args[0]) if args[0] else args[0]]
+        args = [_remove_angles(args[0]) if args[0] else args[0]]
     if call.op in _NUMBERS or call.op in _TRIGONOMETRIC:
         if args[0]:
             raise _ClashError(
@@ -206,7 +246,7 @@ def _require_common_dimension(call: Call, args: list[Dimension | None]) -> Dimen
     """
     found = [arg for arg in args if arg is not None]
     for other in found[1:]:
-        if other != found[0] and _without_angles(other) != _without_angles(found[0]):
+        if other != found[0] and _remove_angles(other) != _remove_angles(found[0]):
             both = f"{_format_dimension(found[0])} and {_format_dimension(other)}"
             raise _ClashError(f"{both} cannot be put together by {call.op!r}")
     return found[0] if found else None
@@ -231,8 +271,8 @@ def _infer_product_dimension(call: Call, args: list[Dimension | None]) -> Dimens
 
 
 def _convert_angle(call: Call, product: Dimension) -> Dimension:
-    """Degrees if the product has the factor 180/π on radians; radians for π/180 on degrees."""
-    ratio, pi_power = _constant_factor(call)
+    """Return degrees for 180/π times radians, radians for π/180 times degrees, else ``product``."""
+    ratio, pi_power = _extract_constant_factor(call)
     if product == _RADIANS and pi_power == -1 and ratio.numerator % _PART_OF_TURN == 0:
         return _DEGREES
     if product == _DEGREES and pi_power == 1 and ratio.denominator % _PART_OF_TURN == 0:
@@ -240,8 +280,8 @@ def _convert_angle(call: Call, product: Dimension) -> Dimension:
     return product
 
 
-def _constant_factor(expr: Expr) -> tuple[Fraction, int]:
-    """What numbers a product holds: their product, and the power of π."""
+def _extract_constant_factor(expr: Expr) -> tuple[Fraction, int]:
+    """Return the numbers that a product holds, multiplied, and its power of π."""
     if isinstance(expr, Num):
         return (expr.value or Fraction(1)), 0
     if not isinstance(expr, Call):
@@ -249,12 +289,12 @@ def _constant_factor(expr: Expr) -> tuple[Fraction, int]:
     if expr.op == "pi":
         return Fraction(1), 1
     if expr.op == "neg":
-        return _constant_factor(expr.args[0])
+        return _extract_constant_factor(expr.args[0])
     if expr.op not in {"mul", "div"}:
         return Fraction(1), 0
-    ratio, power = _constant_factor(expr.args[0])
+    ratio, power = _extract_constant_factor(expr.args[0])
     for arg in expr.args[1:]:
-        other, pis = _constant_factor(arg)
+        other, pis = _extract_constant_factor(arg)
         ratio, power = (
             (ratio * other, power + pis) if expr.op == "mul" else (ratio / other, power - pis)
         )

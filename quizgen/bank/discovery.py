@@ -26,7 +26,7 @@ _FILE = "trusted.json"
 
 @cache
 def installed_banks() -> dict[str, Path]:
-    """Name of each bank that a package brings to its folder."""
+    """Return the folder of each bank that a package brings, by the bank's name."""
     from importlib.metadata import entry_points  # it brings the parser of e-mail along
 
     found: dict[str, Path] = {}
@@ -38,12 +38,12 @@ def installed_banks() -> dict[str, Path]:
 
 
 def available_banks() -> dict[str, Path]:
-    """Name to folder of the built-in bank, and of each that a package brings."""
+    """Return the folder of the built-in bank, and of each that a package brings, by name."""
     return {builtin_bank().name: builtin_root(), **installed_banks()}
 
 
 def resolve_bank(named: Path) -> Path:
-    """The folder of a bank: itself, or that of the built-in or an installed bank of this name.
+    """Return the folder of a bank: the given one, or that of a bank of this name.
 
     Raises
     ------
@@ -60,19 +60,19 @@ def resolve_bank(named: Path) -> Path:
 
 
 def python_files(root: Path) -> list[Path]:
-    """The Python that a bank brings: solvers, figures, and what stands beside its templates."""
+    """Return the Python that a bank brings: solvers, figures, and what stands in templates."""
     return sorted(path for kind in (SOLVERS, TEMPLATES) for path in (root / kind).rglob("*.py"))
 
 
 def python_digest(root: Path) -> str:
-    """Changes whenever the Python of a bank does."""
+    """Return a digest that changes whenever the Python of a bank does."""
     files = python_files(root)
     names = [path.relative_to(root).as_posix().encode() for path in files]
     return compute_digest(*names, *(read_bytes(path, BankError) for path in files))
 
 
 def is_trust_remembered(root: Path) -> bool:
-    """Whether a person has allowed the Python of a bank to run, as it is now."""
+    """Return whether a person has allowed the Python of a bank to run, as it is now."""
     return python_digest(root) in _read_remembered()
 
 
@@ -83,6 +83,7 @@ def remember_trust(root: Path) -> None:
 
 
 def _read_remembered() -> dict[str, str]:
+    """Return the digest of the Python that was allowed, by folder; empty without a usable file."""
     with suppress(OSError, msgspec.MsgspecError):
         return msgspec.json.decode(
             (_get_user_data_folder() / _FILE).read_bytes(), type=dict[str, str]
@@ -91,13 +92,14 @@ def _read_remembered() -> dict[str, str]:
 
 
 def _get_user_data_folder() -> Path:
+    """Return the user's own data folder, created if it is missing."""
     from platformdirs import user_data_path
 
     return user_data_path("quizgen", ensure_exists=True)
 
 
 def describe_bank(name: str, bank: Bank) -> tuple[str, ...]:
-    """A bank as a row: name, version, languages, templates, whether its Python runs, and place."""
+    """Return the row of a bank: name, version, languages, templates, trust, folder."""
     about = bank.metadata
     if not python_files(bank.root):
         runs = "none"

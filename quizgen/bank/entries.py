@@ -31,7 +31,7 @@ Passage = dict[str, str]
 
 
 class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True):
-    """What every entry has, and the file that it was read from."""
+    """The fields of every entry of a bank's content, and the file that it was read from."""
 
     id: str
     topic: str
@@ -42,13 +42,13 @@ class Entry(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=Tru
     index: int = msgspec.field(default=0, name=_INDEX)
 
     def fault(self, what: str, rule: str, *keys: str) -> BankError:
-        """An error about it, or about one of its keys."""
+        """Return an error about the entry, or about one of its keys."""
         place: Place = ("entry", self.index, *keys)
         return BankError(f"entry {self.id!r}: {what}", rule=rule, file=Path(self.file), place=place)
 
     @contextmanager
     def name_in_errors(self, *keys: str) -> Iterator[None]:
-        """Have errors about what it says name it."""
+        """Add the entry's name to errors about what it says."""
         try:
             yield
         except BankError as error:
@@ -64,7 +64,7 @@ E = TypeVar("E", bound=Entry)
 def load_entries(
     source: str, kind: type[E], where: str, langs: tuple[str, ...] = ()
 ) -> tuple[E, ...]:
-    """Read entries.
+    """Return the entries of a file's text, each converted to its type.
 
     Parameters
     ----------
@@ -104,6 +104,10 @@ def load_entries(
 def _read_entry(
     row: dict[str, object], kind: type[E], where: str, index: int, langs: tuple[str, ...]
 ) -> E:
+    """Return one row of a file as an entry.
+
+    Raises ``BankError`` at the entry if it has another form or lacks a language.
+    """
     try:
         entry = convert({**row, _FROM: where, _INDEX: index}, kind)
     except msgspec.ValidationError as error:
@@ -119,13 +123,13 @@ def _read_entry(
 
 
 def localised_fields(kind: type[Entry]) -> list[str]:
-    """Names of the fields that are written in every language."""
+    """Return the names of the fields that are written in every language."""
     return [field.name for field in msgspec.structs.fields(kind) if field.type == Passage]
 
 
 @cache
 def read_entries(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
-    """Entries of one file of a bank, read once; none if the bank has no such file.
+    """Return the entries of one file of a bank, read once; none if it has no such file.
 
     Of several banks as one those of each in turn, and what two call the same is told apart.
 
@@ -144,6 +148,7 @@ def read_entries(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
 
 
 def _load_own_entries(bank: Bank, name: str, kind: type[E]) -> tuple[E, ...]:
+    """Return the entries of a single bank's file; empty if it has none of this name."""
     if name not in bank.cards:
         return ()
     file = bank.cards[name]

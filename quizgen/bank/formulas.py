@@ -20,7 +20,7 @@ NAME = "formulas"
 """The file without its suffix."""
 
 Piece = Mapping[str, str | tuple[str, ...]]
-"""What the grammar of formulas does not have, described: see ``question.equations``."""
+"""What the grammar of formulas does not have, described: see ``question.formula_lines``."""
 
 _SIGN = re.compile(r"\s(!=|<=|>=|[=<>≠≤≥∝≈→∈~≪≫⇒])\s")
 _ANYWHERE = frozenset({"add", "sub", "neg", "div"})
@@ -55,19 +55,19 @@ class FormulaEntry(Entry, frozen=True, kw_only=True):
 
 
 def read_formulas(bank: Bank) -> tuple[FormulaEntry, ...]:
-    """All formulas in their order; none if the bank has no such file."""
+    """Return all formulas in their order; none if the bank has no such file."""
     return read_entries(bank, NAME, FormulaEntry)
 
 
 def find_missing_formulas(bank: Bank, name: str) -> list[str]:
-    """Formulas that a template's solver says to apply, and the bank does not have."""
+    """Return the formulas that a template's solver applies and the bank does not have."""
     named = bank.template(name).chain.formulas.values()
     known = {entry.id for entry in read_formulas(bank)}
     return sorted({*named} - known)
 
 
 def find_unnamed_formulas(bank: Bank, name: str) -> dict[str, list[str]]:
-    """Steps of a template's solver that have the form of formulas of the bank, and name none."""
+    """Return the steps of a template's solver that look like a formula and name none."""
     chain = bank.template(name).chain
     steps = {
         step.name: _erase_letters(step.expr)
@@ -80,16 +80,19 @@ def find_unnamed_formulas(bank: Bank, name: str) -> dict[str, list[str]]:
 
 @cache
 def _index_canonical_forms(bank: Bank) -> dict[Expr, list[str]]:
-    """Each form that is rare enough, with the formulas that have it."""
+    """Return the formulas that have a form, by each form that is rare enough."""
     found = dict[Expr, set[str]]()
     for entry in read_formulas(bank):
-        for expr in filter(_is_rare_form, _right_sides(entry)):
+        for expr in filter(_is_rare_form, _iter_right_sides(entry)):
             found.setdefault(_erase_letters(expr), set()).add(entry.id)
     return {form: sorted(ids) for form, ids in found.items()}
 
 
-def _right_sides(entry: FormulaEntry) -> Iterator[Expr]:
-    """What a formula is computed by: all sides but the first, pieces outside the grammar aside."""
+def _iter_right_sides(entry: FormulaEntry) -> Iterator[Expr]:
+    """Yield the sides that a formula is computed by: all but the first.
+
+    Pieces outside the grammar are left out.
+    """
     for line in entry.lines:
         for text in split_relations(line)[1][1:]:
             expr = _parsed(text)
@@ -98,13 +101,13 @@ def _right_sides(entry: FormulaEntry) -> Iterator[Expr]:
 
 
 def _is_rare_form(expr: Expr) -> bool:
-    """Whether a form is rare enough to be known again."""
+    """Return whether a form is rare enough to be recognised by."""
     calls = [node.op for node in walk_tree(expr) if isinstance(node, Call)]
     return len(calls) > 1 and not _ANYWHERE.issuperset(calls)
 
 
 def _erase_letters(expr: Expr) -> Expr:
-    """A formula whatever its letters are."""
+    """Return a formula with its letters erased, so that spelling does not matter."""
     return substitute(expr, dict.fromkeys(names_in(expr), Sym("")))
 
 
@@ -112,7 +115,7 @@ _parsed = cache(parse_formula)
 
 
 def split_relations(line: str) -> tuple[list[str], list[str]]:
-    """Cut a line at its relation signs: the signs, and one side more."""
+    """Return the relation signs of a line, and the sides between them: one more."""
     cuts = [found for found in _SIGN.finditer(line) if _is_outside_brackets(line[: found.start()])]
     starts, ends = [0, *(one.end() for one in cuts)], [*(one.start() for one in cuts), len(line)]
     sides = [line[start:end] for start, end in zip(starts, ends, strict=True)]
@@ -120,12 +123,12 @@ def split_relations(line: str) -> tuple[list[str], list[str]]:
 
 
 def _is_outside_brackets(before: str) -> bool:
-    """Whether a place is outside all brackets."""
+    """Return whether a position is outside all brackets."""
     return before.count("(") == before.count(")")
 
 
 def templates_by_formula(bank: Bank) -> dict[str, tuple[str, ...]]:
-    """The templates that cover each formula, by its id."""
+    """Return the templates that cover each formula, by its id."""
     found: dict[str, tuple[str, ...]] = {entry.id: () for entry in read_formulas(bank)}
     for name in bank.template_paths:
         for item in dict.fromkeys(bank.rules(name).covers):

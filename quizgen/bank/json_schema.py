@@ -26,7 +26,7 @@ _CLASS = re.compile(r'(?<=["/])(?:Authored\w+|ParametricCurve|BankMetadata)(?=")
 
 
 def build_json_schema(name: str) -> bytes:
-    """The schema of ``template.toml`` or ``bank.toml``, as JSON."""
+    """Return the schema of ``template.toml`` or ``bank.toml``, as JSON."""
     shapes: list[Any] = [SCHEMAS[name]]
     if name == "template":
         shapes.append(reduce(or_, (kind.authored for kind in KINDS.values())))
@@ -45,12 +45,12 @@ def build_json_schema(name: str) -> bytes:
 
 
 def _to_schema_name(found: re.Match[str]) -> str:
-    """The name under which the schema shows a class, for ``re.sub``."""
+    """Return the name under which the schema shows a class, for ``re.sub``."""
     return _NAMES.get(found[0], found[0].removeprefix("Authored"))
 
 
 def _add_key_descriptions(parts: dict[str, dict[str, Any]]) -> None:
-    """Say of each key what it means."""
+    """Add to each key of a schema what it means."""
     told = tomllib.loads((files(__package__) / _TOLD).read_text("utf-8"))
     answers = {kind.authored.__name__ for kind in KINDS.values()}
     for name, part in parts.items():

@@ -47,11 +47,11 @@ NAMED_SECTIONS = frozenset(
     {"steps", "traps", "options", "words", "gaps", "points", "reasons", "claims"}
 )
 PROSE_SECTIONS = frozenset({"why", "check", "note"})
-_TEXTS = CompileCache("prose", LanguageFile, "markdown_it")
+_TEXTS = CompileCache("prose", LanguageFile, "markdown_it", "math_core")
 
 
 def read_language_file(path: Path) -> LanguageFile:
-    """Read a language file.
+    """Return the parsed content of a language file.
 
     Raises
     ------
@@ -69,19 +69,23 @@ def read_language_file(path: Path) -> LanguageFile:
 
 
 def parse_language_file(source: str) -> LanguageFile:
-    """Parse the content of a language file."""
+    """Return the parsed content of the text of a language file."""
     title, body = _split_title(source)
     pieces = re.split(r"^## +(\S.*)$", body, flags=re.MULTILINE)
     # The body begins where the source ends with it; each piece where those before it end.
-    begins = accumulate(map(_breaks, pieces), initial=_breaks(source) - _breaks(body))
+    begins = accumulate(
+        map(_count_breaks, pieces), initial=_count_breaks(source) - _count_breaks(body)
+    )
     lines = [begin + 1 for begin in begins]
     sections: dict[str, tuple[Block, ...]] = {}
     listed: dict[str, list[tuple[str, ConditionalSentence]]] = {}
     for heading, whole, line in zip(pieces[1::2], pieces[2::2], lines[2::2], strict=False):
         name = heading.strip()
-        content, labelled = _by_label(whole) if name == "why" else (whole, "")
+        content, labelled = _split_off_labelled(whole) if name == "why" else (whole, "")
         if labelled:
-            listed[name] = list(_iter_named_sentences(name, labelled, line + _breaks(content)))
+            listed[name] = list(
+                _iter_named_sentences(name, labelled, line + _count_breaks(content))
+            )
         if name in NAMED_SECTIONS:
             listed[name] = list(_iter_named_sentences(name, content, line))
         elif name in PROSE_SECTIONS or re.fullmatch(r"[a-j]", name):
@@ -99,12 +103,13 @@ def parse_language_file(source: str) -> LanguageFile:
     )
 
 
-def _breaks(text: str) -> int:
+def _count_breaks(text: str) -> int:
+    """Return the number of line breaks in a text."""
     return text.count("\n")
 
 
-def _by_label(content: str) -> tuple[str, str]:
-    """The paragraphs of an explanation, and its list of sentences by part if it ends in one."""
+def _split_off_labelled(content: str) -> tuple[str, str]:
+    """Return the paragraphs of an explanation, and its closing list of sentences by part."""
     found = re.search(r"^- [a-j](?: \[[^\]\n]*\])?:", content, flags=re.MULTILINE)
     return (content[: found.start()], content[found.start() :]) if found else (content, "")
 
@@ -112,7 +117,7 @@ def _by_label(content: str) -> tuple[str, str]:
 def _index_conditional_sentences(
     listed: Mapping[str, list[tuple[str, ConditionalSentence]]],
 ) -> dict[tuple[str, str], tuple[ConditionalSentence, ...]]:
-    """Section and name of the sentences that a condition chooses from."""
+    """Return section and name of the sentences that a condition chooses from."""
     found: dict[tuple[str, str], list[ConditionalSentence]] = {}
     for section, entries in listed.items():
         for name, case in entries:
@@ -121,6 +126,10 @@ def _index_conditional_sentences(
 
 
 def _split_title(source: str) -> tuple[str, str]:
+    """Return the title and what comes after its line.
+
+    Raises ``BankError`` if the first line is no title; a byte order mark in front is allowed.
+    """
     head, _, body = source.lstrip("\ufeff\n").partition("\n")
     if not head.startswith("# "):
         raise BankError("the first line must be the title: '# ...'", rule="QG151", line=1)
@@ -133,9 +142,9 @@ _CASE = re.compile(r"(?P<name>[^\[]*?)(?:\s*\[(?P<condition>[^\]]*)\])?\s*")
 def _iter_named_sentences(
     section: str, content: str, line: int
 ) -> Iterator[tuple[str, ConditionalSentence]]:
-    """Names and sentences of a list that begins in a line."""
+    """Yield names and sentences of a list that begins in a line."""
     for entry in re.split(r"^- ", content, flags=re.MULTILINE):
-        begin, line = line, line + _breaks(entry)
+        begin, line = line, line + _count_breaks(entry)
         if not entry.strip():
             continue
         name, colon, sentence = entry.partition(":")

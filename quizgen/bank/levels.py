@@ -1,4 +1,4 @@
-"""The levels at which a draw can be asked, by name; ``question.levels`` makes them."""
+"""The levels at which a variant can be asked, by name; ``question.levels`` makes them."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class BankMetadata(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     @property
     def system(self) -> UnitRegistry:
-        """The listed units and its own."""
+        """Return the units that quizgen lists, with the bank's own added."""
         return build_unit_registry(self.units)
 
 
@@ -69,7 +69,7 @@ class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     @property
     def inventory(self) -> Mapping[str, tuple[str, ...]]:
-        """Group to the names of its items, rows of numbers written out."""
+        """Return the names of the items of each group, rows of numbers written out."""
         return {
             group: tuple(item for row in rows for item in _expand_range(row))
             for group, rows in self.groups.items()
@@ -77,6 +77,7 @@ class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 def _expand_range(row: str) -> Iterator[str]:
+    """Yield the names that a row such as ``B01..B12`` stands for; any other row as it is."""
     match = _RANGE.fullmatch(row)
     if match is None:
         yield row
@@ -87,7 +88,7 @@ def _expand_range(row: str) -> Iterator[str]:
 
 
 def read_optional(path: Path, kind: type[S]) -> S:
-    """Read one of a bank's files; a missing one is an empty one.
+    """Return the content of one of a bank's files; for a missing file, that of an empty one.
 
     Raises
     ------
@@ -105,7 +106,7 @@ def read_optional(path: Path, kind: type[S]) -> S:
 
 
 def read_metadata(path: Path) -> BankMetadata:
-    """Read ``bank.toml``; a missing one says nothing.
+    """Return what ``bank.toml`` says; empty metadata if there is no such file.
 
     Raises
     ------
@@ -121,15 +122,15 @@ def read_metadata(path: Path) -> BankMetadata:
         try:
             build_unit_registry(about.units)
         except FormulaError as error:
-            place = ("units", _first_unsound(about.units))
+            place = ("units", _find_unsound_unit(about.units))
             raise BankError(f"units: {error}", rule="QG122", place=place) from error
         if about.requires:
             _check_version(about.requires)
     return about
 
 
-def _first_unsound(units: tuple[str, ...]) -> int:
-    """Which definition cannot be read with those before it."""
+def _find_unsound_unit(units: tuple[str, ...]) -> int:
+    """Return the index of the first definition that cannot be read with those before it."""
     for count in range(len(units)):
         try:
             build_unit_registry(units[: count + 1])
@@ -139,6 +140,10 @@ def _first_unsound(units: tuple[str, ...]) -> int:
 
 
 def _check_version(requires: str) -> None:
+    """Raise ``BankError`` if this version of quizgen is not what the bank requires.
+
+    ``packaging`` is imported here: few banks require a version, and every command reads one.
+    """
     from importlib.metadata import version
 
     from packaging.specifiers import InvalidSpecifier, SpecifierSet
@@ -155,12 +160,12 @@ def _check_version(requires: str) -> None:
 
 
 def pick_language(texts: Mapping[str, str], lang: str, otherwise: str) -> str:
-    """A text in a language, else in English, else in the first that it has, else another text."""
+    """Return a text in a language, else in English, else in its first, else ``otherwise``."""
     return texts.get(lang) or texts.get(FIRST) or next(iter(texts.values()), "") or otherwise
 
 
 def grading_words(about: BankMetadata, answers: Sequence[Mapping[str, object]]) -> Iterator[bytes]:
-    """The words of ``bank.toml`` that a template's answers are marked with."""
+    """Yield the words of ``bank.toml`` that a template's answers are graded with."""
     if any("counts" in answer for answer in answers):
         yield msgspec.json.encode(about.counted)
     if any(answer.get("kind") == "gap" for answer in answers):

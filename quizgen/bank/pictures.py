@@ -62,17 +62,17 @@ class PictureFile(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def file(self) -> str:
-        """What a file with it is called: the same for the same picture."""
+        """Return the file name of the picture, the same for the same picture."""
         return f"qg_{sha256(self.data).hexdigest()[:16]}.{self.kind.removesuffix('+xml')}"
 
     @property
     def uri(self) -> str:
-        """The picture as an address, for pages that bring everything along."""
+        """Return the picture as a ``data:`` address, for pages that bring everything along."""
         return f"data:image/{self.kind};base64,{b64encode(self.data).decode()}"
 
     @property
     def svg(self) -> str:
-        """The picture as an SVG, for Typst, which is given texts alone."""
+        """Return the picture as an SVG, for Typst, which is given texts alone."""
         if self.kind == "svg+xml":
             return self.data.decode()
         wide, high = f"{self.width_pt:g}", f"{self.height_pt:g}"
@@ -86,18 +86,18 @@ _PICTURES = CompileCache("pictures", PictureFile, "PIL")
 
 
 def pictures_beside(folder: Path) -> list[Path]:
-    """Files with pictures in a template's folder."""
+    """Return the picture files in a template's folder."""
     return sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
 
 
 def read_pictures(folder: Path, texts: Mapping[str, LanguageFile]) -> dict[str, PictureFile]:
-    """Read the pictures that the words of a template show.
+    """Return the pictures that the words of a template show, by file name.
 
     Parameters
     ----------
     folder : pathlib.Path
         Of the template.
-    texts : mapping of str to Text
+    texts : mapping of str to LanguageFile
         Language to its words.
 
     Returns
@@ -125,6 +125,7 @@ def read_pictures(folder: Path, texts: Mapping[str, LanguageFile]) -> dict[str, 
 
 
 def _check_words(link: PictureLink) -> None:
+    """Raise ``BankError`` if a picture has no description for those who cannot see it."""
     if not any(not isinstance(part, PlainText) or part.text.strip() for part in link.alt):
         raise BankError(
             f"picture {link.file!r} has no words: describe the picture in words for those who "
@@ -133,7 +134,7 @@ def _check_words(link: PictureLink) -> None:
 
 
 def read_picture(folder: Path, name: str) -> PictureFile:
-    """Read a picture.
+    """Return one picture file, made safe to show.
 
     Raises
     ------
@@ -160,7 +161,7 @@ def read_picture(folder: Path, name: str) -> PictureFile:
 
 
 def _fit_picture(data: bytes, kind: str, width: float, height: float) -> PictureFile:
-    """A picture in its natural size in points, as far as it fits on a page."""
+    """Return a picture in its natural size in points, made smaller to fit on a page."""
     if not 0 < min(width, height) <= max(width, height) < 1e6:
         raise BankError("its size is not positive")
     share = min(1.0, LARGEST[0] / width, LARGEST[1] / height)
@@ -171,6 +172,11 @@ def _fit_picture(data: bytes, kind: str, width: float, height: float) -> Picture
 
 
 def _pack_pixels(data: bytes) -> PictureFile:
+    """Return a PNG or JPEG as a safe picture, in the size that its resolution gives.
+
+    It is written anew: nothing survives but its pixels. Raises ``BankError`` if it is no such
+    picture or has too many pixels.
+    """
     from PIL import Image, ImageOps
 
     try:
@@ -189,7 +195,7 @@ def _pack_pixels(data: bytes) -> PictureFile:
 
 
 def _reencode_pixels(picture: Image, kind: str) -> bytes:
-    """The pixels, no more of them than a page shows, and nothing beside them."""
+    """Return the pixels as a file, no more of them than a page shows, and nothing else."""
     if kind == "jpeg" and picture.mode not in {"L", "RGB"}:
         picture = picture.convert("RGB")
     if max(picture.size) > FINEST:
@@ -235,6 +241,11 @@ _POINTS = {"px": 0.75, "": 0.75, "pt": 1, "mm": 72 / 25.4, "cm": 720 / 25.4, "in
 
 
 def _pack_svg(data: bytes) -> PictureFile:
+    """Return an SVG as a safe picture that holds only what draws.
+
+    Raises ``BankError`` if it cannot be read, defines entities (a few lines of them unfold to
+    gigabytes), or is too costly to draw.
+    """
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -259,7 +270,7 @@ def _pack_svg(data: bytes) -> PictureFile:
 
 
 def _check_cost(root: ET.Element) -> None:
-    """Refuse what is small to read and endless to draw."""
+    """Raise ``BankError`` for an SVG that is small to read and endless to draw."""
     if sum(1 for _ in root.iter()) > MOST_ELEMENTS:
         raise BankError(f"has more than {MOST_ELEMENTS} elements")
     uses = root.findall(f".//{{{_SVG}}}use")
@@ -270,35 +281,36 @@ def _check_cost(root: ET.Element) -> None:
 
 
 def _copy_drawing(element: Any, depth: int) -> Any:
-    """An element with what in it only draws."""
+    """Return a copy of an element with only those of its children that draw."""
     if depth > DEEPEST:
         raise BankError(f"has more than {DEEPEST} groups within each other")
     name = element.tag.removeprefix(f"{{{_SVG}}}")
-    made = ET.Element(name, dict(_safe_attributes(element, name)))
+    made = ET.Element(name, dict(_iter_safe_attributes(element, name)))
     made.text, made.tail = element.text, element.tail
     for child in element:
         inside = isinstance(child.tag, str) and child.tag.removeprefix(f"{{{_SVG}}}")
-        if inside in _ELEMENTS and (inside != "style" or _stays_inside(child.text or "")):
+        if inside in _ELEMENTS and (inside != "style" or _is_self_contained(child.text or "")):
             made.append(_copy_drawing(child, depth + 1))
     return made
 
 
-def _safe_attributes(element: Any, name: str) -> Iterator[tuple[str, str]]:
+def _iter_safe_attributes(element: Any, name: str) -> Iterator[tuple[str, str]]:
+    """Yield the attributes that draw; one that refers outside the file is set to ``none``."""
     for key, value in element.attrib.items():
         if key in _HREF:
             if _SHOWN_BY(value) or (name == "image" and _INSIDE(value)):
                 yield "href", value
         elif key in _ATTRIBUTES or key == _SPACE:
-            yield key, value if _stays_inside(value) else "none"
+            yield key, value if _is_self_contained(value) else "none"
 
 
-def _stays_inside(style: str) -> bool:
-    """Whether a style refers to nothing but places of its own file."""
+def _is_self_contained(style: str) -> bool:
+    """Return whether a style refers to nothing outside its own file."""
     return not _REACHES_OUT.search(_OWN_PLACE.sub("", style))
 
 
 def _read_svg_size(root: ET.Element) -> tuple[float, float]:
-    """Natural size in points: what the file says, else its view box in CSS pixels."""
+    """Return the natural size in points: what the file says, else its view box in CSS pixels."""
     found = [_LENGTH.fullmatch(root.get(name, "")) for name in ("width", "height")]
     if all(found):
         width, height = (float(one[1]) * _POINTS[one[2] or ""] for one in found if one)

@@ -12,7 +12,7 @@ BETWEEN = ":"
 
 
 def qualify_names(names: Mapping[Bank, Iterable[str]]) -> dict[Bank, dict[str, str]]:
-    """What names of several banks become in all: with the bank's before those that two have."""
+    """Return names of several banks as one: with the bank's in front of those that two have."""
     own = {part: [*dict.fromkeys(there)] for part, there in names.items()}
     counts = Counter(name for there in own.values() for name in there)
     return {
@@ -22,4 +22,5 @@ def qualify_names(names: Mapping[Bank, Iterable[str]]) -> dict[Bank, dict[str, s
 
 
 def _qualify_name(part: Bank, name: str, count: int) -> str:
+    """Return a name with its bank's in front if several banks have it, else as it is."""
     return f"{part.name}{BETWEEN}{name}" if count > 1 else name

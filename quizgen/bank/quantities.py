@@ -28,7 +28,7 @@ from quizgen.core.untrusted import error_context, parse_toml, read_text
 
 
 class _Written(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
-    """What stands in a file."""
+    """The names of one solver's quantities as a file holds them."""
 
     names: dict[str, dict[str, str]] = {}
     fixed: tuple[str, ...] = ()
@@ -40,21 +40,21 @@ class QuantityNames(_Written, frozen=True):
     said: dict[str, dict[str, tuple[Inline, ...]]] = {}
 
     def name(self, quantity: str, lang: str) -> tuple[Inline, ...]:
-        """What a quantity is called in a sentence; empty if nobody has said so."""
+        """Return what a quantity is called in a sentence; empty if the bank does not say."""
         return self.said.get(quantity, {}).get(lang, ())
 
     @property
     def digest(self) -> str:
-        """Changes with every name."""
+        """Return a digest that changes with every name."""
         written = _Written(self.names, self.fixed)
         return hashlib.sha256(msgspec.json.encode(written)).hexdigest()
 
 
-_FILES = CompileCache("quantities", dict[str, QuantityNames], "markdown_it")
+_FILES = CompileCache("quantities", dict[str, QuantityNames], "markdown_it", "math_core")
 
 
 def read_quantities(paths: Iterable[Path]) -> dict[str, QuantityNames]:
-    """Solver to its quantities, from several files.
+    """Return the quantities of each solver, from several files.
 
     Raises
     ------
@@ -76,6 +76,10 @@ def read_quantities(paths: Iterable[Path]) -> dict[str, QuantityNames]:
 
 
 def _read_quantities(path: Path, source: str) -> dict[str, QuantityNames]:
+    """Return the quantities of each solver in one file.
+
+    Raises ``BankError`` at the key that is wrong.
+    """
     table = parse_toml(source, path, BankError)
     with error_context(path, BankError):
         try:
@@ -86,6 +90,7 @@ def _read_quantities(path: Path, source: str) -> dict[str, QuantityNames]:
 
 
 def _parse_quantity_names(written: _Written) -> QuantityNames:
+    """Return the names of a solver's quantities, each also parsed as a sentence."""
     said = {
         quantity: {lang: parse_inlines(text) for lang, text in names.items()}
         for quantity, names in written.names.items()

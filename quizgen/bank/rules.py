@@ -137,7 +137,7 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 
 def get_claim(rules: Rules, name: str) -> ClaimRule:
-    """A claim of the pool; a truth or a condition alone is one without a source."""
+    """Return a claim of the pool; a truth or a condition alone is one without a source."""
     claim = rules.claims[name]
     return claim if isinstance(claim, ClaimRule) else ClaimRule(claim)
 
@@ -146,10 +146,10 @@ TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}
 
 
 def suggested_minutes(rules: Rules) -> int:
-    """Suggested working time of a template."""
+    """Return the suggested working time of a template in minutes."""
     return rules.minutes or TIER_MINUTES[rules.tier]
 
 
 def total_points(rules: Rules) -> Fraction:
-    """Marks of all parts of a template."""
+    """Return the marks of all parts of a template."""
     return sum((parse_written_number(part.points) for part in rules.part), Fraction(0))

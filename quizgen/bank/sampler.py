@@ -37,12 +37,12 @@ T = TypeVar("T")
 
 
 def pick_index(key: str, count: int) -> int:
-    """Index below ``count`` that belongs to a key, the same on every machine."""
+    """Return the index below ``count`` that belongs to a key, the same on every machine."""
     return int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big") % count
 
 
 def shuffle(key: str, items: Sequence[T]) -> list[T]:
-    """Deterministic permutation that belongs to a key."""
+    """Return the items in an order that belongs to a key, the same on every machine."""
     ranked = sorted(range(len(items)), key=lambda i: hashlib.sha256(f"{key}/{i}".encode()).digest())
     return [items[i] for i in ranked]
 
@@ -117,12 +117,17 @@ class _Variable(msgspec.Struct, frozen=True):
             shown[self.name] = value
 
     def _compute_value(self, env: Mapping[str, Any]) -> Value:
+        """Return the value of the formula; 0 where there is none.
+
+        Raises ``BankError`` if it has no value here.
+        """
         try:
             return self.formula(env) if self.formula else fmpq(0)
         except (MathError, TypeError, ZeroDivisionError, OverflowError) as error:
             raise self._fault(describe_list_fault(error)) from error
 
     def _fault(self, what: str) -> BankError:
+        """Return an error at the quantity's table under ``draw``."""
         said = f"draw.{self.name}: {what}"
         return BankError(said, rule="QG120", file=self.file, place=("draw", self.name))
 
@@ -133,7 +138,7 @@ def describe_list_fault(error: Exception) -> str:
 
 
 class _Condition(msgspec.Struct, frozen=True):
-    """A condition over shown values, and the quantities it needs."""
+    """A condition over shown values, and the quantities that it reads."""
 
     text: str
     test: Callable[[Values], bool]
@@ -141,13 +146,24 @@ class _Condition(msgspec.Struct, frozen=True):
 
 
 def _make_test_of_name(name: str, test: Callable[[Value], bool]) -> Callable[[Values], bool]:
+    """Return a test of all values that tests the one of this name."""
     return lambda env: test(env[name])
 
 
 class Sampler:
-    """Everything about drawing a template that does not depend on the seed."""
+    """What drawing a template needs and the seed does not change: ranges, conditions, factors."""
 
     def __init__(self, template: Template) -> None:
+        """Compile a template's draws, conditions and misconceptions.
+
+        ``early`` conditions need drawn values alone and are tested before the chain is solved,
+        ``late`` ones after it.
+
+        Raises
+        ------
+        BankError
+            If a quantity uses a later one, a draw has no value, or a unit does not fit.
+        """
         self.template = template
         self._compiled: dict[str, CompiledFormula] = {}
         self._check_order()
@@ -164,6 +180,7 @@ class Sampler:
             raise error
 
     def _check_order(self) -> None:
+        """Raise ``BankError`` if a formula under ``draw`` uses what is not drawn before it."""
         rules = self.template.rules
         known: set[str] = set(rules.data)
         for name, rule in rules.draw.items():
@@ -178,7 +195,7 @@ class Sampler:
             known.add(name)
 
     def compile_formula(self, formula: str) -> CompiledFormula:
-        """A formula of ``template.toml``, compiled once; the precision is stated around it."""
+        """Return a formula of ``template.toml``, compiled once; the caller sets the precision."""
         if formula not in self._compiled:
             self._compiled[formula] = compile_nested(
                 self.template.parse_formula(formula), exact_system()
@@ -186,6 +203,10 @@ class Sampler:
         return self._compiled[formula]
 
     def _build_variable(self, name: str) -> _Variable:
+        """Return one quantity, ready to be drawn.
+
+        Raises ``BankError`` if its rule leaves no value.
+        """
         rule = self.template.rules.draw[name]
         if is_list_rule(rule) or rule.of:
             return self._plan_table_variable(name)
@@ -213,6 +234,7 @@ class Sampler:
             raise
 
     def _iter_conditions(self) -> Iterator[_Condition]:
+        """Yield the conditions under ``where``, then those under ``keep``."""
         for text in self.template.rules.where:
             yield _Condition(
                 text, self.compile_formula(text), names_in(self.template.parse_formula(text))
@@ -255,13 +277,13 @@ class Sampler:
 
     @cached_property
     def base_factors(self) -> dict[str, fmpq]:
-        """Given quantity to the factor from its shown unit to base units."""
+        """Return the factor from shown unit to base units of each given quantity."""
         template = self.template
         return {n: template.unit_factor(template.units.get(n, "")) for n in template.chain.given}
 
     @cached_property
     def step_factors(self) -> dict[str, fmpq]:
-        """Step to the factor from its shown unit to base units."""
+        """Return the factor from shown unit to base units of each step."""
         return {
             step.name: self.template.unit_factor(step.unit) for step in self.template.chain.steps
         }
@@ -278,7 +300,7 @@ class Sampler:
         return self.template.chain.solve(given)
 
     def in_shown_units(self, shown: Mapping[str, fmpq], values: Values) -> dict[str, Value]:
-        """Drawn and solved quantities in shown units."""
+        """Return drawn and solved quantities in the units they are shown in."""
         return {**{name: values[name] / f for name, f in self.step_factors.items()}, **shown}
 
 
@@ -286,7 +308,7 @@ class Sampler:
 def list_candidates(
     listed: tuple[Scalar, ...], span: tuple[Scalar, ...], skip: tuple[Scalar, ...]
 ) -> tuple[fmpq, ...]:
-    """The values a rule allows, in order."""
+    """Return the values that a draw rule allows, in order; empty if it lists none."""
     if listed:
         return tuple(to_rational(str(v)) for v in listed)
     if not span:
@@ -299,7 +321,7 @@ def list_candidates(
 
 
 def compile_keep_test(rule: KeepRule) -> Callable[[Value], bool]:
-    """Compile a keep rule into a test of one value."""
+    """Return a test of one value that holds where all limits of a keep rule do."""
     tests = [
         partial(KEEP_TESTS[name], _parse_limit(name, getattr(rule, name)))
         for name in KEEP_TESTS
@@ -309,7 +331,7 @@ def compile_keep_test(rule: KeepRule) -> Callable[[Value], bool]:
 
 
 def _parse_limit(name: str, written: Scalar | tuple[Scalar, ...]) -> object:
-    """A limit as written, made exact."""
+    """Return a limit as its test takes it: exact numbers, a set of them, or a count."""
     if name == "skip":
         return {to_rational(str(v)) for v in written}  # type: ignore[union-attr]
     return written if name in {"decimals", "denominator"} else to_rational(str(written))
@@ -327,20 +349,21 @@ KEEP_TESTS: dict[str, Callable[[Any, Any], bool]] = {
 
 
 def _has_short_decimals(value: Value, decimals: int) -> bool:
+    """Return whether a value is written exactly with at most so many decimals."""
     count = count_decimals(value) if isinstance(value, fmpq) else None
     return count is not None and count <= decimals
 
 
 _PLANS: dict[str, Sampler] = {}
 MOST_PLANS = 1000
-"""Plans that are kept: a process that reads templates as they are edited meets ever new ones."""
+"""Samplers in the cache: a process that reads templates as they are edited meets ever new ones."""
 
 
 def sampler_for(template: Template) -> Sampler:
-    """The drawing plan of a template, built once.
+    """Return the sampler of a template, built once.
 
-    A template of the same content in another bank has a plan of its own: what the banks say about
-    themselves may differ.
+    A template of the same content in another bank has a sampler of its own: what the banks say
+    about themselves may differ.
     """
     key = f"{template.id}/{template.digest}"
     found = _PLANS.get(key)
@@ -359,7 +382,11 @@ def solve_candidate(
     *,
     lenient: bool = False,
 ) -> tuple[dict[str, Value], tuple[tuple[str, ...], ...]] | str:
-    """Solve a candidate; its values and traps per part, or the reason to reject it."""
+    """Return values and misconceptions of each part, or the reason to reject the candidate.
+
+    ``lenient`` skips the conditions and leaves out misconceptions that cannot be told apart:
+    numbers that an author prints are taken as they are.
+    """
     try:
         early: Mapping[str, Any] = {**shown, **lists} if lists else shown
         for condition in () if lenient else plan.early:
@@ -403,7 +430,11 @@ def _usable_traps(
     )
     traps = []
     for part in plan.parts:
-        usable = part.check(approximate, shown, lenient=lenient)
+        usable = (
+            part.check_form(values, lenient=lenient)
+            if part.form
+            else part.check(approximate, shown, lenient=lenient)
+        )
         if isinstance(usable, str):
             return usable
         traps.append(usable)

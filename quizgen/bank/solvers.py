@@ -38,28 +38,28 @@ _IMPURE = {"__file__", "__import__", "open"}
 
 
 class _AsWritten(SourceFileLoader):
-    """Compiles a file as it stands there, and keeps no bytecode.
+    """Loader that compiles a file as it stands there, and writes no bytecode.
 
     What lies in ``__pycache__`` is not what a person read and trusted: whoever may write there
     would run anything, since Python believes bytecode by the date of its source.
     """
 
     def get_code(self, fullname: str) -> CodeType:
-        """Compile it."""
+        """Return the code of the source, whatever bytecode there is."""
         path = self.get_filename(fullname)
         return self.source_to_code(self.get_data(path), path)
 
 
 class _Finder(MetaPathFinder):
-    """Finds modules of the packages that ``mount`` makes: sources, and folders of them.
+    """Finder for modules of the packages that ``_mount_folder`` makes: sources, and their folders.
 
-    No bytecode without a source and no extension module, which ``digest_of_python`` cannot count.
+    No bytecode without a source and no extension module: no digest of sources covers them.
     """
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Find one of them, and nothing else.
+        """Return where a module of such a package stands; None for any other module.
 
         Raises
         ------
@@ -88,17 +88,19 @@ _FINDER = _Finder()
 
 
 def _make_module_spec(name: str, file: Path, inside: list[str] | None) -> ModuleSpec | None:
+    """Return the spec of a source file; ``inside`` lists the folder of a package."""
     loader = _AsWritten(name, str(file))
     return spec_from_file_location(name, file, loader=loader, submodule_search_locations=inside)
 
 
 @lru_cache(maxsize=64)
 def _make_package_name(folder: Path) -> str:
+    """Return the private package name of a folder: two banks may have files of one name."""
     return _PRIVATE + compute_digest(str(folder.resolve()).encode())[:8]
 
 
 def _mount_folder(folder: Path) -> str:
-    """Private name of the package that a folder of solvers or figures is."""
+    """Return the private name of the package that a folder is, and make it importable."""
     name = _make_package_name(folder.absolute())
     with LOCK:
         if _FINDER not in sys.meta_path:
@@ -110,7 +112,7 @@ def _mount_folder(folder: Path) -> str:
 
 
 def import_module_file(folder: Path, name: str) -> ModuleType:
-    """Import a solver or a figure.
+    """Return a solver or a figure, imported.
 
     Raises
     ------
@@ -122,7 +124,7 @@ def import_module_file(folder: Path, name: str) -> ModuleType:
 
 
 def unload_modules(folder: Path) -> None:
-    """Have all modules of a folder read again."""
+    """Forget all modules of a folder, so that the next import reads them again."""
     inside = f"{_mount_folder(folder)}."
     for module in [module for module in list(sys.modules) if module.startswith(inside)]:
         del sys.modules[module]
@@ -130,7 +132,7 @@ def unload_modules(folder: Path) -> None:
 
 
 def load_chain(folder: Path, name: str) -> tuple[Chain, bytes]:
-    """The chain of a solver, kept or compiled, and the solver's source.
+    """Return the chain of a solver, cached or compiled, and the solver's source.
 
     Parameters
     ----------
@@ -155,15 +157,19 @@ def load_chain(folder: Path, name: str) -> tuple[Chain, bytes]:
 
 
 def _read_solver_sources(folder: Path, name: str) -> list[bytes]:
-    """A solver, and all of its bank if it imports some of them."""
+    """Return the source of a solver, and of all of its bank if it imports some of them."""
     own = read_bytes(folder / f"{name}.py", BankError)
     every = sorted(folder.rglob("*.py")) if _RELATIVE.search(own) else []
     return [own, *(read_bytes(path, BankError) for path in every)]
 
 
 def _compile_solver(folder: Path, name: str) -> Chain:
-    """Run a solver as it is now, and what it imports."""
+    """Return the chain of a solver as it is now, with what it imports.
+
+    Raises ``BankError`` if the file cannot be run, or holds no model.
+    """
     unload_modules(folder)
+    _refuse_unevaluated(folder / f"{name}.py")
     model = getattr(import_module_file(folder, name), "MODEL", None)
     file = folder / f"{name}.py"
     if not isinstance(model, Model):
@@ -172,8 +178,60 @@ def _compile_solver(folder: Path, name: str) -> Chain:
         return model.chain()
 
 
+_EVALUATING = frozenset({
+    "det", "diff", "dsolve", "eigenvals", "eigenvects", "integrate", "inv", "limit", "linsolve",
+    "nsolve", "series", "solve", "solveset", "summation",
+})  # fmt: skip
+"""Functions and methods of SymPy that give nonsense or fail where nothing is evaluated."""
+
+
+def _refuse_unevaluated(file: Path) -> None:
+    """Refuse a computation of SymPy's inside ``with evaluate(False)``.
+
+    There ``integrate`` fails with an AttributeError and ``diff`` gives ``a**3*(0*log(a) + 1*3/a)``;
+    neither names the cause.
+
+    Raises
+    ------
+    BankError
+        Naming the line.
+    """
+    try:
+        tree = ast.parse(read_bytes(file, BankError))
+    except (SyntaxError, ValueError):
+        return  # the import says so, with its place
+    for block in filter(_stops_evaluation, ast.walk(tree)):
+        for node in ast.walk(block):
+            name = _called_name(node)
+            if name in _EVALUATING:
+                what = f"{name}(...) needs evaluation: compute this before `with evaluate(False)`"
+                line = getattr(node, "lineno", 0)
+                raise BankError(what, rule="QG133", file=file, line=line)
+
+
+def _stops_evaluation(node: ast.AST) -> bool:
+    """Whether a node is ``with evaluate(False)``."""
+    return isinstance(node, ast.With) and any(
+        isinstance(item.context_expr, ast.Call)
+        and _called_name(item.context_expr) == "evaluate"
+        and any(isinstance(arg, ast.Constant) and not arg.value for arg in item.context_expr.args)
+        for item in node.items
+    )
+
+
+def _called_name(node: ast.AST) -> str:
+    """The name of a called function or method; empty if a node calls none."""
+    if not isinstance(node, ast.Call):
+        return ""
+    called = node.func
+    return called.id if isinstance(called, ast.Name) else getattr(called, "attr", "")
+
+
 def _is_pure(source: bytes) -> bool:
-    """Whether what a solver gives follows from solvers alone, and not from files or settings."""
+    """Return whether what a solver gives follows from solvers alone.
+
+    One that reads files or settings is not cached: its result may change without its source.
+    """
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]

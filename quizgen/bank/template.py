@@ -82,20 +82,21 @@ class Template:
     pictures: Mapping[str, PictureFile] = field(default_factory=dict)
 
     def __getstate__(self) -> dict[str, object]:
-        """What another process is told: nothing that it can work out again."""
+        """Return what another process is sent: nothing that it can work out again."""
         return {one.name: getattr(self, one.name) for one in fields(self)}
 
     def __repr__(self) -> str:
+        """Return its name and languages, not its whole content."""
         return f"<Template {self.id}, in {', '.join(self.texts)}>"
 
     @property
     def origin(self) -> str:
-        """The name that numbers are drawn under: its first one, so that a rename changes none."""
+        """Return the first name, which numbers are drawn under: a rename changes none of them."""
         return self.rules.formerly or self.id
 
     @property
     def figure(self) -> ModuleType | None:
-        """What draws its figure, imported when it is needed: an author's may load much.
+        """Return the module of its figure, imported on use: an author's may load much.
 
         Raises
         ------
@@ -113,22 +114,22 @@ class Template:
 
     @cached_property
     def file(self) -> Path:
-        """What the rules were read from."""
+        """Return the path of ``template.toml``."""
         return self.path / "template.toml"
 
     @property
     def languages(self) -> tuple[str, ...]:
-        """Languages the template is written in."""
+        """Return the languages that the template is written in."""
         return tuple(self.texts)
 
     @property
     def minutes(self) -> int:
-        """Suggested working time."""
+        """Return the suggested working time in minutes."""
         return suggested_minutes(self.rules)
 
     @cached_property
     def units(self) -> dict[str, str]:
-        """Quantity to the unit it is shown in: drawn ones first, then steps."""
+        """Return the unit that each quantity is shown in: drawn ones first, then steps."""
         drawn = {name: rule.unit for name, rule in self.rules.data.items()}
         drawn |= {name: rule.unit for name, rule in self.rules.draw.items() if not rule.words}
         given = dict(self.chain.given)
@@ -136,21 +137,22 @@ class Template:
         return {**given, **{k: v for k, v in drawn.items() if v or k not in given}, **steps}
 
     def unit_factor(self, unit: str) -> fmpq:
-        """Exact factor from a unit, listed or of the bank, to base units."""
+        """Return the exact factor from a unit, listed or of the bank, to base units."""
         return self.about.system.factor(unit)
 
     @cached_property
     def labels(self) -> tuple[str, ...]:
-        """Part labels: ``a``, ``b``, ...; a single part has none."""
+        """Return the labels of the parts: ``a``, ``b``, ...; a single part has an empty one."""
         count = len(self.rules.part)
         return tuple(PART_LABELS[:count]) if count > 1 else ("",)
 
     @cached_property
     def _parsed_formulas(self) -> dict[str, Expr]:
+        """Return the cache of parsed formulas, by their text."""
         return {}
 
     def parse_formula(self, text: str) -> Expr:
-        """Read a formula of ``template.toml`` over the template's quantities, once.
+        """Return a formula over the template's quantities as a tree, parsed once.
 
         Raises
         ------
@@ -162,6 +164,10 @@ class Template:
         return self._parsed_formulas[text]
 
     def _parse_template_formula(self, text: str) -> Expr:
+        """Return a formula as a tree.
+
+        Raises ``BankError`` if it cannot be read, or uses what is neither drawn nor solved.
+        """
         try:
             expr = parse_formula(text, symbols=tuple(self.units))
         except FormulaError as error:
@@ -172,17 +178,21 @@ class Template:
         return expr
 
     def _unreadable(self, formula: str, what: str) -> BankError:
+        """Return an error at a formula of ``template.toml``.
+
+        ``(TEXT, formula)`` as its place has the line looked for: a formula is passed on as text.
+        """
         said = f"formula {_quote_formula(formula)}{what}"
         return BankError(said, rule="QG121", file=self.file, place=(TEXT, formula))
 
 
 def _quote_formula(formula: str) -> str:
-    """A formula for a message, as much of it as tells which one it is."""
+    """Return a formula for a message, cut to what shows which one it is."""
     return repr(formula if len(formula) <= QUOTED else f"{formula[:QUOTED]}...")
 
 
 def read_rules(path: Path) -> Rules:
-    """Read and check ``template.toml``.
+    """Return the checked content of ``template.toml``.
 
     Raises
     ------
@@ -198,6 +208,11 @@ def read_rules(path: Path) -> Rules:
 
 
 def _read_rules(path: Path, source: str) -> Rules:
+    """Return the checked content of ``template.toml``.
+
+    It is parsed twice: with floats, to check the types in answers, and then with numbers as they
+    are written, so that 0.1 stays exact.
+    """
     try:
         table = parse_toml(source, path, BankError, _whole_or(float))
         for fault in find_malformed_answers(convert(table, Rules)):
@@ -211,11 +226,15 @@ def _read_rules(path: Path, source: str) -> Rules:
 
 
 def _whole_or(kind: type) -> Callable[[str], object]:
-    """Reads a number with a point: 3.0 as 3, as editors do that know no other whole numbers."""
+    """Return a reader of numbers with a point that gives 3.0 as the integer 3.
+
+    Some editors write integers that way and know no other.
+    """
     return lambda text: int(text[:-2]) if _WHOLE.fullmatch(text) else kind(text)
 
 
 def _check_draws(rules: Rules) -> None:
+    """Raise ``BankError`` at the first problem of the rules, or at a draw not of one kind."""
     for place, code, what in find_problems(rules):
         raise BankError(f"{written_place(place)}: {what}", rule=code, place=place)
     for name, rule in rules.draw.items():
@@ -226,7 +245,7 @@ def _check_draws(rules: Rules) -> None:
 
 
 def check_against_chain(template: Template) -> None:
-    """Check that rules, chain and quantities fit together.
+    """Raise ``BankError`` unless rules, chain and quantities fit together.
 
     Raises
     ------
@@ -239,6 +258,7 @@ def check_against_chain(template: Template) -> None:
 
 
 def _check_units(template: Template) -> None:
+    """Raise ``BankError`` if a quantity is in a unit that nobody defines."""
     rules = template.rules
     for name, unit in template.units.items():
         try:
@@ -251,6 +271,7 @@ def _check_units(template: Template) -> None:
 
 
 def _check_names(template: Template) -> None:
+    """Raise ``BankError`` if the rules name what the solver lacks, or lack what it needs."""
     rules = template.rules
     missing = set(template.chain.given) - set(rules.draw) - set(rules.data)
     if missing:
@@ -261,7 +282,7 @@ def _check_names(template: Template) -> None:
         place = ("keep", min(unknown))
         raise BankError(f"keep names unknown {sorted(unknown)}", rule="QG116", place=place)
     for key, listed in (("may_vanish", rules.may_vanish), ("drop", rules.drop)):
-        strangers = set(listed) - set(template.chain.traps)
+        strangers = set(listed) - {*template.chain.traps, *template.chain.form_traps}
         if strangers:
             what = f"{sorted(strangers)} is not a trap of {rules.solver!r}"
             raise BankError(what, rule="QG116", place=(key,))

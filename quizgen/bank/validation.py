@@ -41,12 +41,13 @@ FieldProblems = Iterator[tuple[Place, str, str]]
 
 
 def parse_authored_number(text: Scalar) -> Fraction:
-    """An authored number.
+    """Return an authored number, exact.
 
     Raises
     ------
     ValueError
-        If it cannot be read or is larger or smaller than anyone could mean.
+        If it cannot be read or is larger or smaller than anyone could mean: 10^1000000 would
+        fill the memory before any check of a unit or a range sees it.
     """
     value = parse_written_number(text)
     if value and not 1 <= abs(value) * LARGEST <= LARGEST**2:
@@ -55,30 +56,36 @@ def parse_authored_number(text: Scalar) -> Fraction:
 
 
 def find_problems(rules: Rules) -> FieldProblems:
-    """Every field of the rules that holds what it cannot."""
+    """Yield every field of the rules that holds what it cannot."""
     yield from _check_names(rules)
     yield from _check_figure_reads(rules)
     yield from _check_sizes(rules)
     yield from _check_ignored_codes(rules)
     yield from _check_claims(rules)
     for name, rule in rules.draw.items():
-        yield from _below(("draw", name), _check_draw_rule(rule))
+        yield from _prefix_places(("draw", name), _check_draw_rule(rule))
     yield from _check_data(rules)
     for name, keep in rules.keep.items():
-        yield from _below(("keep", name), _check_keep_rule(keep))
+        yield from _prefix_places(("keep", name), _check_keep_rule(keep))
     for name, value in (rules.reference or {}).items():
         if not rules.draw.get(name) or not rules.draw[name].words:
             yield from _check_numbers_readable(("reference", name), (value,))
     for index, part in enumerate(rules.part):
-        yield from _below(("part", index, "answer"), _check_answer(part.answer))
-        yield from _out_of(("part", index, "points"), part.points, MOST_POINTS)
+        yield from _prefix_places(("part", index, "answer"), _check_answer(part.answer))
+        yield from _check_between(("part", index, "points"), part.points, MOST_POINTS)
 
 
-def _below(place: Place, found: FieldProblems) -> FieldProblems:
+def _prefix_places(place: Place, found: FieldProblems) -> FieldProblems:
+    """Yield problems of a table with the table's own place put before theirs."""
     return (((*place, *field), code, what) for field, code, what in found)
 
 
 def _check_names(rules: Rules) -> FieldProblems:
+    """Yield names that cannot be file names; a solver may have folders in front.
+
+    This is also what stops ``../`` in a path. An empty optional name is passed as ``-``, which
+    is allowed.
+    """
     figure = rules.figure.name if rules.figure else ""
     folders = rules.solver.split("/") if rules.solver else ()
     places: list[tuple[Place, str]] = [(("topic",), rules.topic)]
@@ -92,7 +99,7 @@ def _check_names(rules: Rules) -> FieldProblems:
 
 
 def _check_figure_reads(rules: Rules) -> FieldProblems:
-    """What is said to be read in the figure, and cannot be."""
+    """Yield names listed under ``reads`` that cannot be read in the figure."""
     place = ("figure", "reads")
     if rules.figure is None or not rules.figure.reads:
         return
@@ -104,7 +111,7 @@ def _check_figure_reads(rules: Rules) -> FieldProblems:
 
 
 def _check_ignored_codes(rules: Rules) -> FieldProblems:
-    """Codes that are none, and those that say what stops a paper."""
+    """Yield codes that do not exist, and those that cannot be ignored because they stop a paper."""
     for index, code in enumerate(rules.ignore):
         if code not in CODES:
             yield ("ignore", index), "QG119", f"there is no code {code!r}"
@@ -113,6 +120,7 @@ def _check_ignored_codes(rules: Rules) -> FieldProblems:
 
 
 def _check_sizes(rules: Rules) -> FieldProblems:
+    """Yield counts and sizes beyond what any question needs; they bound time and memory."""
     if not 1 <= len(rules.part) <= MOST_PARTS:
         yield ("part",), "QG110", f"1 to {MOST_PARTS} tables [[part]] are needed"
     whole = (
@@ -133,10 +141,12 @@ def _check_sizes(rules: Rules) -> FieldProblems:
 
 
 def _count_entries(source: Source) -> int:
+    """Return how many values nested lists hold in all."""
     return sum(map(_count_entries, source)) if isinstance(source, tuple) else 1
 
 
 def _check_draw_rule(rule: DrawRule) -> FieldProblems:
+    """Yield what is wrong with one draw rule: too many entries, unreadable numbers, its range."""
     yield from (((field,), code, what) for field, code, what in find_list_problems(rule))
     for field in ("pick", "range", "skip", "words", "values", "sample", "permutation", "of"):
         if len(getattr(rule, field)) > MOST_CHOICES:
@@ -169,6 +179,10 @@ def _check_data(rules: Rules) -> FieldProblems:
 
 
 def _check_range(*span: Scalar) -> FieldProblems:
+    """Yield what is wrong with ``[first, last, step]``.
+
+    It is counted and not listed: a range of a tiny step would otherwise fill the memory.
+    """
     place = ("range",)
     if len(span) != len(("first", "last", "step")):
         yield place, "QG111", "is [first, last, step]"
@@ -181,6 +195,7 @@ def _check_range(*span: Scalar) -> FieldProblems:
 
 
 def _check_keep_rule(rule: KeepRule) -> FieldProblems:
+    """Yield what is wrong with the limits of one keep rule."""
     for field in ("min", "max", "multiple"):
         yield from _check_numbers_readable(
             (field,), [v for v in (getattr(rule, field),) if v is not None]
@@ -199,6 +214,7 @@ def _check_keep_rule(rule: KeepRule) -> FieldProblems:
 
 
 def _check_numbers_readable(place: Place, values: Iterable[Scalar]) -> FieldProblems:
+    """Yield the numbers that ``parse_authored_number`` refuses."""
     for value in values:
         try:
             parse_authored_number(value)
@@ -206,7 +222,8 @@ def _check_numbers_readable(place: Place, values: Iterable[Scalar]) -> FieldProb
             yield place, "QG109", str(error)
 
 
-def _out_of(place: Place, value: Scalar, most: int) -> FieldProblems:
+def _check_between(place: Place, value: Scalar, most: int) -> FieldProblems:
+    """Yield a number that is not above 0 and at most ``most``, or cannot be read."""
     wrong = list(_check_numbers_readable(place, (value,)))
     yield from wrong
     if not wrong and not 0 < parse_authored_number(value) <= most:
@@ -214,7 +231,10 @@ def _out_of(place: Place, value: Scalar, most: int) -> FieldProblems:
 
 
 def find_malformed_answers(rules: Rules) -> Iterator[BankError]:
-    """Answers of no kind, and with keys or types of values that their kind does not have."""
+    """Yield answers of no kind, and those with keys or types that their kind does not have.
+
+    They come first: ``find_problems`` converts answers and relies on their shape.
+    """
     for index, part in enumerate(rules.part):
         kind, place = part.answer.get("kind", ""), ("part", index, "answer")
         said = written_place(place)
@@ -231,10 +251,12 @@ def find_malformed_answers(rules: Rules) -> Iterator[BankError]:
 
 
 def _check_answer(table: Mapping[str, object]) -> FieldProblems:
+    """Yield the problems that the answer's own kind finds in it."""
     yield from convert(table, KINDS[str(table["kind"])].authored).find_problems()
 
 
 def _check_claims(rules: Rules) -> FieldProblems:
+    """Yield what is wrong with the pool of claims: too few, too many, or used by no part."""
     taking = [part.answer for part in rules.part if "from" in part.answer]
     if len(taking) > len(rules.claims):
         yield ("claims",), "QG115", f"{len(rules.claims)} are too few for {len(taking)} parts"

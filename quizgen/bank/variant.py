@@ -1,8 +1,8 @@
 """From a template and a seed to admissible numbers.
 
 Every value is a function of (template origin, version, paper seed, slot, variable, try) through
-SHA-256, so adding a template, a variable, a language or a format changes no other value. A draw is
-kept only if it meets every condition of the template *and* no known mistake would be accepted or
+SHA-256, so adding a template, a variable, a language or a format changes no other value. A variant
+is kept only if it meets every condition of the template *and* no misconception would be accepted or
 could be taken for another one.
 """
 
@@ -31,6 +31,7 @@ from quizgen.core.errors import BankError, SamplingError
 from quizgen.core.positions import TEXT, Place
 from quizgen.maths.canonical import CanonicalForm
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import (
     format_decimal,
     format_exact,
@@ -40,6 +41,7 @@ from quizgen.maths.numbers import (
     to_rational,
 )
 from quizgen.maths.precision import working_precision
+from quizgen.maths.tree import Expr, Sym
 from quizgen.maths.values import Value, Values
 
 SHOWN_FIGURES = 6
@@ -51,7 +53,7 @@ MAX_TRIES = 5000
 
 
 def leading_digits(value: Value) -> str:
-    """A number by its first four digits: what somebody who copies it would take for the same."""
+    """Return a number's first four digits: what somebody who copies it takes for the same."""
     return f"{abs(to_float(value)):.4g}"
 
 
@@ -86,7 +88,7 @@ class Variant:
     elsewhere : SiblingContent
         What this question must not tell, because others of its paper ask it.
     shown_values : mapping of str to flint.fmpq or flint.arb
-        Every quantity, drawn or solved, in the unit it is shown in. Computed when the draw is made:
+        Every quantity, drawn or solved, in the unit it is shown in. Computed at once:
         a property cached later would wait for the lock of the precision under a lock of its own.
     """
 
@@ -104,11 +106,14 @@ class Variant:
     _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
     _identity: list[str] = field(init=False, repr=False, compare=False, default_factory=list)
     _computed: dict[str, Value] = field(init=False, repr=False, compare=False, default_factory=dict)
+    _forms: dict[str, Expr] = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def __repr__(self) -> str:
+        """Return template, seed and slot, which rebuild it."""
         return f"<Draw of {self.template.id}, seed {self.seed}, slot {self.slot}>"
 
     def __post_init__(self) -> None:
+        """Set ``shown_values``, once: it is read far more often than a variant is drawn."""
         with working_precision():
             object.__setattr__(
                 self, "shown_values", self.sampler.in_shown_units(self.shown, self.values)
@@ -116,7 +121,7 @@ class Variant:
 
     @property
     def identity(self) -> str:
-        """Name of the question: two variants ask the same if and only if this is the same.
+        """Return the name of the question: two variants ask the same if and only if it is equal.
 
         Worked out once, when it is first asked for: it makes the selections of the pools, whose
         faults are those of a question and not of its numbers.
@@ -127,11 +132,11 @@ class Variant:
 
     @property
     def sampler(self) -> Sampler:
-        """What does not depend on the numbers."""
+        """Return the sampler of its template, which does not depend on the numbers."""
         return sampler_for(self.template)
 
     def format_value(self, name: str) -> str:
-        """A quantity's number as it is shown: exact if drawn or read at a glance, else rounded."""
+        """Return a quantity's number as text: exact if drawn or short, else rounded."""
         if name not in self._texts:
             value = self.shown_values[name]
             exactly = None if self.is_rounded(name) else format_exact(value)
@@ -139,14 +144,14 @@ class Variant:
         return self._texts[name]
 
     def is_rounded(self, name: str) -> bool:
-        """Whether a quantity's text is not its exact value."""
+        """Return whether a quantity's text is not its exact value."""
         value = self.shown_values[name]
         return not is_readable_exactly(value) and (
             name not in self.shown or format_exact(value) is None
         )
 
     def evaluate(self, formula: str) -> Value:
-        """Value of a formula of ``template.toml`` over the quantities in shown units."""
+        """Return the value of a formula of ``template.toml`` over quantities in shown units."""
         if formula not in self._computed:
             with working_precision():
                 self._computed[formula] = self._compute_formula(formula)
@@ -171,25 +176,65 @@ class Variant:
             return tuple(format_decimal(value, count) for value in values)
         return tuple(format_exact(v) or format_rounded(v, figures=SHOWN_FIGURES) for v in values)
 
+    def form(self, name: str) -> Expr:
+        """A form of the solver with the drawn numbers in place, tidied.
+
+        Raises
+        ------
+        KeyError
+            If the solver has no form of this name.
+        """
+        if name not in self._forms:
+            chain = self.template.chain
+            with working_precision():
+                bound = chain.bind_form(chain.form_by_name[name].expr, self.values)
+            self._forms[name] = bound
+        return self._forms[name]
+
     def steps_of_part(self, index: int) -> tuple[ChainStep, ...]:
-        """The steps that lead to a part's answer, those that the template leaves out aside."""
+        """Return the steps to a part's answer, without those that the template leaves out."""
         shown = self.template.rules.part[index].show
         steps = self.sampler.parts[index].steps
         return tuple(step for step in steps if shown is None or step.name in shown)
 
     def answer_of_part(self, index: int) -> tuple[Value, ...]:
-        """The components of a part's answer, each in the unit it is asked in."""
+        """Return the components of a part's answer, each in the unit it is asked in."""
         return self._answer_components(index, self.values)
 
     def misconception_answers(self, index: int) -> dict[str, tuple[Value, ...]]:
-        """Each usable mistake of a part and the answer it gives, as ``answer``."""
+        """Return the answer of each usable misconception of a part, as ``answer_of_part``."""
         chain = self.template.chain
         return {
             trap: self._answer_components(index, chain.solve_with_misconception(trap, self.values))
             for trap in self.traps[index]
         }
 
+    def exact_texts(self, index: int) -> tuple[str, ...]:
+        """Each irrational component of a part's answer as a formula; empty where it is none.
+
+        A quantity that is asked in another unit than base units has no such formula.
+        """
+        part, chain = self.sampler.parts[index], self.template.chain
+        found = []
+        for name in part.of:
+            plain = self.template.unit_factor(part.unit_of(self.template, name)) == 1
+            known = isinstance(self.values[name], fmpq) or not plain
+            with working_precision():
+                found.append("" if known else format_tree(chain.bind_form(Sym(name), self.values)))
+        return tuple(found)
+
+    def form_of_part(self, index: int) -> Expr:
+        """The form that a part asks for, with the drawn numbers in place."""
+        return self.form(self.sampler.parts[index].form)
+
+    def misconception_forms(self, index: int) -> dict[str, Expr]:
+        """Each usable mistake of a part and the form that it gives."""
+        with working_precision():
+            found = self.sampler.parts[index].wrong_forms(self.values)
+        return {trap: found[trap] for trap in self.traps[index]}
+
     def _answer_components(self, index: int, values: Values) -> tuple[Value, ...]:
+        """Return the components of a part's answer, each in the unit it is asked in."""
         part = self.sampler.parts[index]
         with working_precision():
             factors = [self.template.unit_factor(part.unit_of(self.template, n)) for n in part.of]
@@ -197,7 +242,7 @@ class Variant:
 
 
 def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> Variant:
-    """Draw an admissible instance.
+    """Return the variant of a template that belongs to a seed and a slot.
 
     Parameters
     ----------
@@ -208,7 +253,7 @@ def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> 
     Raises
     ------
     SamplingError
-        If no try within ``MAX_TRIES`` is admissible; names the condition met most often.
+        If no try within ``MAX_TRIES`` is admissible; names the condition that rejected most tries.
     """
     plan, seed, slot = sampler_for(template), str(seed), str(slot)
     stem = f"{template.origin}/{template.rules.version}/{seed}/{slot}"
@@ -222,7 +267,9 @@ def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> 
         reasons[str(result)] += 1
     worst, count = reasons.most_common(1)[0]
     what = f"no admissible draw in {MAX_TRIES} tries; {worst!r} rejected {count} of them"
-    raise SamplingError(what, rule="QG140", file=template.file, place=_culprit(worst, template))
+    raise SamplingError(
+        what, rule="QG140", file=template.file, place=_locate_condition(worst, template)
+    )
 
 
 def _build_variant(
@@ -235,8 +282,8 @@ def _build_variant(
     return Variant(template, seed, slot, tries, drawn.shown, drawn.words, *solved, drawn.lists)
 
 
-def _culprit(condition: str, template: Template) -> Place:
-    """Where the condition stands that was met least: all of ``[draw]`` if it is no one's."""
+def _locate_condition(condition: str, template: Template) -> Place:
+    """Return the place of a condition in ``template.toml``; ``[draw]`` if it is no author's."""
     if condition in template.rules.where:
         return (TEXT, condition)
     kept = condition.removeprefix("keep.")
@@ -244,7 +291,9 @@ def _culprit(condition: str, template: Template) -> Place:
 
 
 def reference_variant(template: Template) -> Variant:
-    """Instance with the numbers printed in the notes; mistakes that coincide there are left out.
+    """Return the variant with the numbers printed in the notes.
+
+    Misconceptions that coincide there are left out.
 
     Raises
     ------
@@ -259,6 +308,10 @@ def reference_variant(template: Template) -> Variant:
 
 @working_precision()
 def _build_reference_variant(plan: Sampler, given: Mapping[str, Scalar]) -> Variant:
+    """Return the variant with the numbers that an author gives; what is derived follows them.
+
+    Raises ``SamplingError`` if the chain has no value for them.
+    """
     template = plan.template
     drawn = plan.propose(f"{template.origin}/reference", 0)
     if drawn is None:

@@ -32,9 +32,9 @@ if TYPE_CHECKING:
     from quizgen.lint.template_checks import TemplateReport
     from quizgen.paper.blueprint import Blueprint
 
-HEAD = ("template", "draws", "distinct", "kept", "ms/draw", "problems", "answers")
+HEAD = ("template", "draws", "distinct", "kept", "ms/draw", "problems", "certain", "answers")
 TEACH_HEAD = ("template", "part", "level", "code", "finding")
-NOTHING = ("0", "", "", "", "1", "")
+NOTHING = ("0", "", "", "", "1", "", "")
 """Cells of a template that could not be examined."""
 
 A_TEMPLATE, A_DRAW, A_PAPER = 0.02, 0.0003, 0.1
@@ -362,5 +362,6 @@ def _format_report_cells(report: TemplateReport) -> tuple[str, ...]:
         f"{report.acceptance:.1%}",
         f"{per_draw:.2f}",
         str(len(report.problems)),
+        report.certainty,
         ranges,
     )

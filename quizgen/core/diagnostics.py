@@ -81,7 +81,8 @@ def diagnose(
     line : int
         The line, from 1, where it is known already.
     """
-    span = Span(line) if line else find_span(file, place)
+    span = find_span(file, place) if place or not line else None
+    span = span or (Span(line) if line else None)
     return Diagnostic(code, file, span, message, CODES[code].hint)
 
 
@@ -203,6 +204,8 @@ _CODES = {
                   "write the section, or a line '- NAME: sentence' in it"),
     "QG158": Rule("A blank in the words names no quantity.",
                   "use a name of [draw] or of the solver's steps"),
+    "QG159": Rule("LaTeX in the words cannot be read, or cannot be said in every output.",
+                  "use what docs/formulas.md lists"),
     # Proofs over many draws: soundness of units, answers, languages.
     "QG201": Rule("A drawn unit is of another kind than the solver's.",
                   "give it a unit of the kind that the solver works with"),
@@ -236,6 +239,8 @@ _CODES = {
                   "say it in other words, or name the other template in apart"),
     "QG219": Rule("A quantity is drawn, and nothing uses it.",
                   "show it, ask for it or compute with it, or take it out"),
+    "QG229": Rule("A step cannot be told from zero.",
+                  "keep such draws out, or write the step so that it is exactly 0"),
     # Item writing: whether a question teaches and cannot be guessed.
     "QG301": Rule("The answer hardly varies.",
                   "let other options, statements or pairs be right in turn"),

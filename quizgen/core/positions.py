@@ -3,7 +3,8 @@
 A place is said in the words of the file: in TOML the path of a key (``("part", 0, "answer")``), in
 Markdown a heading and the name of an item of its list (``("steps", "F")``), in Python a function
 and its first argument (``("Step", "F")``) or a keyword and a text in it (``("traps", "added")``).
-``(TEXT, "m*a")`` is the first text that is this one, in TOML and Markdown.
+``(TEXT, "m*a")`` is the first text that is this one, in TOML and Markdown; in Markdown a number
+behind it is the column in the text, from 1.
 
 ``tomllib`` gives no positions and ``tomlkit`` keeps none, hence the scan below. It is asked only
 for what was read without error, or up to the line that could not be read.
@@ -243,7 +244,7 @@ _ITEM = re.compile(r"^- ([^:\[]*?)\s*(?:\[[^\]]*\])?\s*:")
 def _find_in_markdown(text: str, place: Place) -> Span | None:
     """Return the line of a list item, else of the heading above it, or of a quoted sentence."""
     if place[0] == TEXT:
-        return _find_quoted_text(text, str(place[1]))
+        return _find_quoted_text(text, str(place[1]), int(place[2]) if len(place) > 2 else 1)
     heading, found = "", None
     for number, line in enumerate(text.split("\n"), 1):
         if head := _HEADING.match(line):
@@ -254,11 +255,18 @@ def _find_in_markdown(text: str, place: Place) -> Span | None:
     return found
 
 
-def _find_quoted_text(text: str, quoted: str) -> Span | None:
-    """Return where a sentence begins in a text that may break its lines elsewhere."""
-    words = [re.escape(part) for part in re.findall(r"\w+|[^\w\s]", quoted)]
-    found = re.search(r"\s*".join(words), text) if words else None
-    return _compute_span(text, found.start()) if found else None
+def _find_quoted_text(text: str, quoted: str, column: int) -> Span | None:
+    """Return where a sentence, or a column in it, is in a text that breaks lines elsewhere."""
+    found = re.search(_match_any_blanks(quoted), text) if quoted.strip() else None
+    if found is None:
+        return None
+    before = re.match(_match_any_blanks(quoted[: column - 1]) + r"\s*", text[found.start() :])
+    return _compute_span(text, found.start() + (before.end() if before and column > 1 else 0))
+
+
+def _match_any_blanks(quoted: str) -> str:
+    """Return a pattern for a text, whatever blanks stand in it."""
+    return r"\s*".join([re.escape(part) for part in re.findall(r"\w+|[^\w\s]", quoted)])
 
 
 # Python -------------------------------------------------------------------------------------------

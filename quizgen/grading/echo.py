@@ -11,10 +11,10 @@ LONGEST_ECHO = 40
 
 
 def shorten(text: str, longest: int = LONGEST_ECHO) -> str:
-    """Cut a text to a length that fits into a sentence."""
+    """Return a text cut to a length that fits into a sentence."""
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
 def safe_echo(text: str, longest: int = LONGEST_ECHO) -> str:
-    """Shorten, and name control characters, line breaks too."""
+    """Return a text shortened, with control characters and line breaks named."""
     return escape_control_characters(shorten(text, longest), kept="")

@@ -14,6 +14,7 @@ _CLAUSE = re.compile("⟨([^⟩]*)⟩")
 
 
 def _load_message_table(lang: str) -> dict[str, dict[str, str]]:
+    """Return the sentences of the checker in a language, by section and key."""
     return load_words(fallback_language(lang), "messages")
 
 
@@ -58,7 +59,7 @@ AS_TYPED = frozenset({"code", "gap", "text"})
 
 
 def format_read_back(kind: str, read_as: str, lang: str) -> str:
-    """What was read of an answer of a kind, with the decimal sign of a language."""
+    """Return what was read of an answer of a kind, with the decimal sign of a language."""
     return read_as if kind in AS_TYPED else localise_numbers(lang, read_as)
 
 
@@ -67,7 +68,7 @@ _NAMES = frozenset({"names", "detail"})
 
 
 def _format_message_field(lang: str, key: str, value: object) -> str:
-    """What a blank is filled with; names of quantities and powers as people write them."""
+    """Return what a blank is filled with; names of quantities and powers as people write them."""
     if key == "power":
         return pretty.format_power_of_ten(str(value))
     if key in _NAMES and isinstance(value, (tuple, list)):
@@ -78,19 +79,21 @@ def _format_message_field(lang: str, key: str, value: object) -> str:
 
 
 def _keep_filled_clause(clause: str, shown: Mapping[str, str]) -> str:
-    """A clause, if there is something to say in it."""
+    """Return a clause, or an empty text if one of its blanks has nothing to fill it in."""
     return clause if all(shown.get(name) for name in re.findall(r"{(\w+)}", clause)) else ""
 
 
 class _Blanks(dict[str, str]):
-    """A sentence never fails for want of a detail."""
+    """The texts for a sentence's blanks; one that is missing never fails the sentence."""
 
     def __missing__(self, key: str) -> str:
+        """Return an ellipsis for a blank that nothing fills."""
         del key
         return "…"
 
 
 def _format_shown_value(lang: str, value: object) -> str:
+    """Return a value as text, a list with commas, shortened and without control characters."""
     if isinstance(value, (tuple, list)):
         names = load_words_inside(lang)
         return ", ".join(

@@ -21,7 +21,11 @@ NAMING = frozenset({"cells", "coordinate"})
 
 
 def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
-    """Return the language-free verdict of one answer."""
+    """Return the verdict on one typed answer, in no language yet.
+
+    It never raises for what was typed: an answer that cannot be read gets an ``unreadable`` or
+    ``ambiguous`` verdict, which costs nothing.
+    """
     try:
         with spec.known_units().activate():
             return spec.judge(typed, options)
@@ -30,7 +34,7 @@ def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
 
 
 def read_error_verdict(error: FormulaReadError) -> Verdict:
-    """The verdict on an answer that could not be read."""
+    """Return the verdict on an answer that could not be read: asked back, with its place."""
     note = error.code
     if error.code == "unknown-unit" and error.expected:
         note = "unknown-unit-case"
@@ -39,25 +43,39 @@ def read_error_verdict(error: FormulaReadError) -> Verdict:
 
 
 def explain_verdict(spec: AnySpec, verdict: Verdict, lang: str) -> Verdict:
-    """Put the verdict's note into words of a language."""
+    """Return the verdict with its sentence, and those of its cells, in a language.
+
+    A verdict that has nothing to explain is returned as it is.
+    """
     if not (verdict.note or verdict.cells or verdict.fields):
         return verdict
     cells = tuple(explain_verdict(spec, cell, lang) for cell in verdict.cells)
-    return attach_message(verdict, _sentence(spec, verdict, lang), cells)
+    return attach_message(verdict, _build_sentence(spec, verdict, lang), cells)
 
 
-def _sentence(spec: AnySpec, verdict: Verdict, lang: str) -> str:
+def _build_sentence(spec: AnySpec, verdict: Verdict, lang: str) -> str:
+    """Return the sentence for a verdict's note.
+
+    For a misconception it is the author's own sentence, if there is one.
+    """
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
         said = feedback_sentence(lang, verdict.note, verdict.fields) if name else ""
         return " ".join(
-            filter(None, (said, _common_reason(verdict, lang), _reasons(spec, verdict, lang)))
+            filter(
+                None,
+                (
+                    said,
+                    _find_common_reason(verdict, lang),
+                    _join_author_reasons(spec, verdict, lang),
+                ),
+            )
         )
     return spec.notes.get(lang, {}).get(name) or feedback_sentence(lang, "trap", verdict.fields)
 
 
-def _reasons(spec: AnySpec, verdict: Verdict, lang: str) -> str:
-    """Why what was chosen is wrong, as the question's author says it."""
+def _join_author_reasons(spec: AnySpec, verdict: Verdict, lang: str) -> str:
+    """Return why what was chosen is wrong, in the author's words; empty if there are none."""
     known = spec.why.get(lang) if isinstance(spec, WordSpec) else None
     chosen = verdict.fields.get("because", ())
     if not known or not isinstance(chosen, tuple):
@@ -65,8 +83,11 @@ def _reasons(spec: AnySpec, verdict: Verdict, lang: str) -> str:
     return " ".join(dict.fromkeys(known[label] for label in chosen if label in known))
 
 
-def _common_reason(verdict: Verdict, lang: str) -> str:
-    """What all wrong cells have in common, behind the names of the wrong ones."""
+def _find_common_reason(verdict: Verdict, lang: str) -> str:
+    """Return the sentence for the slip that all wrong cells share; empty if there is none.
+
+    A misconception's own sentence is not for cells: it speaks of the answer.
+    """
     if verdict.note not in NAMING:
         return ""
     missed = [cell for cell in verdict.cells if cell.credit < 1]

@@ -37,13 +37,15 @@ class QuestionContext:
     def solved_values(self) -> Values:
         """The right value of every quantity; empty if the chain does not fit the given numbers.
 
-        Kept in a list, since a cached property would wait for the precision under its own lock.
+        Stored in a list: a cached property would hold its own lock while it waits for that of the
+        precision.
         """
         if not self._solved:
             self._solved.append(self._solve_given())
         return self._solved[0]
 
     def _solve_given(self) -> Values:
+        """Return the solved values, or none if the chain does not fit the given numbers."""
         try:
             return self.chain.solve(self.given)
         except (MathError, KeyError):

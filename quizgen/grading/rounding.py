@@ -16,7 +16,7 @@ LARGEST_SHOWN = fmpq(10) ** 250
 
 
 def round_ball_half_away(value: Value, decimals: int) -> fmpq:
-    """Round half away from zero; a ball that straddles a tie is rounded by its midpoint."""
+    """Return a value rounded half away from zero; a ball across a tie by its midpoint."""
     try:
         return round_to(value, decimals)
     except UndecidedError:
@@ -24,12 +24,12 @@ def round_ball_half_away(value: Value, decimals: int) -> fmpq:
 
 
 def format_rounded_key(value: Value, decimals: int) -> str:
-    """Round and write out: ``rounded(20/3, 3)`` is ``6.667``."""
+    """Return a value rounded and written out: 20/3 with 3 decimals is ``6.667``."""
     return format_decimal(round_ball_half_away(value, decimals), max(decimals, 0), minus="-")
 
 
 def format_figures(value: Value, figures: int) -> str:
-    """Round to significant figures; very large and small numbers as ``5.05e-4``."""
+    """Return a value with significant figures; very large and small ones as ``5.05e-4``."""
     power = decimal_exponent(value)
     first = round_ball_half_away(value, figures - 1 - power)
     power = decimal_exponent(first)
@@ -39,18 +39,21 @@ def format_figures(value: Value, figures: int) -> str:
 
 
 def format_exact_or_figures(value: Value, figures: int) -> str:
-    """Write an integer or short decimal exactly, anything else with so many figures."""
+    """Return an integer or short decimal exactly, anything else with so many figures.
+
+    Beyond ``LARGEST_SHOWN`` it is written as infinity.
+    """
     if abs(value) > LARGEST_SHOWN:
         return "-∞" if value < 0 else "∞"
     if not isinstance(value, arb) and abs(value) < LARGEST_PLAIN:
         needed = count_decimals(value)
         if needed is not None and needed < figures:
             return format_decimal(value, minus="-")
-    return _without_noughts(format_figures(value, figures), value)
+    return _drop_noughts(format_figures(value, figures), value)
 
 
-def _without_noughts(text: str, value: Value) -> str:
-    """Drop the noughts that end a mantissa which is exact without them: ``9.600e-8``."""
+def _drop_noughts(text: str, value: Value) -> str:
+    """Return ``9.600e-8`` as ``9.6e-8`` where that is still exact."""
     mantissa, e, power = text.partition("e")
     if not e or isinstance(value, arb) or parse_exact(text) != value:
         return text
@@ -58,21 +61,24 @@ def _without_noughts(text: str, value: Value) -> str:
 
 
 def format_key(tolerance: Tolerance, value: Value, form: str = "") -> str:
-    """Write a key value as far as its tolerance asks."""
+    """Return a key value, written as far as its tolerance asks.
+
+    ``form`` is the kind's ``fraction``, ``lowest`` or ``decimal``, empty for any.
+    """
     if form in {"fraction", "lowest"} and isinstance(value, fmpq):
         return str(value)
     if tolerance.decimals is not None:
         return format_rounded_key(value, tolerance.decimals)
     if tolerance.sigfigs is not None:
-        return _with_sigfigs(value, tolerance.sigfigs, strict=tolerance.strict)
+        return _format_sigfigs(value, tolerance.sigfigs, strict=tolerance.strict)
     if tolerance.exact and isinstance(value, fmpq):
         decimal = count_decimals(value) is not None and value.q != 1
         return format_exact_or_figures(value, 12) if decimal else str(value)
-    return _for_tolerance(tolerance, value)
+    return _format_within_tolerance(tolerance, value)
 
 
-def _with_sigfigs(value: Value, figures: int, *, strict: bool) -> str:
-    """Write as many figures as asked; a whole number that has no more is written out."""
+def _format_sigfigs(value: Value, figures: int, *, strict: bool) -> str:
+    """Return as many figures as asked; a whole number that has no more is written out."""
     text = format_figures(value, figures)
     if strict or "e" not in text or abs(value) >= LARGEST_PLAIN:
         return text
@@ -80,8 +86,8 @@ def _with_sigfigs(value: Value, figures: int, *, strict: bool) -> str:
     return str(value) if whole else text
 
 
-def _for_tolerance(tolerance: Tolerance, value: Value) -> str:
-    """Write enough figures that rounding takes at most a tenth of the tolerance."""
+def _format_within_tolerance(tolerance: Tolerance, value: Value) -> str:
+    """Return enough figures that rounding takes at most a tenth of the tolerance."""
     width = tolerance.half_width(value)
     figures = 4
     while figures < 30 and value != 0:

@@ -37,27 +37,28 @@ SpecType = TypeVar("SpecType", bound="WordSpec | NumericSpec")
 class SpecBase:
     """What judging needs of a specification, whichever kind it is of.
 
-    A kind's ``Spec`` is a struct whose fields are what a key stores; see ``Worded``, ``Measured``.
+    A kind's ``Spec`` is a struct whose fields are what a key stores; see ``WordSpec`` and
+    ``NumericSpec``.
     """
 
     __slots__ = ()
     of: list[str] | dict[str, str]
 
     def quantities(self) -> list[str]:
-        """Names of the chain's quantities, in the order of the values."""
+        """Return the names of the chain's quantities, in the order of the values."""
         return list(self.of.values()) if isinstance(self.of, dict) else self.of
 
     def value_units(self) -> list[str]:
-        """The unit of each value: the one that the chain shows."""
+        """Return the unit of each value; empty for the one that the chain shows."""
         return [""] * len(self.of)
 
     def known_units(self) -> UnitRegistry:
-        """The units that may be typed: those listed, and those of the question's bank."""
+        """Return the units that may be typed: those listed, and those of the question's bank."""
         return build_unit_registry()
 
     @abstractmethod
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Read and judge what was typed; each kind says how.
+        """Return the verdict on what was typed; each kind has its own way.
 
         Raises
         ------
@@ -67,10 +68,10 @@ class SpecBase:
 
     @abstractmethod
     def show(self) -> str:
-        """The key as it is printed, and as it can be typed back; each kind says how."""
+        """Return the key as it is printed, and as it can be typed back."""
 
     def show_in(self, _lang: str, /) -> str:
-        """The key as it is printed; most kinds have one notation for all languages."""
+        """Return the key as it is printed; most kinds have one notation for all languages."""
         return self.show()
 
 
@@ -91,7 +92,7 @@ class WordSpec(SpecBase, msgspec.Struct, kw_only=True, frozen=True, omit_default
     of: list[str] | dict[str, str] = []
 
     def validate(self) -> None:
-        """Check what types cannot say.
+        """Check what types cannot express.
 
         Raises
         ------
@@ -117,7 +118,7 @@ class NumericSpec(SpecBase, Tolerance, kw_only=True, frozen=True):
     define: tuple[str, ...] = ()
 
     def known_units(self) -> UnitRegistry:
-        """The units that may be typed: those listed, and those of the question's bank."""
+        """Return the units that may be typed: those listed, and those of the question's bank."""
         return build_unit_registry(self.define)
 
 
@@ -128,21 +129,21 @@ class ScalarSpec(NumericSpec, kw_only=True, frozen=True):
     traps: dict[str, Scalar | list[Scalar]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
-        """Check tolerance, value and traps."""
+        """Check tolerance, value and traps; errors as ``WordSpec.validate``."""
         super().validate()
         parse_exact(self.value)
         self.trap_values()
 
     def value_unit(self) -> str:
-        """The unit that the value is judged in; empty for the one that the chain shows."""
+        """Return the unit that the value is judged in; empty for the one that the chain shows."""
         return ""
 
     def value_units(self) -> list[str]:
-        """The unit of the one value."""
+        """Return the unit of the one value."""
         return [self.value_unit()] * len(self.of)
 
     def trap_values(self, scale: int = 1) -> list[tuple[str, Value]]:
-        """Every trap's name with each value it can give."""
+        """Return every mistake's name with each value it can give, times a scale."""
         return [
             (name, parse_exact(item) * scale)
             for name, value in self.traps.items()
@@ -158,18 +159,18 @@ class VectorSpec(NumericSpec, kw_only=True, frozen=True):
     traps: dict[str, list[Scalar]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
-        """Check tolerance, values, unit and traps."""
+        """Check tolerance, values, unit and traps; errors as ``WordSpec.validate``."""
         super().validate()
         listed_unit(self.unit)
         for value in (*self.values, *(item for trap in self.traps.values() for item in trap)):
             parse_exact(value)
 
     def value_units(self) -> list[str]:
-        """The one unit, for each value."""
+        """Return the one unit, for each value."""
         return [self.unit] * len(self.of)
 
     def keys(self) -> list[Value]:
-        """The values, exactly."""
+        """Return the values, exactly."""
         return [parse_exact(value) for value in self.values]
 
 
@@ -177,7 +178,11 @@ AnySpec = WordSpec | NumericSpec
 
 
 def matches_target(spec: Tolerance, number: ReadNumber, value: Value, target: Value) -> bool:
-    """Whether a value is the target within the tolerance, or the target rounded as written."""
+    """Return whether a value is the target within the tolerance, or rounded as written.
+
+    ``number`` is how the value was written: half a unit of its last decimal is allowed too, up to
+    half a percent of the target.
+    """
     if spec.is_within(value, target):
         return True
     distance = abs(value - target)
@@ -186,10 +191,10 @@ def matches_target(spec: Tolerance, number: ReadNumber, value: Value, target: Va
 
 
 def matches_misconception(spec: Tolerance, number: ReadNumber, value: Value, trap: Value) -> bool:
-    """Whether a value is what a mistake gives, with a tolerance of the mistake's own.
+    """Return whether a value is what a mistake gives, with a tolerance of the mistake's own.
 
     The key's tolerance may be far wider than a small mistake, and would then call any small
-    number by its name; so the distance counts relative to the mistake, or to the places written.
+    number by its name; so the distance counts relative to the mistake, or to the decimals written.
     """
     if not matches_target(spec, number, value, trap):
         return False
@@ -203,7 +208,7 @@ def matches_misconception(spec: Tolerance, number: ReadNumber, value: Value, tra
 def all_match_misconception(
     spec: Tolerance, numbers: Sequence[ReadNumber], traps: Sequence[Value]
 ) -> bool:
-    """Whether each number is what a mistake gives for it."""
+    """Return whether each number is what a mistake gives for it."""
     pairs = zip(numbers, traps, strict=True)
     return all(matches_misconception(spec, number, number.value, trap) for number, trap in pairs)
 
@@ -211,20 +216,22 @@ def all_match_misconception(
 def all_match_target(
     spec: Tolerance, numbers: Sequence[ReadNumber], targets: Sequence[Value]
 ) -> bool:
-    """Whether each number is its target, within the tolerance or rounded as written."""
+    """Return whether each number is its target, within the tolerance or rounded as written."""
     pairs = zip(numbers, targets, strict=True)
     return all(matches_target(spec, number, number.value, target) for number, target in pairs)
 
 
 def decode_spec(shape: type[SpecType], table: SpecTable, *, proven: bool = False) -> SpecType:
-    """Turn a plain table into the specification of its kind.
+    """Return the specification that a plain table holds.
 
     Parameters
     ----------
     shape : type
+        The struct of its kind.
     table : mapping
+        As a key stores it.
     proven : bool
-        Whether it is known to be as it was written, so that only its types need to be checked.
+        Whether it is certainly as it was written, so that only its types need to be checked.
 
     Raises
     ------

@@ -60,7 +60,7 @@ class Verdict(msgspec.Struct, frozen=True):
 
     @property
     def is_graded(self) -> bool:
-        """Whether the answer counts; what was not read as meant is asked back."""
+        """Whether the answer counts; one that could not be read as meant is asked back."""
         return self.verdict not in {UNREADABLE, AMBIGUOUS}
 
     @property
@@ -69,16 +69,17 @@ class Verdict(msgspec.Struct, frozen=True):
         return self.note in SELF_MARKED
 
     def __repr__(self) -> str:
+        """Return verdict, what was read and note, for a terminal."""
         said = (self.verdict, f"read as {self.read_as}" if self.read_as else "", self.note)
         return f"<Verdict {', '.join(filter(None, said))}>"
 
     def _repr_html_(self) -> str:
-        """The verdict as a notebook shows it."""
+        """Return the verdict as a notebook shows it."""
         read = f" (<code>{escape(self.read_as)}</code>)" if self.read_as else ""
         return f"<p><strong>{self.verdict}</strong>{read} {escape(self.message)}</p>"
 
     def as_json(self) -> dict[str, Any]:
-        """Return the five public members, for JSON."""
+        """Return the five public members, for JSON; the credit as a float."""
         return {
             "verdict": self.verdict,
             "credit": float(self.credit),
@@ -89,32 +90,32 @@ class Verdict(msgspec.Struct, frozen=True):
 
 
 def correct(read_as: str, note: str = "", **fields: object) -> Verdict:
-    """Full credit."""
+    """Return a verdict with full credit; ``fields`` fill in the sentence of a note."""
     return Verdict(CORRECT, FULL, read_as, note, fields=fields)
 
 
 def partial(credit: Fraction, read_as: str, note: str, **fields: object) -> Verdict:
-    """Some credit, with the reason."""
+    """Return a verdict with some credit, 0 to 1, and the reason."""
     return Verdict(PARTIAL, credit, read_as, note, fields=fields)
 
 
 def wrong(read_as: str, note: str = "", **fields: object) -> Verdict:
-    """No credit."""
+    """Return a verdict without credit."""
     return Verdict(WRONG, NONE, read_as, note, fields=fields)
 
 
 def unreadable(note: str, read_as: str = "", **fields: object) -> Verdict:
-    """Asked back: it could not be read."""
+    """Return a verdict that asks back: the answer could not be read."""
     return Verdict(UNREADABLE, NONE, read_as, note, fields=fields)
 
 
 def ambiguous(note: str, read_as: str = "", **fields: object) -> Verdict:
-    """Asked back: there are two readings, or a person has to decide."""
+    """Return a verdict that asks back: there are two readings, or a person has to decide."""
     return Verdict(AMBIGUOUS, NONE, read_as, note, fields=fields)
 
 
 def verdict_by_share(credit: Fraction, read_as: str, note: str, **fields: object) -> Verdict:
-    """Correct, partial or wrong by the share of right pieces."""
+    """Return correct, partial or wrong by the share of right pieces."""
     if credit >= 1:
         return correct(read_as, "", **fields)
     if credit <= 0:
@@ -123,7 +124,7 @@ def verdict_by_share(credit: Fraction, read_as: str, note: str, **fields: object
 
 
 def attach_values(verdict: Verdict, *values: Value | None) -> Verdict:
-    """Attach the numbers that were read."""
+    """Return the verdict with the numbers that were read, in the key's unit."""
     return Verdict(
         verdict.verdict,
         verdict.credit,
@@ -137,7 +138,7 @@ def attach_values(verdict: Verdict, *values: Value | None) -> Verdict:
 
 
 def attach_message(verdict: Verdict, message: str, cells: tuple[Verdict, ...]) -> Verdict:
-    """Attach the sentence in the learner's language."""
+    """Return the verdict with the sentence in the learner's language, and explained cells."""
     return Verdict(
         verdict.verdict,
         verdict.credit,

@@ -16,10 +16,13 @@ from quizgen.kinds import (
     angle,
     choice,
     code,
+    complex_number,
+    equation,
     expression,
     gap,
     interval,
     match,
+    matrix,
     multi,
     number,
     order,
@@ -30,6 +33,7 @@ from quizgen.kinds import (
     table,
     text,
     true_false,
+    vector,
     witness,
 )
 from quizgen.kinds.contract import AnswerKind
@@ -37,7 +41,8 @@ from quizgen.kinds.contract import AnswerKind
 KINDS: dict[str, AnswerKind[Any]] = {
     module.KIND.name: module.KIND
     for module in (
-        number, quantity, angle, point, sets, table, interval, expression, choice, multi,
+        number, quantity, angle, point, sets, table, interval, expression, equation, complex_number,
+        matrix, vector, choice, multi,
         true_false, match, order, gap, witness, code, text, sketch,
     )
 }  # fmt: skip

@@ -44,12 +44,18 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
     unstated: ClassVar[tuple[str, Scalar]] = AngleTolerance.unstated
 
     def validate(self) -> None:
-        """Check tolerance, value, period and traps."""
+        """Check tolerance, value, period and traps; errors as ``WordSpec.validate``."""
         super().validate()
         parse_exact(self.period)
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed angle."""
+        """Return the verdict on a typed angle; of equal ones that were chained the best.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
         sides = read_typed_sides(typed, options.decimal)
         return best_verdict(_judge_equal_side(self, side, options) for side in sides)
 
@@ -59,22 +65,29 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
 
 
 def _judge_equal_side(spec: AngleSpec, side: EqualitySide, options: GradingOptions) -> Verdict:
+    """Return the verdict on one side, whose number may have two readings."""
     return judge_readings(
-        side.readings, lambda n: _judge(spec, n, side.quantity, options), spec.decimals
+        side.readings, lambda n: _judge_degrees(spec, n, side.quantity, options), spec.decimals
     )
 
 
-def _judge(
+def _judge_degrees(
     spec: AngleSpec, number: ReadNumber, quantity: TypedQuantity, options: GradingOptions
 ) -> Verdict:
-    read_as = f"{number.read_as}°" if quantity.unit is None else _echo(number, quantity)
+    """Return the verdict on one reading of a number, converted to degrees.
+
+    A wrong number without a unit may be the angle in radians, which has a note of its own.
+    """
+    read_as = (
+        f"{number.read_as}°" if quantity.unit is None else _format_typed_angle(number, quantity)
+    )
     factor = fmpq(1)
     if quantity.unit is not None:
         if quantity.unit.dimension != DEGREES:
             return wrong(read_as, "unit-clash", given=format_unit(quantity.unit.text), asked="°")
         factor = quantity.unit.factor
     value = number.value * factor
-    verdict = _on_circle(spec, number, value, read_as, options)
+    verdict = _judge_on_circle(spec, number, value, read_as, options)
     bare = quantity.unit is None and not verdict.credit
     if (
         bare
@@ -91,14 +104,16 @@ def _judge(
     return attach_values(verdict, value)
 
 
-def _echo(number: ReadNumber, quantity: TypedQuantity) -> str:
+def _format_typed_angle(number: ReadNumber, quantity: TypedQuantity) -> str:
+    """Return the number with its unit, a degree sign close to it."""
     text = quantity.unit.text if quantity.unit else ""
     return f"{number.read_as}°" if text in {"deg", "°"} else f"{number.read_as} {text}"
 
 
-def _on_circle(
+def _judge_on_circle(
     spec: AngleSpec, number: ReadNumber, value: Value, read_as: str, options: GradingOptions
 ) -> Verdict:
+    """Return the verdict on degrees: key and mistakes are compared a turn more or less."""
     key = parse_exact(spec.value)
     traps = [(name, nearest_turn(spec, trap, value)) for name, trap in spec.trap_values()]
     hints = diagnosis_for(spec, number, fmpq(1), options)
@@ -107,7 +122,10 @@ def _on_circle(
 
 
 def nearest_turn(spec: AngleSpec, target: Value, value: Value) -> Value:
-    """Return the representative of a target on the circle that is nearest to a value."""
+    """Return the angle that differs from a target by whole turns and is nearest to a value.
+
+    Both are in degrees; without a period it is the target itself.
+    """
     period = parse_exact(spec.period)
     if period == 0:
         return target
@@ -117,12 +135,12 @@ def nearest_turn(spec: AngleSpec, target: Value, value: Value) -> Value:
 
 
 def ask(part: PartContext) -> AskedPart[AngleSpec]:
-    """One angle, and the angle that each mistake gives."""
+    """Return one angle, and the angle that each mistake gives."""
     return ask_numeric(AngleSpec, part)
 
 
 def input_hints(spec: AngleSpec, lang: str) -> tuple[str, ...]:
-    """Degrees and rounding."""
+    """Return the sentences on degrees and rounding."""
     return numeric_hints(spec, lang, translate(lang, "ask.degrees"))
 
 

@@ -17,7 +17,7 @@ from quizgen.kinds.contract import AskedPart, LabelledName, PartContext, S, aske
 from quizgen.locale import translate
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import pretty
-from quizgen.maths.numbers import format_for_key, is_short_decimal, to_float, to_rational
+from quizgen.maths.numbers import format_for_key, is_short_decimal, to_float
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
@@ -36,12 +36,12 @@ T = TypeVar("T", bound="TextOrInlines")
 
 
 def make_spec(shape: type[S], part: PartContext, **given: object) -> S:
-    """The spec of a part: the authored keys handed on, and what the variant gives.
+    """Return the spec of a part: the authored keys, and what the variant gives.
 
     Raises
     ------
     BankError
-        If the answer has a key that the kind does not know, or one of the wrong type.
+        If the answer has a key that the kind does not define, or one of the wrong type.
     """
     answer = part.answer
     fields = {field.encode_name for field in msgspec.structs.fields(shape)} - {"of"}
@@ -63,7 +63,7 @@ def ask_numeric(
     write: Callable[[tuple[Value, ...]], KeyNumbers] | None = None,
     **given: object,
 ) -> AskedPart[S]:
-    """A part whose key and mistakes are numbers of the chain.
+    """Return a part whose key and mistakes are numbers of the chain.
 
     Parameters
     ----------
@@ -75,11 +75,18 @@ def ask_numeric(
         ``value``, a list of ``values``.
     **given
         Further fields of the spec.
+
+    Raises
+    ------
+    BankError
+        If the authored answer is not complete.
     """
     key = "value" if "value" in shape.__struct_fields__ else "values"
-    write = write or (_single_text if key == "value" else _texts)
+    write = write or (_format_single_value if key == "value" else _format_values)
     wrong = {trap: write(values) for trap, values in part.misconception_answers().items()}
     found = {"of": list(asked_quantities(part.answer)), key: write(part.answer_values())}
+    if key == "value" and part.answer.get("exact") and part.exact_texts()[0]:
+        found["value"] = part.exact_texts()[0]
     found |= {"define": list(part.defined_units)} if part.defined_units else {}
     found |= part.count_nouns() if "counts" in shape.__struct_fields__ else {}
     traps = {"traps": wrong, "notes": part.misconception_notes(wrong)} if wrong else {}
@@ -87,17 +94,19 @@ def ask_numeric(
     return AskedPart(spec, mistakes=misconception_specs(spec, key))
 
 
-def _single_text(values: tuple[Value, ...]) -> str:
+def _format_single_value(values: tuple[Value, ...]) -> str:
+    """Return the one component of an answer as a key holds it."""
     (value,) = values
     return format_for_key(value)
 
 
-def _texts(values: tuple[Value, ...]) -> list[Scalar]:
+def _format_values(values: tuple[Value, ...]) -> list[Scalar]:
+    """Return the components of an answer as a key holds them."""
     return [format_for_key(value) for value in values]
 
 
 def append_source(said: Mapping[str, Mapping[str, str]], source: str) -> dict[str, dict[str, str]]:
-    """Reasons with their source after them, if one is known."""
+    """Return the reasons by language and mark, each with its source behind it if there is one."""
     tail = f" [{source}]" if source else ""
     return {
         lang: {mark: f"{sentence}{tail}" for mark, sentence in reasons.items()}
@@ -106,7 +115,10 @@ def append_source(said: Mapping[str, Mapping[str, str]], source: str) -> dict[st
 
 
 def misconception_specs(spec: S, key: str) -> dict[str, S]:
-    """Each mistake of a spec with the spec of which its answer would be the key."""
+    """Return each mistake of a spec with the spec of which its answer would be the key.
+
+    ``key`` is the field that holds the key.
+    """
     return {
         trap: msgspec.structs.replace(spec, traps={}, notes={}, **{key: wrong})
         for trap, wrong in spec.traps.items()
@@ -114,14 +126,14 @@ def misconception_specs(spec: S, key: str) -> dict[str, S]:
 
 
 def assign_letters(names: Iterable[str]) -> tuple[LabelledName, ...]:
-    """Names under A, B, C, ..."""
+    """Return the names under A, B, C, ..."""
     return tuple(zip(LETTERS, names, strict=False))
 
 
 def show_exact_first(spec: ScalarSpec | VectorSpec, lang: str) -> str:
-    """The key with its exact value before the rounded one, where that says more."""
+    """Return the key with its exact value before the rounded one, where that differs."""
     rounded = show_spec(spec, lang)
-    if spec.decimals is not None or not are_readable_fractions(_key_of(spec)):
+    if spec.decimals is not None or not are_readable_fractions(_get_key_numbers(spec)):
         return rounded
     exactly = show_spec(
         msgspec.structs.replace(
@@ -133,7 +145,7 @@ def show_exact_first(spec: ScalarSpec | VectorSpec, lang: str) -> str:
 
 
 def are_readable_fractions(key: KeyNumbers) -> bool:
-    """Whether numbers are whole and short fractions, some fraction among them."""
+    """Return whether numbers are whole and short fractions, some fraction among them."""
     texts = number_texts(key)
     return all(re.fullmatch(r"-?\d{1,6}(/\d{1,3})?", t) for t in texts) and any(
         "/" in t for t in texts
@@ -141,11 +153,11 @@ def are_readable_fractions(key: KeyNumbers) -> bool:
 
 
 def as_student_writes(wrong: AnySpec, answer: KeyNumbers) -> AnySpec:
-    """A wrong answer as it would be given: like the key, rounded where that is exact.
+    """Return a wrong answer's spec in the form of the key, rounded where that is exact.
 
     Parameters
     ----------
-    wrong : Spec
+    wrong : AnySpec
         Has the wrong answer as its key.
     answer : number, list or mapping
         The wrong answer.
@@ -155,48 +167,53 @@ def as_student_writes(wrong: AnySpec, answer: KeyNumbers) -> AnySpec:
     freed: dict[str, object] = {"accept": None}
     if "form" in wrong.__struct_fields__:
         freed["form"] = ""
-    if wrong.exact and not all(
-        is_short_decimal(to_rational(text)) for text in number_texts(answer)
-    ):
+    if wrong.exact and not all(map(_is_short_text, number_texts(answer))):
         freed |= {"exact": False, "sigfigs": ROUNDED_MISTAKE}
     return msgspec.structs.replace(wrong, **freed)
 
 
+def _is_short_text(text: str) -> bool:
+    value = parse_exact(text)
+    return is_short_decimal(value)
+
+
 def number_texts(key: KeyNumbers) -> list[str]:
-    """Numbers as a list of texts."""
+    """Return the numbers of a key as a list of texts."""
     if isinstance(key, dict):
         return [str(value) for value in key.values()]
     return [str(value) for value in key] if isinstance(key, list) else [str(key)]
 
 
-def _key_of(spec: ScalarSpec | VectorSpec) -> KeyNumbers:
+def _get_key_numbers(spec: ScalarSpec | VectorSpec) -> KeyNumbers:
+    """Return the number or numbers that a spec has as its key."""
     return spec.value if isinstance(spec, ScalarSpec) else spec.values
 
 
 def numeric_hints(spec: ScalarSpec | VectorSpec, lang: str, *sentences: str) -> tuple[str, ...]:
-    """The sentences that are not empty, and how exactly the numbers must be given."""
-    return nonempty(*sentences, rounding_hint(spec, _key_of(spec), lang))
+    """Return the sentences that are not empty, and how exactly the numbers must be given."""
+    return nonempty(*sentences, rounding_hint(spec, _get_key_numbers(spec), lang))
 
 
 def hint(key: str, **program: str) -> Callable[[AnySpec, str], tuple[TextOrInlines, ...]]:
-    """The hints of a kind that says one sentence of the locales, whatever its key.
+    """Return the function ``input_hints`` of a kind with one sentence, whatever its key.
 
     Parameters
     ----------
     key : str
-        Of the sentence, such as ``ask.code``.
+        Of the sentence in the locales, such as ``ask.code``.
     **program
         Program text for its blanks.
     """
 
     def input_hints(_spec: AnySpec, lang: str) -> tuple[TextOrInlines, ...]:
+        """Return the one sentence in a language."""
         return (sentence_with_code(lang, key, **program) if program else translate(lang, key),)
 
     return input_hints
 
 
 def sentence_with_code(lang: str, key: str, **program: str) -> tuple[Inline, ...]:
-    """A sentence of the locales with program text in its blanks."""
+    """Return a sentence of the locales with program text in its blanks."""
     from quizgen.bank.markdown import InlineCode
     from quizgen.question.inlines import translate_inlines
 
@@ -206,31 +223,31 @@ def sentence_with_code(lang: str, key: str, **program: str) -> tuple[Inline, ...
 
 
 def explain_as_code(spec: AnySpec, lang: str) -> TextOrInlines:
-    """The key as it is typed, as program text."""
+    """Return the key as it is typed, as program text."""
     from quizgen.bank.markdown import InlineCode
 
     return (InlineCode(show_spec(spec, lang)),)
 
 
 def explain_assigned(values: Iterable[tuple[str, str]]) -> TextOrInlines:
-    """Names with their values: ``n₁ = 128; n₂ = 3``."""
+    """Return names with their values: ``n₁ = 128; n₂ = 3``."""
     from quizgen.question.inlines import assignment_inlines
 
     return assignment_inlines(values)
 
 
 def nonempty(*sentences: T) -> tuple[T, ...]:
-    """The sentences that are not empty."""
+    """Return the sentences that are not empty."""
     return tuple(sentence for sentence in sentences if sentence)
 
 
 def unit_hint(text: str, lang: str) -> str:
-    """The unit that an answer is meant in, if it has one."""
+    """Return the sentence on the unit that an answer is meant in; empty if it has none."""
     return translate(lang, "ask.unit", unit=format_unit(text)) if text else ""
 
 
 def rounding_hint(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
-    """How exactly an answer must be given, if that was stated."""
+    """Return how exactly an answer must be given; empty if the author stated nothing."""
     rule, number = spec.stated_rule or ("", "")
     if rule == "decimals":
         name = f"ask.decimals_{number}" if number in {0, 1} else "ask.decimals"
@@ -248,6 +265,6 @@ def rounding_hint(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
 
 
 def _is_whole(spec: NumericSpec, key: KeyNumbers) -> bool:
-    """Whether key and mistakes are all whole numbers, so that no one thinks of fractions."""
+    """Return whether key and mistakes are all whole numbers, so that no one expects fractions."""
     answers = [key, *spec.traps.values()]
     return not any("/" in text for answer in answers for text in number_texts(answer))

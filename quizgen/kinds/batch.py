@@ -26,7 +26,7 @@ _ENCODER = msgspec.json.Encoder()
 
 
 def grade_lines(lines: Iterable[bytes | str]) -> Iterator[bytes]:
-    """Mark each line; a line that is no task becomes a line with ``error``.
+    """Yield the verdict on each line; a line that is no task becomes a line with ``error``.
 
     Parameters
     ----------
@@ -44,6 +44,7 @@ def grade_lines(lines: Iterable[bytes | str]) -> Iterator[bytes]:
 
 
 def _one(line: bytes | str, number: int) -> dict[str, Any]:
+    """Return the verdict on one line as a table, or a table with ``error``."""
     try:
         task = _DECODER.decode(line)
         return grade_answer(task.spec, task.typed, lang=task.lang, decimal=task.decimal).as_json()

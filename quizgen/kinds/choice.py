@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from typing import Any
 
 import msgspec
 
@@ -16,6 +17,8 @@ from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, partial, wrong
 from quizgen.kinds.asking import LETTERS, assign_letters, hint, make_spec
 from quizgen.kinds.contract import (
+    MOST_OPTIONS,
+    VALUE_OPTION,
     AnswerKind,
     AskedPart,
     AuthoredPooled,
@@ -35,6 +38,8 @@ _FALSE = frozenset(
     {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein"}
     | {"মিথ্যা", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
+_FEWEST_VALUES = 2
+"""Values that there are to choose from, at least."""
 _SHORTEST = 4
 """Letters that a part of an option's words must have to be recognised."""
 
@@ -62,16 +67,25 @@ _FILLERS = re.compile(
 
 
 class AuthoredChoice(AuthoredPooled, kw_only=True, tag="choice", frozen=True):
-    """One of several options."""
+    """One of several options: written ones, or the values of the key and of known mistakes."""
 
     listed = "options"
-    options: dict[str, Condition]
+    options: dict[str, Condition] = msgspec.field(default_factory=dict)
     right: tuple[int, int] | None = None
     in_order: bool = False
+    unit: str | None = None
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """``right`` needs ``take``, and is [least, most] with 1 <= least <= most."""
+        """Yield a problem unless ``right`` is [least, most], 1 <= least <= most, of ``take``."""
+        if self.of and not self.options:
+            if self.right or not isinstance(self.of, str):
+                yield ("of",), "QG115", "names one quantity, whose values are the options"
+            if self.take and not _FEWEST_VALUES <= self.take <= MOST_OPTIONS:
+                yield ("take",), "QG115", f"must be {_FEWEST_VALUES} to {MOST_OPTIONS}"
+            return
         yield from super().find_problems()
+        if self.unit is not None:
+            yield ("unit",), "QG115", "is of values: written options hold their unit"
         if self.right and not (self.take and 1 <= self.right[0] <= self.right[1]):
             yield ("right",), "QG115", "is [least, most] right options among those that take names"
 
@@ -89,11 +103,17 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
     traps: dict[str, int | list[int]] = msgspec.field(default_factory=dict)
 
     def choices(self) -> list[str]:
-        """What there is to choose from."""
+        """Return the wordings to choose from."""
         return self.options or (["true", "false"] if self.kind == "tf" else [])
 
     def validate(self) -> None:
-        """Positions must exist; ``choice`` and ``tf`` have one right option."""
+        """Check that positions exist; ``choice`` and ``tf`` have one right option.
+
+        Raises
+        ------
+        ValueError
+            If not.
+        """
         count = len(self.choices())
         if not count or not all(1 <= i <= count for i in self.correct):
             raise ValueError("correct holds positions from 1 within options")
@@ -101,24 +121,32 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
             raise ValueError("exactly one option can be correct")
 
     def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
-        """Judge chosen options."""
+        """Return the verdict on chosen options, given as letters, numbers or words.
+
+        Raises
+        ------
+        FormulaReadError
+            If no option can be read, or several where one is asked.
+        """
         if len(typed) > 1000:
             raise FormulaReadError("too-long", 1001, "1000")
         if self.kind == "tf":
-            return _judge_one(self, _truth(self, typed))
-        whole = _by_text(self, typed)
+            return _judge_single_option(self, _read_truth_value(self, typed))
+        whole = _find_option_by_text(self, typed)
         chosen = (
-            [whole] if whole else _parse_labelled_options(self, typed) or _positions(self, typed)
+            [whole]
+            if whole
+            else _parse_labelled_options(self, typed) or _read_positions(self, typed)
         )
         if self.kind == "multi":
-            return _judge_many(self, chosen)
+            return _judge_several_options(self, chosen)
         if len(chosen) > 1:
             raise FormulaReadError("one-option", 1, safe_echo(typed))
-        return _judge_one(self, chosen[0])
+        return _judge_single_option(self, chosen[0])
 
     def show(self) -> str:
         """Return the letters of the right options, or the word for true or false."""
-        return _echo(self, self.correct)
+        return _format_options(self, self.correct)
 
     def show_in(self, lang: str, /) -> str:
         """Return the same with the word for true or false in a language."""
@@ -129,29 +157,39 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
         )
 
 
-def _truth(spec: ChoiceSpec, typed: str) -> int:
+def _read_truth_value(spec: ChoiceSpec, typed: str) -> int:
+    """Return 1 for a typed "true", 2 for "false"; the option's own words count, too.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is neither, or a letter and a word that contradict each other.
+    """
     text = normalise_typed(typed, keep_x=True, longest=1000).text
     labelled = _LABELLED.fullmatch(text.translate(BANGLA_LETTERS))
     if labelled and labelled["mark"].lower() in {"a", "b", "1", "2"}:
-        first, second = "ab12".index(labelled["mark"].lower()) % 2 + 1, _word(labelled["words"])
+        first, second = (
+            "ab12".index(labelled["mark"].lower()) % 2 + 1,
+            _find_truth_word(labelled["words"]),
+        )
         if second and first != second:
             raise FormulaReadError("two-readings", 1, safe_echo(typed))
         text = labelled["words"] if second else text
     word = _IT_IS.sub("", text.strip(_AROUND)).casefold()
-    found = _word(word) or _by_text(spec, typed)
+    found = _find_truth_word(word) or _find_option_by_text(spec, typed)
     if found or word in {"a", "b"}:
         return found or "ab".index(word) + 1
     raise FormulaReadError("true-or-false", 1, safe_echo(typed))
 
 
-def _word(text: str) -> int:
-    """1 for a word that says true, 2 for one that says false."""
+def _find_truth_word(text: str) -> int:
+    """Return 1 for a word that means true, 2 for one that means false, else 0."""
     word = text.strip(_AROUND).casefold()
     return 1 if word in _TRUE else 2 if word in _FALSE else 0
 
 
 def _parse_labelled_options(spec: ChoiceSpec, typed: str) -> list[int]:
-    """Positions of options written with their letter and their words; none if they are not.
+    """Return positions of options written with their letter and their words; none if they are not.
 
     Raises
     ------
@@ -159,11 +197,20 @@ def _parse_labelled_options(spec: ChoiceSpec, typed: str) -> list[int]:
         If the words are those of another option than the letter.
     """
     pieces = _PIECES.split(typed.strip()) if spec.kind == "multi" else [typed]
-    found = [_both(spec, piece) or _by_text(spec, piece) for piece in pieces]
+    found = [
+        _parse_labelled_option(spec, piece) or _find_option_by_text(spec, piece) for piece in pieces
+    ]
     return list(dict.fromkeys(found)) if all(found) else []
 
 
-def _both(spec: ChoiceSpec, piece: str) -> int:
+def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
+    """Return the position of an option written as letter and words, ``B) blue``; 0 if it is not.
+
+    Raises
+    ------
+    FormulaReadError
+        If the words are those of another option than the letter.
+    """
     text = normalise_typed(piece, keep_x=True, longest=1000).text.strip(_QUOTED)
     match = _LABELLED.fullmatch(_FILLING.sub("", text)) or _BEHIND.fullmatch(text)
     if match is None:
@@ -179,7 +226,11 @@ def _both(spec: ChoiceSpec, piece: str) -> int:
 
 
 def _find_meant_options(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[int]:
-    """Options that words can mean: whole, in part, or (foreign) in a script they do not use."""
+    """Return positions of options that words can mean: by all of an option, or by part of it.
+
+    ``foreign`` words in a script that the options do not use may mean any of them, since the
+    wordings of a key are in one language.
+    """
     folded = fold_word(words)
     options = [fold_word(option) for option in spec.choices()]
     same = [place for place, option in enumerate(options, 1) if option == folded]
@@ -194,90 +245,174 @@ def _find_meant_options(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[
     ]
 
 
-def _by_text(spec: ChoiceSpec, typed: str) -> int:
+def _find_option_by_text(spec: ChoiceSpec, typed: str) -> int:
+    """Return the position of the one option with these words; 0 if there is none or several."""
     folded = fold_word(typed)
     hits = [i + 1 for i, option in enumerate(spec.choices()) if fold_word(option) == folded]
     return hits[0] if len(hits) == 1 else 0
 
 
-def _positions(spec: ChoiceSpec, typed: str) -> list[int]:
+def _read_positions(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the positions of typed letters or numbers, each once.
+
+    Raises
+    ------
+    FormulaReadError
+        If there is none, one does not exist, or the text ends in a sign that wants another.
+    """
     source = normalise_typed(re.sub(r"[\r\n]+", ",", typed.strip()), keep_x=True, longest=1000)
     text = PICTURES.sub(" ", source.text).translate(BANGLA_LETTERS)
     marks = re.findall(r"[A-Za-z]+|\d+|[^\s,;.&+()/|:!\[\]{}\"'*_।॥“”«»]", _FILLERS.sub(" ", text))
-    found = [position for mark in marks for position in _mark(spec, mark)]
+    found = [position for mark in marks for position in _parse_mark(spec, mark)]
     if not found or _UNFINISHED.search(text):
-        raise FormulaReadError("option-expected", 1, safe_echo(typed), _range(spec))
+        raise FormulaReadError("option-expected", 1, safe_echo(typed), _list_letters(spec))
     return list(dict.fromkeys(found))
 
 
-def _mark(spec: ChoiceSpec, mark: str) -> list[int]:
-    """Positions of one mark: ``B``, ``2`` or several letters run together."""
+def _parse_mark(spec: ChoiceSpec, mark: str) -> list[int]:
+    """Return the positions of one mark: ``B``, ``2`` or several letters run together.
+
+    Raises
+    ------
+    FormulaReadError
+        If there is no such option.
+    """
     positions = [int(mark)] if mark.isdecimal() else [LETTERS.find(c.upper()) + 1 for c in mark]
     if not all(1 <= position <= len(spec.choices()) for position in positions):
-        raise FormulaReadError("option-expected", 1, mark, _range(spec))
+        raise FormulaReadError("option-expected", 1, mark, _list_letters(spec))
     return positions
 
 
-def _range(spec: ChoiceSpec) -> list[str]:
+def _list_letters(spec: ChoiceSpec) -> list[str]:
+    """Return the letters of all options, for an error."""
     return list(LETTERS[: len(spec.choices())])
 
 
-def _judge_one(spec: ChoiceSpec, chosen: int) -> Verdict:
-    read_as = _echo(spec, [chosen])
+def _judge_single_option(spec: ChoiceSpec, chosen: int) -> Verdict:
+    """Return the verdict on one chosen option, right or wrong."""
+    read_as = _format_options(spec, [chosen])
     if chosen in spec.correct:
         return correct(read_as)
-    return wrong(read_as, _trap(spec, [chosen]), because=_marks([chosen]))
+    return wrong(read_as, _find_misconception_note(spec, [chosen]), because=_list_marks([chosen]))
 
 
-def _judge_many(spec: ChoiceSpec, chosen: list[int]) -> Verdict:
-    read_as = _echo(spec, chosen)
+def _judge_several_options(spec: ChoiceSpec, chosen: list[int]) -> Verdict:
+    """Return the verdict on several chosen options: right less wrong ones, of all right ones.
+
+    Without ``negative`` there is no partial credit.
+    """
+    read_as = _format_options(spec, chosen)
     right = len(set(chosen) & set(spec.correct))
     extra = len(set(chosen) - set(spec.correct))
     if right == len(spec.correct) and not extra:
         return correct(read_as)
     credit = max(Fraction(right - extra, max(len(spec.correct), 1)), Fraction(0))
-    note = _trap(spec, chosen) or ("options-extra" if extra else "options-missing")
-    extras = _marks(sorted(set(chosen) - set(spec.correct)))
+    note = _find_misconception_note(spec, chosen) or (
+        "options-extra" if extra else "options-missing"
+    )
+    extras = _list_marks(sorted(set(chosen) - set(spec.correct)))
     fields = {"right": right, "of": len(spec.correct), "because": extras}
     if spec.negative and 0 < credit < 1:
         return partial(credit, read_as, note, **fields)
     return wrong(read_as, note, **fields)
 
 
-def _trap(spec: ChoiceSpec, chosen: list[int]) -> str:
+def _find_misconception_note(spec: ChoiceSpec, chosen: list[int]) -> str:
+    """Return the note of the mistake that chooses just these options; empty if none does."""
     for name, positions in spec.traps.items():
         if sorted(positions if isinstance(positions, list) else [positions]) == sorted(chosen):
             return f"trap:{name}"
     return ""
 
 
-def _marks(chosen: list[int]) -> tuple[str, ...]:
+def _list_marks(chosen: list[int]) -> tuple[str, ...]:
+    """Return the letters of positions, by which reasons are stored."""
     return tuple(LETTERS[place - 1] for place in chosen)
 
 
-def _echo(spec: ChoiceSpec, chosen: list[int]) -> str:
+def _format_options(spec: ChoiceSpec, chosen: list[int]) -> str:
+    """Return chosen options as letters in order, or as ``true`` and ``false``."""
     if spec.kind == "tf":
         return ("true", "false")[chosen[0] - 1]
     return ", ".join(LETTERS[i - 1] for i in sorted(chosen))
 
 
+def has_value_options(answer: Mapping[str, Any]) -> bool:
+    """Whether an authored choice is between values of a quantity, and not between sentences."""
+    return bool(answer["kind"] == "choice" and answer.get("of") and not answer.get("options"))
+
+
 def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
-    """The options in a drawn order; the part's error unless exactly one is right."""
+    """Return the options in a drawn order.
+
+    Raises
+    ------
+    BankError
+        Unless exactly one is right in this variant.
+    """
+    if has_value_options(part.answer):
+        return _ask_values(part)
     asked = ask_options(part, InputControl("one", lines=0))
     if len(asked.right) != 1:
         raise part.error(f"{len(asked.right)} options are right")
     return asked
 
 
+def _ask_values(part: PartContext) -> AskedPart[ChoiceSpec]:
+    """The value of a quantity among those that known mistakes give, from the least up.
+
+    A mistake that shows the same number as the key or as another mistake is left out. ``take``
+    is the number of options; of more mistakes so many are drawn.
+
+    Raises
+    ------
+    BankError
+        If no mistake gives another value.
+    """
+    (key,), unit = part.answer_values(), part.answer.get("unit", part.units.get(part.answer["of"]))
+    wrong = part.misconception_answers()
+    values = {part.format_option(key, unit or ""): ("", key)}
+    for trap in part.shuffle([*wrong], "/values"):
+        (value,) = wrong[trap]
+        if len(values) < int(part.answer.get("take") or MOST_OPTIONS):
+            values.setdefault(part.format_option(value, unit or ""), (trap, value))
+    if len(values) < _FEWEST_VALUES:
+        raise part.error("no trap of the solver gives another value to choose")
+    rows = sorted(values.items(), key=lambda row: float(row[1][1]))
+    places = {trap: place for place, (_, (trap, _)) in enumerate(rows, 1)}
+    names = [f"{VALUE_OPTION}{text}" for text, _ in rows]
+    right = places.pop("")
+    spec = make_spec(
+        ChoiceSpec,
+        part,
+        of=[part.answer["of"]],
+        options=[text for text, _ in rows],
+        correct=[right],
+        traps=places,
+        notes=part.misconception_notes(places),
+    )
+    mistakes = {
+        trap: msgspec.structs.replace(spec, correct=[place], traps={}, notes={})
+        for trap, place in places.items()
+    }
+    return AskedPart(
+        spec,
+        InputControl("one", lines=0),
+        options=assign_letters(names),
+        right=(("options", names[right - 1]),),
+        mistakes=mistakes,
+    )
+
+
 def option_order(part: PartContext) -> tuple[list[str], list[str]]:
-    """Names of the options in a drawn order, and of those that are right in this variant."""
+    """Return the options' names in a drawn order, and those right in this variant."""
     conditions = part.answer["options"]
     order = part.shuffle_names(part.selection()[0])
     return order, [name for name in order if part.condition_holds(conditions[name])]
 
 
 def ask_options(part: PartContext, control: InputControl) -> AskedPart[ChoiceSpec]:
-    """The options in a drawn order, with those that are right in this variant."""
+    """Return the options in a drawn order, with those that are right in this variant."""
     order, right = option_order(part)
     wordings, options = part.option_texts(order), assign_letters(order)
     correct = [order.index(name) + 1 for name in right]

@@ -39,7 +39,13 @@ class CodeSpec(WordSpec, kw_only=True, frozen=True):
     traps: dict[str, str] = msgspec.field(default_factory=dict)
 
     def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
-        """Judge typed program output."""
+        """Return the verdict on typed program output; values set otherwise earn half.
+
+        Raises
+        ------
+        FormulaReadError
+            If it is empty, too long, or holds invisible characters.
+        """
         if len(typed) > LONGEST_PROSE:
             raise FormulaReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
         source = SourceText.of(typed)
@@ -75,19 +81,25 @@ _INSIDE = re.compile(r"\s*([\[\](){},:=])\s*")
 
 
 def fold_blanks(text: str) -> str:
-    """Fold blanks: line ends, runs, and those beside brackets and commas."""
+    """Return a text with line ends and runs of blanks folded, none next to brackets and commas."""
     lines = [" ".join(line.split()) for line in text.replace("\r", "").split("\n")]
     joined = "\n".join(line for line in lines if line)
     return "\n".join(_INSIDE.sub(r"\1", line) for line in joined.split("\n"))
 
 
 def unify_quotes(text: str) -> str:
-    """One kind of quotation marks, as Python reads both alike; how many there are counts."""
+    """Return a text with one kind of quotation marks, as Python reads both alike.
+
+    How many there are counts.
+    """
     return text.replace('"', "'")
 
 
 def _note(spec: CodeSpec, given: str) -> str:
-    """What is wrong with an output: a mistake as it is printed, the way of writing, a mistake."""
+    """Return what is wrong with an output, empty if nothing explains it.
+
+    A mistake as it is printed comes first, then the way of writing, then a mistake by its values.
+    """
     wanted = fold_blanks(spec.output)
     return (
         _mistake(spec, given, str)
@@ -98,6 +110,7 @@ def _note(spec: CodeSpec, given: str) -> str:
 
 
 def _mistake(spec: CodeSpec, given: str, reduced: Callable[[str], str]) -> str:
+    """Return the note of the mistake whose output is the given one after ``reduced``, or empty."""
     for name, output in spec.traps.items():
         if reduced(given) == reduced(fold_blanks(output)):
             return f"trap:{name}"
@@ -105,6 +118,7 @@ def _mistake(spec: CodeSpec, given: str, reduced: Callable[[str], str]) -> str:
 
 
 def _written_otherwise(given: str, wanted: str) -> str:
+    """Return the note on what alone differs: case, lines, quotes, brackets; empty if more does."""
     if given.casefold() == wanted.casefold():
         return "output-case"
     if re.sub(r"\s", "", given) == re.sub(r"\s", "", wanted):
@@ -118,12 +132,12 @@ def _written_otherwise(given: str, wanted: str) -> str:
 
 
 def _values(text: str) -> str:
-    """What is printed, without brackets and commas."""
+    """Return what is printed, without brackets and commas."""
     return _SEPARATORS.sub(" ", text).strip()
 
 
 def _same_numbers(given: str, wanted: str) -> bool:
-    """``4`` for ``4.0``: the numbers are right, their type is not."""
+    """Return whether the numbers are right and their type is not: ``4`` for ``4.0``."""
     numbers = [re.findall(r"-?\d+(?:\.\d*)?", text) for text in (given, wanted)]
     if not numbers[0] or len(numbers[0]) != len(numbers[1]) or len(given) > 400:
         return False
@@ -131,7 +145,7 @@ def _same_numbers(given: str, wanted: str) -> bool:
 
 
 def ask(part: PartContext) -> AskedPart[CodeSpec]:
-    """Printed output and wrong outputs, with the drawn values in place."""
+    """Return printed output and wrong outputs, with the drawn values in place."""
     output = part.fill_program(str(part.answer["output"]))
     traps = part.answer.get("traps", {})
     wrong = {trap: part.fill_program(str(text)) for trap, text in traps.items()}

@@ -37,6 +37,7 @@ from quizgen.grading.judge import show_spec
 from quizgen.grading.spec import AnySpec
 from quizgen.maths.constants import Scalar
 from quizgen.maths.tolerance import Tolerance
+from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value, Values
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ class AuthoredAnswer(msgspec.Struct, kw_only=True, frozen=True, forbid_unknown_f
     of: str | tuple[str, ...] | dict[str, str] = ()
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """What is wrong apart from types; each kind that can tell says so."""
+        """Yield what is wrong apart from types; a kind with rules of its own overrides it."""
         return iter(())
 
 
@@ -78,7 +79,7 @@ class AuthoredMeasured(Tolerance, kw_only=True, frozen=True, tag_field="kind"):
     accept: tuple[Scalar, Scalar] | None = None  # type: ignore[assignment]
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """What is wrong apart from types."""
+        """Yield what is wrong apart from types."""
         return iter(())
 
 
@@ -90,7 +91,7 @@ class AuthoredNumeric(AuthoredMeasured, kw_only=True, frozen=True):
     most: ClassVar[int] = 1
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """The number of quantities must be one that the kind asks for."""
+        """Yield a problem unless there are as many quantities as the kind asks for."""
         count = 1 if isinstance(self.of, str) else len(self.of)
         if not self.least <= count <= self.most:
             wanted = f"{self.least} to {self.most}" if self.most > 1 else "one"
@@ -105,11 +106,11 @@ class AuthoredPooled(AuthoredAnswer, frozen=True):
     """Key that holds the names; ``take`` of them are shown."""
 
     def listed_names(self) -> Sequence[str]:
-        """All names that must differ."""
+        """Return all names that must differ."""
         return tuple(getattr(self, self.listed))
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """There are names, and no more are taken of them than a part can show."""
+        """Yield what is wrong with the names, and if more are taken than a part can show."""
         yield from find_name_problems(self.listed, self.listed_names(), self.take)
         count = len(getattr(self, self.listed))
         if self.take and not 1 <= self.take <= min(MOST_OPTIONS, count):
@@ -120,7 +121,7 @@ class AuthoredPooled(AuthoredAnswer, frozen=True):
 def find_name_problems(
     field: str, names: Sequence[str], take: int, least: int = 1
 ) -> Iterator[FieldProblem]:
-    """What is wrong with a list of names; a variant takes some of them if ``take`` is not 0."""
+    """Yield what is wrong with a list of names; a variant takes ``take`` of them, all if 0."""
     most = MOST_IN_POOL if take else MOST_OPTIONS
     if not least <= len(names) <= most:
         yield (field,), "QG110", f"1 to {most} are needed"
@@ -129,14 +130,24 @@ def find_name_problems(
 
 
 def find_extra_problems(extra: int | None, spare: int) -> Iterator[FieldProblem]:
-    """What is wrong with the number of distractors that are shown."""
+    """Yield what is wrong with the number of distractors that are shown."""
     if extra is not None and not 0 <= extra <= spare:
         yield ("extra",), "QG115", f"must be 0 to {spare}, the number of distractors"
 
 
+FORM_KINDS = frozenset({"expression", "interval", "equation", "complex", "matrix", "vector"})
+"""Kinds whose ``of`` names a form of the solver and no number."""
+
+
+def asked_form(answer: Mapping[str, Any]) -> str:
+    """The form of the solver that an authored answer names; empty if it names none."""
+    of, kind = answer.get("of", ()), answer.get("kind")
+    return of if isinstance(of, str) and (kind in FORM_KINDS or kind == "set") else ""
+
+
 def asked_quantities(answer: Mapping[str, Any]) -> tuple[str, ...]:
-    """Quantities of the chain that an authored answer consists of, in order."""
-    of = answer.get("of", ())
+    """Return the quantities of the chain that an authored answer consists of, in order."""
+    of = () if asked_form(answer) else answer.get("of", ())
     if isinstance(of, str):
         return (of,)
     return tuple(of.values()) if isinstance(of, Mapping) else tuple(of)
@@ -196,10 +207,12 @@ class DrawingField(msgspec.Struct, frozen=True):
 
     @property
     def _top(self) -> float:
+        """Room above the field in points, with the name of the upright axis if it has one."""
         return TOP + (NAME if self.axes[1] else 0)
 
     @property
     def _foot(self) -> float:
+        """Room below the field in points, with the name of the level axis if it has one."""
         return FOOT + (NAME if self.axes[0] else 0)
 
     @property
@@ -208,7 +221,7 @@ class DrawingField(msgspec.Struct, frozen=True):
         return (LEFT, self._top, *self.size)
 
     def to_picture(self, point: Point) -> Point:
-        """A point in the picture, from the lower left."""
+        """Return a point in the picture, in points from the lower left."""
         left, right, low, high = self.view
         wide, tall = self.size
         x, y = point
@@ -283,7 +296,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
 
     Parameters
     ----------
-    spec : Spec
+    spec : AnySpec
         What it is graded by.
     control : InputControl
     options, targets : tuple of (str, str)
@@ -300,7 +313,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         Where the reason that tells the right answer is to be found.
     drawn : tuple of lines
         What the solution draws in the field of the control.
-    mistakes : mapping of str to Spec
+    mistakes : mapping of str to AnySpec
         Each known mistake and the spec of which its answer would be the key.
     """
 
@@ -314,6 +327,10 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     source: str = ""
     drawn: tuple[Line, ...] = ()
     mistakes: Mapping[str, S] = msgspec.field(default_factory=dict)
+
+
+VALUE_OPTION = "="
+"""Begins the name of an option that is no sentence of the template but the text after this sign."""
 
 
 class PartContext(Protocol):
@@ -338,64 +355,76 @@ class PartContext(Protocol):
     """Words of the bank's subject."""
 
     def error(self, what: str, rule: str = "QG112") -> BankError:
-        """An error that names the template and the part; ``rule`` is its diagnostic code."""
+        """Return an error that names the template and the part; ``rule`` is its diagnostic code."""
 
     def evaluate(self, formula: str) -> Value:
-        """Value of a formula over the quantities in shown units."""
+        """Return the value of a formula over the quantities in shown units."""
 
     def answer_values(self) -> tuple[Value, ...]:
-        """The components of the answer, each in the unit it is asked in."""
+        """Return the components of the answer, each in the unit it is asked in."""
 
     def misconception_answers(self) -> dict[str, tuple[Value, ...]]:
-        """Each usable mistake and the answer it gives, as ``answer_values``."""
+        """Return each usable mistake and the answer it gives, as ``answer_values``."""
+
+    def exact_texts(self) -> tuple[str, ...]:
+        """Each irrational component of the answer as a formula; empty where it is none."""
+
+    def answer_form(self) -> Expr:
+        """The form that the answer names, with the drawn numbers in place."""
+
+    def misconception_forms(self) -> dict[str, Expr]:
+        """Each usable mistake and the form that it gives, as ``answer_form``."""
 
     def count_nouns(self) -> dict[str, Any]:
-        """The field ``counts`` of a spec: the words for what the answer counts."""
+        """Return the field ``counts`` of a spec: the words for what the answer counts."""
 
     def misconception_notes(self, mistakes: Iterable[str]) -> dict[str, dict[str, str]]:
-        """What to tell somebody who made a mistake, by language and mistake."""
+        """Return the sentence for somebody who made a mistake, by language and mistake."""
 
     def with_reason(self, names: Iterable[LabelledName]) -> tuple[LabelledName, ...]:
-        """Those of the marks and names for which a reason is written."""
+        """Return those of the marks and names for which a reason is written."""
 
     def reasons(self, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
-        """The reasons as plain text, by language and mark."""
+        """Return the reasons as plain text, by language and mark."""
 
     def reason_names(self) -> list[str]:
-        """Names of all sentences in section ``reasons``."""
+        """Return the names of all sentences in section ``reasons``."""
 
     def shuffle_names(self, names: Iterable[str], side: str = "") -> list[str]:
-        """Names in the order in which they are shown: a drawn one, unless ``in_order`` is set."""
+        """Return names in the order shown: a drawn one, unless ``in_order`` is set."""
 
     def shuffle(self, names: Sequence[str], side: str) -> list[str]:
-        """Names in a drawn order, whatever ``in_order`` says."""
+        """Return names in a drawn order, even if ``in_order`` is set."""
 
     def accepted_words(self, name: str) -> list[str]:
-        """Words of a gap or of a key point, from all languages."""
+        """Return the words of a gap or of a key point, from all languages."""
 
     def has_gap(self, name: str) -> bool:
-        """Whether a language file has words for a gap of this name."""
+        """Return whether a language file has words for a gap of this name."""
+
+    def format_option(self, value: Value, unit: str) -> str:
+        """A value with its unit as an option shows it: exact if that is short, else 4 figures."""
 
     def option_texts(self, names: Iterable[str]) -> list[str]:
-        """The wording of options in the first language, as it would be typed."""
+        """Return the wording of options in the first language, as it would be typed."""
 
     def condition_holds(self, condition: Condition) -> bool:
-        """Whether an authored condition holds in this variant."""
+        """Return whether an authored condition holds in this variant."""
 
     def selection(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """What the part shows of its pool (of all that is listed where it has none).
+        """Return what the part shows of its pool (of all that is listed where it has none).
 
         Options, left sides, steps or gaps; and right sides or steps that fit nowhere.
         """
 
     def matching_pairs(self) -> dict[str, str]:
-        """Left side to right side of a matching, whatever is shown of it."""
+        """Return left side to right side of a matching, also of pairs that are not shown."""
 
     def claim(self) -> tuple[str, Condition, str]:
-        """The claim that the part takes from the pool: its name, when it is true, its source."""
+        """Return the claim from the pool: its name, when it is true, its source."""
 
     def fill_program(self, text: str) -> str:
-        """Program text or its output with the drawn values in place."""
+        """Return program text or its output with the drawn values in place."""
 
 
 @dataclass(frozen=True)

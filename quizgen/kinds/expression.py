@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import TYPE_CHECKING, Literal
 
 import msgspec
 from flint import arb, fmpq
@@ -18,16 +20,26 @@ from quizgen.grading.judging.sampled_equality import (
     values_agree,
 )
 from quizgen.grading.judging.sympy_equality import decide_by_sympy
+from quizgen.grading.judging.written_form import has_form
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.formulas import TypedFormula, parse_authored, read_formula
 from quizgen.grading.rounding import format_exact_or_figures
 from quizgen.grading.spec import WordSpec
-from quizgen.grading.verdict import Verdict, ambiguous, correct, wrong
+from quizgen.grading.verdict import HALF, Verdict, ambiguous, correct, partial, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
-from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext, SymbolDomain
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredAnswer,
+    FieldProblem,
+    PartContext,
+    SymbolDomain,
+)
+from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import format_tree, pretty
-from quizgen.maths.tree import Expr, names_in
+from quizgen.maths.tidy import tidy_formula
+from quizgen.maths.tree import Expr, Num, names_in, substitute
 from quizgen.maths.values import Value
 
 if TYPE_CHECKING:
@@ -35,25 +47,51 @@ if TYPE_CHECKING:
 
 EXAMPLE = "(a+b)^2/2"
 """A formula as it is typed, and no answer to any question."""
+CONSTANT = "C"
+"""The constant of integration, as it may be typed."""
+_ZERO = Num(Fraction(0))
 
 
 class AuthoredExpression(AuthoredAnswer, kw_only=True, tag="expression", frozen=True):
-    """A formula."""
+    """A formula: as it is written here, or one of the solver's."""
 
-    value: str
-    symbols: dict[str, SymbolDomain]
+    of: str = ""
+    value: str = ""
+    symbols: dict[str, SymbolDomain] = msgspec.field(default_factory=dict)
     traps: dict[str, str] = msgspec.field(default_factory=dict)
+    form: Literal["", "any", "factored", "expanded", "lowest"] = ""
+    up_to: Literal["", "constant", "factor"] = ""
+
+    def find_problems(self) -> Iterator[FieldProblem]:
+        """There is a formula, and one alone."""
+        if bool(self.of) == bool(self.value):
+            yield (("of",) if self.of else ()), "QG112", "give either value or of"
+        elif self.value and not self.symbols:
+            yield (), "QG112", "value needs symbols"
 
 
 class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
-    """Expression: ``value``; ``symbols`` = {name: "real", "positive" or [low, high]}."""
+    """Expression: ``value``; ``symbols`` = {name: "real", "positive" or [low, high]}.
+
+    ``form`` = factored, expanded or lowest; ``up_to`` = constant (``+ C`` may be typed) or factor.
+    """
 
     value: str
     symbols: dict[str, Domain]
     traps: dict[str, str] = msgspec.field(default_factory=dict)
+    form: Literal["", "any", "factored", "expanded", "lowest"] = ""
+    up_to: Literal["", "constant", "factor"] = ""
 
     def validate(self) -> None:
-        """Check the key, its names and the domains."""
+        """Check the key, its names and the domains.
+
+        Raises
+        ------
+        FormulaError
+            If a formula cannot be read or uses names that are not declared.
+        ValueError
+            If a domain is none.
+        """
         used = names_in(parse_authored(self.value, tuple(self.symbols)))
         unknown = used - self.symbols.keys()
         if unknown:
@@ -66,8 +104,20 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
             parse_exact(self.value)
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed formula."""
-        formula = read_formula(typed, self.symbols, options.decimal)
+        """Return the verdict on a typed formula: equal to the key over the domain, or why not.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
+        free = self.up_to == "constant" and CONSTANT not in self.symbols
+        names = (*self.symbols, CONSTANT) if free else self.symbols
+        formula = read_formula(typed, names, options.decimal)
+        if free:
+            formula = msgspec.structs.replace(
+                formula, tree=tidy_formula(substitute(formula.tree, {CONSTANT: _ZERO}))
+            )
         verdict = _judge(self, formula.tree, options)
         if formula.other is None or formula.doubt is None:
             return verdict
@@ -79,6 +129,13 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
 
 
 def _check_domain(name: str, domain: Domain) -> None:
+    """Check the domain of one name.
+
+    Raises
+    ------
+    ValueError
+        If it is not ``real``, ``positive`` or two bounds in order.
+    """
     if isinstance(domain, str):
         if domain not in {"real", "positive"}:
             raise ValueError(f"symbols.{name}: {domain!r} is not real, positive or [low, high]")
@@ -87,24 +144,45 @@ def _check_domain(name: str, domain: Domain) -> None:
 
 
 def _judge(spec: ExpressionSpec, tree: Expr, options: GradingOptions) -> Verdict:
+    """Return the verdict on one reading of a formula.
+
+    It is ambiguous where neither sampling nor, if it is allowed, SymPy can decide.
+    """
     read_as = pretty.format_formula(format_tree(tree))
     key = parse_authored(spec.value, tuple(spec.symbols))
     if tree == key:
-        return correct(read_as, ground="proved")
+        return _judge_form(spec, tree, correct(read_as, ground="proved"))
     found = compare_by_sampling(key, tree, spec.symbols)
+    if _is_equal_enough(spec, found):
+        return _judge_form(spec, tree, correct(read_as, ground=found.ground, points=found.points))
     if found.equal is None and options.settle:
         found = _settle_equality(key, tree, spec, found)
     if found.equal is None:
         return ambiguous("undecided", read_as)
     if found.equal:
         ground = "proved" if prove_equal(key, tree) else found.ground
-        return correct(read_as, ground=ground, points=found.points)
+        return _judge_form(spec, tree, correct(read_as, ground=ground, points=found.points))
     return _wrong(spec, tree, found, read_as)
+
+
+def _is_equal_enough(spec: ExpressionSpec, found: SamplingResult) -> bool:
+    """Whether a formula differs from the key by no more than is asked."""
+    if spec.up_to == "constant":
+        return found.difference is not None
+    return spec.up_to == "factor" and found.ratio is not None and bool(found.ratio != 0)
+
+
+def _judge_form(spec: ExpressionSpec, tree: Expr, right: Verdict) -> Verdict:
+    """Half of the marks for a right formula that has not the form asked."""
+    if has_form(tree, spec.form):
+        return right
+    return partial(HALF, right.read_as, f"form-{spec.form}")
 
 
 def _choose(
     spec: ExpressionSpec, formula: TypedFormula, verdict: Verdict, options: GradingOptions
 ) -> Verdict:
+    """Return the verdict on a formula with two readings, or ask back."""
     if formula.other is None or formula.doubt is None or (formula.doubt.native and verdict.credit):
         return verdict
     echoes = (formula.read_as, pretty.format_formula(format_tree(formula.other)))
@@ -114,14 +192,20 @@ def _choose(
 def _settle_equality(
     key: Expr, tree: Expr, spec: ExpressionSpec, found: SamplingResult
 ) -> SamplingResult:
+    """Return what SymPy decides where sampling could not."""
     return msgspec.structs.replace(
         found, equal=decide_by_sympy(key, tree, spec.symbols), ground="settled"
     )
 
 
 def _wrong(spec: ExpressionSpec, tree: Expr, found: SamplingResult, read_as: str) -> Verdict:
+    """Return the wrong verdict: a known mistake, a factor or offset, or a name that is missing."""
     for name, trap in spec.traps.items():
-        if are_equal(parse_authored(trap, tuple(spec.symbols)), tree, spec.symbols):
+        mistake = parse_authored(trap, tuple(spec.symbols))
+        related = bool(spec.up_to) and _is_equal_enough(
+            spec, compare_by_sampling(mistake, tree, spec.symbols)
+        )
+        if related or are_equal(mistake, tree, spec.symbols):
             return wrong(read_as, f"trap:{name}")
     if found.ground == "domain":
         return wrong(read_as, "domain")
@@ -134,12 +218,13 @@ def _wrong(spec: ExpressionSpec, tree: Expr, found: SamplingResult, read_as: str
 
 
 def _missing(spec: ExpressionSpec, tree: Expr) -> str:
-    """Note that a quantity of the key does not occur at all."""
+    """Return the note for a quantity of the key that does not occur at all, else an empty text."""
     key = names_in(parse_authored(spec.value, tuple(spec.symbols)))
     return "name-missing" if key - names_in(tree) else ""
 
 
 def _short(value: Value) -> str:
+    """Return a number for a sentence: exact if it is short, else with four figures."""
     if isinstance(value, fmpq) and value.q < 1000:
         return pretty.format_number(str(value))
     exact = value.mid().fmpq() if isinstance(value, arb) else value
@@ -147,15 +232,23 @@ def _short(value: Value) -> str:
 
 
 def ask(part: PartContext) -> AskedPart[ExpressionSpec]:
-    """The formula as it is written."""
+    """Return the formula as it is written."""
     traps = part.answer.get("traps", {})
+    given: dict[str, object] = {}
+    if part.answer.get("of"):
+        forms = {"": part.answer_form(), **part.misconception_forms()}
+        value, *_ = written = [format_tree(form) for form in forms.values()]
+        traps = dict(zip([*forms][1:], written[1:], strict=True))
+        names = sorted(set().union(*map(names_in, forms.values())))
+        symbols = dict.fromkeys(names, "real") | dict(part.answer.get("symbols", {}))
+        given = {"value": value, "traps": traps, "symbols": symbols}
     notes = part.misconception_notes(traps) if traps else {}
-    spec = make_spec(ExpressionSpec, part, notes=notes)
+    spec = make_spec(ExpressionSpec, part, notes=notes, **given)
     return AskedPart(spec, mistakes=misconception_specs(spec, "value"))
 
 
 def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:
-    """The formula as it is written by hand."""
+    """Return the formula as it is written by hand."""
     from quizgen import typeset
     from quizgen.question.inlines import TypesetMaths
 
@@ -164,4 +257,13 @@ def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:
 
 
 HOW_TO_TYPE = hint("ask.expression", example=EXAMPLE)
-KIND = AnswerKind(AuthoredExpression, ExpressionSpec, ask, HOW_TO_TYPE, explain_key)
+
+
+def input_hints(spec: ExpressionSpec, lang: str) -> tuple[TextOrInlines, ...]:
+    """How a formula is typed, and the form that is asked."""
+    form = f"ask.form_{spec.form}" if spec.form not in {"", "any"} else ""
+    free = f"ask.up_to_{spec.up_to}" if spec.up_to else ""
+    return (*HOW_TO_TYPE(spec, lang), *(translate(lang, name) for name in (form, free) if name))
+
+
+KIND = AnswerKind(AuthoredExpression, ExpressionSpec, ask, input_hints, explain_key)

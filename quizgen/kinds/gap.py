@@ -55,23 +55,35 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
     terms: list[str] = msgspec.field(default_factory=list)
 
     def gaps(self) -> list[list[str]]:
-        """Synonyms per gap."""
+        """Return the synonyms of each gap."""
         if all(isinstance(gap, str) for gap in self.accept):
             return [[str(word) for word in self.accept]]
         return [[gap] if isinstance(gap, str) else gap for gap in self.accept]
 
     def validate(self) -> None:
-        """Every gap needs a word."""
+        """Check that every gap has a word.
+
+        Raises
+        ------
+        ValueError
+            If one has none.
+        """
         if not self.accept or not all(self.gaps()):
             raise ValueError("accept needs at least one word per gap")
 
     def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
-        """Judge typed words, one per gap."""
+        """Return the verdict on typed words, one per gap.
+
+        Raises
+        ------
+        FormulaReadError
+            If there are not as many words as gaps, or nothing at all.
+        """
         gaps = self.gaps()
-        words = _digits(typed, gaps) or _words(typed, gaps)
+        words = _split_digits(typed, gaps) or _read_words(typed, gaps)
         if len(words) != len(gaps):
             raise FormulaReadError("item-count", 1, str(len(words)), [str(len(gaps))])
-        cells = [_one(self, gap, word) for gap, word in zip(gaps, words, strict=True)]
+        cells = [_judge_gap(self, gap, word) for gap, word in zip(gaps, words, strict=True)]
         if len(cells) == 1:
             return self._add_reason(cells[0])
         read_as = "; ".join(cell.read_as for cell in cells)
@@ -83,17 +95,17 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
             for place, cell in enumerate(cells, 1)
             if cell.credit < 1
         )
-        return _together(cells, read_as, because)
+        return _combine_gap_verdicts(cells, read_as, because)
 
     def _add_reason(self, only: Verdict) -> Verdict:
-        """The verdict of the only gap, with what a reason can be given for."""
+        """Return the verdict of the only gap, with what a reason can be given for."""
         if only.credit == 1 or not only.is_graded:
             return only
         because = (self.reason_key(1, only.read_as),)
         return structs.replace(only, fields={**only.fields, "because": because})
 
     def reason_key(self, place: int, word: str) -> str:
-        """What a reason can be given for: this word in this gap, else any wrong one in it."""
+        """Return the label of a reason: for this word in this gap, else for any wrong one in it."""
         label = f"{place}={fold_word(word)}"
         return label if any(label in reasons for reasons in self.why.values()) else str(place)
 
@@ -140,7 +152,14 @@ _PICTURE_IS = re.compile(rf"{_PICTURE} *\d+ *(?:[:=→⇒]|-+>)")
 _LABEL = re.compile(r"\s*[^\W\d_]{1,12}\s*[:=]\s*\S")
 
 
-def _words(typed: str, gaps: list[list[str]]) -> list[str]:
+def _read_words(typed: str, gaps: list[list[str]]) -> list[str]:
+    """Return the typed words in the order of the gaps, maybe too many or too few.
+
+    Raises
+    ------
+    FormulaReadError
+        If the text is empty, too long, or holds invisible characters.
+    """
     if len(typed) > 1000:
         raise FormulaReadError("too-long", 1001, "1000")
     if not typed.strip():
@@ -152,11 +171,17 @@ def _words(typed: str, gaps: list[list[str]]) -> list[str]:
     count = len(gaps)
     if count == 1:
         return [_NUMBERED.sub("", typed).strip(_ENDS + _QUOTES)]
-    return _by_number(apply_rewrite("digits", typed), count) or _in_a_row(typed, count)
+    return _split_by_number(apply_rewrite("digits", typed), count) or _split_in_order(typed, count)
 
 
 def _strip_gap_word(typed: str, gaps: list[list[str]]) -> str:
-    """``photo 3`` without its word, if each gap takes a number; ``photo 1: 2`` has two readings."""
+    """Return ``photo 3`` without its word, if each gap takes a number.
+
+    Raises
+    ------
+    FormulaReadError
+        For ``photo 1: 2``, which has two readings.
+    """
     if not all(any(word.isdigit() for word in gap) for gap in gaps):
         return typed
     text = apply_rewrite("digits", typed)
@@ -165,24 +190,24 @@ def _strip_gap_word(typed: str, gaps: list[list[str]]) -> str:
     return PICTURES.sub(" ", text).strip()
 
 
-def _digits(typed: str, gaps: list[list[str]]) -> list[str]:
-    """The digits of ``324``, if each gap takes a single one."""
+def _split_digits(typed: str, gaps: list[list[str]]) -> list[str]:
+    """Return the digits of ``324``, if each gap takes a single one; else none."""
     digits = typed.strip()
     single = all(any(len(word) == 1 and word.isdigit() for word in gap) for gap in gaps)
     return list(digits) if single and digits.isdigit() and len(digits) == len(gaps) > 1 else []
 
 
-def _by_number(typed: str, count: int) -> list[str]:
-    """The words behind the gaps' own numbers, ``(1) ... (2) ...``; none without numbers."""
+def _split_by_number(typed: str, count: int) -> list[str]:
+    """Return the words behind the gaps' own numbers, ``(1) ... (2) ...``; none without numbers."""
     pairs = dict(_PAIR.findall(typed))
     if {*pairs} == {*map(str, range(1, count + 1))} and not re.search(r"\w", _PAIR.sub("", typed)):
         return [pairs[str(number)] for number in range(1, count + 1)]
     found = list(_NUMBER.finditer(typed))
     marked = [mark for mark in found if not mark[0].strip().isdigit()]
-    marks = next((some for some in (marked, found) if _all_once(some, count)), [])
+    marks = next((some for some in (marked, found) if _is_each_gap_once(some, count)), [])
     if not marks or marks[0].start():
         return []
-    names = list(map(_gap_number, marks))
+    names = list(map(_parse_gap_number, marks))
     ends = [*(mark.start() for mark in marks[1:]), len(typed)]
     words = {
         name: _JOINED.sub("", typed[mark.end() : end].strip(_ENDS)).strip(_ENDS)
@@ -191,17 +216,25 @@ def _by_number(typed: str, count: int) -> list[str]:
     return [words[str(number)] for number in range(1, count + 1)]
 
 
-def _gap_number(mark: re.Match[str]) -> str:
+def _parse_gap_number(mark: re.Match[str]) -> str:
+    """Return the number of a gap as text, of ``2)`` and of ``b)`` alike."""
     return mark[1] or str("abcdefgh".index(mark[2]) + 1)
 
 
-def _all_once(marks: list[re.Match[str]], count: int) -> bool:
-    return sorted(map(_gap_number, marks)) == sorted(map(str, range(1, count + 1)))
+def _is_each_gap_once(marks: list[re.Match[str]], count: int) -> bool:
+    """Return whether the marks are the numbers of all gaps, each once."""
+    return sorted(map(_parse_gap_number, marks)) == sorted(map(str, range(1, count + 1)))
 
 
-def _in_a_row(typed: str, count: int) -> list[str]:
-    """The words in the order of the gaps, cut at the strongest separator that fits."""
-    pieces = _cut(typed, count)
+def _split_in_order(typed: str, count: int) -> list[str]:
+    """Return the words in the order of the gaps, cut at the strongest separator that fits.
+
+    Raises
+    ------
+    FormulaReadError
+        If several pieces have a label of their own, which nobody asked for.
+    """
+    pieces = _cut_pieces(typed, count)
     if len(pieces) != count and typed.isalpha() and len(typed) == count:
         return list(typed)
     if sum(map(bool, map(_LABEL.match, pieces))) > 1:
@@ -209,7 +242,8 @@ def _in_a_row(typed: str, count: int) -> list[str]:
     return [_NUMBERED.sub("", piece).strip(_QUOTES) for piece in pieces]
 
 
-def _cut(typed: str, count: int) -> list[str]:
+def _cut_pieces(typed: str, count: int) -> list[str]:
+    """Return ``count`` pieces, by the first separator that gives them; else all words."""
     plain = typed.split()
     for separator in _SEPARATORS:
         pieces = [piece.strip() for piece in separator.split(typed)]
@@ -220,22 +254,25 @@ def _cut(typed: str, count: int) -> list[str]:
     return plain
 
 
-def _one(spec: GapSpec, gap: list[str], word: str) -> Verdict:
-    """Judge one gap: the word itself, or the known term it is nearest to."""
+def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
+    """Return the verdict on one gap, by the word itself or the term that it is nearest to."""
     right = {fold_word(term) for term in gap}
     folded = fold_word(word)
     if not folded:
         return wrong("", "gap-empty") if not word else unreadable("no-answer")
-    if folded in right or _compact(word) in right or _is_inflection(word, right):
+    if folded in right or _fold_spelt_out(word) in right or _is_inflection(word, right):
         return correct(safe_echo(" ".join(word.split())))
     others = [o for g in spec.gaps() for o in g if fold_word(o) not in right] + spec.among
     if folded in map(fold_word, others):
         return wrong(safe_echo(word), "other-term")
-    return _nearest(spec, word, gap, others)
+    return _judge_by_nearest_term(spec, word, gap, others)
 
 
-def _nearest(spec: GapSpec, word: str, gap: list[str], others: list[str]) -> Verdict:
-    """Judge a word that is no known term by the terms it is nearest to."""
+def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: list[str]) -> Verdict:
+    """Return the verdict on a word that is no term, by the terms that it is nearest to.
+
+    It is asked back when a wrong term is as near as a right one, or when it is a word of its own.
+    """
     near, _ = nearest_terms(word, [*gap, *others])
     if not near and _holds_a_term(word, [*gap, *others]):
         return unreadable("words-around", safe_echo(word))
@@ -249,14 +286,17 @@ def _nearest(spec: GapSpec, word: str, gap: list[str], others: list[str]) -> Ver
     return correct(safe_echo(near[0]), "spelling", typed=word)
 
 
-def _compact(word: str) -> str:
-    """``C, M, Y, K`` is CMYK."""
+def _fold_spelt_out(word: str) -> str:
+    """Return ``C, M, Y, K`` as the folded CMYK; empty if nothing is spelt out."""
     spelt = re.search(r"[,.·]", word) and not re.search(r"\d", word)
     return fold_word(re.sub(r"[\s,./·-]", "", word)) if spelt else ""
 
 
 def _is_inflection(word: str, right: set[str]) -> bool:
-    """An adverb or an ending of German: ``additively``, ``additive Mischung`` without its noun."""
+    """Return whether a word is a right one with an ending: ``additively`` for ``additive``.
+
+    German adjectives lose their noun that way, ``additive`` for ``additive Mischung``.
+    """
     whole = fold_word(word)
     return whole.endswith(_ENDINGS) and any(
         whole.endswith(end) and len(whole) - len(end) >= LONG and whole[: -len(end)] in right
@@ -265,14 +305,15 @@ def _is_inflection(word: str, right: set[str]) -> bool:
 
 
 def _holds_a_term(word: str, terms: list[str]) -> bool:
-    """Whether a known term stands among other words; in another unit a number is wrong."""
+    """Return whether a term stands among other words; a number with a unit is none."""
     if _MEASURE.fullmatch(word):
         return False
     words = [fold_word(piece) for piece in re.split(r"[\s,;/]+", word) if fold_word(piece)]
     return len(words) > 1 and any(fold_word(term) in words for term in terms)
 
 
-def _together(cells: list[Verdict], read_as: str, because: tuple[str, ...]) -> Verdict:
+def _combine_gap_verdicts(cells: list[Verdict], read_as: str, because: tuple[str, ...]) -> Verdict:
+    """Return the verdict on several gaps: the mean of their credits, and which are wrong."""
     credit = sum((cell.credit for cell in cells), Fraction(0)) / len(cells)
     missed = tuple(str(i + 1) for i, cell in enumerate(cells) if cell.credit < 1)
     verdict = verdict_by_share(credit, read_as, "gaps", names=missed, because=because)
@@ -282,18 +323,19 @@ def _together(cells: list[Verdict], read_as: str, because: tuple[str, ...]) -> V
 
 
 def _format_gap(gap: list[str], lang: str) -> str:
+    """Return the synonym of a gap that is written in a language's letters, else the first."""
     if not any(letter.isalpha() for letter in gap[0]):
         return gap[0]
     return next((word for word in gap if is_written_in(fallback_language(lang), word)), gap[0])
 
 
 def ask(part: PartContext) -> AskedPart[GapSpec]:
-    """The words of every gap, of all languages; of a pool also the sentences around them."""
+    """Return the words of every gap in all languages; of a pool also the sentences around them."""
     gaps = part.selection()[0]
     words = [part.words.get(name, name) for name in gaps]
     known = part.reason_names()
     told = [name if name in known else term for name, term in zip(gaps, words, strict=True)]
-    wrong = list(_wrong_words(part, gaps, words))
+    wrong = list(_iter_wrong_words(part, gaps, words))
     among = [*part.answer.get("among", ()), *(term for _, _, terms in wrong for term in terms)]
     named = [(str(place), name) for place, name in enumerate(told, 1)]
     slips = [(f"{mark}={fold_word(term)}", name) for mark, name, terms in wrong for term in terms]
@@ -315,10 +357,10 @@ def ask(part: PartContext) -> AskedPart[GapSpec]:
     )
 
 
-def _wrong_words(
+def _iter_wrong_words(
     part: PartContext, gaps: Sequence[str], words: Sequence[str]
 ) -> Iterator[tuple[str, str, list[str]]]:
-    """Number of a gap, ``gap = word`` as the reasons name it, and how the word may be typed."""
+    """Yield a gap's number, ``gap = word`` as reasons name it, and how the word may be typed."""
     for place, (gap, right) in enumerate(zip(gaps, words, strict=True), 1):
         for name in part.reason_names():
             first, equals, term = name.partition(" = ")

@@ -19,11 +19,12 @@ from quizgen.maths.precision import working_precision
 
 
 def load_spec(spec: SpecTable, *, proven: bool = False) -> AnySpec:
-    """Read and validate a spec table.
+    """Return the spec that a table holds, validated.
 
     Parameters
     ----------
     spec : mapping
+        As a key stores it, with its ``kind``.
     proven : bool
         Whether it has been validated before.
 
@@ -52,7 +53,7 @@ def grade_answer(
 
     Parameters
     ----------
-    spec : mapping or Spec
+    spec : mapping or AnySpec
         The answer's spec: ``{"kind": "number", "value": "20/3", "decimals": 3}``, or its struct.
     typed : str
         What the student typed.
@@ -82,6 +83,15 @@ def grade_answer(
 
 
 def _check_arguments(typed: object, lang: str, decimal: str) -> None:
+    """Check what a caller passed.
+
+    Raises
+    ------
+    TypeError
+        If what was typed is no text.
+    InvalidChoiceError
+        If there is no such language or decimal sign.
+    """
     if not isinstance(typed, str):
         raise TypeError(f"typed: text is expected, not {type(typed).__name__}")
     require_one_of("language", lang, list_languages())

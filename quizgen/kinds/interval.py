@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
 
 import msgspec
@@ -17,33 +18,80 @@ from quizgen.grading.rounding import format_exact_or_figures
 from quizgen.grading.spec import NumericSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import make_spec, misconception_specs, nonempty, rounding_hint
-from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredMeasured, PartContext
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredMeasured,
+    FieldProblem,
+    PartContext,
+)
+from quizgen.kinds.forms import format_plain, require_form
 from quizgen.locale import translate
 from quizgen.maths.notation import FormulaReadError, pretty
+from quizgen.maths.tree import Call, Expr, Num
 from quizgen.maths.values import Value
 
 
 class AuthoredInterval(AuthoredMeasured, kw_only=True, tag="interval", frozen=True):
-    """From one number to another."""
+    """From one number to another, or several such: as written here, or a set of the solver."""
 
-    value: str
+    of: str = ""
+    value: str = ""
     traps: dict[str, str] = msgspec.field(default_factory=dict)
+
+    def find_problems(self) -> Iterator[FieldProblem]:
+        """There is an interval, and one alone."""
+        yield from super().find_problems()
+        if bool(self.of) == bool(self.value):
+            yield (("of",) if self.of else ()), "QG112", "give either value or of"
 
 
 class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
-    """Interval: ``value`` such as ``]0,1]`` or ``(0, inf)``."""
+    """Interval: ``value`` such as ``]0,1]``, ``(0, inf)`` or ``(-inf, -2] or [5, inf)``."""
 
     value: str
 
     def validate(self) -> None:
-        """Check tolerance and the key's own notation."""
+        """Check tolerance and the key's own notation; errors as ``WordSpec.validate``."""
         super().validate()
-        read_interval(self.value, "point")
+        for text in (self.value, *map(str, self.traps.values())):
+            read_union(text, "point")
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed interval: bounds first, then brackets."""
-        interval, read_as = read_interval(typed, options.decimal)
-        key, _ = read_interval(self.value, "point")
+        """Return the verdict on a typed interval: bounds first, then brackets.
+
+        One wrong bracket costs half, two cost three quarters.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
+        pieces, read_as = read_union(typed, options.decimal)
+        for name, text in self.traps.items():
+            if self._is_same_union(pieces, read_union(str(text), "point")[0]):
+                return wrong(read_as, f"trap:{name}")
+        keys, _ = read_union(self.value, "point")
+        if len(pieces) == len(keys) == 1:
+            return self._judge_single(pieces[0], keys[0], read_as)
+        if self._is_same_union(pieces, keys):
+            return correct(read_as)
+        if len(pieces) != len(keys):
+            return wrong(read_as, "interval-count", right=len(pieces))
+        bounds = all(self._has_same_bounds(*pair) for pair in zip(pieces, keys, strict=True))
+        return partial(HALF, read_as, "union-brackets") if bounds else wrong(read_as, "bounds")
+
+    def _is_same_union(self, pieces: list[IntervalValue], keys: list[IntervalValue]) -> bool:
+        return len(pieces) == len(keys) and all(
+            self._has_same_bounds(piece, key)
+            and (piece.closed_low, piece.closed_high) == (key.closed_low, key.closed_high)
+            for piece, key in zip(pieces, keys, strict=True)
+        )
+
+    def _has_same_bounds(self, interval: IntervalValue, key: IntervalValue) -> bool:
+        return _same(self, interval.low, key.low) and _same(self, interval.high, key.high)
+
+    def _judge_single(self, interval: IntervalValue, key: IntervalValue, read_as: str) -> Verdict:
         low = _same(self, interval.low, key.low)
         high = _same(self, interval.high, key.high)
         if not (low and high):
@@ -58,7 +106,7 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
-        return read_interval(self.value, "point")[1]
+        return read_union(self.value, "point")[1]
 
 
 class IntervalValue(msgspec.Struct, frozen=True):
@@ -80,8 +128,30 @@ _CHAIN = re.compile(
 )
 
 
+_JOINED = re.compile(r"\s*(?:∪|\\cup\b|\b(?:or|oder|union|U)\b|বা|∨)\s*")
+_EMPTY = frozenset({"{}", "∅", "{ }", "empty", "leer"})
+EMPTY = "{}"
+"""How a union of no intervals is written."""
+
+
+def read_union(typed: str, decimal: str) -> tuple[list[IntervalValue], str]:
+    """Read an interval, or several that are joined, from left to right, and echo them.
+
+    Raises
+    ------
+    FormulaReadError
+        If one of them is none.
+    """
+    if typed.strip() in _EMPTY:
+        return [], EMPTY
+    inside = re.sub(r"^\s*(?:L|S|D)\s*=\s*", "", typed)
+    read = [read_interval(piece, decimal) for piece in _JOINED.split(inside)]
+    read.sort(key=lambda pair: (pair[0].low is not None, pair[0].low or 0))
+    return [interval for interval, _ in read], " ∪ ".join(echo for _, echo in read)
+
+
 def read_interval(typed: str, decimal: str) -> tuple[IntervalValue, str]:
-    """Read an interval and echo it.
+    """Return a typed interval, and its echo.
 
     Raises
     ------
@@ -101,13 +171,20 @@ def read_interval(typed: str, decimal: str) -> tuple[IntervalValue, str]:
 
 
 def _inside(source: SourceText) -> SourceText:
-    """Take away brackets around an interval that has its own."""
+    """Return an interval with its own brackets without others around it."""
     while _WRAPPED.fullmatch(source.text):
         source = source.slice(1, len(source.text) - 1).strip()
     return source
 
 
 def _brackets(source: SourceText, match: re.Match[str], decimal: str) -> IntervalValue:
+    """Return the interval of two bounds in brackets.
+
+    Raises
+    ------
+    FormulaReadError
+        If they are not two, or commas separate and mark decimals at once.
+    """
     inside = source.slice(match.start(2), match.end(2))
     strong = list(re.finditer(r" ?[;|] ?", inside.text))
     cuts = strong or list(re.finditer(r" ?, ?", inside.text))
@@ -121,6 +198,13 @@ def _brackets(source: SourceText, match: re.Match[str], decimal: str) -> Interva
 
 
 def _chain(source: SourceText, decimal: str) -> IntervalValue:
+    """Return the interval of a chain of relations: ``0 < x <= 1``, ``x > 2``.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is none, or its relations point both ways.
+    """
     match = _CHAIN.fullmatch(source.text)
     if match is None or not (match["low"] or match["high"]):
         raise FormulaReadError("interval-expected", source.column(0), source.text)
@@ -143,7 +227,7 @@ def _chain(source: SourceText, decimal: str) -> IntervalValue:
 
 
 def _parse_bound(source: SourceText, decimal: str, side: str) -> Value | None:
-    """Read a bound; None is the infinity of its side.
+    """Return a bound; None is the infinity of its side, ``-`` or ``+``.
 
     Raises
     ------
@@ -162,6 +246,7 @@ def _parse_bound(source: SourceText, decimal: str, side: str) -> Value | None:
 
 
 def _echo(interval: IntervalValue) -> str:
+    """Return an interval with outward brackets for bounds that do not belong to it."""
     low = "-∞" if interval.low is None else format_exact_or_figures(interval.low, 12)
     high = "∞" if interval.high is None else format_exact_or_figures(interval.high, 12)
     low, high = pretty.format_number(low), pretty.format_number(high)
@@ -171,19 +256,42 @@ def _echo(interval: IntervalValue) -> str:
 
 
 def _same(spec: IntervalSpec, value: Value | None, key: Value | None) -> bool:
+    """Return whether a bound is the key's, within the tolerance or both infinite."""
     if value is None or key is None:
         return value is None and key is None
     return spec.accepts(value, key)
 
 
 def ask(part: PartContext) -> AskedPart[IntervalSpec]:
-    """The interval as it is written."""
-    spec = make_spec(IntervalSpec, part)
+    """Return the interval as it is written."""
+    given: dict[str, object] = {}
+    if part.answer.get("of"):
+        traps = {name: _format_union(part, f) for name, f in part.misconception_forms().items()}
+        notes = part.misconception_notes(traps) if traps else {}
+        value = _format_union(part, part.answer_form())
+        given = {"value": value, "traps": traps, "notes": notes}
+    spec = make_spec(IntervalSpec, part, **given)
     return AskedPart(spec, mistakes=misconception_specs(spec, "value"))
 
 
+def _format_union(part: PartContext, form: Expr) -> str:
+    union = require_form(part, form, "union", "set")
+    if union.op == "set":
+        return " or ".join(f"[{point}; {point}]" for point in map(format_plain, union.args))
+    return " or ".join(map(_format_piece, union.args)) or EMPTY
+
+
+def _format_piece(piece: Expr) -> str:
+    if not isinstance(piece, Call):
+        raise TypeError(piece)
+    low, high, *sides = piece.args
+    left, right = (isinstance(side, Num) and side.value != 0 for side in sides)
+    start, end = "[" if left else "]", "]" if right else "["
+    return f"{start}{format_plain(low)}; {format_plain(high)}{end}"
+
+
 def input_hints(spec: IntervalSpec, lang: str) -> tuple[str, ...]:
-    """How an interval is typed, and rounding."""
+    """Return the sentences on how an interval is typed, and on rounding."""
     return nonempty(translate(lang, "ask.interval"), rounding_hint(spec, spec.value, lang))
 
 

@@ -47,7 +47,7 @@ class AuthoredMatch(AuthoredPooled, kw_only=True, tag="match", frozen=True):
     reuse: bool = False
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """There are as many distractors as are shown; those of other pairs count."""
+        """Yield what is wrong with names, and with the number of distractors that are shown."""
         yield from find_name_problems("distractors", self.distractors, self.take, 0)
         yield from super().find_problems()
         others = {*self.pairs.values()} if self.take else ()
@@ -62,26 +62,38 @@ class MatchSpec(WordSpec, kw_only=True, frozen=True):
     traps: dict[str, dict[str, str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
-        """There must be pairs."""
+        """Check that there are pairs.
+
+        Raises
+        ------
+        ValueError
+            If there are none.
+        """
         if not self.pairs:
             raise ValueError("pairs must not be empty")
 
     def allows_reuse(self) -> bool:
-        """Whether a right label may be used more than once."""
+        """Return whether a right label may be used more than once."""
         return self.reuse or len(set(self.pairs.values())) < len(self.pairs)
 
     def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
-        """Judge typed pairs."""
+        """Return the verdict on typed pairs: the share of right ones.
+
+        Raises
+        ------
+        FormulaReadError
+            If no pairs can be read, or a label is used twice.
+        """
         if len(typed) > 1000:
             raise FormulaReadError("too-long", 1001, "1000")
-        found = _pairs(self, typed)
+        found = _read_pairs(self, typed)
         read_as = " ".join(f"{safe_echo(left)}{safe_echo(right)}" for left, right in found.items())
         right = sum(self.pairs[left] == chosen for left, chosen in found.items())
         if right == len(self.pairs):
             return correct(read_as)
         missed = tuple(left for left, wanted in self.pairs.items() if found.get(left) != wanted)
         note = "pairs-missing" if all(name not in found for name in missed) else "pairs"
-        trap = _trap(self, found)
+        trap = _find_misconception_note(self, found)
         return verdict_by_share(
             Fraction(right, len(self.pairs)),
             read_as,
@@ -89,7 +101,9 @@ class MatchSpec(WordSpec, kw_only=True, frozen=True):
             right=right,
             of=len(self.pairs),
             names=missed,
-            because=tuple(label for left in missed for label in _labels(left, found.get(left))),
+            because=tuple(
+                label for left in missed for label in _list_reason_labels(left, found.get(left))
+            ),
         )
 
     def show(self) -> str:
@@ -97,41 +111,56 @@ class MatchSpec(WordSpec, kw_only=True, frozen=True):
         return ", ".join(f"{left}:{right}" for left, right in self.pairs.items())
 
 
-def _labels(left: str, chosen: str | None) -> tuple[str, ...]:
-    """What a reason can be given for: this pair, else any wrong one of its left side."""
+def _list_reason_labels(left: str, chosen: str | None) -> tuple[str, ...]:
+    """Return what a reason can be given for: this pair, else any wrong one of its left side."""
     return (f"{left}{chosen}", left) if chosen else ()
 
 
-def _trap(spec: MatchSpec, found: dict[str, str]) -> str:
+def _find_misconception_note(spec: MatchSpec, found: dict[str, str]) -> str:
+    """Return the note of the mistake that gives just these pairs; empty if none does."""
     for name, pairs in spec.traps.items():
         if pairs == found:
             return f"trap:{name}"
     return ""
 
 
-def _pairs(spec: MatchSpec, typed: str) -> dict[str, str]:
+def _read_pairs(spec: MatchSpec, typed: str) -> dict[str, str]:
+    """Return left label to right label, as typed.
+
+    Raises
+    ------
+    FormulaReadError
+        If no pairs can be read, or a label is used twice.
+    """
     source = normalise_typed(re.sub(r"[\r\n]+", " ", typed.strip()), keep_x=True, longest=1000)
     text = PICTURES.sub(" ", source.text)
     text = LONE_LETTER.sub(lambda letter: letter[0].translate(BANGLA_LETTERS), text)
     left = {fold_word(label): label for label in spec.pairs}
     right = {fold_word(label): label for label in spec.pairs.values()}
     found: dict[str, str] = {}
-    for first, second in _tokens(text, left):
-        _place(spec, found, left.get(first, ""), _right(second, right), (first, second))
+    for first, second in _split_pairs(text, left):
+        _add_pair(
+            spec, found, left.get(first, ""), _find_right_label(second, right), (first, second)
+        )
     if not found:
         raise FormulaReadError("pairs-expected", 1, safe_echo(typed))
     return found
 
 
-def _right(second: str, right: dict[str, str]) -> str:
-    """Return the right label; one that no pair uses (a distractor) stands for itself."""
+def _find_right_label(second: str, right: dict[str, str]) -> str:
+    """Return the right label; a distractor, which no pair uses, stands for itself."""
     return right.get(second) or (second.upper() if len(second) <= 3 else "")
 
 
-def _tokens(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
-    """Cut into pairs: ``A3``, ``A 3``, or several run together, ``A3B1``.
+def _split_pairs(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
+    """Return the pairs of ``A3``, ``A 3``, or of several run together, ``A3B1``.
 
     ``3A 1B`` has the numbers first: that is certain only when every left label comes second.
+
+    Raises
+    ------
+    FormulaReadError
+        If a label is left without a partner.
     """
     words = [w for w in map(fold_word, _SEPARATORS.split(_ARROWS.sub(" ", text))) if w]
     words = [w for w in words if w not in _FILLERS or w in left]
@@ -149,9 +178,16 @@ def _tokens(text: str, left: dict[str, str]) -> list[tuple[str, str]]:
     return list(zip(firsts, seconds, strict=True))
 
 
-def _place(
+def _add_pair(
     spec: MatchSpec, found: dict[str, str], name: str, chosen: str, typed: tuple[str, str]
 ) -> None:
+    """Add one pair to those read.
+
+    Raises
+    ------
+    FormulaReadError
+        If a label does not exist, or is used twice.
+    """
     if not name or not chosen:
         raise FormulaReadError("pairs-expected", 1, safe_echo(typed[1] if name else typed[0]))
     if name in found:
@@ -162,7 +198,7 @@ def _place(
 
 
 def ask(part: PartContext) -> AskedPart[MatchSpec]:
-    """Both sides in a drawn order of their own."""
+    """Return both sides, each in a drawn order of its own."""
     (names, extra), pairs = part.selection(), part.matching_pairs()
     left = assign_letters(part.shuffle_names(names, "/left"))
     targets = sorted({*(pairs[name] for name in names), *extra})

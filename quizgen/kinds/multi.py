@@ -14,7 +14,7 @@ class AuthoredMulti(AuthoredChoice, tag="multi", frozen=True):
 
 
 def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
-    """The options in a drawn order."""
+    """Return the options in a drawn order; any number of them is right."""
     return ask_options(part, InputControl("many", lines=0))
 
 

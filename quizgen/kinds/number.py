@@ -42,7 +42,7 @@ from quizgen.kinds import quantity
 from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first, unit_hint
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartContext
 from quizgen.locale import translate
-from quizgen.maths.constants import parse_exact
+from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.units import format_unit, get_unit
 from quizgen.maths.values import Value
@@ -80,11 +80,17 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         check_count_nouns(self.counts)
 
     def value_unit(self) -> str:
-        """The unit printed beside the field; a percentage stands for a plain fraction."""
+        """Return the unit printed next to the field; a percentage stands for a plain fraction."""
         return "1" if self.percent else self.unit
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed number."""
+        """Return the verdict on a typed number; of equal ones that were chained the best.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
         if self.unit:
             return _with_unit(self, typed, options)
         plain = read_plain_number(typed, options.decimal)
@@ -97,22 +103,34 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
+        if self.exact and not self.percent and not is_number(self.value):
+            return f"{pretty.format_formula(str(self.value))} {format_unit(self.unit)}".rstrip()
         value = parse_exact(self.value) * (100 if self.percent else 1)
         unit_text = "%" if self.percent else format_unit(self.unit)
         return f"{pretty.format_number(format_key(self, value, self.form))} {unit_text}".rstrip()
 
 
+_NUMBER = re.compile(r"[-+]?[\d./eE+-]+")
+
+
+def is_number(value: Scalar) -> bool:
+    """Whether a key is written in digits, and not as a formula such as ``3*sqrt(3)/2``."""
+    return _NUMBER.fullmatch(str(value)) is not None
+
+
 def _with_unit(spec: NumberSpec, typed: str, options: GradingOptions) -> Verdict:
-    """Judge as a quantity whose unit need not be typed."""
+    """Return the verdict on a number as on a quantity whose unit need not be typed."""
     fields = {n: getattr(spec, n) for n in quantity.QuantitySpec.__struct_fields__ if n != "bare"}
     return quantity.QuantitySpec(**fields, bare=True).judge(typed, options)
 
 
 def _judge_all_readings(spec: NumberSpec, readings: Readings, options: GradingOptions) -> Verdict:
+    """Return the verdict on a number that may have two readings."""
     return judge_readings(readings, lambda n: _judge(spec, n, options), spec.decimals)
 
 
 def _judge(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Verdict:
+    """Return the verdict on one reading, as a percentage where one is asked or typed."""
     if spec.percent:
         return _judge_percent(spec, number, options)
     if number.percent:
@@ -121,7 +139,7 @@ def _judge(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Ver
 
 
 def _judge_share(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Verdict:
-    """Read ``5 %`` as 0.05; ask back where it was 5 that was asked."""
+    """Return the verdict on ``5 %`` as 0.05; it is asked back where 5 was asked."""
     share = percent_to_fraction(number)
     verdict = _judge_as(spec, share, share.value, options)
     plain = replace(number, percent=False)
@@ -131,7 +149,7 @@ def _judge_share(spec: NumberSpec, number: ReadNumber, options: GradingOptions) 
 
 
 def _judge_percent(spec: NumberSpec, number: ReadNumber, options: GradingOptions) -> Verdict:
-    """Read a bare number as percent, or as the fraction if only that is right."""
+    """Return the verdict on a bare number as percent, or as the fraction if only that is right."""
     first = _judge_as(spec, number, number.value, options)
     if number.percent or first.credit:
         return first
@@ -143,6 +161,10 @@ def _judge_percent(spec: NumberSpec, number: ReadNumber, options: GradingOptions
 def _judge_as(
     spec: NumberSpec, number: ReadNumber, value: Value, options: GradingOptions
 ) -> Verdict:
+    """Return the verdict on a value in the unit of the key, or in percent.
+
+    ``number`` is how it was written.
+    """
     scale = 100 if spec.percent else 1
     asked = NumberTarget(
         spec,
@@ -164,7 +186,13 @@ _RATIO = re.compile(r"(?<=\d) ?: ?(?=\d)")
 
 
 def _read(spec: NumberSpec, source: SourceText, options: GradingOptions) -> list[EqualitySide]:
-    """Read a number; several if equal things are chained."""
+    """Return a typed number; several sides if equal things are chained.
+
+    Raises
+    ------
+    FormulaReadError
+        If it cannot be read.
+    """
     source = drop_count_noun(source, spec.counts)
     if found := _with_remark(source, options):
         return found
@@ -178,7 +206,10 @@ def _read(spec: NumberSpec, source: SourceText, options: GradingOptions) -> list
 
 
 def _with_remark(source: SourceText, options: GradingOptions) -> list[EqualitySide]:
-    """``6.67 (20/3)``: no product where both are the same number, but one and a remark on it."""
+    """Return both sides of ``6.67 (20/3)`` where they are one number; none otherwise.
+
+    Then it is no product, but a number and a remark on it.
+    """
     if not _REMARK.fullmatch(source.text):
         return []
     try:
@@ -188,7 +219,13 @@ def _with_remark(source: SourceText, options: GradingOptions) -> list[EqualitySi
 
 
 def _sides(source: SourceText, options: GradingOptions) -> list[EqualitySide]:
-    """The sides of what is no plain number; none if they cannot be read either."""
+    """Return the sides of what is no plain number; none if they cannot be read either.
+
+    Raises
+    ------
+    FormulaReadError
+        If they have two readings.
+    """
     try:
         bare = source.substitute(_TIMES, lambda _m: "").substitute(
             _PER_HUNDRED, lambda m: f"{m[1]} %"
@@ -203,12 +240,12 @@ def _sides(source: SourceText, options: GradingOptions) -> list[EqualitySide]:
 def _judge_side(
     spec: NumberSpec, side: EqualitySide, source: SourceText, options: GradingOptions
 ) -> Verdict:
-    """Judge one side, whose unit may be what is counted, or percent as a word.
+    """Return the verdict on one side; its unit may be what is counted, or percent as a word.
 
     Raises
     ------
     FormulaReadError
-        If it has a unit, and nobody said of what.
+        If it has a unit, and the question asks for none.
     """
     typed = side.quantity.unit
     if typed is None:
@@ -227,6 +264,7 @@ def _judge_side(
 
 
 def _scale_to_unit(number: ReadNumber, typed: TypedUnit, factor: Value) -> ReadNumber:
+    """Return the number in the unit that is counted, with the typed unit in its echo."""
     read_as = f"{number.read_as} {format_unit(typed.text)}"
     return replace(scale_number(number, factor), read_as=read_as)
 
@@ -234,7 +272,7 @@ def _scale_to_unit(number: ReadNumber, typed: TypedUnit, factor: Value) -> ReadN
 def _other_thing(
     spec: NumberSpec, readings: Readings, typed: TypedUnit, options: GradingOptions
 ) -> Verdict:
-    """Say that something else is counted than what was typed."""
+    """Return the wrong verdict on a number of something else than what is counted."""
     right = _judge_all_readings(spec, readings, options).credit
     fields = {"given": format_unit(typed.text), "asked": count_noun_name(spec.counts, options.lang)}
     read_as = f"{readings.main.read_as} {fields['given']}"
@@ -242,7 +280,7 @@ def _other_thing(
 
 
 def _read_source(spec: NumberSpec, typed: str) -> SourceText:
-    """What was typed without the name before it, with its colons as they are meant.
+    """Return what was typed without the name before it, with its colons as they are meant.
 
     ``f/2.8`` and, where it cannot be a ratio, ``1:2.8`` are the f-number 2.8; any other colon
     between numbers is a division.
@@ -256,18 +294,18 @@ def _read_source(spec: NumberSpec, typed: str) -> SourceText:
 
 
 def ask(part: PartContext) -> AskedPart[NumberSpec]:
-    """One number, and the number that each mistake gives."""
+    """Return one number, and the number that each mistake gives."""
     return ask_numeric(NumberSpec, part)
 
 
 def input_hints(spec: NumberSpec, lang: str) -> tuple[str, ...]:
-    """Percent, unit and rounding."""
+    """Return the sentences on percent, unit and rounding."""
     percent = translate(lang, "ask.percent") if spec.percent else ""
     return numeric_hints(spec, lang, percent, unit_hint(spec.unit, lang))
 
 
 def explain_key(spec: NumberSpec, lang: str) -> str:
-    """The exact value first, unless a percentage is asked."""
+    """Return the key with the exact value first, unless a percentage is asked."""
     return show_spec(spec, lang) if spec.percent else show_exact_first(spec, lang)
 
 

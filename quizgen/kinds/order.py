@@ -47,11 +47,11 @@ class AuthoredOrder(AuthoredPooled, kw_only=True, tag="order", frozen=True):
     traps: dict[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
 
     def listed_names(self) -> Sequence[str]:
-        """Steps, and those that belong to no place."""
+        """Return the steps, and those that belong nowhere."""
         return (*self.steps, *self.distractors)
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """What comes before what are steps; part of them can only be taken of one order."""
+        """Yield what is wrong with names, pairs of ``before`` and the number of distractors."""
         yield from super().find_problems()
         yield from find_name_problems("distractors", self.distractors, self.take, 0)
         strangers = {name for pair in self.before for name in pair} - set(self.steps)
@@ -75,7 +75,13 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
     traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
-        """``before`` must speak of the steps and contain no circle."""
+        """Check that ``before`` names steps and contains no circle.
+
+        Raises
+        ------
+        ValueError
+            If not, or if there are no steps, too many, or one twice.
+        """
         if not 1 <= len(self.steps) <= MOST_STEPS:
             raise ValueError(f"steps must be 1 to {MOST_STEPS}")
         if len({*self.steps}) < len(self.steps):
@@ -87,16 +93,24 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
             raise ValueError("before contains a circle")
 
     def pairs(self) -> list[tuple[str, str]]:
-        """Which step directly precedes which."""
+        """Return which step directly precedes which."""
         if self.before:
             return self.before
         return list(zip(self.steps, self.steps[1:], strict=False))
 
     def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
-        """Judge a typed order."""
+        """Return the verdict on typed labels; its note names the first line that is wrong.
+
+        Credit counts the steps in order but for the first, less those that do not belong.
+
+        Raises
+        ------
+        FormulaReadError
+            If a label does not exist or stands twice.
+        """
         if len(typed) > 1000:
             raise FormulaReadError("too-long", 1001, "1000")
-        chosen = _labels(self, typed)
+        chosen = _read_labels(self, typed)
         read_as = " ".join(safe_echo(label) for label in chosen)
         later = later_steps(self)
         steps = [label for label in chosen if label in later]
@@ -113,7 +127,7 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
         elif note == "order-distractor":
             line = chosen.index(intruders[0]) + 1
         because = tuple(chosen[line - 1 : line])
-        known = _trap(self, chosen) or note
+        known = _find_misconception_note(self, chosen) or note
         return verdict_by_share(
             min(credit, Fraction(9, 10)), read_as, known, line=line, because=because
         )
@@ -129,12 +143,13 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
         return " ".join(shown)
 
 
-def _trap(spec: OrderSpec, chosen: list[str]) -> str:
+def _find_misconception_note(spec: OrderSpec, chosen: list[str]) -> str:
+    """Return the note of the known wrong order that this is; empty if it is none."""
     return next((f"trap:{name}" for name, order in spec.traps.items() if order == chosen), "")
 
 
 def later_steps(spec: OrderSpec) -> dict[str, set[str]]:
-    """Every step that must come later than a step (closed under chains)."""
+    """Return every step that must come later than a step (closed under chains)."""
     later: dict[str, set[str]] = {step: set() for step in spec.steps}
     for first, second in spec.pairs():
         later[first].add(second)
@@ -169,6 +184,7 @@ def count_misplaced(steps: list[str], later: dict[str, set[str]]) -> int:
     }
 
     def place(i: int, tried: set[int]) -> bool:
+        """Return whether a step can be matched, moving other matches along if need be."""
         for j in wrong[i]:
             if j not in tried:
                 tried.add(j)
@@ -180,11 +196,18 @@ def count_misplaced(steps: list[str], later: dict[str, set[str]]) -> int:
     return sum(place(i, set()) for i in range(len(steps)))
 
 
-def _labels(spec: OrderSpec, typed: str) -> list[str]:
+def _read_labels(spec: OrderSpec, typed: str) -> list[str]:
+    """Return the typed labels of steps, in order.
+
+    Raises
+    ------
+    FormulaReadError
+        If a label does not exist or stands twice.
+    """
     text = re.sub(r"[\r\n]+", " ", typed.strip())
     source = normalise_typed(text, keep_x=True, longest=1000)
     known = {fold_word(label): label for label in (*spec.steps, *spec.distractors)}
-    words = _parse_numbered_lines(source.text) or _words(source.text, known)
+    words = _parse_numbered_lines(source.text) or _split_words(source.text, known)
     if len(words) == 1 and fold_word(words[0]) not in known:
         words = list(words[0])
     found = [_find_label(word, known) for word in words]
@@ -195,7 +218,10 @@ def _labels(spec: OrderSpec, typed: str) -> list[str]:
 
 
 def _parse_numbered_lines(text: str) -> list[str]:
-    """Labels behind the numbers of lines, ``1. B 2. D``, in the order of the numbers."""
+    """Return the labels behind numbers of lines, ``1. B 2. D``, in the order of the numbers.
+
+    None are returned unless the lines are numbered from 1 without a gap.
+    """
     pairs = dict(_LINE.findall(text))
     whole = not _LINE.sub("", text).strip(" ,;.")
     if not whole or len(pairs) < 2 or {*map(int, pairs)} != {*range(1, len(pairs) + 1)}:
@@ -203,8 +229,11 @@ def _parse_numbered_lines(text: str) -> list[str]:
     return [pairs[number] for number in sorted(pairs, key=int)]
 
 
-def _words(text: str, known: dict[str, str]) -> list[str]:
-    """Cut at blanks, separators and arrows; ``B-D`` alone could be a range and stays whole."""
+def _split_words(text: str, known: dict[str, str]) -> list[str]:
+    """Return the pieces between blanks, separators and arrows.
+
+    ``B-D`` alone could be a range and is not cut.
+    """
     words = [w for w in re.split(r"[\s,;.<>|=()\[\]{}।॥→⇒⟶/:]+|-+>", text) if w.strip("-")]
     words = [w for w in words if w.casefold() not in _FILLERS or fold_word(w) in known]
     cut = [w for word in words for w in word.split("-") if w]
@@ -212,6 +241,13 @@ def _words(text: str, known: dict[str, str]) -> list[str]:
 
 
 def _find_label(word: str, known: dict[str, str]) -> str:
+    """Return the label that a word stands for.
+
+    Raises
+    ------
+    FormulaReadError
+        If it stands for none.
+    """
     label = known.get(fold_word(word)) or known.get(fold_word(word.translate(BANGLA_LETTERS)))
     if label is None:
         raise FormulaReadError("label-expected", 1, safe_echo(word), list(known.values()))
@@ -219,12 +255,18 @@ def _find_label(word: str, known: dict[str, str]) -> str:
 
 
 def ask(part: PartContext) -> AskedPart[OrderSpec]:
-    """The steps and those that do not belong to them, in a drawn order."""
+    """Return the steps, and those that do not belong to them, in a drawn order.
+
+    Raises
+    ------
+    BankError
+        If a known wrong order names a step twice, or one that does not exist.
+    """
     steps, extra = part.selection()
     options = assign_letters(part.shuffle_names([*steps, *extra]))
     marks = {name: mark for mark, name in options}
     _check_traps(part)
-    traps = _wrong_orders(part.answer.get("traps", {}), steps, marks)
+    traps = _list_wrong_orders(part.answer.get("traps", {}), steps, marks)
     spec = make_spec(
         OrderSpec,
         part,
@@ -250,7 +292,13 @@ def ask(part: PartContext) -> AskedPart[OrderSpec]:
 
 
 def _check_traps(part: PartContext) -> None:
-    """Refuse a wrong order of other steps, or of one step twice."""
+    """Refuse a wrong order of other steps, or of one step twice.
+
+    Raises
+    ------
+    BankError
+        That names it.
+    """
     known = {*part.answer["steps"], *part.answer.get("distractors", ())}
     for trap, order in part.answer.get("traps", {}).items():
         for step in order:
@@ -259,10 +307,10 @@ def _check_traps(part: PartContext) -> None:
                 raise part.error(f"answer: traps.{trap}: step {step!r} is {wrong}")
 
 
-def _wrong_orders(
+def _list_wrong_orders(
     traps: Mapping[str, Sequence[str]], steps: Sequence[str], marks: Mapping[str, str]
 ) -> dict[str, list[str]]:
-    """The known wrong orders of what is shown; one that is right or known already is left out."""
+    """Return the known wrong orders of what is shown, without the right one and repetitions."""
     found: dict[str, list[str]] = {}
     for name, wrong in traps.items():
         order = [marks[step] for step in wrong if step in marks]
@@ -272,7 +320,7 @@ def _wrong_orders(
 
 
 def input_hints(spec: OrderSpec, lang: str) -> tuple[str, ...]:
-    """Whether all steps belong to the order."""
+    """Return the sentence on whether all steps belong to the order."""
     return (translate(lang, "ask.order" if spec.distractors else "ask.order_all"),)
 
 

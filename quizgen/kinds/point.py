@@ -76,7 +76,13 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
             raise ValueError("a trap needs as many values as the point")
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge typed coordinates."""
+        """Return the verdict on typed coordinates, with the verdicts of each.
+
+        Raises
+        ------
+        FormulaReadError
+            If one cannot be read, or there are too many, too few or other names than asked for.
+        """
         items, tail = read_list(typed, len(self.values), options.decimal)
         # The chain's names of the coordinates stand in every key; others only if authored.
         items = reorder_by_name(items, self.names or list(self.quantities()))
@@ -101,13 +107,13 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
 
 
 def _right(verdict: Verdict, place: int) -> bool:
-    """Whether a coordinate is right."""
+    """Return whether a coordinate is right."""
     cells = verdict.cells
     return bool(cells[place].credit) if cells else bool(verdict.credit)
 
 
 def _unit(tail: SourceText) -> TypedUnit | None:
-    """Read the unit behind the closing bracket."""
+    """Return the unit behind the closing bracket; None if there is none."""
     if not tail.text:
         return None
     quantity = split_quantity(SourceText(f"1 {tail.text}", (1, 1, *tail.columns)))
@@ -115,11 +121,13 @@ def _unit(tail: SourceText) -> TypedUnit | None:
 
 
 def _echo(spec: PointSpec, numbers: list[ReadNumber]) -> str:
+    """Return the coordinates as read, with the unit behind them."""
     inside = "; ".join(number.read_as for number in numbers)
     return f"({inside}) {format_unit(spec.unit)}".rstrip()
 
 
 def _judge(spec: PointSpec, numbers: list[ReadNumber], options: GradingOptions) -> Verdict:
+    """Return the verdict on one reading of all coordinates."""
     values = [number.value for number in numbers]
     read_as = _echo(spec, numbers)
     keys = spec.keys()
@@ -129,7 +137,10 @@ def _judge(spec: PointSpec, numbers: list[ReadNumber], options: GradingOptions) 
 
 
 def _up_to_scale(spec: PointSpec, values: list[Value], keys: list[Value], read_as: str) -> Verdict:
-    """Compare homogeneous coordinates: scaled by the key's largest, or all zero."""
+    """Return the verdict on homogeneous coordinates, scaled to the key's largest.
+
+    All zero is no point.
+    """
     if all(value == 0 for value in values):
         return wrong(read_as, "all-zero")
     largest = max(range(len(keys)), key=lambda i: abs(float(keys[i])))
@@ -147,6 +158,7 @@ def _coordinates(
     read_as: str,
     options: GradingOptions,
 ) -> Verdict:
+    """Return the verdict on coordinates, each judged as a number; a known mistake gives all."""
     cells = tuple(_cell(spec, i, numbers[i], keys[i], options) for i in range(len(keys)))
     if all(cell.credit == 1 for cell in cells):
         carried = any(cell.note == CARRIED for cell in cells)
@@ -162,13 +174,14 @@ def _coordinates(
 def _cell(
     spec: PointSpec, index: int, number: ReadNumber, key: Value, options: GradingOptions
 ) -> Verdict:
+    """Return the verdict on one coordinate, with errors carried forward in its quantity."""
     target = spec.quantities()[index] if len(spec.of) == len(spec.values) else ""
     hints = diagnosis_for(spec, number, fmpq(1), options, target) if target else None
     return judge_value(NumberTarget(spec, key, hints=hints), number, number.value)
 
 
 def _trap(spec: PointSpec, numbers: list[ReadNumber]) -> str:
-    """The known mistake that gives the numbers; of several that round to them the nearest."""
+    """Return the mistake that gives the numbers, the nearest of several; empty if none."""
     wanted = {name: list(map(parse_exact, values)) for name, values in spec.traps.items()}
     found = [
         name for name, values in wanted.items() if all_match_misconception(spec, numbers, values)
@@ -177,6 +190,7 @@ def _trap(spec: PointSpec, numbers: list[ReadNumber]) -> str:
 
 
 def _distance(numbers: list[ReadNumber], values: list[Value]) -> float:
+    """Return the sum of the distances of the coordinates from a mistake's."""
     return sum(
         abs(float(number.value) - float(value))
         for number, value in zip(numbers, values, strict=True)
@@ -190,7 +204,7 @@ def _hint(
     cells: tuple[Verdict, ...],
     read_as: str,
 ) -> Verdict:
-    """Swapped axes, signs, or which coordinate is right."""
+    """Return a verdict that names swapped axes, signs, or which coordinate is wrong."""
     values = [number.value for number in numbers]
     if all_match_target(spec, numbers, keys[::-1]):
         return wrong(read_as, "swapped")
@@ -206,7 +220,7 @@ def _hint(
 
 
 def _credit(keys: list[Value], cells: tuple[Verdict, ...]) -> Fraction:
-    """Share of right coordinates; a zero in the key earns nothing by itself."""
+    """Return the share of right coordinates; a zero in the key earns nothing by itself."""
     counted = [cell.credit for key, cell in zip(keys, cells, strict=True) if key != 0]
     if counted and all(credit == 1 for credit in counted):
         return Fraction(len(counted), len(cells))
@@ -214,19 +228,20 @@ def _credit(keys: list[Value], cells: tuple[Verdict, ...]) -> Fraction:
 
 
 def _names(spec: PointSpec, missed: list[int]) -> tuple[str, ...]:
+    """Return the names of coordinates, or their numbers from 1."""
     names = spec.names or [str(i + 1) for i in range(len(spec.values))]
     return tuple(names[i] for i in missed)
 
 
 def ask(part: PartContext) -> AskedPart[PointSpec]:
-    """The coordinates, and those that each mistake gives."""
+    """Return the coordinates, and those that each mistake gives."""
     asked = ask_numeric(PointSpec, part)
     boxes = tuple(InputBox("", asked.spec.unit) for _ in asked.spec.values)
     return msgspec.structs.replace(asked, control=InputControl("line", boxes=boxes))
 
 
 def input_hints(spec: PointSpec, lang: str) -> tuple[str, ...]:
-    """Shape, unit and rounding."""
+    """Return the sentences on shape, unit and rounding."""
     shape = translate(lang, "ask.point3" if len(spec.values) > len(("x", "y")) else "ask.point")
     return numeric_hints(spec, lang, shape, unit_hint(spec.unit, lang))
 

@@ -54,16 +54,22 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
     bare: bool = False
 
     def validate(self) -> None:
-        """Check tolerance, value, unit and traps."""
+        """Check tolerance, value, unit and traps; errors as ``WordSpec.validate``."""
         super().validate()
         listed_unit(self.unit)
 
     def value_unit(self) -> str:
-        """The unit of the key."""
+        """Return the unit of the key."""
         return self.unit
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed quantity."""
+        """Return the verdict on a typed quantity; of equal ones that were chained the best.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read.
+        """
         sides = read_typed_sides(typed, options.decimal)
         return best_verdict(_judge_side(self, side, options) for side in sides)
 
@@ -74,6 +80,7 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
 
 
 def _judge_side(spec: QuantitySpec, side: EqualitySide, options: GradingOptions) -> Verdict:
+    """Return the verdict on one side, whose number may have two readings."""
     return judge_readings(
         side.readings, lambda n: _judge_reading(spec, n, side.quantity, options), spec.decimals
     )
@@ -82,6 +89,7 @@ def _judge_side(spec: QuantitySpec, side: EqualitySide, options: GradingOptions)
 def _judge_reading(
     spec: QuantitySpec, number: ReadNumber, quantity: TypedQuantity, options: GradingOptions
 ) -> Verdict:
+    """Return the verdict on one reading of a number, converted to the key's unit."""
     wanted = listed_unit(spec.unit)
     if quantity.unit is None:
         return _judge_without_unit(spec, number, wanted, options)
@@ -96,7 +104,7 @@ def _judge_reading(
 def judge_in_unit(
     spec: QuantitySpec, number: ReadNumber, value: Value, options: GradingOptions, read_as: str
 ) -> Verdict:
-    """Judge a value that stands in the key's unit."""
+    """Return the verdict on a value that stands in the key's unit."""
     asked = NumberTarget(
         spec,
         parse_exact(spec.value),
@@ -110,7 +118,7 @@ def judge_in_unit(
 def _judge_without_unit(
     spec: QuantitySpec, number: ReadNumber, wanted: TypedUnit, options: GradingOptions
 ) -> Verdict:
-    """Judge a number that was typed without a unit.
+    """Return the verdict on a number that was typed without a unit.
 
     Nothing is taken off where no unit is needed or it stands printed; a fraction may mean %.
     """
@@ -131,7 +139,10 @@ def _judge_without_unit(
 def _deduct_missing_unit(
     spec: QuantitySpec, number: ReadNumber, verdict: Verdict, points: Fraction
 ) -> Verdict:
-    """Take off for the unit: half, but never more than half a point, and nothing else."""
+    """Return the verdict with less credit: half, but never more than half a point.
+
+    A verdict that already has less is returned as it is.
+    """
     credit = max(HALF, 1 - HALF / points)
     if verdict.credit < credit:
         return verdict
@@ -142,6 +153,10 @@ def _deduct_missing_unit(
 def _reject_unit_clash(
     spec: QuantitySpec, number: ReadNumber, typed: TypedUnit, read_as: str
 ) -> Verdict:
+    """Return the wrong verdict on a unit of another dimension.
+
+    Its note differs where the number is right.
+    """
     note = "unit-clash"
     if agrees_within_half_percent(number.value, parse_exact(spec.value)):
         note = "unit-wrong"
@@ -152,7 +167,10 @@ def _reject_unit_clash(
 def _diagnose_unit_slip(
     spec: QuantitySpec, number: ReadNumber, value: Value, typed: TypedUnit, verdict: Verdict
 ) -> Verdict:
-    """Name a slip of the unit: of its prefix, of radians for degrees, or of decibels."""
+    """Return the verdict with a slip of the unit, if one explains it, else as it is.
+
+    Such slips are a wrong prefix, radians for degrees, and 10 for 20 in decibels.
+    """
     key = parse_exact(spec.value)
     if verdict.note == "factor" and spec.unit == "dB":
         return _diagnose_decibel_factor(value, key, verdict)
@@ -174,6 +192,7 @@ def _diagnose_unit_slip(
 
 
 def _diagnose_decibel_factor(value: Value, key: Value, verdict: Verdict) -> Verdict:
+    """Return a verdict for 10 in place of 20 in decibels or the other way round, else as it is."""
     if agrees_within_half_percent(value * 2, key):
         return attach_values(wrong(verdict.read_as, "decibel-ten"), *verdict.values)
     if agrees_within_half_percent(value, key * 2):
@@ -182,7 +201,7 @@ def _diagnose_decibel_factor(value: Value, key: Value, verdict: Verdict) -> Verd
 
 
 def _diagnose_ratio_for_decibel(spec: QuantitySpec, value: Value, read_as: str) -> Verdict | None:
-    """Report a ratio given where decibels were asked."""
+    """Return the wrong verdict on a ratio given where decibels were asked; None if it is none."""
     if spec.unit != "dB" or not value > 0:
         return None
     key = float(parse_exact(spec.value))
@@ -193,14 +212,14 @@ def _diagnose_ratio_for_decibel(spec: QuantitySpec, value: Value, read_as: str) 
 
 
 def ask(part: PartContext) -> AskedPart[QuantitySpec]:
-    """One number in the unit asked, else in the unit it is shown in."""
+    """Return one number in the unit asked, else in the unit it is shown in."""
     shown_in = part.units.get(asked_quantities(part.answer)[0], "")
     unit = part.answer.get("unit", shown_in)
     return ask_numeric(QuantitySpec, part, unit=unit)
 
 
 def input_hints(spec: QuantitySpec, lang: str) -> tuple[str, ...]:
-    """Unit and rounding."""
+    """Return the sentences on unit and rounding."""
     unit = translate(lang, "ask.unit" if spec.bare else "ask.quantity", unit=format_unit(spec.unit))
     return numeric_hints(spec, lang, unit)
 

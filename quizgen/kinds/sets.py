@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
+import msgspec
+
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.equalities import read_items
 from quizgen.grading.reading.lists import read_list
@@ -12,11 +14,28 @@ from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import VectorSpec, matches_target
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
-from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first, unit_hint
-from quizgen.kinds.contract import MOST_OPTIONS, AnswerKind, AskedPart, AuthoredNumeric, PartContext
+from quizgen.kinds.asking import (
+    ask_numeric,
+    make_spec,
+    misconception_specs,
+    numeric_hints,
+    show_exact_first,
+    unit_hint,
+)
+from quizgen.kinds.contract import (
+    MOST_OPTIONS,
+    AnswerKind,
+    AskedPart,
+    AuthoredNumeric,
+    PartContext,
+    asked_form,
+)
+from quizgen.kinds.forms import format_plain, require_form
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
+from quizgen.maths.tolerance import RULES
+from quizgen.maths.tree import Call, Expr, Sym
 from quizgen.maths.values import Value
 
 
@@ -28,18 +47,34 @@ class AuthoredSet(AuthoredNumeric, tag="set", frozen=True):
 
 
 class SetSpec(VectorSpec, kw_only=True, frozen=True):
-    """Set: ``values``; ``unit`` of all."""
+    """Set: ``values``; ``unit`` of all; ``letters`` that belong to it beside the numbers."""
+
+    letters: list[str] = msgspec.field(default_factory=list)
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed set."""
+        """Return the verdict on a typed set, in any order.
+
+        Raises
+        ------
+        FormulaReadError
+            If an element cannot be read, or ``{0,5}`` can be one or two.
+        """
         if typed.strip() in _EMPTY:
             return _judge(self, [])
+        if self.letters:
+            return _judge_with_letters(self, typed, options)
         if not _ONE_COMMA.fullmatch(typed.strip()):
             return _judge(self, _elements(self, typed, None, options))
         return self._with_one_comma(typed, options)
 
     def _with_one_comma(self, typed: str, options: GradingOptions) -> Verdict:
-        """Judge ``{0,5}``, which is one decimal or two whole numbers."""
+        """Return the verdict on ``{0,5}``, which is one decimal or two whole numbers.
+
+        Raises
+        ------
+        FormulaReadError
+            If both readings are possible and are not marked alike.
+        """
         two = _judge(self, _elements(self, typed, 2, options))
         one = _judge(self, _elements(self, typed, 1, options))
         own = one if options.decimal == "comma" else two
@@ -53,11 +88,8 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
-        return (
-            "{"
-            + "; ".join(pretty.format_number(format_key(self, key)) for key in self.keys())
-            + "}"
-        )
+        numbers = [pretty.format_number(format_key(self, key)) for key in self.keys()]
+        return "{" + "; ".join([*numbers, *self.letters]) + "}"
 
 
 _ONE_COMMA = re.compile(r"[^\W\d]?[^,;|\d]*[\[({]? *[-+−–]?\d+,\d+ *[\])}]?[^,;|\d]*")
@@ -69,11 +101,34 @@ _EMPTY = frozenset({"{}", "∅", "{ }", "()", "empty", "leer", "শূন্য"
 def _elements(
     spec: SetSpec, typed: str, count: int | None, options: GradingOptions
 ) -> list[ReadNumber]:
+    """Return the typed elements in the asked unit; ``count`` of them, or any number if None."""
     items, _ = read_list(typed, count, options.decimal)
     return read_items(items, spec.unit, None, options.decimal)[0]
 
 
+def _judge_with_letters(spec: SetSpec, typed: str, options: GradingOptions) -> Verdict:
+    """Judge numbers and letters together: each element counts alike."""
+    items, _ = read_list(typed, None, options.decimal)
+    known = {letter.casefold(): letter for letter in spec.letters}
+    letters = {known[text] for text in (item.text.strip().casefold() for item in items)
+               if text in known}  # fmt: skip
+    rest = [item for item in items if item.text.strip().casefold() not in known]
+    strangers = [item for item in rest if item.text.strip().isalpha()]
+    numbers = read_items([item for item in rest if item not in strangers], spec.unit, None,
+                         options.decimal)[0]  # fmt: skip
+    found, extra, twice = _match_elements(spec, numbers, spec.keys())
+    extra, right = extra + len(strangers), len(found) + len(letters)
+    wanted = len(spec.keys()) + len(spec.letters)
+    read_as = "{" + "; ".join([*(n.read_as for n in numbers), *sorted(letters)]) + "}"
+    if right == wanted and not extra:
+        return correct(read_as, "duplicates" if twice else "")
+    credit = max(Fraction(right - extra, wanted), Fraction(0))
+    note = "set-extra" if extra else "set-missing"
+    return verdict_by_share(credit, read_as, note, right=right, of=wanted)
+
+
 def _judge(spec: SetSpec, numbers: list[ReadNumber]) -> Verdict:
+    """Return the verdict on elements: those found less those that do not belong, of all."""
     read_as = "{" + "; ".join(number.read_as for number in numbers) + "}"
     keys = spec.keys()
     found, extra, twice = _match_elements(spec, numbers, keys)
@@ -91,7 +146,7 @@ def _judge(spec: SetSpec, numbers: list[ReadNumber]) -> Verdict:
 def _match_elements(
     spec: SetSpec, numbers: list[ReadNumber], keys: list[Value]
 ) -> tuple[set[int], int, bool]:
-    """Elements found, elements that do not belong, and whether one came twice."""
+    """Return the indices found, how many do not belong, and whether one came twice."""
     found: set[int] = set()
     extra, twice = 0, False
     for number in numbers:
@@ -106,6 +161,7 @@ def _match_elements(
 
 
 def _covers(spec: SetSpec, numbers: list[ReadNumber], wanted: list[Value]) -> bool:
+    """Return whether the numbers are those of a mistake, in any order."""
     return len(numbers) == len(wanted) and all(
         any(matches_target(spec, n, n.value, value) for n in numbers) for value in wanted
     )
@@ -113,11 +169,31 @@ def _covers(spec: SetSpec, numbers: list[ReadNumber], wanted: list[Value]) -> bo
 
 def ask(part: PartContext) -> AskedPart[SetSpec]:
     """The elements, and those that each mistake gives."""
-    return ask_numeric(SetSpec, part)
+    if not asked_form(part.answer):
+        return ask_numeric(SetSpec, part)
+    values, letters = _list_elements(part, part.answer_form())
+    traps = {name: _list_elements(part, f)[0] for name, f in part.misconception_forms().items()}
+    notes = part.misconception_notes(traps) if traps else {}
+    given = {"values": values, "letters": letters, "traps": traps, "notes": notes}
+    rule = {} if RULES_GIVEN & part.answer.keys() else {"exact": True}
+    spec = make_spec(SetSpec, part, **given, **rule)
+    return AskedPart(spec, mistakes=misconception_specs(spec, "values"))
+
+
+def _list_elements(part: PartContext, form: Expr) -> tuple[list[str], list[str]]:
+    """Numbers and letters of a set of the solver."""
+    if isinstance(form, Call) and form == Call("union", ()):
+        return [], []
+    args = require_form(part, form, "set").args
+    letters = [arg.name for arg in args if isinstance(arg, Sym)]
+    return [format_plain(arg) for arg in args if not isinstance(arg, Sym)], letters
+
+
+RULES_GIVEN = frozenset(RULES)
 
 
 def input_hints(spec: SetSpec, lang: str) -> tuple[str, ...]:
-    """Shape, unit and rounding."""
+    """Return the sentences on shape, unit and rounding."""
     return numeric_hints(spec, lang, translate(lang, "ask.set"), unit_hint(spec.unit, lang))
 
 

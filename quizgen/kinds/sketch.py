@@ -100,7 +100,13 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
     traps: dict[str, SketchLines] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
-        """Lines need two ends and room in the field, features known lines."""
+        """Check that lines have two ends and room in the field, and features name lines.
+
+        Raises
+        ------
+        ValueError
+            If not, or if a feature cannot be judged.
+        """
         left, right, low, high = self.field
         if not (left < right and low < high):
             raise ValueError("view: from must be below to")
@@ -111,7 +117,7 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
         to_floats([self.tall, *self.cuts])
         if any(not one.of or not {*one.of} <= {*self.lines} for one in self.features.values()):
             raise ValueError("features: of names lines")
-        for sheet in self._sheets([]):
+        for sheet in self._build_comparisons([]):
             for one in self.features.values():
                 one.validate(sheet)
 
@@ -122,16 +128,22 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
         return left, right, low, high
 
     def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
-        """Judge drawn lines by the features of the wanted ones."""
+        """Return the verdict on drawn lines by the features of the wanted ones, weighed by worth.
+
+        Raises
+        ------
+        FormulaReadError
+            If no lines can be read.
+        """
         strokes = read_strokes(typed, self.field)
         line = self.scale.line
-        drawn = [line(piece) for stroke in strokes for piece in self._cut(stroke)]
-        sheet, *mistaken = self._sheets(drawn)
-        note, shares = "sketch", self._shares(sheet)
+        drawn = [line(piece) for stroke in strokes for piece in self._cut_stroke(stroke)]
+        sheet, *mistaken = self._build_comparisons(drawn)
+        note, shares = "sketch", self._compute_shares(sheet)
         if not any(one.is_judgeable(sheet) for one in self.features.values()):
             note = "sketch-elsewhere"
         elif any(share < 1 for share in shares.values()):
-            note = self._trap(shares, mistaken) or note
+            note = self._find_misconception_note(shares, mistaken) or note
         worth = {name: one.worth for name, one in self.features.items()}
         credit = sum((worth[name] * share for name, share in shares.items()), Fraction(0))
         missed = tuple(name for name, share in shares.items() if share < 1)
@@ -148,23 +160,25 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
     def digits(self) -> tuple[int, int]:
         """Decimals along x and along y that show a three hundredth of the field."""
         left, right, low, high = self.field
-        return _decimals(right - left), _decimals(high - low)
+        return _count_decimals(right - left), _count_decimals(high - low)
 
     def show(self) -> str:
-        """The wanted lines, curved ones by a few of their points."""
-        return self._format_lines([_few(parse_key_line(line)) for line in self.lines.values()])
+        """Return the wanted lines, curved ones by a few of their points."""
+        return self._format_lines(
+            [_thin_line(parse_key_line(line)) for line in self.lines.values()]
+        )
 
     def _format_lines(self, lines: Sequence[Sequence[FieldPoint]]) -> str:
-        """Lines as people write them, and as they can be typed."""
+        """Return lines as people write them, and as they can be typed."""
         return format_strokes(lines, self.digits).replace("-", MINUS)
 
     @property
     def scale(self) -> FieldScale:
-        """From the numbers on the axes to shares of the width."""
+        """The change from numbers on the axes to shares of the width."""
         return FieldScale(self.field, to_floats([self.tall])[0])
 
-    def _cut(self, stroke: StrokePoints) -> list[list[FieldPoint]]:
-        """A stroke in pieces between the upright lines at which it is cut."""
+    def _cut_stroke(self, stroke: StrokePoints) -> list[list[FieldPoint]]:
+        """Return a stroke in pieces between the upright lines at which it is cut."""
         found = [[stroke[0]]]
         for (x, y), (to_x, to_y) in pairwise(stroke):
             places = [
@@ -177,8 +191,8 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
             found[-1].append((to_x, to_y))
         return [piece for piece in found if len({*piece}) > 1]
 
-    def _sheets(self, drawn: Sequence[StrokePoints]) -> list[DrawingComparison]:
-        """What was drawn beside the wanted lines, and beside those of each mistake."""
+    def _build_comparisons(self, drawn: Sequence[StrokePoints]) -> list[DrawingComparison]:
+        """Return what was drawn next to the wanted lines, then next to those of each mistake."""
         scale = self.scale
         ways = [{name: scale.line(parse_key_line(line)) for name, line in lines.items()}
                 for lines in (self.lines, *self.traps.values())]  # fmt: skip
@@ -187,11 +201,14 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
             for place, way in enumerate(ways)
         ]
 
-    def _shares(self, sheet: DrawingComparison) -> dict[str, Fraction]:
+    def _compute_shares(self, sheet: DrawingComparison) -> dict[str, Fraction]:
+        """Return the share, 0 to 1, in which each feature is satisfied, by its name."""
         return {name: one.satisfied_share(sheet) for name, one in self.features.items()}
 
-    def _trap(self, shares: Mapping[str, Fraction], mistaken: Sequence[DrawingComparison]) -> str:
-        """The known mistake that explains most of what is missed."""
+    def _find_misconception_note(
+        self, shares: Mapping[str, Fraction], mistaken: Sequence[DrawingComparison]
+    ) -> str:
+        """Return the note of the mistake that explains most of what is missed, or empty."""
         missed = [name for name, share in shares.items() if share < 1]
         found, most = "", 0
         for trap, sheet in zip(self.traps, mistaken, strict=True):
@@ -203,23 +220,31 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
         return f"trap:{found}" if found else ""
 
 
-def _decimals(extent: float) -> int:
+def _count_decimals(extent: float) -> int:
+    """Return the decimals that show a three hundredth of an extent."""
     return max(0, 2 - math.floor(math.log10(extent)))
 
 
-def _few(line: list[FieldPoint]) -> list[FieldPoint]:
+def _thin_line(line: list[FieldPoint]) -> list[FieldPoint]:
+    """Return every second point of a long line, and its last."""
     return [*line[:-1:2], line[-1]] if len(line) > SHOWN else line
 
 
 def ask(part: PartContext) -> AskedPart[SketchSpec]:
-    """The wanted lines and those of each mistake, and the field that they are drawn in."""
+    """Return the wanted lines and those of each mistake, and the field that they are drawn in.
+
+    Raises
+    ------
+    BankError
+        If the authored answer is not complete.
+    """
     answer = convert(part.answer, AuthoredSketch)
-    right = _Place({name: to_float(value) for name, value in part.shown_values.items()})
+    right = _TemplateFormulas({name: to_float(value) for name, value in part.shown_values.items()})
     traps = {
-        trap: _format_typed_lines(right.but(changed).lines(answer.lines))
+        trap: _format_typed_lines(right.with_changes(changed).lines(answer.lines))
         for trap, changed in answer.traps.items()
     }
-    features = {name: _feature(right, one) for name, one in answer.features.items()}
+    features = {name: _fill_feature(right, one) for name, one in answer.features.items()}
     lines, tall = right.lines(answer.lines), right.number(answer.tall)
     spec = make_spec(
         SketchSpec,
@@ -251,35 +276,39 @@ def ask(part: PartContext) -> AskedPart[SketchSpec]:
     )
 
 
-class _Place:
+class _TemplateFormulas:
     """Formulas of a template over the values of a variant."""
 
     def __init__(self, values: Mapping[str, float]) -> None:
+        """Store the values by name, in the units they are shown in."""
         self._values = values
 
-    def but(self, changed: Mapping[str, Scalar]) -> _Place:
-        """The same with wrong values in place of some."""
-        return _Place({**self._values, **{name: self.number(to) for name, to in changed.items()}})
+    def with_changes(self, changed: Mapping[str, Scalar]) -> _TemplateFormulas:
+        """Return the same with wrong values in place of some."""
+        return _TemplateFormulas(
+            {**self._values, **{name: self.number(to) for name, to in changed.items()}}
+        )
 
     def number(self, formula: Scalar) -> float:
-        """The value of a formula."""
+        """Return the value of a formula."""
         return self._compile_formula(formula)(0.0)
 
     def point(self, formulas: Formulas) -> FieldPoint:
-        """The values of two."""
+        """Return the values of two formulas."""
         return self.number(formulas[0]), self.number(formulas[1])
 
     def fill_value(self, value: Scalar | list[Scalar]) -> float | list[float]:
-        """The value of a formula or of several; what is true or false stays so."""
+        """Return the value of a formula or of several; a bool stays one."""
         if isinstance(value, bool):
             return value
         return [*map(self.number, value)] if isinstance(value, list) else self.number(value)
 
     def lines(self, authored: Mapping[str, AuthoredLine]) -> dict[str, list[FieldPoint]]:
-        """Lines by their names."""
-        return {name: self._line(line) for name, line in authored.items()}
+        """Return the points of authored lines by their names."""
+        return {name: self._build_line(line) for name, line in authored.items()}
 
-    def _line(self, line: AuthoredLine) -> list[FieldPoint]:
+    def _build_line(self, line: AuthoredLine) -> list[FieldPoint]:
+        """Return the points of one line; of a curve the ends of ``SAMPLES`` pieces."""
         if not isinstance(line, ParametricCurve):
             return [_round_point(*self.point(point)) for point in line]
         x, y = self._compile_formula(line.x), self._compile_formula(line.y)
@@ -288,26 +317,29 @@ class _Place:
         return [_round_point(x(t), y(t)) for t in steps]
 
     def _compile_formula(self, formula: Scalar) -> Callable[[float], float]:
-        compiled = _formula(str(formula), (*self._values, "t"))
+        """Return a formula as a function of the curve's parameter ``t``."""
+        compiled = _compile_template_formula(str(formula), (*self._values, "t"))
         return lambda t: float(compiled({**self._values, "t": t}))
 
 
 @lru_cache(maxsize=512)
-def _formula(text: str, symbols: tuple[str, ...]) -> CompiledFormula:
-    """A formula of a template over its symbols, the same for all of its variants."""
+def _compile_template_formula(text: str, symbols: tuple[str, ...]) -> CompiledFormula:
+    """Return a formula over its symbols, compiled once for all variants of a template."""
     return compile_expr(parse_formula(text, symbols=symbols), float64_system())
 
 
 def _format_typed_lines(lines: Mapping[str, list[FieldPoint]]) -> dict[str, str]:
+    """Return lines as they are typed, by their names."""
     return {name: format_strokes([line], DIGITS) for name, line in lines.items()}
 
 
 def _round_point(x: float, y: float) -> FieldPoint:
+    """Return a point with ``DIGITS`` decimals and without a minus sign at 0."""
     return round(x, DIGITS[0]) + 0.0, round(y, DIGITS[1]) + 0.0
 
 
-def _feature(place: _Place, authored: Mapping[str, Any]) -> dict[str, Any]:
-    """A feature with numbers in place of formulas, whichever keys its way to read has."""
+def _fill_feature(place: _TemplateFormulas, authored: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a feature with numbers in place of formulas, whichever fields it has."""
     return {
         key: value if key in COMMON else place.fill_value(value) for key, value in authored.items()
     }

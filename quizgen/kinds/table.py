@@ -83,7 +83,7 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
     traps: dict[str, dict[str, Scalar]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
-        """Check tolerance and every cell."""
+        """Check tolerance and every cell; errors as ``WordSpec.validate``."""
         super().validate()
         if not self.values:
             raise ValueError("values must not be empty")
@@ -91,22 +91,28 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
             if name not in self.values:
                 raise ValueError(f"no value is named {name!r}")
         for name in self.values:
-            decode_spec(*_shape(self, name))
+            decode_spec(*_build_cell_table(self, name))
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge each cell."""
+        """Return the verdict on all cells, with the verdicts of each.
+
+        Raises
+        ------
+        FormulaReadError
+            If a cell cannot be read, or a name is not asked for.
+        """
         names = list(self.values)
         placed = _place_cells(typed, names, options.decimal)
         asked = {name: cell_spec(self, name) for name in names}
-        cells = [_one(asked[name], name, placed.get(name), options) for name in names]
+        cells = [_judge_cell(asked[name], name, placed.get(name), options) for name in names]
         stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
         shown = zip(map(pretty.format_name, names), cells, strict=True)
         read_as = "; ".join(f"{name} = {c.read_as}" for name, c in shown if c.read_as)
         if stopped is not None:
             return ambiguous(stopped.note, stopped.read_as, **stopped.fields)
         missed = any(c.credit < 1 for c in cells)
-        trap = _trap(self.traps, asked, placed, options) if missed else ""
-        verdict = _together(names, cells, read_as, trap)
+        trap = _find_misconception(self.traps, asked, placed, options) if missed else ""
+        verdict = _combine_cell_verdicts(names, cells, read_as, trap)
         values = tuple(c.values[0] if c.values else None for c in cells)
         return attach_values(replace(verdict, cells=tuple(cells)), *values)
 
@@ -117,7 +123,7 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
         )
 
     def value_units(self) -> list[str]:
-        """The unit of each cell."""
+        """Return the unit of each cell."""
         return [cell_spec(self, name).value_unit() for name in self.values]
 
 
@@ -126,12 +132,18 @@ _INHERITED = (*RULES, "within", "strict")
 
 def cell_spec(spec: TableSpec, name: str) -> Cell:
     """Return the spec of one cell."""
-    shape, table = _shape(spec, name)
+    shape, table = _build_cell_table(spec, name)
     return convert(table, shape)
 
 
-def _shape(spec: TableSpec, name: str) -> tuple[type[Cell], dict[str, Any]]:
-    """The kind of one cell and what its spec says."""
+def _build_cell_table(spec: TableSpec, name: str) -> tuple[type[Cell], dict[str, Any]]:
+    """Return the struct of one cell's kind, and its fields.
+
+    Raises
+    ------
+    ValueError
+        If a table cannot have cells of that kind.
+    """
     own = spec.cells.get(name, {})
     table: dict[str, Any] = {"kind": "number", "value": spec.values[name], "define": spec.define}
     if not {*RULES} & own.keys():
@@ -152,7 +164,13 @@ def _shape(spec: TableSpec, name: str) -> tuple[type[Cell], dict[str, Any]]:
 
 
 def _place_cells(typed: str, names: list[str], decimal: str) -> dict[str, SourceText]:
-    """Name to what was typed for it: by name, or all in order."""
+    """Return what was typed for each name: by name, or all in order.
+
+    Raises
+    ------
+    FormulaReadError
+        If a name is not asked for, or there are not as many values without names.
+    """
     count = None if any(mark in typed for mark in "=:") else len(names)
     items, _ = read_list(typed, count, decimal)
     placed = place_by_name(items, names)
@@ -163,7 +181,16 @@ def _place_cells(typed: str, names: list[str], decimal: str) -> dict[str, Source
     return dict(zip(names, items, strict=True))
 
 
-def _one(asked: Cell, name: str, item: SourceText | None, options: GradingOptions) -> Verdict:
+def _judge_cell(
+    asked: Cell, name: str, item: SourceText | None, options: GradingOptions
+) -> Verdict:
+    """Return the verdict on one cell; wrong if nothing was typed for it.
+
+    Raises
+    ------
+    FormulaReadError
+        If it cannot be read.
+    """
     if item is None:
         return wrong("", "missing", names=(name,))
     try:
@@ -175,7 +202,13 @@ def _one(asked: Cell, name: str, item: SourceText | None, options: GradingOption
     return verdict
 
 
-def _together(names: list[str], cells: list[Verdict], read_as: str, trap: str) -> Verdict:
+def _combine_cell_verdicts(
+    names: list[str], cells: list[Verdict], read_as: str, trap: str
+) -> Verdict:
+    """Return the verdict on a table: the mean credit of its cells, and which are wrong.
+
+    ``trap`` is the mistake that explains all of them, or empty.
+    """
     credit = sum((c.credit for c in cells), Fraction(0)) / len(cells)
     missed = tuple(n for n, c in zip(names, cells, strict=True) if c.credit < 1)
     if not missed:
@@ -185,36 +218,42 @@ def _together(names: list[str], cells: list[Verdict], read_as: str, trap: str) -
     return verdict_by_share(credit, read_as, note or "cells", names=missed, **fields)
 
 
-def _trap(
+def _find_misconception(
     traps: Mapping[str, Mapping[str, Scalar]],
     asked: Mapping[str, Cell],
     placed: Mapping[str, SourceText],
     options: GradingOptions,
 ) -> str:
-    """Return the one known mistake that gives every cell as it was typed."""
+    """Return the one mistake that gives every cell as it was typed; empty if not one."""
     if len(placed) < len(asked):
         return ""
     typed = {name: source.text for name, source in placed.items()}
-    fitting = [trap for trap in traps if _gives(trap, traps[trap], asked, typed, options)]
+    fitting = [
+        trap
+        for trap in traps
+        if _is_given_by_misconception(trap, traps[trap], asked, typed, options)
+    ]
     return fitting[0] if len(fitting) == 1 else ""
 
 
-def _gives(
+def _is_given_by_misconception(
     trap: str,
     values: Mapping[str, Scalar],
     asked: Mapping[str, Cell],
     typed: Mapping[str, str],
     options: GradingOptions,
 ) -> bool:
-    """Whether a mistake explains all cells: its values stand in every one of them."""
+    """Return whether a mistake explains all cells: its values stand in every one of them."""
     return all(
-        _gives_cell(replace(one, traps={trap: values.get(name, one.value)}), typed[name], options)
+        _is_cell_given_by_misconception(
+            replace(one, traps={trap: values.get(name, one.value)}), typed[name], options
+        )
         for name, one in asked.items()
     )
 
 
-def _gives_cell(cell: Cell, typed: str, options: GradingOptions) -> bool:
-    """Whether a cell's one mistake gives what was typed, which may be right all the same."""
+def _is_cell_given_by_misconception(cell: Cell, typed: str, options: GradingOptions) -> bool:
+    """Return whether a cell's one mistake gives what was typed, which may be right all the same."""
     verdict = cell.judge(typed, options)
     ((trap, value),) = cell.traps.items()
     if not verdict.credit:
@@ -223,11 +262,12 @@ def _gives_cell(cell: Cell, typed: str, options: GradingOptions) -> bool:
 
 
 def ask(part: PartContext) -> AskedPart[TableSpec]:
-    """The cells by their labels, and those that each mistake gives."""
+    """Return the cells by their labels, and those that each mistake gives."""
     of, names = part.answer["of"], asked_quantities(part.answer)
     labels = list(of) if isinstance(of, Mapping) else list(names)
 
     def write(values: tuple[Value, ...]) -> dict[str, Scalar]:
+        """Return the components of an answer under the labels of the cells."""
         return {label: format_for_key(v) for label, v in zip(labels, values, strict=True)}
 
     units = [str(part.answer.get("unit", part.units.get(name, ""))) for name in names]
@@ -239,15 +279,18 @@ def ask(part: PartContext) -> AskedPart[TableSpec]:
 
 
 def input_hints(spec: TableSpec, lang: str) -> tuple[TextOrInlines, ...]:
-    """Names with their units, and rounding."""
+    """Return the sentences on names with their units, and on rounding."""
     from quizgen.question.inlines import join_inlines, translate_inlines
 
-    names = join_inlines((_with_unit(name, spec.units.get(name, "")) for name in spec.values), ", ")
+    names = join_inlines(
+        (_format_name_with_unit(name, spec.units.get(name, "")) for name in spec.values), ", "
+    )
     rounding = rounding_hint(spec, spec.values, lang)
     return nonempty(translate_inlines(lang, "ask.table", names=names), rounding)
 
 
-def _with_unit(name: str, unit: str) -> tuple[Inline, ...]:
+def _format_name_with_unit(name: str, unit: str) -> tuple[Inline, ...]:
+    """Return a name with its unit in brackets, if it has one."""
     from quizgen.bank.markdown import PlainText
     from quizgen.question.inlines import name_inline
 
@@ -257,7 +300,7 @@ def _with_unit(name: str, unit: str) -> tuple[Inline, ...]:
 
 
 def explain_key(spec: TableSpec, lang: str) -> TextOrInlines:
-    """The cells by their names."""
+    """Return the cells by their names."""
     return explain_assigned((name, show_spec(cell_spec(spec, name), lang)) for name in spec.values)
 
 

@@ -34,7 +34,7 @@ class AuthoredText(AuthoredAnswer, kw_only=True, tag="text", frozen=True):
     needed: int | None = None
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """There are key points."""
+        """Yield what is wrong with the names of key points."""
         yield from find_name_problems("points", self.points, 0)
 
 
@@ -49,19 +49,31 @@ class TextSpec(WordSpec, kw_only=True, frozen=True):
     needed: int | None = None
 
     def key_points(self) -> Mapping[str, list[str]]:
-        """Name of each key point and its words."""
+        """Return the name of each key point and its words."""
         if isinstance(self.points, dict):
             return self.points
         groups = [[group] if isinstance(group, str) else group for group in self.points]
         return {group[0]: group for group in groups if group}
 
     def validate(self) -> None:
-        """Every key point needs a word."""
+        """Check that every key point has a word.
+
+        Raises
+        ------
+        ValueError
+            If one has none.
+        """
         if not self.points or len(self.key_points()) != len(self.points) or not all(self.points):
             raise ValueError("every key point needs at least one word")
 
     def judge(self, typed: str, _options: GradingOptions, /) -> Verdict:
-        """Suggest which key points a text contains."""
+        """Return which key points a text contains, for a person who decides.
+
+        Raises
+        ------
+        FormulaReadError
+            If it is empty, too long, or holds invisible characters.
+        """
         if len(typed) > LONGEST_PROSE:
             raise FormulaReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
         if not typed.strip():
@@ -69,7 +81,7 @@ class TextSpec(WordSpec, kw_only=True, frozen=True):
         refuse_invisible(SourceText.of(typed.strip("\u200e\u200f\ufeff")), "\r\n\t\u200c\u200d")
         words = [fold_word(word) for word in _WORD.findall(typed)]
         groups = self.key_points()
-        found = [name for name, terms in groups.items() if any(_occurs(t, words) for t in terms)]
+        found = [name for name, terms in groups.items() if any(_has_term(t, words) for t in terms)]
         missing = [name for name in groups if name not in found]
         note = "self-mark" if found else "self-mark-none"
         return ambiguous(
@@ -82,11 +94,11 @@ class TextSpec(WordSpec, kw_only=True, frozen=True):
         )
 
     def keyword_positions(self, typed: str) -> tuple[tuple[int, int], ...]:
-        """Where words of key points stand in a text: first character, and the one behind."""
+        """Return where words of key points stand in a text: first character, and the one behind."""
         found = list(_WORD.finditer(typed))
         folded = [fold_word(match[0]) for match in found]
         terms = [term for group in self.key_points().values() for term in group]
-        places = {place for term in terms for place in _places(term, folded)}
+        places = {place for term in terms for place in _iter_term_positions(term, folded)}
         return tuple((found[place].start(), found[place].end()) for place in sorted(places))
 
     def show(self) -> str:
@@ -97,28 +109,28 @@ class TextSpec(WordSpec, kw_only=True, frozen=True):
 _WORD = re.compile(r"[^\s.,;:!?()\"।/]+")
 
 
-def _occurs(term: str, words: list[str]) -> bool:
-    """Whether a term's words occur in a row, endings and small slips aside."""
-    return any(True for _ in _places(term, words))
+def _has_term(term: str, words: list[str]) -> bool:
+    """Return whether a term's words occur in a row, endings and small slips aside."""
+    return any(True for _ in _iter_term_positions(term, words))
 
 
-def _places(term: str, words: list[str]) -> Iterator[int]:
-    """Where a term's words occur in a row."""
+def _iter_term_positions(term: str, words: list[str]) -> Iterator[int]:
+    """Yield the indices of the words in a row that are a term's."""
     wanted = _fold_words(term)
     for start in range(len(words) - len(wanted) + 1 if wanted else 0):
-        if all(_alike(words[start + i], word) for i, word in enumerate(wanted)):
+        if all(_is_alike(words[start + i], word) for i, word in enumerate(wanted)):
             yield from range(start, start + len(wanted))
 
 
 @lru_cache(maxsize=4096)
 def _fold_words(term: str) -> tuple[str, ...]:
-    """The words of a term, as they are compared."""
+    """Return the words of a term, as they are compared."""
     return tuple(fold_word(word) for word in _WORD.findall(term))
 
 
 @lru_cache(maxsize=8192)
-def _alike(word: str, wanted: str) -> bool:
-    """Whether a word is the wanted one, one of its forms, or a slip of the fingers."""
+def _is_alike(word: str, wanted: str) -> bool:
+    """Return whether a word is the wanted one, one of its forms, or a slip of the fingers."""
     if len(wanted) >= 4 and word.startswith(wanted):
         return True
     allowed = allowed_typos(wanted)
@@ -126,7 +138,7 @@ def _alike(word: str, wanted: str) -> bool:
 
 
 def ask(part: PartContext) -> AskedPart[TextSpec]:
-    """The key points; a model sentence tells each."""
+    """Return the key points; a model sentence states each."""
     points = part.answer["points"]
     spec = make_spec(TextSpec, part, points={name: part.accepted_words(name) for name in points})
     right = tuple(("points", name) for name in points)
@@ -138,7 +150,7 @@ FEW = 2
 
 
 def input_hints(spec: TextSpec, lang: str) -> tuple[str, ...]:
-    """In own words, as short as the key points allow."""
+    """Return the sentence on own words, as short as the key points allow."""
     count = len(spec.points)
     return (
         translate(lang, "ask.text")
@@ -148,7 +160,7 @@ def input_hints(spec: TextSpec, lang: str) -> tuple[str, ...]:
 
 
 def explain_key(_spec: TextSpec, _lang: str) -> str:
-    """Nothing: the model sentences tell the answer."""
+    """Return nothing: the model sentences state the answer."""
     return ""
 
 

@@ -27,7 +27,10 @@ class AuthoredTrueFalse(AuthoredAnswer, tag="tf", frozen=True):
 
 
 def selected_statement(part: PartContext) -> tuple[str, Condition, str]:
-    """Name of the statement, the part's own or one of the pool, when it is true, its source."""
+    """Return the statement's name, when it is true, and its source.
+
+    It is the part's own statement, or one of the pool.
+    """
     if "from" in part.answer:
         return part.claim()
     claim = part.answer.get("claim", "")
@@ -35,7 +38,7 @@ def selected_statement(part: PartContext) -> tuple[str, Condition, str]:
 
 
 def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
-    """True first, then false; the statement's one reason says why it is as it is."""
+    """Return true first, then false; the statement's one reason explains either."""
     name, condition, source = selected_statement(part)
     told = part.with_reason([("A", name), ("B", name)])
     spec = make_spec(

@@ -79,15 +79,23 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
     example: dict[str, Scalar] = msgspec.field(default_factory=dict)
 
     def names(self) -> tuple[str, ...]:
-        """Names to give, in order."""
+        """Return the names to give, in order."""
         return tuple(self.symbols)
 
     def usable_names(self) -> tuple[str, ...]:
-        """Names that conditions may use."""
+        """Return the names that conditions may use."""
         return (*self.symbols, *self.let)
 
     def validate(self) -> None:
-        """The predicate and every constraint must be relations over the names."""
+        """Check that the predicate and every constraint are relations over the names.
+
+        Raises
+        ------
+        FormulaError
+            If one is not, or cannot be read.
+        ValueError
+            If a domain or the example is not complete.
+        """
         for text in self.let.values():
             parse_authored(text, self.usable_names())
         for text in (self.predicate, *self.where):
@@ -103,7 +111,13 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
             raise ValueError("example must give every symbol")
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Test a typed example."""
+        """Return the verdict on a typed example, which is tested and never compared.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read, or a value is missing.
+        """
         numbers = _read_example(self, typed, options.decimal)
         env = {name: number.value for name, number in numbers.items()}
         read_as = "; ".join(
@@ -123,11 +137,12 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
 
 @lru_cache(maxsize=1024)
 def _compile_formula(text: str, symbols: tuple[str, ...]) -> Any:
+    """Return a formula for bounded exact evaluation, compiled once for a class."""
     return compile_exact(parse_authored(text, symbols))
 
 
 def _add_let_values(spec: WitnessSpec, env: dict[str, Any]) -> dict[str, Any]:
-    """Add the quantities that ``let`` derives, in order."""
+    """Return the values with the quantities that ``let`` derives, in order."""
     full = dict(env)
     for name, text in spec.let.items():
         full[name] = _compile_formula(text, spec.usable_names())(full)
@@ -135,13 +150,17 @@ def _add_let_values(spec: WitnessSpec, env: dict[str, Any]) -> dict[str, Any]:
 
 
 def _judge_conditions(spec: WitnessSpec, env: dict[str, Any], read_as: str) -> Verdict:
+    """Return the verdict on an example: domains first, then constraints, then the predicate.
+
+    It is ambiguous where the predicate cannot be decided; a constraint must certainly hold.
+    """
     for text, shown in _iter_domain_constraints(spec):
-        if _holds(spec, text, env) is not True:
+        if _is_relation_true(spec, text, env) is not True:
             return wrong(read_as, "constraint", constraint=shown)
     for text in spec.where:
-        if _holds(spec, text, env) is not True:
+        if _is_relation_true(spec, text, env) is not True:
             return wrong(read_as, "constraint", claim=_format_failed_relation(spec, text, env))
-    held = _holds(spec, spec.predicate, env)
+    held = _is_relation_true(spec, spec.predicate, env)
     if held is True:
         return correct(read_as)
     if held is None:
@@ -149,8 +168,8 @@ def _judge_conditions(spec: WitnessSpec, env: dict[str, Any], read_as: str) -> V
     return wrong(read_as, "predicate", claim=_format_failed_relation(spec, spec.predicate, env))
 
 
-def _holds(spec: WitnessSpec, text: str, env: dict[str, Any]) -> bool | None:
-    """Whether a relation holds; False where it has no value, None if it cannot be told."""
+def _is_relation_true(spec: WitnessSpec, text: str, env: dict[str, Any]) -> bool | None:
+    """Return whether a relation holds; False where it has no value, None if that is undecided."""
     result = _compile_formula(text, spec.usable_names())(env)
     if isinstance(result, type):
         return None
@@ -158,7 +177,7 @@ def _holds(spec: WitnessSpec, text: str, env: dict[str, Any]) -> bool | None:
 
 
 def _iter_domain_constraints(spec: WitnessSpec) -> Iterator[tuple[str, str]]:
-    """Constraints that the symbols' domains state, and how they are shown."""
+    """Yield the constraints that the symbols' domains state, and how they are shown."""
     if not isinstance(spec.symbols, dict):
         return
     for name, domain in spec.symbols.items():
@@ -171,6 +190,7 @@ def _iter_domain_constraints(spec: WitnessSpec) -> Iterator[tuple[str, str]]:
 
 
 def _parenthesise_negative(text: str) -> str:
+    """Return a number in brackets if it begins with a minus sign."""
     return f"({text})" if text.startswith("-") else text
 
 
@@ -191,6 +211,7 @@ def _format_failed_relation(spec: WitnessSpec, text: str, env: dict[str, Any]) -
 
 
 def _format_side_value(side: Expr, env: dict[str, Any]) -> str | None:
+    """Return the value of one side with six figures; None if it has none that can be shown."""
     value = compile_exact(side)(env)
     if value is None or isinstance(value, (type, bool)):
         return None
@@ -202,7 +223,13 @@ _SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
 
 
 def _read_example(spec: WitnessSpec, typed: str, decimal: str) -> dict[str, ReadNumber]:
-    """Read the example: by name, in groups, or all in order."""
+    """Return the typed number of every name: given by name, in groups, or all in order.
+
+    Raises
+    ------
+    FormulaReadError
+        If one cannot be read, is missing, or not asked for.
+    """
     lines = filter(None, map(str.strip, typed.split("\n")))
     source = normalise_separators(normalise_typed("; ".join(lines), longest=400))
     names, placed = list(spec.names()), dict[str, ReadNumber]()
@@ -220,7 +247,7 @@ def _read_example(spec: WitnessSpec, typed: str, decimal: str) -> dict[str, Read
 
 
 def _split_unlabelled_row(item: SourceText, count: int) -> list[SourceText]:
-    """Cut values that stand in a row without separators of their own: ``0.2 0.3``."""
+    """Return values in a row without separators of their own, ``0.2 0.3``, one by one."""
     for separator in (re.compile(r" +"), re.compile(r",")):
         parts = _split_outside_brackets(item, separator)
         if len(parts) == count and bracket_depth(item.text, len(item.text)) == 0:
@@ -229,6 +256,13 @@ def _split_unlabelled_row(item: SourceText, count: int) -> list[SourceText]:
 
 
 def _read_piece(piece: SourceText, decimal: str) -> ReadNumber:
+    """Return one number; a percentage becomes the share that it is.
+
+    Raises
+    ------
+    FormulaReadError
+        If it cannot be read, or has two readings.
+    """
     side = most_precise_side(read_sides(piece, decimal))
     readings, unit = side.readings, side.quantity.unit
     if readings.other is not None and readings.doubt is not None and not readings.doubt.native:
@@ -240,6 +274,13 @@ def _read_piece(piece: SourceText, decimal: str) -> ReadNumber:
 def _iter_labelled_items(
     source: SourceText, names: list[str], decimal: str
 ) -> Iterator[tuple[str, SourceText]]:
+    """Yield the label of each item, empty if it has none, and the item.
+
+    Raises
+    ------
+    FormulaReadError
+        If names stand before a bracket and there are not as many values in it.
+    """
     fronts, rest = split_prefix(source)
     if fronts:
         items, _ = read_list(rest.text, len(fronts), decimal)
@@ -255,7 +296,7 @@ def _iter_labelled_items(
 
 
 def _split_point_label(piece: SourceText, names: list[str]) -> tuple[str, SourceText]:
-    """``A(0.5|0)``: the name before a bracket; a word that names nothing is passed over."""
+    """Return the name and the rest of ``A(0.5|0)``; a word that names nothing is dropped."""
     match = _FRONT.match(piece.text)
     if match is None or match[1] in FUNCTIONS:
         return "", piece
@@ -266,6 +307,7 @@ def _split_point_label(piece: SourceText, names: list[str]) -> tuple[str, Source
 
 
 def _split_outside_brackets(source: SourceText, separator: re.Pattern[str]) -> list[SourceText]:
+    """Return the pieces between separators outside brackets that are not empty."""
     start, pieces = 0, []
     for match in separator.finditer(source.text):
         if bracket_depth(source.text, match.start()) == 0:
@@ -278,7 +320,13 @@ def _split_outside_brackets(source: SourceText, separator: re.Pattern[str]) -> l
 def _assign_names(
     label: str, item: SourceText, free: list[str], names: list[str]
 ) -> list[tuple[str, SourceText]]:
-    """Which names an item gives: its own, those of a group, or the next free ones."""
+    """Return which names an item gives: its own, those of a group, or the next free ones.
+
+    Raises
+    ------
+    FormulaReadError
+        If a label names nothing, or there are more values than names.
+    """
     inner, _ = strip_brackets(item)
     parts = _split_components(inner) if inner.text != item.text else [item]
     own = find_name(label, names) if label else ""
@@ -294,6 +342,13 @@ def _assign_names(
 def _assign_group(
     label: str, item: SourceText, parts: list[SourceText], free: list[str]
 ) -> list[tuple[str, SourceText]]:
+    """Return the names that begin with a label, each with its part: ``a = (1; 0)``.
+
+    Raises
+    ------
+    FormulaReadError
+        If no free names begin with it, or not as many as there are parts.
+    """
     members = [name for name in free if name_key(name).startswith(name_key(label))]
     if not members or len(members) != len(parts):
         raise FormulaReadError("unknown-name", item.column(0), label, free)
@@ -301,6 +356,7 @@ def _assign_group(
 
 
 def _split_components(inner: SourceText) -> list[SourceText]:
+    """Return the components in a bracket, cut at the strongest separator that occurs."""
     for separator in (re.compile(r"[;|]"), re.compile(r","), re.compile(r" +")):
         if separator.search(inner.text):
             return _split_outside_brackets(inner, separator)
@@ -308,19 +364,20 @@ def _split_components(inner: SourceText) -> list[SourceText]:
 
 
 def ask(part: PartContext) -> AskedPart[WitnessSpec]:
-    """Conditions and an example with the drawn values in place."""
+    """Return conditions and an example with the drawn values in place."""
     answer = part.answer
     known = {n: Num(Fraction(format_for_key(v)), decimal=v.q != 1) for n, v in part.shown.items()}
     let, example = answer.get("let", {}), answer.get("example", {})
     symbols = (*answer["symbols"], *let, *known)
 
     def format_condition(text: object) -> str:
+        """Return a condition as text with the drawn values in place of their names."""
         return format_tree(substitute(parse_formula(str(text), symbols=symbols), known))
 
     spec = make_spec(
         WitnessSpec,
         part,
-        example={name: _short_text(part, formula) for name, formula in example.items()},
+        example={name: _format_short_number(part, formula) for name, formula in example.items()},
         let={name: format_condition(text) for name, text in let.items()},
         predicate=format_condition(answer["predicate"]),
         where=[format_condition(text) for text in answer.get("where", ())],
@@ -329,20 +386,20 @@ def ask(part: PartContext) -> AskedPart[WitnessSpec]:
     return AskedPart(spec, InputControl("lines", lines=2, boxes=boxes, named=True))
 
 
-def _short_text(part: PartContext, formula: str | int) -> str:
-    """A decimal where it is short, else the exact fraction."""
+def _format_short_number(part: PartContext, formula: str | int) -> str:
+    """Return a decimal where it is short, else the exact fraction."""
     value = part.evaluate(str(formula))
     return format_exact(value, minus="-") or format_for_key(value)
 
 
 def input_hints(spec: WitnessSpec, lang: str) -> tuple[TextOrInlines, ...]:
-    """Which names to give, as they are typed."""
+    """Return the sentence on which names to give, as they are typed."""
     names = "; ".join(f"{name} = ..." for name in spec.symbols)
     return (sentence_with_code(lang, "ask.witness", names=names),)
 
 
 def explain_key(spec: WitnessSpec, lang: str) -> TextOrInlines:
-    """One right example, else what an example must satisfy."""
+    """Return one right example, else what an example must satisfy."""
     if not spec.example:
         return show_spec(spec, lang)
     return explain_assigned(

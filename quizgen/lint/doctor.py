@@ -37,7 +37,7 @@ def _check_fonts() -> Iterator[CheckOutcome]:
         missing = fonts.missing_characters(all_bangla_text())
         shown = " ".join(f"U+{ord(c):04X}" for c in sorted(missing))
         yield "Bangla glyphs", shown or "every character has one", not missing
-        names = (fonts.MATHS, *fonts.BANGLA.values())
+        names = (fonts.MATHS, fonts.ALL_MATHS, *fonts.BANGLA.values())
         yield "page fonts", f"{sum(map(len, map(fonts.read_web_font, names))) // 1000} kB", True
     except (QuizgenError, StopIteration) as error:
         yield "fonts", str(error), False

@@ -21,6 +21,7 @@ from quizgen.bank.sampler import sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant
 from quizgen.kinds import choice, true_false
+from quizgen.kinds.contract import asked_form
 from quizgen.lint.figures import figure_text
 from quizgen.lint.unused_draws import find_unused_draws
 from quizgen.maths.precision import working_precision
@@ -30,6 +31,8 @@ from quizgen.question.part_context import VariantPart, ask_part
 
 FEW, MANY = 0.8, 1.5
 """Bits that the answer of a part must have: of 2 or 3 options, and of more."""
+LIKELY = 0.9
+"""Bits of two answers that are about as likely as each other: at most two to one."""
 WANTED_BITS = {"tf": FEW, "order": FEW, "match": MANY, "gap": MANY, "multi": MANY}
 LONGEST = 0.5
 """Share of draws in which the right one of 3 or more options may be clearly the longest."""
@@ -121,7 +124,12 @@ def _check_tally(template: Template, index: int, seen: AnswerTally) -> Said:
     answer = template.rules.part[index].answer
     wanted = WANTED_BITS.get(seen.kind, MANY if seen.most >= 4 else FEW)
     if seen.most_bits < wanted:
-        yield "error", "QG301", f"its answer has {seen.bits:.2f} bits, at least {wanted} are wanted"
+        # Reject or keep, higher or lower: two answers that are about as likely are a fair question.
+        decision = seen.kind == "choice" and len(seen.answers) == 2 and seen.bits >= LIKELY
+        what = f"its answer has {seen.bits:.2f} bits, at least {wanted} are wanted"
+        yield "note" if decision else "error", "QG301", what
+    if choice.has_value_options(answer):
+        return
     yield from _check_options(seen)
     if seen.kind == "choice" and not answer.get("in_order"):
         share = seen.draws / seen.most
@@ -159,7 +167,8 @@ def _check_authored_reasons(template: Template, index: int) -> Said:
         yield "error", "QG304", f"no reason for {', '.join(lacking)}"
     if answer["kind"] == "tf" and not {"from", "claim"} & answer.keys():
         yield "error", "QG305", "a statement without a name has no reason: make it a claim"
-    if answer["kind"] in {"order", "expression"} and not answer.get("traps"):
+    named = answer.get("traps") or asked_form(answer)
+    if answer["kind"] in {"order", "expression"} and not named:
         yield "error", "QG306", "no trap names a wrong answer"
 
 
@@ -298,8 +307,8 @@ def _estimate_part_minutes(template: Template, index: int, done: set[str]) -> fl
     kind = answer["kind"]
     if kind in WHOLE:
         return WHOLE[kind]
-    if kind in ENTRY:
-        return PART + ENTRY[kind] * answer.get("take", len(answer[LISTED[kind]]))
+    if kind in ENTRY and not choice.has_value_options(answer):
+        return PART + ENTRY[kind] * answer.get("take", len(answer.get(LISTED[kind], ())))
     steps = [step for step in sampler_for(template).parts[index].steps if step.name not in done]
     done.update(step.name for step in steps)
     return PART + OPERATION * sum(_count_operations(step.expr) for step in steps)
@@ -379,6 +388,10 @@ class AnswerTally:
         self.draws += 1
         if self.kind not in {"choice", "multi"}:
             self.answers[_describe_answer(self.kind, drawn, index)] += 1
+            return
+        if choice.has_value_options(drawn.template.rules.part[index].answer):
+            ((_, value),) = ask_part(drawn, index).right
+            self.answers[value] += 1
             return
         names, right = choice.option_order(VariantPart(drawn, index))
         if self.kind == "choice" and len(right) != 1:

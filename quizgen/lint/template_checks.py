@@ -18,6 +18,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+from flint import arb
+
 from quizgen.bank.dimensions import find_unit_errors
 from quizgen.bank.levels import EXAM
 from quizgen.bank.markdown import LanguageFile, slot_names
@@ -75,12 +77,17 @@ VERBATIM = frozenset({"code", "sketch"})
 """Kinds whose key is printed as a program writes it."""
 
 
+GRADES = ("exact", "ball", "checked", "uncertain")
+"""How certain a step's value is, from the best."""
+
+
 @dataclass
 class TemplateReport:
     """Counts, ranges and diagnostics of one template over its draws.
 
     ``seconds`` is processor time of drawing alone; ``heard`` is what the questions print, for the
-    leaks between templates.
+    leaks between templates. ``certainties`` is, for each step, the least certain grade of its
+    values: exact, ball (proved), checked (computed twice) or uncertain.
     """
 
     template: str
@@ -92,6 +99,12 @@ class TemplateReport:
     traps: Counter[str] = field(default_factory=Counter)
     problems: list[Diagnostic] = field(default_factory=list)
     heard: list[QuestionContent] = field(default_factory=list)
+    certainties: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def certainty(self) -> str:
+        """Return the least certain grade of any step: exact, ball, checked or uncertain."""
+        return max(self.certainties.values(), key=GRADES.index, default="exact")
 
     @property
     def acceptance(self) -> float:
@@ -127,6 +140,8 @@ def lint_template(
     lessons = QualityReview(template)
     try:
         first = _examine_draws(template, seeds, report, lessons)
+        if "uncertain" in report.certainties.values():
+            return report  # no digit of it can be printed
         known = [reference_variant(template)] if template.rules.reference is not None else []
         composed = [
             _compose_in_all_languages(one) for one in (*first[: COMPOSED.count(seeds)], *known)
@@ -145,7 +160,8 @@ def lint_template(
         report.problems += _diagnose_quality_errors(template, lessons)
         report.problems = [one for one in report.problems if one.code not in ignored]
     except QuizgenError as error:
-        report.problems.append(error.diagnostic(template.file))
+        if "uncertain" not in report.certainties.values():  # which says it with the step
+            report.problems.append(error.diagnostic(template.file))
     report.problems = list(dict.fromkeys(report.problems))
     return report
 
@@ -192,6 +208,7 @@ def _examine_draws(
         seen.add(one.identity)
         met[one.traps] += 1
         _widen_ranges(report, one)
+        report.problems += _find_uncertain_steps(one, report)
         lessons.add(one)
         if len(first) < AT_MOST.count(seeds):
             first.append(one)
@@ -220,6 +237,28 @@ def _draw_within_limit(template: Template, seeds: int, report: TemplateReport) -
         drawn = [draw_variant(template, seed) for seed in range(begin, min(begin + AT_ONCE, seeds))]
         report.seconds += time.process_time() - started
         yield from drawn
+
+
+def _find_uncertain_steps(one: Variant, report: TemplateReport) -> Iterator[Diagnostic]:
+    """Steps whose value cannot be told from zero: no digit of them could be printed.
+
+    A step is looked at in each draw, and reported once.
+    """
+    for step in one.template.chain.steps:
+        value = one.values[step.name]
+        met = report.certainties.get(step.name, "exact")
+        if isinstance(value, arb):
+            found = one.template.chain.certainties[step.name]
+            if met != "uncertain" and value.contains(0) and not value.is_zero():
+                drawn = ", ".join(f"{n} = {one.format_value(n)}" for n in one.shown)
+                what = (
+                    f"step {step.name!r} is 0 or nearly so and cannot be told from it, "
+                    f"seed {one.seed} ({drawn})"
+                )
+                yield diagnose("QG229", one.template.file, what, _DRAW)
+                found = "uncertain"
+            met = max(met, found, key=GRADES.index)
+        report.certainties[step.name] = met
 
 
 def _widen_ranges(report: TemplateReport, one: Variant) -> None:
@@ -278,11 +317,11 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
     for label, part in zip(template.labels, template.rules.part, strict=True):
         if label and label not in text.sections and "from" not in part.answer:
             yield "QG211", f"section {label!r} is missing", ()
-    if chain.steps and "check" not in text.sections:
+    if (chain.steps or chain.forms) and "check" not in text.sections:
         yield "QG211", "section 'check' is missing", ()
     parts = sampler_for(template).parts
     wanted = {
-        "steps": {step.name for part in parts for step in part.steps},
+        "steps": {step.name for part in parts for step in (*part.steps, *part.form_steps)},
         "traps": {trap for part in parts for trap in part.traps},
     }
     listed = {trap for part in template.rules.part for trap in part.answer.get("traps", ())}
@@ -290,8 +329,8 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
     wanted["claims"] = set(template.rules.claims)
     known = {
         "claims": wanted["claims"],
-        "steps": set(chain.by_name),
-        "traps": set(chain.traps) | listed,
+        "steps": {*chain.by_name, *chain.form_by_name},
+        "traps": {*chain.traps, *chain.form_traps, *listed},
     }
     for section, names in wanted.items():
         said = set(text.named.get(section, {}))

@@ -33,7 +33,7 @@ _INDEX = re.compile(r"_(?:\d+|[A-Za-z])$")
 
 
 def canonical_forms(expr: Expr) -> Iterator[CanonicalForm]:
-    """The forms of a formula and of all that stands in it, as far as they are distinctive."""
+    """Yield the forms of a formula and of all that stands in it, as far as they are distinctive."""
     for node in walk_tree(expr):
         if isinstance(node, Call) and node.op == "eq":
             yield from _iter_equation_forms(*node.args)
@@ -42,13 +42,13 @@ def canonical_forms(expr: Expr) -> Iterator[CanonicalForm]:
 
 
 def canonical_equation(name: str, expr: Expr) -> set[CanonicalForm]:
-    """What asking for a quantity asks for: its formula, and the same solved for another name."""
+    """Return the forms of a quantity's formula, and of the same solved for another name."""
     whole = [_build_canonical_form(expr, _shorten_names(expr))] if _is_distinctive(expr) else []
     return {*whole, *_iter_equation_forms(Sym(name), expr)}
 
 
 def formulas_in_program(code: str) -> Iterator[Expr]:
-    """Formulas in a program."""
+    """Yield the formulas in a program; none if it cannot be parsed."""
     try:
         tree = ast.parse(code)
     except SyntaxError:
@@ -62,7 +62,10 @@ def formulas_in_program(code: str) -> Iterator[Expr]:
 
 
 def _is_distinctive(expr: Expr) -> bool:
-    """Whether it is more than a name or two, and more than sums, squares and bounds of them."""
+    """Return whether it is more than a name or two, and more than usual signs between them.
+
+    Sums, bounds, products and squares of few names occur in unrelated questions.
+    """
     nodes = list(walk_tree(expr))
     constants = [node for node in nodes if isinstance(node, Call) and not node.args]
     leaves = [node for node in nodes if not isinstance(node, Call)] + constants
@@ -73,7 +76,7 @@ def _is_distinctive(expr: Expr) -> bool:
 
 
 def _iter_equation_forms(left: Expr, right: Expr) -> Iterator[CanonicalForm]:
-    """Products that are equal, in one form whichever of their names stands alone."""
+    """Yield the form of two equal products, the same whichever of their names stands alone."""
     short = _shorten_names(Call("eq", (left, right)))
     number, powers = _multiply_factors(Call("div", (left, right)), short)
     plain = all(isinstance(base, str) and abs(n) <= LEAST for base, n in powers.items())
@@ -83,7 +86,10 @@ def _iter_equation_forms(left: Expr, right: Expr) -> Iterator[CanonicalForm]:
 
 
 def _shorten_names(expr: Expr) -> dict[str, str]:
-    """Names without what varies from question to question, where they stay different."""
+    """Return the names without what varies from question to question.
+
+    They stay as they are where two would become the same.
+    """
     found = sorted(names_in(expr))
     short = [_ACROSS.sub("x", _INDEX.sub("", _COORDINATE.sub(r"\2\1", name))) for name in found]
     distinct = len(set(short)) == len(found)
@@ -91,17 +97,17 @@ def _shorten_names(expr: Expr) -> dict[str, str]:
 
 
 def _build_canonical_form(expr: Expr, short: dict[str, str]) -> CanonicalForm:
-    """The form of a formula: its factors, each with its power."""
+    """Return the form of a formula: its factors, each with its power."""
     number, powers = _collect_factors(expr, short)
     return (number, frozenset(powers.items()))
 
 
 def _collect_factors(expr: Expr, short: dict[str, str]) -> tuple[Fraction, Powers]:
-    """A number, and factors with their powers."""
+    """Return a formula as a number, and factors with their powers."""
     if isinstance(expr, Num):
         return expr.value, {}
     if isinstance(expr, Sym):
-        return Fraction(1), {short[expr.name]: Fraction(1)}
+        return Fraction(1), {short.get(expr.name, expr.name): Fraction(1)}  # a sum binds its own
     if expr.op in {"mul", "div", "neg"}:
         return _multiply_factors(expr, short)
     if expr.op == "pow" and isinstance(expr.args[1], Num):
@@ -112,6 +118,7 @@ def _collect_factors(expr: Expr, short: dict[str, str]) -> tuple[Fraction, Power
 
 
 def _multiply_factors(expr: Call, short: dict[str, str]) -> tuple[Fraction, Powers]:
+    """Return the factors of a product, quotient or negated formula, powers added up."""
     number, powers = Fraction(-1 if expr.op == "neg" else 1), dict[CanonicalForm, Fraction]()
     for place, arg in enumerate(expr.args):
         value, factors = _collect_factors(arg, short)
@@ -123,6 +130,7 @@ def _multiply_factors(expr: Call, short: dict[str, str]) -> tuple[Fraction, Powe
 
 
 def _raise_factors(number: Fraction, powers: Powers, power: Fraction) -> tuple[Fraction, Powers]:
+    """Return the factors of a power; a number stays a factor if its power is not exact."""
     raised = {base: n * power for base, n in powers.items()}
     if number and power.denominator == 1 and abs(power) <= HIGHEST:
         return number**power.numerator, raised
@@ -130,7 +138,7 @@ def _raise_factors(number: Fraction, powers: Powers, power: Fraction) -> tuple[F
 
 
 def _build_non_product_form(expr: Call, short: dict[str, str]) -> CanonicalForm:
-    """What is no product: a sum, in any order, or a function."""
+    """Return the form of what is no product: a sum, in any order, or a function."""
     if expr.op in {"add", "sub"}:
         return ("sum", frozenset(_collect_terms(expr, short).items()))
     args = [_build_canonical_form(arg, short) for arg in expr.args]
@@ -138,6 +146,7 @@ def _build_non_product_form(expr: Call, short: dict[str, str]) -> CanonicalForm:
 
 
 def _collect_terms(expr: Expr, short: dict[str, str]) -> dict[CanonicalForm, Fraction]:
+    """Return each term of a sum, as its factors, with the number before it."""
     if not isinstance(expr, Call) or expr.op not in {"add", "sub", "neg"}:
         number, powers = _collect_factors(expr, short)
         return {frozenset(powers.items()): number}

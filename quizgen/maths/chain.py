@@ -12,11 +12,21 @@ from functools import cached_property
 from typing import TypeAlias
 
 import msgspec
+from flint import fmpq
 
 from quizgen.core.errors import MathError
-from quizgen.maths.number_systems import CompiledFormula, NumberSystem, compile_nested, exact_system
+from quizgen.maths.number_systems import (
+    CompiledFormula,
+    NumberSystem,
+    compile_nested,
+    exact_system,
+    select_branch,
+)
+from quizgen.maths.numbers import to_fraction
+from quizgen.maths.operators import CHECKED
 from quizgen.maths.precision import PRECISION, working_precision
-from quizgen.maths.tree import Expr, names_in
+from quizgen.maths.tidy import tidy_formula
+from quizgen.maths.tree import Expr, Num, names_in, operators_in, substitute
 from quizgen.maths.values import Value, Values
 
 CompiledSteps: TypeAlias = tuple[tuple[str, CompiledFormula], ...]
@@ -44,17 +54,65 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         Trap name to the wrong steps put in place of the right ones of the same name.
     formulas : mapping of str to str
         Step name to the id of the formula that it applies.
+    forms : tuple of ChainStep
+        Steps that are no single number: formulas over free names, complex numbers, matrices,
+        sets, equations. They use given quantities and steps.
+    form_traps : mapping of str to tuple of ChainStep
+        Trap name to the wrong forms put in place of the right ones.
+    free : tuple of str
+        Names in forms that no draw gives.
     """
 
     given: Mapping[str, str]
     steps: tuple[ChainStep, ...]
     traps: Mapping[str, tuple[ChainStep, ...]] = msgspec.field(default_factory=dict)
     formulas: Mapping[str, str] = msgspec.field(default_factory=dict)
+    forms: tuple[ChainStep, ...] = ()
+    form_traps: Mapping[str, tuple[ChainStep, ...]] = msgspec.field(default_factory=dict)
+    free: tuple[str, ...] = ()
 
     @cached_property
     def by_name(self) -> dict[str, ChainStep]:
         """Step name to step."""
         return {step.name: step for step in self.steps}
+
+    @cached_property
+    def form_by_name(self) -> dict[str, ChainStep]:
+        """Name of a form to its step."""
+        return {step.name: step for step in self.forms}
+
+    def bind_form(
+        self, expr: Expr, values: Values, wrong: Mapping[str, Expr] | None = None
+    ) -> Expr:
+        """A form with the numbers of a draw in place, tidied.
+
+        A quantity that is irrational stays the formula that gives it, so that the form is exact.
+
+        Parameters
+        ----------
+        expr : Expr
+        values : mapping of str to flint.fmpq or flint.arb
+            Every quantity of the chain in base units.
+        wrong : mapping of str to Expr, optional
+            Formulas that a mistake puts in place of those of steps.
+        """
+        steps = {step.name: step.expr for step in self.steps} | dict(wrong or {})
+        names = names_in(expr) - {*self.free}
+        return tidy_formula(substitute(expr, {n: _write_exactly(n, values, steps) for n in names}))
+
+    @cached_property
+    def certainties(self) -> dict[str, str]:
+        """Step name to how far its value is certified where it is irrational.
+
+        ``ball`` is proved by balls; ``checked`` is computed twice and compared, and so is whatever
+        rests on such a step. Rational values are exact all the same.
+        """
+        found: dict[str, str] = {}
+        for step in self.steps:
+            below = {found.get(name) for name in self.operands[step.name]}
+            checked = bool(operators_in(step.expr) & CHECKED) or "checked" in below
+            found[step.name] = "checked" if checked else "ball"
+        return found
 
     @cached_property
     def operands(self) -> dict[str, frozenset[str]]:
@@ -68,13 +126,14 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
 
     @cached_property
     def _trap_plans(self) -> dict[str, CompiledSteps]:
+        """Misconception to the steps that it changes, compiled for exact numbers."""
         return {
             name: self.compile_affected_steps(wrong, exact_system())
             for name, wrong in self.traps.items()
         }
 
     def compile_steps(self, system: NumberSystem) -> dict[str, CompiledFormula]:
-        """Step name to its formula in a number system, compiled once, in order."""
+        """Return step name to its formula in a number system, compiled once, in order."""
         found = self._compiled_by_system.get(system.name)
         if found is None:
             found = {step.name: compile_nested(step.expr, system) for step in self.steps}
@@ -89,14 +148,14 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         changed: Iterable[str] = (),
         within: Container[str] | None = None,
     ) -> CompiledSteps:
-        """Only the steps that a change touches, compiled, in order.
+        """Return only the steps that a change touches, compiled, in order.
 
         Parameters
         ----------
         wrong : iterable of ChainStep
             Steps that stand in for the right ones of the same name.
         system : NumberSystem
-            What the plan computes in.
+            What the steps compute in.
         changed : iterable of str
             Given quantities that take other values.
         within : container of str, optional
@@ -118,7 +177,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         return tuple(plan)
 
     def solve(self, given: Values, precision: int = PRECISION) -> dict[str, Value]:
-        """Every quantity of the chain, exactly or as a certified ball.
+        """Return every quantity of the chain in base units, exactly or as a certified ball.
 
         Parameters
         ----------
@@ -137,7 +196,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
     def solve_with_misconception(
         self, trap: str, solved: Values, precision: int = PRECISION
     ) -> dict[str, Value]:
-        """The quantities as a student in this trap would get them.
+        """Return the quantities as somebody with this misconception gets them, in base units.
 
         Raises
         ------
@@ -147,13 +206,22 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         return _run_steps(self._trap_plans[trap], dict(solved), precision)
 
     def solve_with_steps(self, wrong: Iterable[ChainStep], solved: Values) -> dict[str, Value]:
-        """Recompute with some steps replaced (mutations, a student's own earlier answer)."""
+        """Return the quantities with some steps replaced: mutations, a student's own earlier value.
+
+        Raises
+        ------
+        MathError
+            If a step has no finite real value.
+        """
         return _run_steps(
             self.compile_affected_steps(wrong, exact_system()), dict(solved), PRECISION
         )
 
     def required_steps(self, name: str, known: Iterable[str] = ()) -> frozenset[str]:
-        """Step names that ``name`` rests on, not looking through quantities already known."""
+        """Return the names of the steps that ``name`` rests on, itself included.
+
+        Steps behind a quantity in ``known`` do not count.
+        """
         stop, seen, todo = set(known), set[str](), [name]
         while todo:
             current = todo.pop()
@@ -164,9 +232,25 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         return frozenset(seen)
 
 
+def _write_exactly(name: str, values: Values, steps: Mapping[str, Expr]) -> Expr:
+    """A quantity as a rational, else as the formula that gives it."""
+    value = values[name]
+    if isinstance(value, fmpq):
+        return Num(to_fraction(value))
+    expr = select_branch(steps[name], values, exact_system())
+    return substitute(expr, {n: _write_exactly(n, values, steps) for n in names_in(expr)})
+
+
 def _run_steps(
     plan: Iterable[tuple[str, CompiledFormula]], env: dict[str, Value], precision: int
 ) -> dict[str, Value]:
+    """Return the values with those of some steps, computed in order.
+
+    Raises
+    ------
+    MathError
+        If a step has no finite real value.
+    """
     with working_precision(precision):
         for name, compiled in plan:
             try:

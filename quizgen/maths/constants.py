@@ -37,6 +37,7 @@ class TooLargeError(MathError):
 
 
 def _guarded_power(a: Value, b: Value) -> Value:
+    """Return a power; TooLargeError before it takes time and memory."""
     size = abs(b) if isinstance(b, fmpq) else abs(b).mid().fmpq()
     if size > LARGEST_BITS or _count_size_bits(a) * float(size) > LARGEST_BITS:
         raise TooLargeError("too large")
@@ -44,6 +45,7 @@ def _guarded_power(a: Value, b: Value) -> Value:
 
 
 def _guarded_exp(a: Value) -> Value:
+    """Return a power of e; TooLargeError before it takes time and memory."""
     if abs(a) > LARGEST_BITS:
         raise TooLargeError("too large")
     return exact_system().ops["exp"](a)
@@ -51,7 +53,10 @@ def _guarded_exp(a: Value) -> Value:
 
 @cache
 def bounded_exact_system() -> NumberSystem:
-    """The exact field with bounds on size, for mathematics typed by learners."""
+    """Return the exact number system with bounds on size, for what learners type.
+
+    Its operators raise ``TooLargeError`` instead of running for long.
+    """
     ops: dict[str, Callable[..., Any]] = {
         **exact_system().ops,
         "pow": _guarded_power,
@@ -61,7 +66,7 @@ def bounded_exact_system() -> NumberSystem:
 
 
 def evaluate_constant(tree: Expr) -> Value:
-    """Evaluate a tree without names, exactly or as a certified ball, in bounded time.
+    """Return the value of a tree without names, exact or a certified ball, in bounded time.
 
     Raises
     ------
@@ -85,6 +90,7 @@ def evaluate_constant(tree: Expr) -> Value:
 
 
 def _is_accurate(ball: Value) -> bool:
+    """Return whether a ball has 40 bits at least, or is as good as a point near 0."""
     return bool(ball.rel_accuracy_bits() >= 40 or ball.rad() < fmpq(1, 10**30))
 
 

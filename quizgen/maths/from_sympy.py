@@ -25,7 +25,7 @@ _ONE = Num(Fraction(1))
 
 
 def _iter_sympy_classes() -> Iterator[tuple[type, str]]:
-    """SymPy's classes that are operators of ours, by the name that the table gives."""
+    """Yield SymPy's classes that are operators of ours, by the name that the table gives."""
     for row in OPERATORS.values():
         kind = getattr(sympy, row.function_in("sympy"), None)
         if isinstance(kind, type):
@@ -33,17 +33,12 @@ def _iter_sympy_classes() -> Iterator[tuple[type, str]]:
 
 
 def from_sympy(expression: sympy.Basic) -> Expr:
-    """Convert a SymPy expression.
+    """Return the formula tree of a SymPy expression.
 
     Parameters
     ----------
     expression : sympy.Basic, int or float
         Written under ``sympy.evaluate(False)``.
-
-    Returns
-    -------
-    Expr
-        The formula tree.
 
     Raises
     ------
@@ -58,23 +53,33 @@ def from_sympy(expression: sympy.Basic) -> Expr:
         rule = _RULES.get(kind)
         if rule is not None:
             return rule(expression)
-    raise BankError(f"no formula for SymPy's {type(expression).__name__}: {expression}")
+    what = f"no formula for SymPy's {type(expression).__name__}: {expression}"
+    raise BankError(f"{what} (docs/functions.md lists what there is)")
 
 
 def _convert_arguments(expression: sympy.Basic) -> tuple[Expr, ...]:
+    """Return the trees of an expression's arguments."""
     return tuple(from_sympy(arg) for arg in expression.args)
 
 
 def _convert_symbol(expression: sympy.Basic) -> Expr:
+    """Return a quantity."""
     return Sym(expression.name)
 
 
 def _convert_rational(expression: sympy.Basic) -> Expr:
+    """Return an exact number."""
     return Num(Fraction(int(expression.p), int(expression.q)))
 
 
 def _convert_float(expression: sympy.Basic) -> Expr:
-    """Take the decimal that was typed: 2.2 is 11/5, not the nearest binary number."""
+    """Return the decimal that was typed: 2.2 is 11/5, not the nearest binary number.
+
+    Raises
+    ------
+    BankError
+        If it is infinite or no number.
+    """
     if not expression.is_finite:
         raise BankError(f"no formula for the number {expression}")
     double = expression._prec <= _DOUBLE  # noqa: SLF001 - SymPy has no public name for it
@@ -83,14 +88,17 @@ def _convert_float(expression: sympy.Basic) -> Expr:
 
 
 def _convert_pi(_expression: sympy.Basic) -> Expr:
+    """Return the constant pi."""
     return Call("pi", ())
 
 
 def _convert_euler_number(_expression: sympy.Basic) -> Expr:
+    """Return e as ``exp(1)``."""
     return Call("exp", (_ONE,))
 
 
 def _convert_sum(expression: sympy.Basic) -> Expr:
+    """Return the tree of a sum; a difference, if its second term has a minus sign."""
     first, *rest = expression.args
     total = [from_sympy(first)]
     for term in rest:
@@ -103,7 +111,7 @@ def _convert_sum(expression: sympy.Basic) -> Expr:
 
 
 def _split_sign(term: sympy.Basic) -> tuple[bool, Expr]:
-    """Split the sign off a later term of a sum."""
+    """Return whether a later term of a sum has a minus sign, and the term without it."""
     value = from_sympy(term)
     if isinstance(value, Num) and value.value < 0:
         return True, Num(-value.value, value.decimal)
@@ -113,6 +121,7 @@ def _split_sign(term: sympy.Basic) -> tuple[bool, Expr]:
 
 
 def _convert_product(expression: sympy.Basic) -> Expr:
+    """Return a product or quotient in the order of its factors, with a sign before all of it."""
     result: Expr | None = None
     minus = False
     for factor in expression.args:
@@ -129,13 +138,13 @@ def _convert_product(expression: sympy.Basic) -> Expr:
 
 
 def _convert_factor(factor: sympy.Basic) -> tuple[Expr, bool]:
-    """Convert a factor; a factor with a negative power goes below the bar."""
+    """Return a factor, and whether its negative power puts it below the bar."""
     below = _find_denominator(factor)
     return (from_sympy(factor), False) if below is None else (below, True)
 
 
 def _find_denominator(expression: sympy.Basic) -> Expr | None:
-    """Find what stands below the bar of ``1/something``."""
+    """Return what stands below the bar of ``1/something``; None if it is no such power."""
     if not isinstance(expression, sympy.Pow) or expression.base is sympy.S.Exp1:
         return None
     exponent = expression.exp
@@ -145,6 +154,7 @@ def _find_denominator(expression: sympy.Basic) -> Expr | None:
 
 
 def _multiply_trees(result: Expr | None, value: Expr) -> Expr:
+    """Return a product with one factor more; ``result`` is None before the first."""
     if result is None:
         return value
     if isinstance(result, Call) and result.op == "mul":
@@ -153,13 +163,14 @@ def _multiply_trees(result: Expr | None, value: Expr) -> Expr:
 
 
 def _divide_trees(top: Expr, bottom: Expr) -> Expr:
-    """Divide; ``a/b/c`` becomes one fraction."""
+    """Return a quotient; ``a/b/c`` becomes one fraction."""
     if isinstance(top, Call) and top.op == "div" and top.args[0] != _ONE:
         return Call("div", (top.args[0], _multiply_trees(top.args[1], bottom)))
     return Call("div", (top, bottom))
 
 
 def _convert_power(expression: sympy.Basic) -> Expr:
+    """Return a power, root, quotient or exponential function."""
     if expression.base is sympy.S.Exp1:
         return Call("exp", (from_sympy(expression.exp),))
     below = _find_denominator(expression)
@@ -169,6 +180,7 @@ def _convert_power(expression: sympy.Basic) -> Expr:
 
 
 def _build_power(base: Expr, exponent: Expr) -> Expr:
+    """Return a power; a root for the exponent 1/2."""
     if exponent == _ONE:
         return base
     if exponent == Num(Fraction(1, 2)):
@@ -177,6 +189,7 @@ def _build_power(base: Expr, exponent: Expr) -> Expr:
 
 
 def _convert_logarithm(expression: sympy.Basic) -> Expr:
+    """Return a logarithm; to bases without an operator of their own as a quotient."""
     value, *base = _convert_arguments(expression)
     if not base:
         return Call("ln", (value,))
@@ -186,9 +199,10 @@ def _convert_logarithm(expression: sympy.Basic) -> Expr:
 
 
 def _make_extremum_converter(op: str) -> Callable[[sympy.Basic], Expr]:
-    """Max and Min come sorted; colour channels go back to R, G, B."""
+    """Return the rule for Max or Min, which SymPy sorts; colour channels go back to R, G, B."""
 
     def rule(expression: sympy.Basic) -> Expr:
+        """Return the largest or smallest of the arguments; a single one is itself."""
         args = _convert_arguments(expression)
         if {getattr(arg, "name", "") for arg in args} == set("RGB"):
             args = tuple(Sym(channel) for channel in "RGB")
@@ -198,6 +212,13 @@ def _make_extremum_converter(op: str) -> Callable[[sympy.Basic], Expr]:
 
 
 def _convert_piecewise(expression: sympy.Basic) -> Expr:
+    """Return the branches, each value before its condition, and the last value.
+
+    Raises
+    ------
+    BankError
+        If the last branch has a condition.
+    """
     args: list[Expr] = []
     for value, condition in expression.args:
         args.append(from_sympy(value))
@@ -207,11 +228,65 @@ def _convert_piecewise(expression: sympy.Basic) -> Expr:
     raise BankError(f"the last branch of {expression} must hold otherwise: end with (..., True)")
 
 
+def _make_binder_converter(op: str) -> Callable[[sympy.Basic], Expr]:
+    """Sums, products and integrals with finite bounds, the innermost first."""
+
+    def rule(expression: sympy.Basic) -> Expr:
+        body = from_sympy(expression.function)
+        for limit in expression.limits:
+            if len(limit) != 3 or any(bound.is_infinite for bound in limit[1:]):
+                raise BankError(f"{expression} has no closed form, or lacks finite bounds")
+            name, low, high = limit
+            body = Call(op, (Sym(name.name), from_sympy(low), from_sympy(high), body))
+        return body
+
+    return rule
+
+
+def _convert_own_function(expression: sympy.Basic) -> Expr:
+    """``Function("t_quantile")(p, n)``: operators that SymPy has no class for."""
+    name = expression.func.__name__
+    row = OPERATORS.get(name)
+    if row is None or not row.least <= len(expression.args) <= row.most:
+        raise BankError(f"no formula for {expression}: write a function of your own in Python")
+    return Call(name, _convert_arguments(expression))
+
+
+REWRITES: dict[type, type] = {
+    sympy.coth: sympy.tanh,
+    sympy.sech: sympy.cosh,
+    sympy.csch: sympy.sinh,
+    sympy.acot: sympy.atan,
+    sympy.asec: sympy.acos,
+    sympy.acsc: sympy.asin,
+    sympy.Heaviside: sympy.Piecewise,
+    sympy.erfcinv: sympy.erfinv,
+    sympy.RisingFactorial: sympy.gamma,
+    sympy.FallingFactorial: sympy.gamma,
+}
+"""Functions that are said by another one."""
+
+
+def _rewrite_function(expression: sympy.Basic) -> Expr:
+    other = expression.rewrite(REWRITES[type(expression)])
+    if type(other) is type(expression):
+        raise BankError(f"no formula for {expression}")
+    return from_sympy(other)
+
+
 def _make_function_converter(op: str) -> Callable[[sympy.Basic], Expr]:
+    """Return the rule for a function that both have."""
     return lambda expression: Call(op, _convert_arguments(expression))
 
 
 def _reject_expression(expression: sympy.Basic) -> Expr:
+    """Raise for what is no formula.
+
+    Raises
+    ------
+    BankError
+        That names it.
+    """
     raise BankError(f"no formula for {expression}")
 
 
@@ -231,6 +306,10 @@ _RULES: dict[type, Callable[[sympy.Basic], Expr]] = {
     sympy.Piecewise: _convert_piecewise,
     BooleanTrue: _reject_expression,
     BooleanFalse: _reject_expression,
-    AppliedUndef: _reject_expression,
+    AppliedUndef: _convert_own_function,
+    sympy.Sum: _make_binder_converter("sum"),
+    sympy.Product: _make_binder_converter("product"),
+    sympy.Integral: _make_binder_converter("integral"),
+    **dict.fromkeys(REWRITES, _rewrite_function),
     ListFunction: lambda expression: Call(expression.op, _convert_arguments(expression)),
 }

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from quizgen.core.errors import BankError
 from quizgen.maths.chain import Chain, ChainStep
@@ -26,6 +26,8 @@ from quizgen.maths.tree import names_in
 if TYPE_CHECKING:
     import sympy
 
+    from quizgen.maths.symbolic import FormResolver
+
 
 @dataclass(frozen=True, slots=True)
 class Step:
@@ -33,16 +35,17 @@ class Step:
 
     Parameters
     ----------
-    symbol : sympy.Symbol
-        The quantity that the step defines.
-    expr : sympy.Expr
-        Its formula, built under ``evaluate(False)`` so that terms print in the order written.
+    symbol : sympy.Symbol, sympy.Function, sympy.MatrixSymbol or str
+        What the step defines. A function of free names, ``Function("f")(x)``, lets later steps
+        write ``diff(f, x)``; a matrix lets them write ``det(A)``.
+    expr : sympy.Expr, sympy.Matrix, sympy.Set or sympy.Eq
+        Its formula. Under ``evaluate(False)`` its terms print in the order written.
     unit : str
         The unit in which the quantity is shown; empty for pure numbers.
     """
 
-    symbol: sympy.Symbol
-    expr: sympy.Expr
+    symbol: Any
+    expr: Any
     unit: str = ""
 
 
@@ -56,6 +59,8 @@ class Model:
         Given quantities and the unit each is usually shown in.
     steps : tuple of Step
         In order of solution.
+    free : tuple of str
+        Names that no draw gives: a step whose formula holds one is a formula and no number.
     traps : mapping of str to Step or tuple of Step
         Mistake name to the wrong step (or steps) put in place of the right one.
     formulas : mapping of str to str
@@ -64,11 +69,12 @@ class Model:
 
     given: Mapping[sympy.Symbol, str]
     steps: tuple[Step, ...]
+    free: tuple[str, ...] = ()
     traps: Mapping[str, Step | tuple[Step, ...]] = field(default_factory=dict)
     formulas: Mapping[str, str] = field(default_factory=dict)
 
     def chain(self) -> Chain:
-        """Convert to formula trees.
+        """Return the model as a chain of formula trees, without SymPy.
 
         Raises
         ------
@@ -76,30 +82,74 @@ class Model:
             If a step uses a quantity that is neither given nor defined before it, or a formula is
             given for what is no step.
         """
+        from quizgen.maths.symbolic import FormResolver
+
         given = {symbol.name: unit for symbol, unit in self.given.items()}
-        steps = tuple(_convert_step(step) for step in self.steps)
-        traps = {
-            name: tuple(_convert_step(s) for s in (wrong if isinstance(wrong, tuple) else (wrong,)))
-            for name, wrong in self.traps.items()
-        }
-        _check_order(given, steps, traps)
-        strangers = set(self.formulas) - {step.name for step in steps}
+        resolver = FormResolver(self.free)
+        steps, forms = list[ChainStep](), list[ChainStep]()
+        wrong = _group_misconceptions(self.traps)
+        traps = {name: list[ChainStep]() for name in self.traps}
+        form_traps = {name: list[ChainStep]() for name in self.traps}
+        for step in self.steps:
+            name = _name_step(step)
+            for trap, replaced in wrong.pop(name, ()):
+                found, is_form = _convert_step(replaced, resolver)
+                (form_traps if is_form else traps)[trap].append(found)
+            found, is_form = _convert_step(step, resolver)
+            (forms if is_form else steps).append(found)
+            if is_form:
+                resolver.remember(name, step.expr)
+        for name, rest in wrong.items():
+            what = f"trap {rest[0][0]!r} replaces {name!r}, which is not a step"
+            raise BankError(what, rule="QG116", place=("traps", rest[0][0]))
+        numeric = {name: tuple(found) for name, found in traps.items() if found}
+        of_forms = {name: tuple(found) for name, found in form_traps.items() if found}
+        _check_order(given, tuple(steps), numeric)
+        _check_forms({*given, *(step.name for step in steps), *self.free}, forms, of_forms)
+        strangers = set(self.formulas) - {step.name for step in (*steps, *forms)}
         if strangers:
             place = ("formulas", min(strangers))
             raise BankError(
                 f"formulas: {sorted(strangers)} are not steps", rule="QG116", place=place
             )
-        return Chain(given, steps, traps, self.formulas)
+        return Chain(given, tuple(steps), numeric, self.formulas, tuple(forms), of_forms, self.free)
 
 
-def _convert_step(step: Step) -> ChainStep:
-    from quizgen.maths.from_sympy import from_sympy
+def _name_step(step: Step) -> str:
+    from quizgen.maths.symbolic import step_name
 
+    return step_name(step.symbol)
+
+
+def _group_misconceptions(
+    traps: Mapping[str, Step | tuple[Step, ...]],
+) -> dict[str, list[tuple[str, Step]]]:
+    """Name of a step to the wrong steps that replace it, each with its mistake."""
+    found: dict[str, list[tuple[str, Step]]] = {}
+    for trap, wrong in traps.items():
+        for step in wrong if isinstance(wrong, tuple) else (wrong,):
+            found.setdefault(_name_step(step), []).append((trap, step))
+    return found
+
+
+def _convert_step(step: Step, resolver: FormResolver) -> tuple[ChainStep, bool]:
+    """A step without SymPy, and whether it is a form."""
+    name = _name_step(step)
     try:
-        return ChainStep(step.symbol.name, from_sympy(step.expr), step.unit)
+        tree, is_form = resolver.resolve(step.expr)
     except BankError as error:
-        name = step.symbol.name
         raise BankError(f"step {name!r}: {error}", rule="QG131", place=("Step", name)) from error
+    return ChainStep(name, tree, step.unit), is_form
+
+
+def _check_forms(
+    known: set[str], forms: list[ChainStep], traps: Mapping[str, tuple[ChainStep, ...]]
+) -> None:
+    for step in (*forms, *(wrong for several in traps.values() for wrong in several)):
+        missing = names_in(step.expr) - known
+        if missing:
+            what = f"step {step.name!r} uses {sorted(missing)}, neither given nor free"
+            raise BankError(what, rule="QG130", place=("Step", step.name))
 
 
 def _check_order(
@@ -107,6 +157,13 @@ def _check_order(
     steps: tuple[ChainStep, ...],
     traps: Mapping[str, tuple[ChainStep, ...]],
 ) -> None:
+    """Check that each step uses what is given or defined before it, wrong steps too.
+
+    Raises
+    ------
+    BankError
+        That names the step or the misconception.
+    """
     known = set(given)
     before: dict[str, set[str]] = {}
     for step in steps:

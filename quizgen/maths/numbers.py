@@ -38,7 +38,7 @@ SMALLEST_MAGNITUDE = -6
 
 
 def parse_written_number(value: float | str | Fraction) -> Fraction:
-    """An integer, ``"1/500"`` or a decimal text as it is meant; a float as what it prints as.
+    """Return an integer, ``"1/500"`` or a decimal text as it is meant; a float as it prints.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def parse_written_number(value: float | str | Fraction) -> Fraction:
 
 
 def to_rational(value: int | str | Fraction) -> fmpq:
-    """Make an exact rational from an integer, ``"1/500"`` or a decimal text.
+    """Return the exact rational of an integer, ``"1/500"`` or a decimal text.
 
     Raises
     ------
@@ -70,22 +70,22 @@ def to_rational(value: int | str | Fraction) -> fmpq:
 
 
 def to_fraction(value: fmpq) -> Fraction:
-    """A rational in Python's own type, as formula trees hold it."""
+    """Return a rational in Python's own type, as formula trees hold it."""
     return Fraction(int(value.p), int(value.q))
 
 
 def is_exact(value: Value) -> bool:
-    """Whether a value of the exact field is a rational."""
+    """Return whether an exact value is a rational, not a ball."""
     return isinstance(value, fmpq)
 
 
 def to_float(value: Value) -> float:
-    """Nearest float of a rational or of a ball's midpoint."""
+    """Return the nearest float of a rational or of a ball's midpoint."""
     return int(value.p) / int(value.q) if isinstance(value, fmpq) else float(value)
 
 
 def round_to(value: Value, decimals: int) -> fmpq:
-    """Round to ``decimals`` places, half away from zero, certified.
+    """Return a value rounded to ``decimals`` places, half away from zero, certified.
 
     Raises
     ------
@@ -104,6 +104,13 @@ def round_to(value: Value, decimals: int) -> fmpq:
 
 @working_precision(WIDE)
 def _nearest_to_ball(value: arb, scale: fmpq) -> fmpz:
+    """Return the integer nearest to the size of a ball times a scale.
+
+    Raises
+    ------
+    UndecidedError
+        If the ball is too wide for that.
+    """
     whole = (abs(value) * scale + fmpq(1, 2)).floor().unique_fmpz()
     if whole is None:
         raise UndecidedError("the last digit cannot be certified")
@@ -111,7 +118,13 @@ def _nearest_to_ball(value: arb, scale: fmpq) -> fmpz:
 
 
 def decimal_exponent(value: Value) -> int:
-    """Power of ten of the leading digit: 0 for 6.7, -4 for 0.00050505."""
+    """Return the power of ten of the leading digit: 0 for 6.7, -4 for 0.00050505; 0 for 0.
+
+    Raises
+    ------
+    MathError
+        If it is beyond all floats.
+    """
     number = abs(to_float(value))
     if number == 0:
         return 0
@@ -125,12 +138,12 @@ def decimal_exponent(value: Value) -> int:
 
 
 def decimals_for_figures(value: Value, figures: int) -> int:
-    """How many decimal places show ``figures`` significant figures of a value."""
+    """Return how many decimal places show ``figures`` significant figures of a value."""
     return max(figures - 1 - decimal_exponent(value), 0)
 
 
 def count_decimals(value: fmpq | Fraction) -> int | None:
-    """Decimal places of a terminating decimal, or None if it does not terminate."""
+    """Return the decimal places of a terminating decimal, None if it does not terminate."""
     rest, fives = int(value.denominator), 0
     twos = (rest & -rest).bit_length() - 1
     rest >>= twos
@@ -140,7 +153,13 @@ def count_decimals(value: fmpq | Fraction) -> int | None:
 
 
 def format_decimal(value: fmpq, decimals: int | None = None, *, minus: str = MINUS) -> str:
-    """Write a terminating decimal, with exactly ``decimals`` places if given."""
+    """Return a terminating decimal as text, with exactly ``decimals`` places if given.
+
+    Raises
+    ------
+    ValueError
+        If it does not terminate and no number of places is given.
+    """
     count = count_decimals(value) if decimals is None else decimals
     if count is None:
         raise ValueError("this rational has no finite decimal form")
@@ -152,14 +171,14 @@ def format_decimal(value: fmpq, decimals: int | None = None, *, minus: str = MIN
 
 
 def format_fraction(value: fmpq, *, minus: str = MINUS) -> str:
-    """Write a rational as ``p/q``."""
+    """Return a rational as ``p/q``."""
     top = int(value.p)
     sign = minus if top < 0 else ""
     return f"{sign}{abs(top)}/{int(value.q)}"
 
 
 def is_short_decimal(value: Value) -> bool:
-    """Whether a value is a terminating decimal that is short, or small and of few digits."""
+    """Return whether a value is a terminating decimal that is short, or small and of few digits."""
     if not is_exact(value):
         return False
     count = count_decimals(value)
@@ -169,7 +188,7 @@ def is_short_decimal(value: Value) -> bool:
 
 
 def is_readable_exactly(value: Value) -> bool:
-    """Whether the exact value says something: a short decimal, 2/3, 16/9, 1/125 but not 70/11."""
+    """Return whether the exact value helps: a short decimal, 2/3, 16/9, 1/125 but not 70/11."""
     if is_short_decimal(value):
         return True
     if not is_exact(value):
@@ -179,7 +198,7 @@ def is_readable_exactly(value: Value) -> bool:
 
 
 def format_exact(value: Value, *, minus: str = MINUS) -> str | None:
-    """The exact value as text: a short decimal, else a readable fraction, else None."""
+    """Return the exact value as text: a short decimal, else a readable fraction, else None."""
     if is_short_decimal(value):
         return format_decimal(value, minus=minus)
     if is_exact(value) and max(abs(int(value.p)), int(value.q)) <= LARGEST_IN_FRACTION:
@@ -190,7 +209,7 @@ def format_exact(value: Value, *, minus: str = MINUS) -> str | None:
 def format_rounded(
     value: Value, *, decimals: int | None = None, figures: int = 4, minus: str = MINUS
 ) -> str:
-    """Round for showing: to ``decimals`` places, or to ``figures`` significant figures.
+    """Return a value for showing: to ``decimals`` places, or to ``figures`` significant figures.
 
     A tiny value without a number of places is written as ``1.478e-11``.
     """
@@ -204,7 +223,7 @@ def format_rounded(
 
 
 def format_for_key(value: Value) -> str:
-    """The value as stored in a key: an exact rational, or 40 certified digits."""
+    """Return the value as stored in a key: an exact rational, or 40 certified digits."""
     if is_exact(value):
         whole = int(value.q) == 1
         return str(int(value.p)) if whole else format_fraction(value, minus="-")

@@ -67,23 +67,26 @@ class Operator(msgspec.Struct, frozen=True):
     absent: frozenset[str] = frozenset()
 
     def function_in(self, system: str) -> str:
-        """Name of its function in a number system."""
+        """Return the name of its function in a number system."""
         return self.called.get(system, self.name)
 
 
 def _make_function_operator(
     name: str, library: str = "", least: int = 1, most: int = 1, **other: str
 ) -> Operator:
+    """Return a function, under the name that libraries share and those in ``other`` systems."""
     libraries = dict.fromkeys(("floats", "arrays", "sympy"), library or name)
     return Operator(name, least, most, folds=most == MANY, called=libraries | other)
 
 
 def _make_relation_operator(name: str, *signs: str, exact: str, sympy: str) -> Operator:
+    """Return a relation of two sides, with its signs."""
     called = {"exact": exact, "sympy": sympy}
     return Operator(name, 2, 2, OperatorSyntax.RELATION, signs, "RELATION", called=called)
 
 
 def _make_word_operator(name: str, most: int, python: str, arrays: str, sympy: str) -> Operator:
+    """Return a word between conditions, or before one."""
     called = dict.fromkeys(SYSTEMS, python) | {"arrays": arrays, "sympy": sympy}
     return Operator(
         name, min(2, most), most, OperatorSyntax.WORD, (name,), name.upper(),
@@ -96,6 +99,14 @@ def _make_list_operator(name: str, count: int = 1, *signs: str) -> Operator:
         name, count, count, OperatorSyntax.LIST, signs or (name,),
         absent=frozenset(SYSTEMS) - {"exact", "floats"},
     )  # fmt: skip
+
+
+def _make_special_operator(
+    name: str, count: int = 1, *, sympy: str = "", exact: str = ""
+) -> Operator:
+    """Floats and arrays take the value of the ball: the standard library lacks the function."""
+    called = {"sympy": sympy or name, "exact": exact or name}
+    return Operator(name, count, count, called=called)
 
 
 _DIVIDED = dict.fromkeys(SYSTEMS, "truediv") | {"exact": "divide"}
@@ -130,6 +141,26 @@ _ROWS = (
     *map(_make_list_operator, ("mean", "var", "sd", "pvar", "psd", "median", "len", "sort")),
     *(_make_list_operator(name, 2) for name in ("quantile", "cov", "corr", "slope", "at")),
     *(_make_list_operator(f"list_{name}", 1, name) for name in ("sum", "min", "max")),
+    *map(_make_function_operator, ("sinh", "cosh", "tanh")),
+    _make_function_operator("asinh", arrays="arcsinh"),
+    _make_function_operator("acosh", arrays="arccosh"),
+    _make_function_operator("atanh", arrays="arctanh"),
+    *map(_make_special_operator, ("sec", "csc", "cot", "factorial", "gamma", "erfinv", "zeta")),
+    *(_make_special_operator(name, 2) for name in ("binomial", "beta")),
+    _make_special_operator("besselj", 2, exact="bessel_first_kind"),
+    _make_special_operator("bessely", 2, exact="bessel_second_kind"),
+    _make_special_operator("besseli", 2, exact="bessel_modified_first_kind"),
+    _make_special_operator("besselk", 2, exact="bessel_modified_second_kind"),
+    _make_special_operator("lambertw", sympy="LambertW"),
+    _make_special_operator("lowergamma", 2),
+    _make_special_operator("uppergamma", 2),
+    *(_make_special_operator(name, 1) for name in ("normal_cdf", "normal_quantile")),
+    *(
+        _make_special_operator(name, 2)
+        for name in ("t_cdf", "t_quantile", "chi2_cdf", "chi2_quantile")
+    ),
+    *(_make_special_operator(name, 3) for name in ("f_cdf", "f_quantile")),
+    *(Operator(name, 4, 4, absent=frozenset(SYSTEMS)) for name in ("sum", "product", "integral")),
     Operator("pi", 0, 0, OperatorSyntax.CONSTANT, ("pi", "π"), "CONSTANT"),
     Operator("piecewise", 3, MANY - 1, absent=frozenset(SYSTEMS) - {"arrays"}),
     _make_relation_operator("eq", "=", "==", exact="equal", sympy="Eq"),
@@ -146,6 +177,15 @@ _ROWS = (
 OPERATORS = {row.name: row for row in _ROWS}
 """Every operator by name. ``piecewise`` picks its branch while a formula runs, except on arrays."""
 
+DISTRIBUTIONS = frozenset(name for name in OPERATORS if name.endswith(("_cdf", "_quantile")))
+"""Operators for which SymPy has no class: ``Function("t_quantile")`` writes one."""
+
+BINDERS = frozenset({"sum", "product", "integral"})
+"""Operators of a bound name, its first and last value, and what is computed for each of them."""
+
+CHECKED = frozenset({"integral"})
+"""Operators whose value is computed twice and compared, but not proved."""
+
 CONDITIONS = frozenset(
     row.name
     for row in OPERATORS.values()
@@ -155,5 +195,5 @@ CONDITIONS = frozenset(
 
 
 def operators_with_syntax(way: OperatorSyntax) -> tuple[Operator, ...]:
-    """The operators that are typed in one way."""
+    """Return the operators that are typed in one way."""
     return tuple(row for row in OPERATORS.values() if row.typed is way)

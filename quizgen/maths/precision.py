@@ -56,19 +56,22 @@ class working_precision:  # noqa: N801 - reads as a statement
     """
 
     def __init__(self, bits: int = PRECISION) -> None:
+        """Store the bits; nothing is set before the block begins."""
         self.bits = bits
 
     def __call__(self, function: Callable[Given, Result]) -> Callable[Given, Result]:
-        """Span the whole of each call."""
+        """Return the function with the precision set around each call."""
 
         @wraps(function)
         def run(*args: Given.args, **named: Given.kwargs) -> Result:
+            """Return what the function returns, computed with the precision."""
             with self:
                 return function(*args, **named)
 
         return run
 
     def __enter__(self) -> None:
+        """Take the lock, and set the precision if it is another one."""
         _LOCK.acquire()
         outer = ctx.prec
         _OUTER.append(outer)
@@ -76,6 +79,7 @@ class working_precision:  # noqa: N801 - reads as a statement
             ctx.prec = self.bits
 
     def __exit__(self, *_error: object) -> None:
+        """Go back to the precision from before, and release the lock."""
         outer = _OUTER.pop()
         if ctx.prec != outer:
             ctx.prec = outer
@@ -83,10 +87,11 @@ class working_precision:  # noqa: N801 - reads as a statement
 
 
 def at_working_precision(function: Callable[[Argument], Result]) -> Callable[[Argument], Result]:
-    """Let a function keep the precision stated around its call, else state ``PRECISION``."""
+    """Return a function that keeps the precision set around its call, else sets ``PRECISION``."""
     usual = working_precision()
 
     def run(argument: Argument) -> Result:
+        """Return what the function returns, at a precision that was set."""
         with _LOCK:
             if _OUTER:
                 return function(argument)

@@ -12,7 +12,7 @@ _ALIKE = frozenset({"add", "sub", "min", "max"})
 
 
 def scaling_exponent(target: str, quantity: str, steps: Mapping[str, Expr]) -> Fraction | None:
-    """The power of a quantity to which a result is proportional, whatever the positive factor.
+    """Return the power of a quantity to which a result is proportional, for any positive factor.
 
     Parameters
     ----------
@@ -30,6 +30,7 @@ def scaling_exponent(target: str, quantity: str, steps: Mapping[str, Expr]) -> F
     """
 
     def of(expr: Expr) -> Fraction | None:
+        """Return the power of a formula, names replaced by their steps."""
         if isinstance(expr, Num):
             return Fraction(0)
         if isinstance(expr, Sym):
@@ -38,6 +39,7 @@ def scaling_exponent(target: str, quantity: str, steps: Mapping[str, Expr]) -> F
         return _call_exponent(expr)
 
     def _call_exponent(expr: Call) -> Fraction | None:
+        """Return the power of a call; arguments that are 0 do not count."""
         powers = [of(arg) for arg in expr.args if not _is_zero(arg)]
         found = [power for power in powers if power is not None]
         if len(found) < len(powers):
@@ -52,7 +54,7 @@ def scaling_exponent(target: str, quantity: str, steps: Mapping[str, Expr]) -> F
 
 
 def _combine_exponents(op: str, powers: list[Fraction]) -> Fraction | None:
-    """The power of a whole from those of its arguments."""
+    """Return the power of a call from those of its arguments; None if there is none."""
     if op == "mul":
         return sum(powers, Fraction(0))
     if op == "div" and len(powers) == 2:
@@ -67,4 +69,5 @@ def _combine_exponents(op: str, powers: list[Fraction]) -> Fraction | None:
 
 
 def _is_zero(expr: Expr) -> bool:
+    """Return whether a formula is the number 0."""
     return isinstance(expr, Num) and expr.value == 0

@@ -49,7 +49,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
     """The rule that holds where none is stated."""
 
     def validate(self) -> None:
-        """Check what types cannot say.
+        """Check what types cannot express.
 
         Raises
         ------
@@ -73,7 +73,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
                 raise ValueError(f"{name} must not be negative")
 
     def stated_values(self) -> tuple[Scalar | None, ...]:
-        """What was given for each rule, in the order of ``RULES``."""
+        """Return what was given for each rule, in the order of ``RULES``."""
         return (self.decimals, self.sigfigs, self.rel, self.abs, self.exact or None)
 
     @property
@@ -115,7 +115,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
         return to_float(self.half_width(beyond)) * MARGIN
 
     def is_within(self, value: Value, key: Value) -> bool:
-        """Whether a value lies within the tolerance of a key (closed, decided exactly).
+        """Return whether a value lies within the tolerance of a key (closed, decided exactly).
 
         A ball that cannot be told from the bound counts as on it.
         """
@@ -125,7 +125,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
         return not distance > width
 
     def accepts(self, value: Value, key: Value) -> bool:
-        """Whether a value is near the key, or in the interval that is accepted as well."""
+        """Return whether a value is near the key, or in the interval that is accepted as well."""
         if self.accept is None or self.is_within(value, key):
             return self.is_within(value, key)
         low, high = map(parse_exact, self.accept)
@@ -134,7 +134,7 @@ class Tolerance(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
 
 @lru_cache(maxsize=1024)
 def _compute_place_value(decimals: int) -> fmpq:
-    """What a one is worth in a decimal place."""
+    """Return what a one is worth in a decimal place: 1/100 for 2."""
     return fmpq(10) ** -decimals
 
 

@@ -12,9 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import TypeAlias
+from typing import TypeAlias, TypeGuard
 
 import msgspec
+
+from quizgen.maths.operators import BINDERS
 
 
 class Num(msgspec.Struct, frozen=True, tag="n", array_like=True):
@@ -41,8 +43,13 @@ Expr: TypeAlias = Num | Sym | Call
 """A formula."""
 
 
+def is_expr(value: object) -> TypeGuard[Expr]:
+    """Whether a value is a formula, and not a number."""
+    return isinstance(value, Num | Sym | Call)
+
+
 def make_number(value: int | str | Fraction) -> Num:
-    """Make a constant node from an integer, a fraction or a decimal text."""
+    """Return the constant node of an integer, a fraction or a decimal text."""
     decimal = isinstance(value, str) and "." in value
     return Num(Fraction(value), decimal)
 
@@ -58,19 +65,23 @@ def walk_tree(expr: Expr) -> Iterator[Expr]:
 
 
 def names_in(expr: Expr) -> frozenset[str]:
-    """Names of the quantities that occur in a tree."""
+    """Return the names of the quantities that occur in a tree."""
     found, todo = set[str](), [expr]
     while todo:
         node = todo.pop()
         if isinstance(node, Call):
-            todo += node.args
+            if node.op in BINDERS and isinstance(node.args[0], Sym):
+                found |= names_in(node.args[3]) - {node.args[0].name}
+                todo += node.args[1:3]
+            else:
+                todo += node.args
         elif isinstance(node, Sym):
             found.add(node.name)
     return frozenset(found)
 
 
 def operators_in(expr: Expr) -> frozenset[str]:
-    """Names of the operators that occur in a tree."""
+    """Return the names of the operators that occur in a tree."""
     found, todo = set[str](), [expr]
     while todo:
         node = todo.pop()
@@ -81,10 +92,12 @@ def operators_in(expr: Expr) -> frozenset[str]:
 
 
 def substitute(expr: Expr, values: Mapping[str, Expr]) -> Expr:
-    """Replace named quantities by other trees."""
+    """Return a tree with named quantities replaced by other trees."""
     if isinstance(expr, Sym):
         return values.get(expr.name, expr)
     if isinstance(expr, Call):
+        if expr.op in BINDERS and isinstance(expr.args[0], Sym):
+            values = {name: tree for name, tree in values.items() if name != expr.args[0].name}
         return Call(expr.op, tuple(substitute(arg, values) for arg in expr.args))
     return expr
 
@@ -94,6 +107,7 @@ __all__ = [
     "Expr",
     "Num",
     "Sym",
+    "is_expr",
     "make_number",
     "names_in",
     "operators_in",

@@ -4,9 +4,9 @@ A unit is a product of powers of base units times an exact factor, so ``um/px``,
 ``mm^2`` work without a units library. Names that are not listed are refused, never guessed
 (a units library reads ``6 EV`` as exavolt and ``5.6 MP`` as megapoise).
 
-A bank may define further ones (``unit_definitions``). They belong to its own questions alone: a
-``System`` holds the listed units and those of one bank; ``unit`` and ``factor`` look names up in
-the system in use, which is the list itself unless somebody says ``with system.in_use()``.
+A bank may define further ones (``UnitDefinition``). They belong to its own questions alone: a
+``UnitRegistry`` holds the listed units and those of one bank; ``get_unit`` and ``unit_factor`` look
+names up in the registry in use, which is the list itself outside ``with registry.activate()``.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class UnitDefinition(NamedTuple):
 
 
 def parse_unit_definition(text: str) -> UnitDefinition:
-    """Read a definition.
+    """Return a definition that was read.
 
     Raises
     ------
@@ -69,12 +69,25 @@ def parse_unit_definition(text: str) -> UnitDefinition:
 
 
 def _check_unit_word(pattern: re.Pattern[str], word: str, text: str, what: str) -> None:
+    """Check one name or symbol of a definition.
+
+    Raises
+    ------
+    FormulaError
+        If it is not of the form that ``pattern`` gives.
+    """
     if not pattern.fullmatch(word):
         raise FormulaError(f"unit {text!r}: {word!r} is no {what} (letters alone)")
 
 
 def _parse_unit_product(made_of: str, text: str) -> tuple[Fraction, str]:
-    """A product's number, and its units as they are written elsewhere."""
+    """Return a product's number, and its units as they are written elsewhere.
+
+    Raises
+    ------
+    FormulaError
+        If it is no product.
+    """
     size, units, position = Fraction(1), "", 0
     while position < len(made_of):
         match = _FACTOR.match(made_of, position)
@@ -92,6 +105,13 @@ def _parse_unit_product(made_of: str, text: str) -> tuple[Fraction, str]:
 
 
 def _raise_unit_number(number: Fraction, power: int, text: str) -> Fraction:
+    """Return a power of a number in a definition.
+
+    Raises
+    ------
+    FormulaError
+        If the number is 0.
+    """
     if not number:
         raise FormulaError(f"unit {text!r}: 0 is no size")
     return number**power
@@ -228,7 +248,7 @@ class _SimpleUnit(NamedTuple):
 
 
 def _list_simple_units() -> dict[str, _SimpleUnit]:
-    """Every listed unit with every prefix in use, by the name as it is written."""
+    """Return every listed unit with every prefix in use, by the name as it is written."""
     table = {"": _SimpleUnit(Fraction(1), ()), "1": _SimpleUnit(Fraction(1), ())}
     for name, prefixes in _BASE.items():
         size = _KILOGRAM if name == "g" else Fraction(1)
@@ -245,6 +265,7 @@ def _list_simple_units() -> dict[str, _SimpleUnit]:
 def _add_prefixed(
     table: dict[str, _SimpleUnit], name: str, prefixes: str, unit: _SimpleUnit
 ) -> None:
+    """Add a unit to a table, without and with each of its prefixes."""
     table[name] = unit
     for prefix in prefixes:
         table[prefix + name] = unit._replace(factor=unit.factor * PREFIXES[prefix])
@@ -255,7 +276,7 @@ _BELOW = re.compile(r"/\(([^()]*)\)")
 
 
 def _multiply_out(text: str, table: Mapping[str, _SimpleUnit]) -> _SimpleUnit | None:
-    """Multiply ``um/px`` or ``J/(kg*K)`` out; None if a name in it is not in the table."""
+    """Return ``um/px`` or ``J/(kg*K)`` multiplied out; None if a name is not in the table."""
     compact = _BELOW.sub(_write_without_brackets, text.replace(" ", ""))
     factor, powers = Fraction(1), dict[str, int]()
     position = 0
@@ -273,7 +294,7 @@ def _multiply_out(text: str, table: Mapping[str, _SimpleUnit]) -> _SimpleUnit | 
 
 
 def _write_without_brackets(match: re.Match[str]) -> str:
-    """``/kg/K`` for ``/(kg*K)``: in a unit, as in SI, what follows a stroke is divided by alone."""
+    """Return ``/kg/K`` for ``/(kg*K)``: a stroke divides by the one unit behind it, as in SI."""
     swapped = match[1].translate(str.maketrans("*·/", "//*"))
     return f"/{swapped}"
 
@@ -297,6 +318,7 @@ class UnitRegistry:
     """
 
     def __init__(self, definitions: tuple[str, ...] = ()) -> None:
+        """Define the units in order; errors as above."""
         self.definitions = definitions
         self.simple = dict(SIMPLE)
         self.words: dict[str, tuple[str, ...]] = {}
@@ -306,6 +328,13 @@ class UnitRegistry:
             self._define_unit(parse_unit_definition(line))
 
     def _define_unit(self, new: UnitDefinition) -> None:
+        """Add a unit with all prefixes.
+
+        Raises
+        ------
+        FormulaError
+            If a name is taken, or a unit that it is made of does not exist.
+        """
         spelt = {word for words in self.words.values() for word in words}
         taken = {new.symbol, *new.words} & {*self.simple, *spelt}
         if taken:
@@ -326,12 +355,12 @@ class UnitRegistry:
         self._known.clear()
 
     def unit(self, text: str) -> Unit:
-        """Look a unit up: a name, or a product such as ``um/px`` or ``lx*s``.
+        """Return a unit by its name, or a product such as ``um/px`` or ``lx*s``.
 
         Raises
         ------
         FormulaError
-            If a name is not known.
+            If a name is not listed.
         """
         if text not in self._known:
             product = _multiply_out(text, self.simple)
@@ -341,12 +370,12 @@ class UnitRegistry:
         return self._known[text]
 
     def factor(self, text: str) -> fmpq:
-        """Exact factor from a unit to base units: 1/1000 for ``mm``.
+        """Return the exact factor from a unit to base units: 1/1000 for ``mm``.
 
         Raises
         ------
         FormulaError
-            If a name is not known.
+            If a name is not listed.
         """
         if text not in self._factors:
             self._factors[text] = to_rational(self.unit(text).factor)
@@ -354,7 +383,7 @@ class UnitRegistry:
 
     @contextmanager
     def activate(self) -> Iterator[None]:
-        """Look units up here until the end of the block."""
+        """Make these the units in use until the end of the block."""
         before = _IN_USE.set(self)
         try:
             yield
@@ -367,7 +396,13 @@ LISTED = UnitRegistry()
 
 @lru_cache(maxsize=256)
 def build_unit_registry(definitions: tuple[str, ...] = ()) -> UnitRegistry:
-    """The units of a bank, by its definitions."""
+    """Return the units of a bank, by its definitions; cached.
+
+    Raises
+    ------
+    FormulaError
+        If a definition is wrong.
+    """
     return UnitRegistry(definitions) if definitions else LISTED
 
 
@@ -375,28 +410,28 @@ _IN_USE: ContextVar[UnitRegistry] = ContextVar("units", default=LISTED)
 
 
 def active_units() -> UnitRegistry:
-    """The units of the question at hand."""
+    """Return the units of the question at hand."""
     return _IN_USE.get()
 
 
 def get_unit(text: str) -> Unit:
-    """Look a unit up among those in use.
+    """Return a unit of those in use.
 
     Raises
     ------
     FormulaError
-        If a name is not known.
+        If a name is not listed.
     """
     return active_units().unit(text)
 
 
 def unit_factor(text: str) -> fmpq:
-    """Exact factor from a unit in use to base units: 1/1000 for ``mm``.
+    """Return the exact factor from a unit in use to base units: 1/1000 for ``mm``.
 
     Raises
     ------
     FormulaError
-        If a name is not known.
+        If a name is not listed.
     """
     return active_units().factor(text)
 
@@ -416,7 +451,7 @@ _SHOWN_PARTS = re.compile(r"([/*·^()])")
 
 @lru_cache(maxsize=1024)
 def format_unit(text: str) -> str:
-    """How a unit is printed: ``um/px`` becomes ``µm/px``, ``1/mm`` becomes ``mm⁻¹``.
+    """Return a unit as printed: ``um/px`` becomes ``µm/px``, ``1/mm`` becomes ``mm⁻¹``.
 
     The unit of a pure number prints as nothing.
     """

@@ -52,7 +52,7 @@ _BACKSLASH = re.compile(
 
 
 class FormStudent(msgspec.Struct):
-    """Who filled in the form, and how they write."""
+    """The person who filled in the form, and how they write numbers."""
 
     name: str | int = ""
     matriculation: str | int = ""
@@ -71,12 +71,12 @@ class FilledForm(msgspec.Struct):
 
     @property
     def is_blank(self) -> bool:
-        """Whether the form has neither an answer nor a name."""
+        """Return whether the form has neither an answer nor a name."""
         known = self.student.name or self.student.matriculation
         return not known and not any(text.strip() for text in self.list_typed_texts().values())
 
     def list_typed_texts(self) -> dict[str, str]:
-        """Texts as typed; a number written without quotes counts as its text."""
+        """Return the texts as typed; a number written without quotes counts as its text."""
         return {
             part: "" if text is None else str(text).lower() if isinstance(text, bool) else str(text)
             for part, text in self.answers.items()
@@ -84,7 +84,7 @@ class FilledForm(msgspec.Struct):
 
 
 def write_blank_form(paper: Paper, form: str = "toml") -> bytes:
-    """A blank form, as TOML or as CSV for a spreadsheet."""
+    """Return a blank form, as TOML or as CSV for a spreadsheet; writes no file."""
     return (
         _format_toml_form(paper).encode()
         if form == "toml"
@@ -93,6 +93,7 @@ def write_blank_form(paper: Paper, form: str = "toml") -> bytes:
 
 
 def _format_toml_form(paper: Paper) -> str:
+    """Return a blank form as TOML."""
     name, matriculation = _get_holder_details(paper)
     before = [
         f"# {paper.title(paper.langs[0])} - {paper.code}",
@@ -108,23 +109,24 @@ def _format_toml_form(paper: Paper) -> str:
         'decimal = "auto"   # auto, point or comma',
         "",
         "[answers]",
-        *(line for item in paper.items for line in _question_lines(item)),
+        *(line for item in paper.items for line in _iter_question_lines(item)),
     ]
     seal = _compute_seal("\n".join([*before, *after]))
     return "\n".join([*before, f'seal = "{seal}"   # {SEALED}', *after]) + "\n"
 
 
 def _get_holder_details(paper: Paper) -> tuple[str, str]:
-    """Name and matriculation number, where it is known whose paper it is."""
+    """Return name and matriculation number, empty where it is not known whose paper it is."""
     return (paper.holder.name, paper.holder.id) if paper.holder else ("", "")
 
 
 def _compute_seal(text: str) -> str:
-    """Digest of a form's text, whatever its layout."""
+    """Return the digest of a form's text, whatever its layout."""
     return hashlib.sha256(_LAYOUT.sub("", _SEAL.sub("", text)).encode()).hexdigest()[:12]
 
 
-def _question_lines(item: PaperItem) -> Iterator[str]:
+def _iter_question_lines(item: PaperItem) -> Iterator[str]:
+    """Yield the lines of one question: its title, then one for each part with its hint."""
     question = item.questions[0]
     yield f"# {item.number}. {question.title}"
     for part in question.parts:
@@ -133,20 +135,25 @@ def _question_lines(item: PaperItem) -> Iterator[str]:
 
 
 def _format_csv_form(paper: Paper) -> str:
-    rows = [HEAD, *_csv_rows(paper)]
+    """Return a blank form as CSV; its last row seals the others."""
+    rows = [HEAD, *_iter_csv_rows(paper)]
     return _format_csv_rows(
         [*rows, ("seal", "", SEALED, f"#{_compute_seal(_format_csv_rows(rows))}")]
     )
 
 
 def _format_csv_rows(rows: list[tuple[str, ...]]) -> str:
+    """Return rows as CSV, no cell of which a spreadsheet takes for a formula."""
     out = io.StringIO()
     csv.writer(out).writerows([escape_csv_formula(cell) for cell in row] for row in rows)
     return out.getvalue()
 
 
-def _csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
-    """What the form asks; digests begin with a sign, or a spreadsheet takes some for numbers."""
+def _iter_csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
+    """Yield what the form asks, one row for each part.
+
+    Digests begin with a sign: a spreadsheet takes some of them for numbers.
+    """
     lang = paper.langs[0]
     yield "code", paper.title(lang), "", paper.code
     yield "paper", "", "", f"#{paper.digest}"
@@ -162,7 +169,7 @@ def _csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
 
 
 def read_filled_form(path: Path) -> FilledForm:
-    """Read a filled-in form: TOML, CSV (by its suffix) or JSON.
+    """Return a filled-in form, read from TOML, CSV (by its suffix) or JSON.
 
     Raises
     ------
@@ -183,8 +190,12 @@ def read_filled_form(path: Path) -> FilledForm:
 
 
 def _read_table(path: Path) -> Mapping[str, Any]:
+    """Return the content of a form in TOML.
+
+    Raises ``KeyFileError``; on a syntax error it adds the quotes that are forgotten most.
+    """
     try:
-        return read_table(path, _as_meant)
+        return read_table(path, _double_backslashes)
     except KeyFileError as error:
         if "not valid TOML" not in str(error):
             raise
@@ -193,13 +204,13 @@ def _read_table(path: Path) -> Mapping[str, Any]:
         ) from (None)
 
 
-def _as_meant(text: str) -> str:
-    r"""A form in which backslashes of LaTeX are doubled, as TOML has them: ``"\frac{1}{2}"``."""
+def _double_backslashes(text: str) -> str:
+    r"""Return a form with the backslashes of LaTeX doubled, as TOML needs: ``"\frac{1}{2}"``."""
     return _TYPED.sub(lambda line: line[1] + '"' + _BACKSLASH.sub(r"\\\\", line[2]), text)
 
 
 def _read_csv(path: Path) -> dict[str, object]:
-    """The table that the rows of a form stand for."""
+    """Return the table that the rows of a form stand for."""
     rows = parse_csv(read_text(path, KeyFileError), path, KeyFileError)
     head = [cell.strip().lower() for cell in rows[0][1]] if rows else []
     while head and not head[-1]:
@@ -209,7 +220,7 @@ def _read_csv(path: Path) -> dict[str, object]:
                            "'answer' as the last")  # fmt: skip
     found: dict[str, str] = {}
     for line, row in rows[1:]:
-        part, answer = _part_and_answer(row, head, f"{path}: line {line}")
+        part, answer = _parse_csv_row(row, head, f"{path}: line {line}")
         if part in found:
             raise KeyFileError(f"{path}: line {line}: part {part!r} stands there twice")
         if part:
@@ -219,8 +230,8 @@ def _read_csv(path: Path) -> dict[str, object]:
     return {**marks, "student": student, "answers": found}
 
 
-def _part_and_answer(row: list[str], head: list[str], where: str) -> tuple[str, str]:
-    """Part and answer of a row.
+def _parse_csv_row(row: list[str], head: list[str], where: str) -> tuple[str, str]:
+    """Return part and answer of a row.
 
     Raises
     ------
@@ -238,7 +249,7 @@ def _part_and_answer(row: list[str], head: list[str], where: str) -> tuple[str, 
 
 
 def has_answers(path: Path) -> bool:
-    """Whether anyone has written anything into a form (or it cannot be read, so they might)."""
+    """Return whether someone has written into a form; True also if it cannot be read."""
     if not path.exists():
         return False
     try:
@@ -251,7 +262,7 @@ def has_answers(path: Path) -> bool:
 
 
 def read_form_code(path: Path) -> str:
-    """The code of a form in which someone has written; empty for any other file."""
+    """Return the code of a form in which someone has written; empty for any other file."""
     try:
         return read_filled_form(path).code if has_answers(path) else ""
     except KeyFileError:

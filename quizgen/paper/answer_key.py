@@ -55,14 +55,20 @@ class KeyGiven(msgspec.Struct):
         return map_numbers(parse_exact, value)
 
 
-class KeyChain(msgspec.Struct):
-    """The chain of a question as plain formulas."""
+class KeyChain(msgspec.Struct, omit_defaults=True):
+    """The chain of a question as plain formulas.
+
+    ``define`` holds units of the bank's own. ``checked`` are steps whose values were computed
+    twice and compared, but are not proved.
+    """
 
     given: dict[str, KeyGiven]
     steps: list[tuple[str, str, str]]
+    define: list[str] = []
+    checked: list[str] = []
 
     def units(self) -> dict[str, str]:
-        """Step name to the unit it is shown in."""
+        """Return the shown unit of each step, by name."""
         return {name: unit for name, _, unit in self.steps}
 
     def context(self, earlier: Mapping[str, fmpq]) -> QuestionContext:
@@ -83,7 +89,7 @@ class KeyChain(msgspec.Struct):
 def _build_chain(
     units: tuple[tuple[str, str], ...], steps: tuple[tuple[str, str, str], ...]
 ) -> Chain:
-    """Build a chain once for all students of a paper."""
+    """Return a chain, built once for all students of a paper."""
     from quizgen.maths.notation import parse_formula
 
     built = tuple(ChainStep(name, parse_formula(formula), unit) for name, formula, unit in steps)
@@ -92,7 +98,7 @@ def _build_chain(
 
 @lru_cache(maxsize=256)
 def _parse_points(text: str) -> Fraction:
-    """Points as an exact number; a class has few different ones."""
+    """Return points as an exact number, cached: a class has few different ones."""
     return parse_written_number(text)
 
 
@@ -109,11 +115,11 @@ class KeyPart(msgspec.Struct, dict=True):
     order: dict[str, list[str]] = {}
 
     def points_exact(self) -> Fraction:
-        """Points as an exact number."""
+        """Return the points as an exact number."""
         return _parse_points(self.points)
 
     def parse_spec(self, *, proven: bool = False) -> AnySpec:
-        """The specification that answers are judged by, parsed once for all who answer.
+        """Return the specification that answers are judged by, parsed once for all who answer.
 
         Parameters
         ----------
@@ -132,7 +138,7 @@ class KeyPart(msgspec.Struct, dict=True):
         return spec
 
     def _ordered_spec(self) -> dict[str, Any]:
-        """The specification with its mappings in their order.
+        """Return the specification with its mappings in their order.
 
         Raises
         ------
@@ -164,14 +170,12 @@ class KeyQuestion(msgspec.Struct):
     chain: KeyChain | None = None
 
     def known_units(self) -> UnitRegistry:
-        """The units of its chain: those listed, and those that its parts define."""
-        return build_unit_registry(
-            next((tuple(p.spec["define"]) for p in self.parts if "define" in p.spec), ())
-        )
+        """Return the units of its chain: those listed, and those that its bank defines."""
+        return build_unit_registry(tuple(self.chain.define) if self.chain else ())
 
 
 class AnswerKey(msgspec.Struct):
-    """A paper's answer key."""
+    """Everything that grading a paper needs, as ``key.json`` holds it."""
 
     format: str
     questions: list[KeyQuestion]
@@ -183,14 +187,14 @@ class AnswerKey(msgspec.Struct):
 
 
 def make_answer_key(paper: Paper) -> AnswerKey:
-    """The answer key of a paper."""
+    """Return the answer key of a paper."""
     title = {lang: paper.title(lang) for lang in paper.langs}
     questions = [make_key_question(item) for item in paper.items]
     return AnswerKey(FORMAT, questions, paper.code, paper.digest, title, paper.langs, paper.banks)
 
 
 def answer_key_digest(key: AnswerKey, code: str = "") -> str:
-    """Digest of the paper that a key is of: ``Paper.digest``.
+    """Return the digest of the paper that a key is of, equal to ``Paper.digest``.
 
     Parameters
     ----------
@@ -206,7 +210,7 @@ def answer_key_digest(key: AnswerKey, code: str = "") -> str:
 
 
 def make_key_question(item: PaperItem) -> KeyQuestion:
-    """The key of one question."""
+    """Return the key of one question."""
     question, key = item.questions[0], item.keys[0]
     parts = [
         _key_part(part.field.id, str(part.points), msgspec.to_builtins(spec))
@@ -226,6 +230,10 @@ def make_key_question(item: PaperItem) -> KeyQuestion:
 
 
 def _key_part(name: str, points: str, spec: dict[str, Any]) -> KeyPart:
+    """Return one part of a key, with the order of the mappings that it matters for.
+
+    Objects of JSON have no order, but cells of a table are asked and typed in one.
+    """
     order = {
         field: list(value)
         for field, value in spec.items()
@@ -235,14 +243,14 @@ def _key_part(name: str, points: str, spec: dict[str, Any]) -> KeyPart:
 
 
 def write_answer_key(paper: Paper) -> bytes:
-    """``key.json``."""
+    """Return the bytes of ``key.json``; writes no file."""
     table = msgspec.to_builtins(make_answer_key(paper))
     text = json.dumps(table, ensure_ascii=False, indent=1)
     return (text + "\n").encode()
 
 
 def parse_answer_key(table: Mapping[str, Any], place: str = "key") -> AnswerKey:
-    """Validate a key table.
+    """Return a key's table as an answer key, checked.
 
     Raises
     ------
@@ -276,6 +284,7 @@ def parse_answer_key(table: Mapping[str, Any], place: str = "key") -> AnswerKey:
 
 
 def _check_points(part: KeyPart, place: str) -> None:
+    """Raise ``KeyFileError`` if a part's points are no number, not above 0, or far too many."""
     try:
         worth = part.points_exact()
     except ValueError as error:
@@ -288,6 +297,7 @@ def _check_points(part: KeyPart, place: str) -> None:
 
 
 def _check_spec(part: KeyPart, place: str) -> None:
+    """Raise ``KeyFileError`` if a part cannot be graded: wrong specification or units."""
     try:
         spec = part.parse_spec()
         for unit in spec.value_units():
@@ -298,6 +308,7 @@ def _check_spec(part: KeyPart, place: str) -> None:
 
 @working_precision()
 def _check_chain(question: KeyQuestion, place: str) -> None:
+    """Raise ``KeyFileError`` if a question's chain cannot be evaluated; None is no chain."""
     if question.chain is None:
         return
     try:
@@ -309,7 +320,7 @@ def _check_chain(question: KeyQuestion, place: str) -> None:
 
 
 def read_answer_key(path: Path) -> AnswerKey:
-    """Read ``key.json``.
+    """Return the answer key in a file, checked.
 
     Raises
     ------
@@ -320,7 +331,7 @@ def read_answer_key(path: Path) -> AnswerKey:
 
 
 def read_key_code(path: Path) -> str:
-    """The code of the paper that a key is of; empty for any other file, or none."""
+    """Return the code of the paper that a key is of; empty for any other file, or none."""
     try:
         return str(read_table(path).get("code", ""))
     except KeyFileError:

@@ -74,7 +74,7 @@ class BlueprintFile(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     @property
     def has_constraints(self) -> bool:
-        """Whether it asks for something of the paper as a whole."""
+        """Return whether it asks for something of the paper as a whole."""
         at_least = self.figures or self.figure_kinds or self.photographs
         return bool(self.total or at_least or isinstance(self.minutes, tuple))
 
@@ -98,13 +98,13 @@ MOCK = "mock"
 
 
 def default_blueprint_name(bank: Bank) -> str:
-    """The blueprint of who asks for none: the bank's mock exam; without one, all that there is."""
+    """Return the name of the default: the bank's mock exam; without one, all that there is."""
     alone = len(bank.members) == 1 and MOCK in bank.blueprints
     return MOCK if alone else f"{EVERYTHING}.90"
 
 
 def topic_blueprint(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:
-    """Blueprint without a file: a topic (or ``all``), within a time (0: no limit)."""
+    """Return a blueprint without a file: a topic (or ``all``) in a time, 0 for no limit."""
     name = f"{topic}.{minutes}" if minutes else topic
     title = {lang: f"{translate(lang, 'paper.exam')}: {_find_topic_title(bank, topic, lang)}"
              for lang in list_languages()}  # fmt: skip
@@ -112,16 +112,17 @@ def topic_blueprint(bank: Bank, topic: str, minutes: int = 0) -> Blueprint:
 
 
 def _find_topic_title(bank: Bank, topic: str, lang: str) -> str:
+    """Return the title of a topic, or that of the bank for everything."""
     return bank.title(lang) if topic == EVERYTHING else bank.topic_title(topic, lang)
 
 
 def topic_choices(bank: Bank) -> list[str]:
-    """Topic names of a bank, ``all`` last."""
+    """Return the topic names of a bank, ``all`` last."""
     return [*bank.topics, EVERYTHING]
 
 
 def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
-    """Load a bank's blueprint by name, a topic of the bank, or a file.
+    """Return a blueprint by its name in the bank, by a topic, or from a file.
 
     Parameters
     ----------
@@ -140,7 +141,7 @@ def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
     if found is not None:
         return found
     path = Path(name_or_file)
-    if not _is_there(path):
+    if not _path_exists(path):
         names = ", ".join(bank.blueprints) or "none"
         raise BlueprintError(
             f"no blueprint {name_or_file!r} (the bank has: {names}; or the path of a TOML file;"
@@ -149,7 +150,8 @@ def load_blueprint(name_or_file: str, bank: Bank | None = None) -> Blueprint:
     return _read_blueprint(path)
 
 
-def _is_there(path: Path) -> bool:
+def _path_exists(path: Path) -> bool:
+    """Return whether a path exists; False also for a text that can be no path."""
     try:
         return path.exists()
     except (OSError, ValueError):
@@ -157,7 +159,7 @@ def _is_there(path: Path) -> bool:
 
 
 def find_blueprint(name: str, bank: Bank) -> Blueprint | None:
-    """A bank's blueprint by its name, or a topic of the bank; None if it has neither.
+    """Return a bank's blueprint by name, or that of a topic; None if it has neither.
 
     Never a file by its path: names also come from papers' codes, which anyone may have written.
     """
@@ -170,7 +172,10 @@ def find_blueprint(name: str, bank: Bank) -> Blueprint | None:
 
 
 def _qualify_blueprint(plan: Blueprint, name: str, bank: Bank) -> Blueprint:
-    """A bank's own blueprint: mixed with other banks it goes on asking the questions of its own."""
+    """Return a bank's own blueprint with the names that templates have in a combined bank.
+
+    So combined with other banks it goes on asking the questions of its own.
+    """
     names = bank.template_names_for(name)
     if not names:
         return plan
@@ -186,7 +191,7 @@ def _qualify_blueprint(plan: Blueprint, name: str, bank: Bank) -> Blueprint:
 
 
 def _read_blueprint(path: Path) -> Blueprint:
-    """Read a blueprint's file; its name becomes part of every code."""
+    """Return a blueprint from its file; the file's name becomes part of every code."""
     if not _CODE_NAME.fullmatch(path.stem):
         raise BlueprintError(
             f"{path.stem!r} cannot stand in a code (allowed: letters, digits, blanks, '_', "
@@ -198,6 +203,10 @@ def _read_blueprint(path: Path) -> Blueprint:
 
 
 def _parse_blueprint(source: str, name: str, where: Path) -> Blueprint:
+    """Return the checked content of a blueprint's file.
+
+    Raises ``BlueprintError`` at the place that is wrong.
+    """
     table = parse_toml(source, where, BlueprintError)
     try:
         found = convert(table, BlueprintFile)
@@ -212,6 +221,7 @@ def _parse_blueprint(source: str, name: str, where: Path) -> Blueprint:
 
 
 def _check_blueprint(blueprint: BlueprintFile) -> None:
+    """Raise ``BlueprintError`` if a blueprint has no slots, too many questions, or wrong names."""
     if not blueprint.slot:
         raise BlueprintError("at least one [[slot]] is needed", rule="QG105")
     for index, slot in enumerate(blueprint.slot):
@@ -219,7 +229,7 @@ def _check_blueprint(blueprint: BlueprintFile) -> None:
             what = f"slot {index + 1}: {problem}"
             raise BlueprintError(what, rule="QG107", place=("slot", index, key))
     for index, name in enumerate(blueprint.reference):
-        if not _is_asked(name):
+        if not _is_template_name(name):
             what, place = f"reference: {name!r} is no name (allowed: {NAMES})", ("reference", index)
             raise BlueprintError(what, rule="QG108", place=place)
     total = max(sum(slot.count for slot in blueprint.slot), len(blueprint.reference))
@@ -230,7 +240,7 @@ def _check_blueprint(blueprint: BlueprintFile) -> None:
 
 
 def _check_paper_constraints(blueprint: BlueprintFile) -> Iterator[tuple[str, str]]:
-    """What is wrong in the demands on the paper as a whole."""
+    """Yield the key, and what is wrong with it, of demands on the paper as a whole."""
     span = blueprint.minutes or 1
     first, last = span if isinstance(span, tuple) else (span, span)
     if not 1 <= first <= last <= MOST_MINUTES:
@@ -245,7 +255,7 @@ def _check_paper_constraints(blueprint: BlueprintFile) -> Iterator[tuple[str, st
 
 
 def _check_slot(slot: SlotRule) -> Iterator[tuple[str, str]]:
-    """Key of a slot, and what is wrong with it."""
+    """Yield the key, and what is wrong with it, of a slot."""
     if slot.tier is not None and slot.tier not in tuple("ABCD"):
         yield "tier", f"tier {slot.tier!r} (allowed: A, B, C, D)"
     if slot.points is not None and not 0 < slot.points <= MOST_POINTS:
@@ -257,11 +267,11 @@ def _check_slot(slot: SlotRule) -> Iterator[tuple[str, str]]:
     names = [("templates", name) for name in slot.templates]
     names += [] if slot.topic is None else [("topic", slot.topic)]
     for key, name in names:
-        if not _is_asked(name):
+        if not _is_template_name(name):
             yield key, f"{name!r} is no name (allowed: {NAMES})"
 
 
-def _is_asked(name: str) -> bool:
-    """Whether a text can name a template, with or without its bank before it."""
+def _is_template_name(name: str) -> bool:
+    """Return whether a text can name a template, with or without its bank in front."""
     bank, _, own = name.rpartition(BETWEEN)
     return is_identifier(own) and (not bank or is_identifier(bank))

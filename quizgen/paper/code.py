@@ -42,7 +42,7 @@ _CODE = re.compile(
 
 
 class PaperCode(msgspec.Struct, frozen=True):
-    """A code taken apart; its text is what is printed.
+    """The fields of a paper's code; its text is what is printed.
 
     Parameters
     ----------
@@ -65,22 +65,23 @@ class PaperCode(msgspec.Struct, frozen=True):
     level: str = EXAM
 
     def __str__(self) -> str:
+        """Return the code as it is printed; the level of an exam is not written."""
         level = "" if self.level == EXAM else f"-{self.level}"
         return f"{self.blueprint}-{self.seed}-{self.choice}{level}-{self.digest}"
 
     @property
     def is_reference(self) -> bool:
-        """Whether the paper has the numbers printed in the notes."""
+        """Return whether the paper has the numbers printed in the notes."""
         return self.seed == REFERENCE
 
 
 def is_class_code(text: str) -> bool:
-    """Whether a code is one of a class: it leads to a student, and to no questions."""
+    """Return whether a code is one of a class: it leads to a student, not to questions."""
     return _GRADED.fullmatch(text.strip()) is not None
 
 
 def parse_code(text: str) -> PaperCode:
-    """Take a paper's code apart.
+    """Return the fields of a paper's code.
 
     Raises
     ------
@@ -113,7 +114,7 @@ def check_seed(seed: int) -> int:
 
 
 def content_digest(code: str, questions: Iterable[DigestedQuestion]) -> str:
-    """Digest of what a paper asks and marks."""
+    """Return the digest of what a paper asks and marks."""
     lines = [
         f"{number}|{template}|{identity}|" + ",".join(f"{part}={worth}" for part, worth in parts)
         for number, template, identity, parts in questions
@@ -122,7 +123,7 @@ def content_digest(code: str, questions: Iterable[DigestedQuestion]) -> str:
 
 
 def source_digest(source: str, templates: Iterable[Template], levels: Iterable[str]) -> str:
-    """Digest of the engine, a blueprint's text and the files of the templates in a paper.
+    """Return the digest of engine, blueprint, and the files of the templates in a paper.
 
     Parameters
     ----------

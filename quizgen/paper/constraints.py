@@ -27,7 +27,7 @@ READING = Fraction(11, 10)
 
 
 def paper_minutes(minutes: Fraction | int) -> int:
-    """Minutes for a paper whose questions take so many."""
+    """Return the minutes for a paper whose questions take so many, rounded up."""
     return math.ceil(minutes * READING)
 
 
@@ -48,7 +48,7 @@ NONE = RunningTotals()
 
 
 class ConstraintSolver:
-    """A blueprint's places and demands, and what can still be reached from each place on.
+    """Search for templates that meet all demands of a blueprint on the paper as a whole.
 
     Parameters
     ----------
@@ -62,6 +62,15 @@ class ConstraintSolver:
     def __init__(
         self, blueprint: Blueprint, places: Sequence[Sequence[Candidate]], order: Sequence[int]
     ) -> None:
+        """Work out which sums of points and minutes can be reached from each place on.
+
+        Both are counted in integer units, the least common denominators of all candidates.
+
+        Raises
+        ------
+        BlueprintError
+            If the sums are too many to be looked at.
+        """
         self.blueprint, self.places, self.order = blueprint, places, order
         everyone = [one for place in places for one in place]
         self.point = math.lcm(1, *(one.points.denominator for one in everyone))
@@ -76,7 +85,7 @@ class ConstraintSolver:
         self._reach = self._compute_reachable_sums()
 
     def _compute_time_span(self) -> tuple[int, int]:
-        """Fewest and most units of time that the questions may take together."""
+        """Return the fewest and most units of time that the questions may take together."""
         if not isinstance(self.blueprint.minutes, tuple):
             return 0, 0
         first, last = self.blueprint.minutes
@@ -84,12 +93,18 @@ class ConstraintSolver:
         return math.floor((first - 1) * unit) + 1, math.floor(last * unit)
 
     def _count_candidate(self, one: Candidate) -> RunningTotals:
-        points = _to_units(one.points, self.point) if self.blueprint.total else 0
-        minutes = _to_units(one.minutes, self.minute) if self.last else 0
+        """Return what a candidate adds to the totals; 0 for what the blueprint does not limit."""
+        points = _convert_to_units(one.points, self.point) if self.blueprint.total else 0
+        minutes = _convert_to_units(one.minutes, self.minute) if self.last else 0
         return RunningTotals(points, minutes, bool(one.figure), one.photograph)
 
     def _compute_reachable_sums(self) -> list[dict[tuple[int, int], int]]:
-        """From each place on: at least so many figures and photographs to sums, as bits."""
+        """Return, from each place on, which sums can be reached, as the bits of an integer.
+
+        The key says how many figures and photographs there are at least. The bit ``points * width +
+        minutes`` is set where that sum can be reached, so that one shift and one OR add a candidate
+        to all sums at once.
+        """
         figures, photographs = self.limits
         every = [(f, p) for f in range(figures + 1) for p in range(photographs + 1)]
         whole = (1 << ((self.total + 1) * self.width)) - 1
@@ -102,10 +117,10 @@ class ConstraintSolver:
                     key = min(figures, f + add.figures), min(photographs, p + add.photographs)
                     now[key] |= (sums << (add.points * self.width + add.minutes)) & whole
             reach.append(now)
-        return [_at_least(sums) for sums in reversed(reach)]
+        return [_accumulate_sums(sums) for sums in reversed(reach)]
 
     def is_reachable(self, step: int = 0, sums: RunningTotals = NONE) -> bool:
-        """Whether the places from a step on can still bring what is missing."""
+        """Return whether the places from a step on can still bring what is missing."""
         if sums.points > self.total or sums.minutes > self.last:
             return False
         figures, photographs = self.limits
@@ -115,7 +130,7 @@ class ConstraintSolver:
         return bool(row & ((1 << (last - first + 1)) - 1))
 
     def solve(self) -> list[str]:
-        """Names in order of the paper; none if there is no way, or none found in so many steps."""
+        """Return the names in order of the paper; empty if no way was found in ``STEPS`` steps."""
         self.steps = STEPS
         chosen = self._fill_from(0, NONE, {}) if self.is_reachable() else None
         return [chosen[place].name for place in sorted(chosen)] if chosen else []
@@ -123,11 +138,16 @@ class ConstraintSolver:
     def _fill_from(
         self, step: int, sums: RunningTotals, chosen: dict[int, Candidate]
     ) -> dict[int, Candidate] | None:
+        """Return all places filled, by index, with those of ``chosen``; None if there is no way.
+
+        It tries candidates depth first, and goes back where the rest cannot be reached or the steps
+        are used up.
+        """
         if step == len(self.order):
             kinds = {one.figure for one in chosen.values()} - {""}
             return chosen if len(kinds) >= self.blueprint.figure_kinds else None
         place = self.order[step]
-        for one in self._open_candidates(place, list(chosen.values())):
+        for one in self._list_open_candidates(place, list(chosen.values())):
             self.steps -= 1
             after = RunningTotals(*map(sum, zip(sums, self._count_candidate(one), strict=True)))
             if self.steps > 0 and self.is_reachable(step + 1, after):
@@ -136,8 +156,11 @@ class ConstraintSolver:
                     return found
         return None
 
-    def _open_candidates(self, place: int, chosen: Sequence[Candidate]) -> list[Candidate]:
-        """Who may stand here beside those chosen: of those with numbers left, the least used."""
+    def _list_open_candidates(self, place: int, chosen: Sequence[Candidate]) -> list[Candidate]:
+        """Return the candidates that may stand here beside those chosen.
+
+        Of those with numbers left, the least used: each is used once before any is used again.
+        """
         uses = Counter(one.name for one in chosen)
         left = [o for o in self.places[place] if o.pool is None or uses[o.name] < o.pool]
         least = min((uses[one.name] for one in left), default=0)
@@ -149,7 +172,7 @@ class ConstraintSolver:
 
 
 def explain_infeasible(blueprint: Blueprint, places: Sequence[Sequence[Candidate]]) -> str:
-    """Which demand cannot be met by any choice, or that nothing was found that meets all."""
+    """Return which demand no choice can meet, or that no choice was found that meets all."""
     for name, none in NOTHING.items():
         others = {other: value for other, value in NOTHING.items() if other != name}
         alone = structs.replace(blueprint, **others)
@@ -180,22 +203,24 @@ MEASURES: Mapping[str, Callable[[Candidate], Fraction | int]] = {
 
 
 def _format_toml_value(value: float | tuple[int, int]) -> str:
+    """Return a demand as its blueprint writes it."""
     return f"{list(value)}" if isinstance(value, tuple) else f"{value:g}"
 
 
 def _describe_attainable_range(name: str, places: Sequence[Sequence[Candidate]]) -> str:
+    """Return what the slots can add up to, for an error."""
     measure = MEASURES[name]
     least, most = (sum(pick(map(measure, place)) for place in places) for pick in (min, max))
     return f"the slots together can make {float(least):g} to {float(most):g}"
 
 
-def _to_units(value: Fraction, unit: int) -> int:
-    """A value in units; its denominator divides them."""
+def _convert_to_units(value: Fraction, unit: int) -> int:
+    """Return a value as an integer number of units, which its denominator divides."""
     return value.numerator * (unit // value.denominator)
 
 
-def _at_least(sums: Mapping[tuple[int, int], int]) -> dict[tuple[int, int], int]:
-    """Sums reached with so many figures and photographs or more."""
+def _accumulate_sums(sums: Mapping[tuple[int, int], int]) -> dict[tuple[int, int], int]:
+    """Return the sums reached with so many figures and photographs or more."""
     found: dict[tuple[int, int], int] = {}
     for f, p in sorted(sums, reverse=True):
         found[f, p] = sums[f, p] | found.get((f + 1, p), 0) | found.get((f, p + 1), 0)

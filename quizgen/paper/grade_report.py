@@ -28,7 +28,7 @@ MOST_UNKNOWN = 10
 
 
 def format_points(value: Fraction | None) -> str:
-    """Write marks: ``2``, ``1.75``; a dash where a person decides."""
+    """Return marks as text: ``2``, ``1.75``; a dash where a person decides."""
     return "–" if value is None else f"{float(value):g}"
 
 
@@ -38,6 +38,7 @@ def result_rows(result: PaperResult, lang: str) -> list[tuple[str, list[str]]]:
 
 
 def _format_result_row(part: PartResult, lang: str) -> list[str]:
+    """Return the cells of one part: label, verdict, marks, how it was read, remark."""
     shown = load_words_inside(lang).get(part.status, part.status)
     marks = localise_numbers(lang, f"{format_points(part.marks)} / {format_points(part.points)}")
     remark = "" if part.is_blank else part.verdict.message
@@ -46,7 +47,7 @@ def _format_result_row(part: PartResult, lang: str) -> list[str]:
 
 
 def format_table(result: PaperResult, lang: str, columns: int, paint: bool) -> Iterable[str]:
-    """Lay the table out: remarks go on lines of their own so that nothing is cut off."""
+    """Yield the results as a table; remarks have lines of their own, so that none is cut off."""
     import click
 
     table = load_words_inside(lang)
@@ -70,7 +71,7 @@ def format_table(result: PaperResult, lang: str, columns: int, paint: bool) -> I
 
 
 def write_class_csv(results: list[tuple[str, str, str, PaperResult]]) -> str:
-    """Write one row per student: marks, then notes, of every part.
+    """Return the CSV table of a class, one row per student: marks, then notes; writes no file.
 
     Parameters
     ----------
@@ -80,11 +81,12 @@ def write_class_csv(results: list[tuple[str, str, str, PaperResult]]) -> str:
     ids = [part.id for part in results[0][3].parts] if results else []
     head = ["file", "name", "matriculation", "marks", "points", "asked_back", "to_decide"]
     titles = [f"{name} {what}" for what in ("marks", "note") for name in ids]
-    rows = ([*student, *_class_row(result)] for *student, result in results)
+    rows = ([*student, *_format_class_row(result)] for *student, result in results)
     return format_csv([[*head, *titles], *rows])
 
 
-def _class_row(result: PaperResult) -> list[str]:
+def _format_class_row(result: PaperResult) -> list[str]:
+    """Return the cells of one student in the table of a class."""
     totals = [format_points(result.marks), format_points(result.points)]
     counts = [str(result.asked_back), str(result.to_decide)]
     marks = ["" if part.marks is None else format_points(part.marks) for part in result.parts]
@@ -92,5 +94,5 @@ def _class_row(result: PaperResult) -> list[str]:
 
 
 def part_note(part: PartResult) -> str:
-    """What is to be said of a part in one word."""
+    """Return in one word what there is to say of a part."""
     return part.status if part.is_blank else part.verdict.note or part.verdict.verdict

@@ -41,12 +41,12 @@ class PartResult(msgspec.Struct, frozen=True):
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing was typed."""
+        """Return whether nothing was typed."""
         return not self.typed.strip()
 
     @property
     def status(self) -> str:
-        """``blank``, ``open`` or the verdict."""
+        """Return ``blank``, ``open`` (to be marked by a person) or the name of the verdict."""
         if self.is_blank:
             return "blank"
         return "open" if self.marks is None else self.verdict.verdict
@@ -74,22 +74,22 @@ class PaperResult(msgspec.Struct, frozen=True):
 
     @property
     def marks(self) -> Fraction:
-        """Marks so far."""
+        """Return the marks so far; parts that a person has to mark count as nothing yet."""
         return sum((part.marks or Fraction(0) for part in self.parts), Fraction(0))
 
     @property
     def points(self) -> Fraction:
-        """Marks that can be had."""
+        """Return the marks that can be had."""
         return sum((part.points for part in self.parts), Fraction(0))
 
     @property
     def asked_back(self) -> int:
-        """Answers that could not be read as meant."""
+        """Return the number of answers that could not be read as meant."""
         return sum(part.status in {"unreadable", "ambiguous"} for part in self.parts)
 
     @property
     def to_decide(self) -> int:
-        """Free texts that a person has to mark."""
+        """Return the number of free texts that a person has to mark."""
         return sum(part.status == "open" for part in self.parts)
 
     def as_json(self) -> dict[str, Any]:
@@ -113,7 +113,7 @@ def grade_paper(
     decimal: str = "auto",
     settle: bool = False,
 ) -> PaperResult:
-    """Mark a paper.
+    """Return the result of a paper: every part with its verdict and marks.
 
     Parameters
     ----------
@@ -152,6 +152,7 @@ def grade_paper(
 def _grade_question(
     question: KeyQuestion, answers: Mapping[str, str], options: GradingOptions
 ) -> list[PartResult]:
+    """Return the results of one question's parts in order; a missing answer counts as blank."""
     marker = QuestionGrader(question, options)
     return [marker.grade_part(part, answers.get(part.id, "")) for part in question.parts]
 
@@ -163,7 +164,7 @@ class QuestionGrader:
     ----------
     question : KeyQuestion
         The question's key.
-    options : Options
+    options : GradingOptions
         How to read, and the language of the messages.
     proven : bool
         Whether the key is known to be as it was written.
@@ -172,27 +173,32 @@ class QuestionGrader:
     def __init__(
         self, question: KeyQuestion, options: GradingOptions, *, proven: bool = False
     ) -> None:
+        """Start a question without earlier values.
+
+        ``proven`` keys are known to be as they were written, and are not checked again.
+        """
         self.question, self.proven = question, proven
         self.options = options
         self.earlier: dict[str, Any] = {}
 
     def judge_part(self, part: KeyPart, typed: str) -> PartResult:
-        """Mark one part without a word about it; marked again, it replaces its earlier values."""
+        """Return the result of one part without sentences; graded again, it replaces its values."""
         spec = part.parse_spec(proven=self.proven)
         verdict = self._judge_in_question(part, spec, typed)
         return _build_part_result(self.question, part, typed, verdict)
 
     def explain_part(self, part: KeyPart, verdict: Verdict) -> Verdict:
-        """The verdict on a part with its sentences, for the person who is shown it."""
+        """Return the verdict on a part with its sentences, for the person who is shown it."""
         return explain_verdict(part.parse_spec(proven=self.proven), verdict, self.options.lang)
 
     def grade_part(self, part: KeyPart, typed: str) -> PartResult:
-        """Mark one part and explain the verdict."""
+        """Return the result of one part, its verdict explained."""
         found = self.judge_part(part, typed)
         return structs.replace(found, verdict=self.explain_part(part, found.verdict))
 
     @working_precision()
     def _judge_in_question(self, part: KeyPart, spec: AnySpec, typed: str) -> Verdict:
+        """Return the verdict on one part, with earlier values of the same student in mind."""
         options = structs.replace(self.options, points=part.points_exact())
         verdict = _judge_with_context(self.question, spec, typed, options, self.earlier)
         if self.question.chain is not None:
@@ -200,7 +206,10 @@ class QuestionGrader:
         return verdict
 
     def ask_back(self, part: KeyPart, typed: str, why: FormulaReadError) -> PartResult:
-        """A part whose answer did not arrive as it was given; it counts as one not read."""
+        """Return the result of a part whose answer did not arrive as it was given.
+
+        It counts as one that could not be read.
+        """
         verdict = self.explain_part(part, read_error_verdict(why))
         return _build_part_result(self.question, part, typed, verdict)
 
@@ -212,7 +221,11 @@ def _judge_with_context(
     options: GradingOptions,
     earlier: dict[str, Any],
 ) -> Verdict:
-    """Mark without the question around; only what went wrong is looked at again with it."""
+    """Return the verdict on an answer, first without the question around it.
+
+    Only what is wrong is judged again with the student's earlier values: a right answer needs no
+    error carried forward, and most answers are right.
+    """
     verdict = judge_answer(spec, typed, options)
     around = question.chain is not None and spec.quantities() and typed.strip()
     if not around or not verdict.is_graded or verdict.verdict == "correct":
@@ -224,7 +237,7 @@ def _judge_with_context(
 def _remember_own_values(
     question: KeyQuestion, spec: AnySpec, verdict: Verdict, earlier: dict[str, Any]
 ) -> None:
-    """Keep the student's own values, in base units, for the parts that follow."""
+    """Add the student's own values, in base units, to ``earlier`` for the parts that follow."""
     if question.chain is None or len(spec.quantities()) != len(verdict.values):
         return
     units = question.chain.units()
@@ -237,6 +250,7 @@ def _remember_own_values(
 def _build_part_result(
     question: KeyQuestion, part: KeyPart, typed: str, verdict: Verdict
 ) -> PartResult:
+    """Return the result of a part; marks are in quarters, and None where a person must mark it."""
     worth = part.points_exact()
     marks: Fraction | None = round_to_quarters(verdict.credit * worth)
     if verdict.needs_self_marking:
@@ -246,6 +260,6 @@ def _build_part_result(
 
 
 def round_to_quarters(marks: Fraction) -> Fraction:
-    """Round marks to the nearest quarter of a point, halves up."""
+    """Return marks rounded to the nearest quarter of a point, halves up."""
     above, below = marks.numerator, marks.denominator
     return Fraction((2 * QUARTERS * above + below) // (2 * below), QUARTERS)

@@ -43,7 +43,7 @@ ProgressCallback = Callable[[str], None]
 
 
 def silent(_name: str) -> None:
-    """Progress that nobody watches."""
+    """Ignore progress: the callback for whoever watches none."""
 
 
 class PaperItem(msgspec.Struct, frozen=True):
@@ -55,7 +55,7 @@ class PaperItem(msgspec.Struct, frozen=True):
 
     @property
     def points(self) -> Fraction:
-        """Marks of the question."""
+        """Return the marks of the question."""
         return self.questions[0].points
 
 
@@ -91,27 +91,28 @@ class Paper(msgspec.Struct, frozen=True):
     """What it was made from."""
 
     def __repr__(self) -> str:
+        """Return code, number of questions and points."""
         return f"<Paper {self.code}: {len(self.items)} questions, {float(self.points):g} points>"
 
     @property
     def points(self) -> Fraction:
-        """Marks of all questions."""
+        """Return the marks of all questions."""
         return sum((item.points for item in self.items), Fraction(0))
 
     @property
     def cited_formula(self) -> str:
-        """A formula's number that stands beside a step of the solutions; empty if none does."""
+        """Return the formula's number beside a step of the solutions; empty if there is none."""
         solved = (part for item in self.items for part in item.keys[0].solution.parts)
         return next((line.formula for part in solved for line in part.lines if line.formula), "")
 
     @property
     def has_drawing(self) -> bool:
-        """Whether an answer is drawn."""
+        """Return whether an answer is drawn."""
         return any(one.field.drawing for item in self.items for one in item.questions[0].parts)
 
     @property
     def digest(self) -> str:
-        """Short digest of what is asked and marked; page, form and key that belong together agree.
+        """Return a short digest of what is asked and marked; page, form and key must share it.
 
         It is of names and numbers as they were drawn, so it is the same for all formats.
         """
@@ -128,26 +129,26 @@ class Paper(msgspec.Struct, frozen=True):
 
     @property
     def variety_text(self) -> str:
-        """The number of possible papers, short: 40, or 3.1·10²⁷."""
+        """Return the number of possible papers, short: 40, or 3.1·10²⁷."""
         if self.variety < 10**6:
             return pretty.format_number(str(self.variety))
         return localise_numbers(self.langs[0], pretty.format_number(f"{Decimal(self.variety):.1e}"))
 
     @property
     def minutes(self) -> int:
-        """Working time: what the blueprint says, else that of the questions and of reading."""
+        """Return the working time in minutes: the blueprint's, else of questions and reading."""
         said = self.blueprint.minutes
         if isinstance(said, int):
             return said
         return paper_minutes(sum((i.questions[0].minutes for i in self.items), Fraction(0)))
 
     def aids(self, lang: str) -> str:
-        """What may be used: what the blueprint says, else the usual."""
+        """Return what may be used in the exam: what the blueprint says, else the usual."""
         said = self.blueprint.aids
         return said.get(lang) or said.get("en") or translate(lang, "paper.aids_allowed")
 
     def printing(self, lang: str) -> str:
-        """Which questions have to be printed in colour; empty if none has."""
+        """Return which questions have to be printed in colour; empty if none has."""
         numbers = [
             item.number for item in self.items
             if (figure := item.questions[0].figure) and figure.needs_colour
@@ -158,7 +159,7 @@ class Paper(msgspec.Struct, frozen=True):
         return translate(lang, key, numbers=", ".join(numbers))
 
     def title(self, lang: str) -> str:
-        """Title in a language, else in English, else in another one."""
+        """Return the title in a language, else in English, else in another one."""
         return pick_language(self.blueprint.title, lang, self.blueprint.name)
 
 
@@ -171,7 +172,7 @@ def build_paper(
     figures: bool = True,
     progress: ProgressCallback = silent,
 ) -> Paper:
-    """Build a paper.
+    """Return the paper that a blueprint and a seed make.
 
     Parameters
     ----------
@@ -209,7 +210,7 @@ def compose_paper(
     figures: bool = True,
     progress: ProgressCallback = silent,
 ) -> Paper:
-    """The paper of a blueprint's questions once they are drawn; its code gets their digest."""
+    """Return the paper of variants that are already drawn; its code gets their digest."""
     langs = bank.resolve_languages(named.choice)
     asked = [*_iter_question_levels(drawn, slot_levels(blueprint))]
     items = []
@@ -221,20 +222,25 @@ def compose_paper(
     return Paper(code, blueprint, langs, tuple(items), banks=banks)
 
 
-class _Wanted(NamedTuple):
-    """A draw and the level that it is asked at."""
+class _WantedQuestion(NamedTuple):
+    """A variant and the level that it is asked at."""
 
     drawn: Variant
     level: str
 
 
-def _iter_question_levels(drawn: Iterable[Variant], wanted: Iterable[str]) -> Iterator[_Wanted]:
-    """The level of each question, as far as it has such a form that tells nothing of another."""
+def _iter_question_levels(
+    drawn: Iterable[Variant], wanted: Iterable[str]
+) -> Iterator[_WantedQuestion]:
+    """Yield the level of each question.
+
+    The wanted one, as far as the question has such a form and it tells nothing of another.
+    """
     pairs = [*zip(drawn, wanted, strict=False)]
     ones = [one for one, _ in pairs]
     made = any(level != EXAM for _, level in pairs)
     for one, (_, level) in zip(with_siblings(ones) if made else ones, pairs, strict=True):
-        yield _Wanted(one, effective_level(one, level))
+        yield _WantedQuestion(one, effective_level(one, level))
 
 
 def rebuild_paper(
@@ -245,7 +251,7 @@ def rebuild_paper(
     figures: bool = True,
     progress: ProgressCallback = silent,
 ) -> Paper:
-    """Build the paper of a code again.
+    """Return the paper that a code stands for, built again.
 
     Parameters
     ----------
@@ -280,7 +286,7 @@ def rebuild_paper(
 
 
 def _find_code_blueprint(code: PaperCode, bank: Bank) -> Blueprint:
-    """The blueprint that a code names: one of the bank's own, never a file."""
+    """Return the blueprint that a code names: one of the bank's own, never a file."""
     plan = find_blueprint(code.blueprint, bank)
     if plan is None:
         raise PaperCodeError(
@@ -298,7 +304,7 @@ def build_reference_paper(
     figures: bool = True,
     progress: ProgressCallback = silent,
 ) -> Paper:
-    """The paper with the numbers printed in the notes.
+    """Return the paper with the numbers printed in the notes.
 
     Raises
     ------
@@ -323,9 +329,9 @@ def build_reference_paper(
 def single_question_paper(
     template: Template, seed: str | int, lang: str, *, level: str = EXAM, figures: bool = True
 ) -> Paper:
-    """A paper of one question, for looking at a template."""
+    """Return a paper of one question, for looking at a template."""
     drawn = draw_instance(template, seed)
-    wanted = _Wanted(drawn, effective_level(drawn, level))
+    wanted = _WantedQuestion(drawn, effective_level(drawn, level))
     item = _build_paper_item(wanted, (lang,), "1", figures=figures)
     title, slot = {"en": template.id}, SlotRule(templates=(template.id,))
     minutes = math.ceil(item.questions[0].minutes)
@@ -333,20 +339,25 @@ def single_question_paper(
     return Paper(f"{template.id}-{seed}", blueprint, (lang,), (item,))
 
 
-def _add_digest(code: PaperCode, blueprint: Blueprint, asked: list[_Wanted]) -> PaperCode:
+def _add_digest(code: PaperCode, blueprint: Blueprint, asked: list[_WantedQuestion]) -> PaperCode:
+    """Return the code with the digest of the blueprint, the templates and the levels."""
     templates = [one.drawn.template for one in asked]
     digest = source_digest(blueprint.source, templates, [one.level for one in asked])
     return replace(code, digest=digest)
 
 
 def _build_paper_item(
-    one: _Wanted,
+    one: _WantedQuestion,
     langs: tuple[str, ...],
     number: str,
     points: float | None = None,
     *,
     figures: bool = True,
 ) -> PaperItem:
+    """Return one question in every language, and its keys.
+
+    ``points`` are shared out over its parts; None leaves them as authored.
+    """
     pairs = [
         compose_variant(one.drawn, lang, number=number, level=one.level, figures=figures)
         for lang in langs
@@ -359,13 +370,14 @@ def _build_paper_item(
 
 
 def _drop_repeated_blocks(question: Question, first: Question) -> Question:
-    """Leave programs and pictures out of the second language where the first shows the same."""
+    """Return a question without the programs and pictures that the first language shows, too."""
     if question is first:
         return question
     bodies = (first.stem, *(part.body for part in first.parts))
     shown = {alike for body in bodies for alike in map(_strip_language, body) if alike}
 
     def keep_new(body: tuple[Block, ...]) -> tuple[Block, ...]:
+        """Return the blocks that the first language does not already show."""
         return tuple(block for block in body if _strip_language(block) not in shown)
 
     parts = tuple(replace(part, body=keep_new(part.body)) for part in question.parts)
@@ -373,7 +385,7 @@ def _drop_repeated_blocks(question: Question, first: Question) -> Question:
 
 
 def _strip_language(block: Block) -> object:
-    """What of a block looks the same in every language: a program, or pictures alone."""
+    """Return what of a block looks the same in every language: a program, or pictures alone."""
     if isinstance(block, CodeBlock):
         return block
     pieces = block.children if isinstance(block, Paragraph) else ()
@@ -382,7 +394,9 @@ def _strip_language(block: Block) -> object:
 
 
 def _distribute_points(question: Question, points: float | None) -> Question:
-    """Share the marks of a slot out over the parts, as their own marks stand to each other.
+    """Return a question with the marks of its slot shared out over the parts.
+
+    They stand to each other as the parts' own marks do.
 
     The time goes with the marks.
     """

@@ -42,12 +42,12 @@ class BankRecord(msgspec.Struct, frozen=True):
     templates: tuple[str, ...]
 
     def __str__(self) -> str:
-        """Name, version and digest, as a page names it."""
+        """Return name, version and digest, as a page names the bank."""
         return " ".join(filter(None, (self.name, self.version, f"({self.digest})")))
 
 
 def record_banks(bank: Bank, names: Iterable[str]) -> tuple[BankRecord, ...]:
-    """The banks that templates stand in.
+    """Return what a paper notes of the banks that its templates stand in.
 
     Parameters
     ----------
@@ -65,6 +65,7 @@ def record_banks(bank: Bank, names: Iterable[str]) -> tuple[BankRecord, ...]:
 
 @cache
 def _record_bank(bank: Bank, templates: tuple[str, ...]) -> BankRecord:
+    """Return what a paper notes of one bank: name, version, digest of its templates' files."""
     digest = compute_digest(
         *(part for name in templates for part in _read_template_contents(bank, name))
     )
@@ -73,18 +74,18 @@ def _record_bank(bank: Bank, templates: tuple[str, ...]) -> BankRecord:
 
 @cache
 def _read_template_contents(bank: Bank, name: str) -> tuple[bytes, ...]:
-    """The files behind a template, which stands in many of many papers."""
+    """Return the files of a template, cached: it stands in many of many papers."""
     return bank.template_files(name)
 
 
 def describe_differences(used: Iterable[BankRecord], banks: Iterable[Bank]) -> str:
-    """How the banks here differ from those of a paper, in one line; empty if they do not."""
+    """Return how the banks here differ from those of a paper, in one line; empty if equal."""
     return "; ".join(_iter_differences(used, {bank.name: bank for bank in banks}))
 
 
 @contextmanager
 def bank_difference_context(used: Callable[[], Iterable[BankRecord]], bank: Bank) -> Iterator[None]:
-    """Have the error of a paper that cannot be made again say which banks are others here.
+    """Add to an error which banks differ from those of the paper that cannot be rebuilt.
 
     Parameters
     ----------
@@ -100,6 +101,7 @@ def bank_difference_context(used: Callable[[], Iterable[BankRecord]], bank: Bank
 
 
 def _iter_differences(used: Iterable[BankRecord], here: Mapping[str, Bank]) -> Iterator[str]:
+    """Yield one line for each bank that is missing here or not as it was."""
     for one in used:
         if one.name not in here:
             yield f"{one.name}: not among the banks here (--bank {one.name}, or its folder)"

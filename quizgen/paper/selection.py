@@ -29,7 +29,7 @@ TRIES = 20
 
 
 def select_templates(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:
-    """Names of the templates, in order of the paper.
+    """Return the names of the templates of a paper, in order.
 
     Raises
     ------
@@ -38,19 +38,28 @@ def select_templates(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[
     """
     if blueprint.topic:
         return _fill_minutes(bank.candidates(), blueprint, seed)
-    slots = _candidates_per_slot(bank, blueprint)
+    slots = _list_slot_candidates(bank, blueprint)
     if blueprint.has_constraints:
-        return _as_a_whole(slots, blueprint, seed)
+        return _fill_under_constraints(slots, blueprint, seed)
     tries = (_fill_slots(slots, blueprint, f"{seed}/{n}" if n else str(seed)) for n in range(TRIES))
     first = next(tries)
     found = next((one for one in chain((first,), tries) if not _is_overused(one)), first)
     return [one.name for one in found]
 
 
-def _as_a_whole(
+def _fill_under_constraints(
     slots: Sequence[Sequence[Candidate]], blueprint: Blueprint, seed: int | str
 ) -> list[str]:
-    """Fill the slots so that the paper holds what its blueprint asks for as a whole."""
+    """Return the names of templates that meet what the blueprint asks of the paper as a whole.
+
+    A solver fills all places together; a greedy choice would run out of points or time. Several
+    orders of filling are tried, since the first may use up the solver's steps.
+
+    Raises
+    ------
+    BlueprintError
+        If no choice meets all demands, or none was found.
+    """
     numbers = [n for n, slot in enumerate(blueprint.slot, 1) for _ in range(slot.count)]
     places = [
         [one.scale_to(points) for one in slots[index - 1]]
@@ -72,32 +81,40 @@ def _as_a_whole(
 
 
 def _shuffle_fill_order(salt: str, count: int) -> list[int]:
-    """The order in which places are filled: the last ones have the least choice."""
+    """Return the order in which places are filled.
+
+    It is drawn: the last ones have the least choice, and should not always be the same.
+    """
     return sorted(range(count), key=lambda place: _hash_place(salt, 0, place, "order"))
 
 
 def _hash_candidate(seed: int | str, index: int, place: int, one: Candidate) -> bytes:
+    """Return what a candidate is ranked by at one place: the least hash comes first.
+
+    By origin, so that a rename changes no paper.
+    """
     return _hash_place(seed, index, place, one.origin)
 
 
 def _hash_place(seed: int | str, index: int, place: int, origin: str) -> bytes:
+    """Return the hash of seed, slot, place and origin."""
     return hashlib.sha256(f"choose/{seed}/{index}/{place}/{origin}".encode()).digest()
 
 
 def _is_overused(chosen: Iterable[Candidate]) -> bool:
-    """Whether a template is to stand in the paper more often than it has numbers."""
+    """Return whether a template would stand in the paper more often than it has numbers."""
     return any(count > (one.pool or count) for one, count in Counter(chosen).items())
 
 
 def slot_points(blueprint: Blueprint) -> Iterator[float | None]:
-    """Marks that the blueprint gives to each question; no end where it gives none."""
+    """Yield the marks that the blueprint gives to each question, without end: None for no marks."""
     for slot in blueprint.slot:
         yield from repeat(slot.points, slot.count)
     yield from repeat(None)
 
 
 def slot_levels(blueprint: Blueprint) -> Iterator[str]:
-    """The level wanted of each question, without end: its slot's, else that of the paper."""
+    """Yield the level wanted of each question, without end: its slot's, else the paper's."""
     for slot in blueprint.slot:
         yield from repeat(slot.level or blueprint.level, slot.count)
     yield from repeat(blueprint.level)
@@ -106,7 +123,7 @@ def slot_levels(blueprint: Blueprint) -> Iterator[str]:
 def _fill_slots(
     slots: Sequence[Sequence[Candidate]], blueprint: Blueprint, seed: str
 ) -> list[Candidate]:
-    """Fill the slots: each template is used once before any is used again."""
+    """Return a candidate for each place; each is used once before any is used again."""
     uses: Counter[str] = Counter()
     chosen: list[Candidate] = []
     for index, (slot, fitting) in enumerate(zip(blueprint.slot, slots, strict=True), 1):
@@ -127,7 +144,11 @@ def _fill_slots(
 def _fill_minutes(
     candidates: Sequence[Candidate], blueprint: Blueprint, seed: int | str
 ) -> list[str]:
-    """Questions of a topic, tiers (and banks) in turn, as many as the minutes allow, by tier."""
+    """Return questions of a topic, as many as the minutes allow, sorted by tier.
+
+    Tiers (and banks) choose in turn, so that a short paper has some of each. Raises
+    ``BlueprintError`` if the topic has no question, or none that fits the time.
+    """
     fitting = [one for one in candidates if blueprint.topic in (EVERYTHING, one.topic)]
     budget = blueprint.budget or paper_minutes(sum(one.minutes for one in fitting))
     used = Fraction(0)
@@ -159,22 +180,22 @@ def _fill_minutes(
 
 
 def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> list[tuple[str, ...]]:
-    """For each question of a paper, the templates that may stand there instead, itself first.
+    """Return, for each question, the templates that may stand there instead, itself first.
 
     They have its tier, topic, points and minutes, and a figure if it has one; none may stand in two
     places, and none tells what another one asks. So papers that take any one of each are alike.
     """
-    slots = _candidates_per_slot(bank, blueprint)
+    slots = _list_slot_candidates(bank, blueprint)
     places = [fitting for slot, fitting in zip(blueprint.slot, slots, strict=True)
               for _ in range(slot.count)]  # fmt: skip
     taken = bank.candidates(chosen)
     found = []
     for place, (one, worth) in enumerate(zip([*taken], slot_points(blueprint), strict=False)):
-        like = _comparable_features(one.scale_to(worth))
+        like = _get_comparable_features(one.scale_to(worth))
         family = [one]
         fitting = places[place] if place < len(places) else bank.candidates()
         for other in sorted(fitting, key=lambda one: one.origin):
-            alike = other not in taken and _comparable_features(other.scale_to(worth)) == like
+            alike = other not in taken and _get_comparable_features(other.scale_to(worth)) == like
             if alike and not any(other.excludes(said) for said in taken if said not in family):
                 family.append(other)
                 taken.append(other)
@@ -182,7 +203,8 @@ def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> lis
     return found
 
 
-def _comparable_features(one: Candidate) -> tuple[object, ...]:
+def _get_comparable_features(one: Candidate) -> tuple[object, ...]:
+    """Return what templates must share to stand for each other in equal papers."""
     return (
         one.tier,
         one.topic,
@@ -195,12 +217,12 @@ def _comparable_features(one: Candidate) -> tuple[object, ...]:
 
 
 def count_papers(bank: Bank, blueprint: Blueprint) -> int:
-    """How many different papers a blueprint of slots can make (0 for a topic without slots).
+    """Return how many different papers a blueprint can make; 0 for a topic without slots.
 
     Questions count as a set; a template without numbers counts as one question.
     """
     total = 1 if blueprint.slot else 0
-    for slot, fitting in zip(blueprint.slot, _candidates_per_slot(bank, blueprint), strict=True):
+    for slot, fitting in zip(blueprint.slot, _list_slot_candidates(bank, blueprint), strict=True):
         pools = [one.pool or 1 for one in fitting]
         rounds, rest = divmod(slot.count, len(pools))
         ways = [1] + [0] * rest
@@ -211,8 +233,8 @@ def count_papers(bank: Bank, blueprint: Blueprint) -> int:
     return total
 
 
-def _candidates_per_slot(bank: Bank, blueprint: Blueprint) -> list[list[Candidate]]:
-    """The templates that may fill each slot of a blueprint.
+def _list_slot_candidates(bank: Bank, blueprint: Blueprint) -> list[list[Candidate]]:
+    """Return the templates that may fill each slot of a blueprint.
 
     Raises
     ------
@@ -242,18 +264,19 @@ def _candidates_per_slot(bank: Bank, blueprint: Blueprint) -> list[list[Candidat
 
 @cache
 def find_coloured_templates(bank: Bank) -> frozenset[str]:
-    """Templates that ask, in some draws, with a figure that cannot be read on grey paper."""
+    """Return the templates whose figure, in some variants, cannot be read on grey paper."""
     found = set()
     for name in bank.template_paths:
         # One that is wrong says so when a paper is to hold it.
         with suppress(QuizgenError):
             (one,) = bank.candidates((name,))
-            if one.figure and _may_need_colour(bank.template(name)):
+            if one.figure and _needs_colour(bank.template(name)):
                 found.add(name)
     return frozenset(found)
 
 
-def _may_need_colour(template: Template) -> bool:
+def _needs_colour(template: Template) -> bool:
+    """Return whether a template's figure says so, or does for one of ``DRAWN`` variants."""
     says = getattr(template.figure, "COLOUR", False)
     return (
         any(has_coloured_figure(draw_variant(template, n)) for n in range(DRAWN))
@@ -263,7 +286,7 @@ def _may_need_colour(template: Template) -> bool:
 
 
 def _is_fit_for_slot(one: Candidate, slot: SlotRule) -> bool:
-    """Whether a template fits a slot; one past the syllabus must be listed."""
+    """Return whether a template fits a slot; one past the syllabus must be listed."""
     if one.beyond and not slot.templates:
         return False
     return slot.tier in {None, one.tier} and slot.topic in {None, one.topic}

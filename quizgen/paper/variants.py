@@ -34,20 +34,21 @@ DIGITS = 3
 """Digits of a number that is not in another question by chance."""
 
 
-class _Seen(msgspec.Struct):
-    """What the questions so far ask and state."""
+class _SeenContent(msgspec.Struct):
+    """What the questions drawn so far ask and state, so that the next tells none of it."""
 
     questions: set[str] = msgspec.field(default_factory=set)
     asked: set[str] = msgspec.field(default_factory=set)
     given: set[str] = msgspec.field(default_factory=set)
 
     def add(self, one: Variant) -> None:
+        """Add what a variant asks and states."""
         self.questions.add(one.identity)
         self.asked |= _collect_notable_answers(one)
         self.given |= _collect_stated_numbers(one)
 
     def tells(self, one: Variant) -> bool:
-        """Whether a draw asks what is asked or stated already, or states what is asked."""
+        """Return whether a variant asks what is asked or stated, or states what is asked."""
         asked = _collect_notable_answers(one)
         return bool(
             asked & self.asked or asked & self.given or self.asked & _collect_stated_numbers(one)
@@ -58,7 +59,7 @@ def draw_variants(
     bank: Bank, names: Sequence[str], seed: str, beside: Sequence[Sequence[Variant]] = (),
     *, colour: bool = True,
 ) -> Iterator[Variant]:  # fmt: skip
-    """Draw the questions of a paper in order.
+    """Yield the variants of a paper in order.
 
     Parameters
     ----------
@@ -66,7 +67,7 @@ def draw_variants(
     names : sequence of str
         The templates.
     seed : str
-    beside : sequence of sequences of Draw
+    beside : sequence of sequences of Variant
         Other papers of the same templates, with which no question is to share what it asks.
     colour : bool
         Whether a figure may need colour to be read.
@@ -76,7 +77,7 @@ def draw_variants(
     SamplingError
         If a question would stand in the paper again and has no other numbers.
     """
-    seen = _Seen()
+    seen = _SeenContent()
     for place, name in enumerate(names, 1):
         near = [paper[place - 1] for paper in beside]
         one = _draw_least_revealing(bank.template(name), seed, place, seen, near, colour=colour)
@@ -85,9 +86,18 @@ def draw_variants(
 
 
 def _draw_least_revealing(
-    template: Template, seed: str, place: int, seen: _Seen, near: Sequence[Variant], *, colour: bool
+    template: Template,
+    seed: str,
+    place: int,
+    seen: _SeenContent,
+    near: Sequence[Variant],
+    *,
+    colour: bool,
 ) -> Variant:
-    """The first draw that is new and tells nothing; if there is none, the one that tells least."""
+    """Return the first variant that is new and tells nothing, else the one that tells least.
+
+    Raises ``SamplingError`` if none is new.
+    """
     new: list[Variant] = []
     for again in range(REDRAWS):
         one = draw_variant(template, seed, f"{place}.{again}" if again else place)
@@ -96,27 +106,36 @@ def _draw_least_revealing(
             if not seen.tells(one) and not any(shared_content(one, other) for other in near):
                 return one
         if new and again >= OTHER_ANSWERS:
-            return min(new, key=lambda one: _find_overlap(one, seen, near))
+            return min(new, key=lambda one: _rank_overlap(one, seen, near))
     raise SamplingError(
         f"{template.file}: would stand in the paper again, and has no other numbers: "
         "ask for fewer questions, or let other templates take the place"
     )
 
 
-def _find_overlap(one: Variant, seen: _Seen, near: Sequence[Variant]) -> tuple[bool, bool, bool]:
-    """What of a draw tells something: its own paper, the same question beside it, its answer."""
+def _rank_overlap(
+    one: Variant, seen: _SeenContent, near: Sequence[Variant]
+) -> tuple[bool, bool, bool]:
+    """Return the sort key of a variant: the one with the least overlap comes first.
+
+    Three booleans, the gravest first: it tells something of its own paper; the paper beside it
+    has the same question; it shares an answer with that question. False sorts before True.
+    """
     again = any(one.identity == other.identity for other in near)
     return seen.tells(one), again, any(shared_content(one, other) for other in near)
 
 
 def shared_content(one: Variant, other: Variant) -> set[str]:
-    """What two questions have in common: numbers that both ask, or that they are the same."""
+    """Return what two questions share: numbers that both ask, or that they are the same."""
     same = {one.identity} & {other.identity}
     return (_collect_answer_numbers(one) & _collect_answer_numbers(other)) | same
 
 
 def _collect_notable_answers(one: Variant) -> set[str]:
-    """Numbers that are asked for, small whole ones aside."""
+    """Return the numbers that are asked for, small integers aside.
+
+    Those occur everywhere and give nothing away.
+    """
     return {
         leading_digits(v)
         for v in _iter_asked_values(one)
@@ -125,17 +144,18 @@ def _collect_notable_answers(one: Variant) -> set[str]:
 
 
 def _collect_answer_numbers(one: Variant) -> set[str]:
-    """Numbers that are asked for."""
+    """Return all numbers that are asked for."""
     return set(map(leading_digits, _iter_asked_values(one)))
 
 
 def _iter_asked_values(one: Variant) -> Iterator[Value]:
+    """Yield the values that a variant asks for, in shown units."""
     for part in one.template.rules.part:
         yield from (one.shown_values[name] for name in asked_quantities(part.answer))
 
 
 def _collect_stated_numbers(one: Variant) -> set[str]:
-    """Numbers that a question states, as far as they have digits enough."""
+    """Return the numbers that a question states, as far as they have digits enough."""
     return {
         text
         for text in map(leading_digits, one.shown.values())
@@ -144,12 +164,12 @@ def _collect_stated_numbers(one: Variant) -> set[str]:
 
 
 def _count_significant_digits(text: str) -> int:
-    """Digits without zeros at the ends."""
+    """Return the number of digits without zeros at the ends."""
     return len(text.partition("e")[0].replace(".", "").strip("0"))
 
 
 def with_siblings(drawn: Sequence[Variant]) -> Iterator[Variant]:
-    """Each draw with what the other questions of its paper ask."""
+    """Yield each variant with what the other questions of its paper ask."""
     formulas = [frozenset(_iter_asked_formulas(one)) for one in drawn]
     numbers = [
         frozenset(
@@ -167,13 +187,17 @@ def with_siblings(drawn: Sequence[Variant]) -> Iterator[Variant]:
 
 
 def _iter_asked_formulas(one: Variant) -> Iterator[CanonicalForm]:
+    """Yield the canonical forms of all formulas that lead to its answers."""
     for index in range(len(one.template.rules.part)):
         yield from asked_formulas(one, index)
 
 
 def asked_formulas(drawn: Variant, index: int) -> Mapping[CanonicalForm, str]:
-    """Forms of the steps to an answer, each also with the steps before it put in, and the key."""
-    found = _formulas_of_steps(sampler_for(drawn.template), index)
+    """Return the canonical forms that lead to an answer, and how each is written.
+
+    The steps, each also with the steps before it put in, and the formula that is asked for.
+    """
+    found = _build_step_formulas(sampler_for(drawn.template), index)
     if authored_answer(drawn, index)["kind"] == "expression":
         spec: expression.ExpressionSpec = ask_part(drawn, index).spec
         formula = parse_authored(spec.value, tuple(spec.symbols))
@@ -182,8 +206,8 @@ def asked_formulas(drawn: Variant, index: int) -> Mapping[CanonicalForm, str]:
 
 
 @lru_cache(maxsize=4096)
-def _formulas_of_steps(plan: Sampler, index: int) -> dict[CanonicalForm, str]:
-    """Those that are the same in every draw."""
+def _build_step_formulas(plan: Sampler, index: int) -> dict[CanonicalForm, str]:
+    """Return the forms of the steps, the same for every variant of a template."""
     found: dict[CanonicalForm, str] = {}
     inner: dict[str, Expr] = {}
     for step in plan.parts[index].steps:

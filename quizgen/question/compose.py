@@ -1,4 +1,4 @@
-"""From a draw to a question and its key, two separate values.
+"""From a variant to a question and its key, two separate values.
 
 ``Question`` holds what a learner sees before answering; ``Key`` holds the rest. Whatever is handed
 only a ``Question`` cannot leak an answer.
@@ -63,17 +63,17 @@ class AnswerField(msgspec.Struct, frozen=True):
 
     @property
     def hints(self) -> tuple[str, ...]:
-        """What to type, as text."""
+        """Return what to type, one text for each line."""
         return tuple(map(inlines_to_text, self.asks))
 
     @property
     def hint(self) -> tuple[Inline, ...]:
-        """What to type, as one run of sentences."""
+        """Return what to type, as one run of sentences."""
         return join_inlines(self.asks, " ")
 
     @property
     def hint_in_fields(self) -> tuple[Inline, ...]:
-        """What to type where every value has a field of its own."""
+        """Return what to type where every value has a field of its own."""
         return join_inlines(self.asks[1:] if self.control.has_several_fields else self.asks, " ")
 
 
@@ -86,7 +86,7 @@ class QuestionPart(msgspec.Struct, frozen=True):
     field: AnswerField
 
     def to_html(self, lang: str) -> Markup:
-        """The part with its options and hints."""
+        """Return the part with its options and hints as HTML."""
         label = Markup("<h4>({})</h4>").format(self.label) if self.label else Markup("")
         choices = Markup("").join(
             Markup("<li>{} {}</li>").format(mark, inlines_to_html(text, lang))
@@ -113,14 +113,15 @@ class Question(msgspec.Struct, frozen=True):
 
     @property
     def points(self) -> Fraction:
-        """Marks of all parts."""
+        """Return the marks of all parts."""
         return sum((part.points for part in self.parts), Fraction(0))
 
     def __repr__(self) -> str:
+        """Return number, template, language and title."""
         return f"<Question {self.number} of {self.template} ({self.lang}): {self.title}>"
 
     def _repr_html_(self) -> str:
-        """The question as a notebook shows it."""
+        """Return the question as a notebook shows it."""
         head = Markup("<h3>{}. {}</h3>").format(self.number, self.title)
         picture = Markup(self.figure.inline_svg.decode()) if self.figure else Markup("")  # noqa: S704
         parts = (part.to_html(self.lang) for part in self.parts)
@@ -141,11 +142,12 @@ class QuestionKey(msgspec.Struct, frozen=True):
     level: str = EXAM
 
     def __repr__(self) -> str:
+        """Return number and identity, and none of the answers: a notebook shows it to anyone."""
         return f"<Key {self.number} of {self.identity}>"
 
 
 def draw_instance(template: Template, seed: str | int, slot: str | int = "0") -> Variant:
-    """Draw a template, or take its reference instance for ``seed="reference"``."""
+    """Return a variant of a template, or its reference instance for ``seed="reference"``."""
     return (
         reference_variant(template) if seed == "reference" else draw_variant(template, seed, slot)
     )
@@ -160,7 +162,7 @@ def compose_question(
     level: str = EXAM,
     figures: bool = True,
 ) -> tuple[Question, QuestionKey]:
-    """Draw a template and put it into words.
+    """Return a question and its key, drawn from a template and put into words.
 
     Parameters
     ----------
@@ -178,7 +180,7 @@ def compose_question(
 
     Returns
     -------
-    (Question, Key)
+    (Question, QuestionKey)
 
     Raises
     ------
@@ -194,7 +196,7 @@ def compose_question(
 def compose_variant(
     drawn: Variant, lang: str, *, number: str = "1", level: str = EXAM, figures: bool = True
 ) -> tuple[Question, QuestionKey]:
-    """Compose an instance that has already been drawn.
+    """Return a variant in words: the question, and apart from it its key.
 
     Raises
     ------
@@ -216,6 +218,7 @@ def compose_variant(
 def _build_question_and_key(
     drawn: Variant, lang: str, number: str, level: str, *, figures: bool
 ) -> tuple[Question, QuestionKey]:
+    """Return a question and, apart from it, what answers it."""
     template = drawn.template
     asking = load_level(level).ask(drawn, lang)
     question = Question(
@@ -245,6 +248,7 @@ def _build_question_and_key(
 
 
 def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
+    """Return one part as the learner sees it; its field is named by number and label."""
     field = AnswerField(
         id=f"{number}{asked.label}",
         control=asked.control,
@@ -265,12 +269,15 @@ def _format_given_for_key(drawn: Variant, name: str) -> str | list[str]:
 
 
 def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
-    """The chain with its numbers as plain JSON, for marking without SymPy."""
+    """Return the chain with its numbers as plain JSON, for grading without SymPy."""
     chain = drawn.template.chain
     if not chain.steps:
         return None
-    units = drawn.template.units
+    units, own = drawn.template.units, drawn.template.about.units
+    checked = [name for name, grade in chain.certainties.items() if grade == "checked"]
     return {
+        **({"define": list(own)} if own else {}),
+        **({"checked": checked} if checked else {}),
         "given": {
             name: {
                 "value": _format_given_for_key(drawn, name),

@@ -13,6 +13,7 @@ from quizgen.bank.entries import Entry, Passage
 from quizgen.bank.markdown import (
     Block,
     Inline,
+    LaidOutFormula,
     PictureLink,
     Slot,
     Unfilled,
@@ -24,10 +25,12 @@ from quizgen.bank.markdown import (
 from quizgen.bank.metadata import pick_language
 from quizgen.core.errors import BankError
 from quizgen.question.formula_lines import typeset_inline
+from quizgen.question.inlines import typeset_layout
+from quizgen.typeset.leaves import list_leaf_names
 
 
 def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
-    """A passage of an entry as blocks, its mathematics ready for printing.
+    """Return a passage of an entry as blocks, its mathematics typeset.
 
     Raises
     ------
@@ -35,18 +38,18 @@ def entry_blocks(entry: Entry, name: str, lang: str) -> tuple[Block, ...]:
         Naming file, entry, field, language and column.
     """
     with _iter_field_text(entry, name, lang) as text:
-        return fill_blocks(parse_blocks(text), typeset_slot, _no_program)
+        return fill_blocks(parse_blocks(text), typeset_slot, _refuse_program)
 
 
 def entry_inlines(entry: Entry, name: str, lang: str) -> tuple[Inline, ...]:
-    """The same as ``passage`` for a sentence, as inlines."""
+    """Return a sentence of an entry as inlines; otherwise as ``entry_blocks``."""
     with _iter_field_text(entry, name, lang) as text:
         return fill_inlines(parse_inlines(text), typeset_slot)
 
 
 @contextmanager
 def _iter_field_text(entry: Entry, name: str, lang: str) -> Iterator[str]:
-    """The text of a field; what is wrong with it is located."""
+    """Yield the text of a field once; an error raised by its reader is located in the entry."""
     texts: Passage = getattr(entry, name)
     with entry.name_in_errors(name, lang):
         try:
@@ -57,7 +60,7 @@ def _iter_field_text(entry: Entry, name: str, lang: str) -> Iterator[str]:
 
 
 def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
-    """Mathematics of a sentence, ready for printing.
+    """Return the mathematics of a sentence, typeset.
 
     Raises
     ------
@@ -68,8 +71,13 @@ def typeset_slot(part: Unfilled) -> tuple[Inline, ...]:
         raise BankError(f"picture {part.file!r} cannot stand here, only in the words of a template")
     if isinstance(part, Slot):
         raise BankError(f"{{{{ {part.name} }}}} cannot be filled in here")
+    if isinstance(part, LaidOutFormula):
+        for name in list_leaf_names(part.node):
+            raise BankError(f"{{{{ {name} }}}} cannot be filled in here")
+        return (typeset_layout(part.node),)
     return (typeset_inline(part.expr),)
 
 
-def _no_program(text: str) -> str:
+def _refuse_program(text: str) -> str:
+    """Raise ``BankError``: an entry draws no numbers that a program could hold."""
     raise BankError(f"program {text!r} cannot stand here")

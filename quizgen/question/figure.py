@@ -19,19 +19,20 @@ Shown = TypeVar("Shown")
 
 
 def draw_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> Figure | None:
-    """The figure of a question; None if it has none."""
+    """Return the figure of a question; None if it has none."""
     return _draw_question_figure(draw_figure, drawn, lang, quiz=quiz)
 
 
 def describe_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> str | None:
-    """The figure of a question in words, without drawing it; None if it has none."""
+    """Return the figure of a question in words, without drawing it; None if it has none."""
     return _draw_question_figure(describe_figure, drawn, lang, quiz=quiz)
 
 
 def has_coloured_figure(drawn: Variant) -> bool:
-    """Whether a question has a figure that cannot be read on grey paper, without drawing it."""
+    """Return whether a question's figure cannot be read on grey paper, without drawing it."""
 
     def judge(figure: ModuleType, values: Mapping[str, Any], **_how: object) -> bool:
+        """Return whether the figure needs colour with these values."""
         return needs_colour(figure, values)
 
     return bool(_draw_question_figure(judge, drawn, "", quiz=True))
@@ -40,6 +41,10 @@ def has_coloured_figure(drawn: Variant) -> bool:
 def _draw_question_figure(
     show: Callable[..., Shown], drawn: Variant, lang: str, *, quiz: bool
 ) -> Shown | None:
+    """Return what ``show`` makes of a question's figure; None if it shows none.
+
+    Raises ``BankError`` at the template or at the line of the figure's module that failed.
+    """
     rule = drawn.template.rules.figure
     if rule is None or (quiz and not rule.quiz):
         return None
@@ -56,7 +61,7 @@ def _draw_question_figure(
 
 
 def _evaluate_parameter(drawn: Variant, source: Source) -> Any:
-    """A number as written, a drawn phrase by its name, a formula's value, or lists of these."""
+    """Return a parameter: a number, a drawn phrase, a formula's value, or lists of these."""
     if isinstance(source, tuple):
         return [_evaluate_parameter(drawn, one) for one in source]
     if not isinstance(source, str):

@@ -53,7 +53,7 @@ _NAME = re.compile(r"[^\W\d_][^\W_]*'*(?:_[^\W_]+'*)*")
 
 
 def parse_formula_line(line: str, inside: Inside) -> tuple[list[str], list[TypesetMaths]]:
-    """Take a line apart into relation signs and printed sides.
+    """Return the relation signs and the typeset sides of a line.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def parse_formula_line(line: str, inside: Inside) -> tuple[list[str], list[Types
 
     Returns
     -------
-    (list of str, list of Maths)
+    (list of str, list of TypesetMaths)
         One sign fewer than sides.
 
     Raises
@@ -78,7 +78,7 @@ def parse_formula_line(line: str, inside: Inside) -> tuple[list[str], list[Types
 
 
 def typeset_side(text: str, inside: Inside) -> TypesetMaths:
-    """Print one side.
+    """Return one side, typeset, with its pieces in place of their letters.
 
     Raises
     ------
@@ -98,7 +98,11 @@ def typeset_side(text: str, inside: Inside) -> TypesetMaths:
 
 
 def typeset_inline(expr: Expr) -> TypesetMaths:
-    """Print a formula in a sentence; ``a = b = c`` stays one chain."""
+    """Return a formula typeset for a sentence; ``a = b = c`` stays one chain.
+
+    The grammar reads such a chain as ``a = b and b = c``; only where each link begins with what
+    the one before it ends with is it printed as one.
+    """
     links = expr.args if isinstance(expr, Call) and expr.op == "and" else (expr,)
     pairs = [link for link in links if isinstance(link, Call) and link.op in SIGNS]
     joined = all(one.args[1] == other.args[0] for one, other in pairwise(pairs))
@@ -113,12 +117,12 @@ def typeset_inline(expr: Expr) -> TypesetMaths:
 
 
 def typeset_piece(table: Piece, inside: Inside) -> TypesetMaths:
-    """Print a piece that the grammar does not have.
+    """Return a piece that the grammar does not have, typeset.
 
     Raises
     ------
     RenderError
-        If nothing is known by this description.
+        If no kind of piece has this description.
     """
     for name, make in _PIECES.items():
         if name in table:
@@ -127,7 +131,10 @@ def typeset_piece(table: Piece, inside: Inside) -> TypesetMaths:
 
 
 def _require_text(table: Piece, name: str) -> str:
-    """One text of a description."""
+    """Return the one text that a description gives for ``name``.
+
+    Raises ``RenderError`` if there is none, or a list of several.
+    """
     texts = _require_texts(table, name)
     if len(texts) != 1:
         raise RenderError(f"{name!r} is one text")
@@ -135,7 +142,10 @@ def _require_text(table: Piece, name: str) -> str:
 
 
 def _require_symbol(table: Piece, name: str) -> str:
-    """One letter or name of a description: nothing that MathJax could read as a command."""
+    """Return the letter or name that a description gives for ``name``.
+
+    Raises ``RenderError`` for anything else: MathJax could read it as a command.
+    """
     text = _require_text(table, name)
     if not _SYMBOL.fullmatch(text):
         raise RenderError(f"{name} = {text!r} is no letter or name")
@@ -143,7 +153,10 @@ def _require_symbol(table: Piece, name: str) -> str:
 
 
 def _require_texts(table: Piece, name: str) -> Sequence[str]:
-    """Texts of a description; there may be one."""
+    """Return the texts that a description gives for ``name``; a lone one becomes a list.
+
+    Raises ``RenderError`` if the description has no such key.
+    """
     if name not in table:
         raise RenderError(f"{name!r} is missing in {dict(table)!r}")
     given = table[name]
@@ -151,6 +164,7 @@ def _require_texts(table: Piece, name: str) -> Sequence[str]:
 
 
 def _typeset_relation(text: str, inside: Inside) -> TypesetMaths:
+    """Return a formula, or a chain of relations, typeset as one piece."""
     signs, parts = parse_formula_line(text, inside)
     if not signs:
         return parts[0]
@@ -159,12 +173,14 @@ def _typeset_relation(text: str, inside: Inside) -> TypesetMaths:
 
 
 def _interleave_signs(parts: list[str], signs: list[str]) -> Iterator[str]:
+    """Yield sides and the signs between them in turn, as they are read."""
     yield parts[0]
     for sign, part in zip(signs, parts[1:], strict=True):
         yield from (sign, part)
 
 
 def _typeset_integral(table: Piece, inside: Inside) -> TypesetMaths:
+    """Return ``∫ body d over``, with its bounds if the description has some."""
     body, over = (
         _typeset_relation(_require_text(table, "integral"), inside),
         _require_symbol(table, "over"),
@@ -182,6 +198,7 @@ def _typeset_integral(table: Piece, inside: Inside) -> TypesetMaths:
 
 
 def _typeset_application(table: Piece, inside: Inside) -> TypesetMaths:
+    """Return a named function of one or more formulas."""
     parts = [_typeset_relation(text, inside) for text in _require_texts(table, "to")]
     head = _require_symbol(table, "apply")
     node = Func(_typeset_letter({"letter": head}, inside).node, tuple(part.node for part in parts))
@@ -189,12 +206,17 @@ def _typeset_application(table: Piece, inside: Inside) -> TypesetMaths:
 
 
 def _typeset_tuple(table: Piece, inside: Inside) -> TypesetMaths:
+    """Return formulas in parentheses: a point."""
     parts = [_typeset_relation(text, inside) for text in _require_texts(table, "tuple")]
     typed = ", ".join(part.typed for part in parts)
     return TypesetMaths(typeset.fence([part.node for part in parts]), f"({typed})")
 
 
 def _typeset_interval(table: Piece, inside: Inside) -> TypesetMaths:
+    """Return two bounds in the brackets that ``ends`` gives, open or closed.
+
+    Raises ``RenderError`` for other brackets.
+    """
     parts = [_typeset_relation(text, inside) for text in _require_texts(table, "interval")]
     ends = _require_text(table, "ends")
     if ends not in _ENDS:
@@ -204,12 +226,17 @@ def _typeset_interval(table: Piece, inside: Inside) -> TypesetMaths:
 
 
 def _typeset_bold(table: Piece, inside: Inside) -> TypesetMaths:
+    """Return a letter in bold: a vector or a matrix."""
     del inside
     text = _require_symbol(table, "bold")
     return TypesetMaths(Ident(text, bold=True), text)
 
 
 def _typeset_quadratic_form(table: Piece, inside: Inside) -> TypesetMaths:
+    """Return ``vᵀ M⁻¹ v`` of a vector and a matrix.
+
+    Raises ``RenderError`` unless there are two texts.
+    """
     texts = _require_texts(table, "quadratic")
     if len(texts) != len(("vector", "matrix")):
         raise RenderError("'quadratic' is a vector and a matrix")
@@ -222,12 +249,14 @@ def _typeset_quadratic_form(table: Piece, inside: Inside) -> TypesetMaths:
 
 
 def _typeset_accent(table: Piece, inside: Inside) -> TypesetMaths:
+    """Return a letter under an accent; as typed, the accent is an index of the letter."""
     del inside
     name = f"{_require_symbol(table, 'on')}_{_require_symbol(table, 'accent')}"
     return TypesetMaths(typeset.lay_out_name(name), name)
 
 
 def _typeset_letter(table: Piece, inside: Inside) -> TypesetMaths:
+    """Return an upright or italic letter that the grammar would take for something else."""
     del inside
     text = _require_symbol(table, "letter")
     return TypesetMaths(Ident(text) if len(text) == 1 else typeset.lay_out_name(text), text)

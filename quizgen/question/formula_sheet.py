@@ -60,7 +60,7 @@ class FormulaSheet(msgspec.Struct, frozen=True):
 
 
 def compose_sheet(bank: Bank, choice: str, topics: Sequence[str] = ()) -> FormulaSheet:
-    """Put the formulas of a bank into words.
+    """Return the formulas of a bank with their words, by topic.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def compose_sheet(bank: Bank, choice: str, topics: Sequence[str] = ()) -> Formul
 
 
 def cite_formula(bank: Bank, name: str, lang: str) -> tuple[Inline, ...]:
-    """A line of the sheet in a sentence: its number, title and formulas; empty if it has none."""
+    """Return a line of the sheet for a sentence: number, title, formulas; empty if it has none."""
     for entry in read_formulas(bank):
         if entry.id == name:
             lines = join_inlines(
@@ -115,6 +115,7 @@ def cite_formula(bank: Bank, name: str, lang: str) -> tuple[Inline, ...]:
 def _build_sheet_line(
     bank: Bank, entry: FormulaEntry, langs: tuple[str, ...], asked: tuple[str, ...]
 ) -> SheetFormula:
+    """Return one formula with its words in each language, its sketch and who asks for it."""
     lines = tuple(_typeset_sheet_formula(line, entry) for line in entry.lines)
     said = tuple(
         FormulaText(
@@ -132,7 +133,7 @@ def _build_sheet_line(
 
 
 def draw_sketch(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...]) -> tuple[Figure, ...]:
-    """Draw the sketch of a formula for each language; none if it has no sketch.
+    """Return the sketch of a formula in each language; none if it has no sketch.
 
     Raises
     ------
@@ -148,7 +149,7 @@ def draw_sketch(bank: Bank, entry: FormulaEntry, langs: tuple[str, ...]) -> tupl
 
 
 def _typeset_sheet_formula(line: str, entry: FormulaEntry) -> TypesetMaths:
-    """A line in one piece."""
+    """Return a line of the sheet typeset as one piece."""
     with entry.name_in_errors("lines"):
         signs, parts = parse_formula_line(line, entry.inside)
     node = typeset.relation_chain(signs, [part.node for part in parts])
@@ -156,7 +157,7 @@ def _typeset_sheet_formula(line: str, entry: FormulaEntry) -> TypesetMaths:
 
 
 def _iter_letter_units(entry: FormulaEntry) -> Iterator[Inline]:
-    """Letters with their unit, those of the same unit together: ``f, p′ [mm]; z [m]``."""
+    """Yield letters with their unit, those of one unit together: ``f, p′ [mm]; z [m]``."""
     for place, (unit, letters) in enumerate(entry.units.items()):
         if place:
             yield PlainText("; ")
@@ -168,7 +169,7 @@ def _iter_letter_units(entry: FormulaEntry) -> Iterator[Inline]:
 
 
 def _read_template_title(bank: Bank, name: str, lang: str) -> str:
-    """Title of a template, in the language or else in one that it is written in."""
+    """Return the title of a template, in the language or else in one that it is written in."""
     written = bank.template_languages(name)
     found = lang if lang in written else next(iter(written))
     return read_language_file(bank.template_paths[name] / f"{found}.md").title

@@ -21,7 +21,7 @@ from quizgen.question.interpolation import NBSP, unbreakable_groups
 
 
 class HtmlDialect(NamedTuple):
-    """What a page understands: how its formulas are written, and whether it has our style.
+    """How a page writes formulas and finds pictures, and whether it has our style.
 
     ``maths`` writes a formula in a line of text, ``display`` one that is a line of its own;
     ``source`` is where the page finds a picture.
@@ -34,7 +34,7 @@ class HtmlDialect(NamedTuple):
 
 
 def display_mathml(node: typeset.Node, lang: str) -> str:
-    """A formula that is a line of its own."""
+    """Return the MathML of a formula that is a line of its own."""
     return typeset.to_mathml(node, lang, display=True)
 
 
@@ -44,7 +44,7 @@ OURS = HtmlDialect(typeset.to_mathml, display_mathml)
 def inlines_to_html(
     part: markdown.Inline | tuple[markdown.Inline, ...], lang: str, way: HtmlDialect = OURS
 ) -> Markup:
-    """Inlines as HTML."""
+    """Return one inline, or a sentence of them, as HTML."""
     return Markup(_render_piece(part, lang, way))
 
 
@@ -52,18 +52,26 @@ def inlines_to_html(
 def _render_piece(
     part: markdown.Inline | tuple[markdown.Inline, ...], lang: str, _way: HtmlDialect
 ) -> str:
+    """Return the HTML of an inline; each type of them registers what writes it.
+
+    Raises ``TypeError`` for a type without one.
+    """
     raise TypeError(f"no HTML for {type(part).__name__} ({lang})")
 
 
 @_render_piece.register(tuple)
 def _render_inlines(parts: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -> str:
+    """Return the HTML of a sentence, with what may not be parted from a formula held to it."""
     if not any(isinstance(part, TypesetMaths) for part in parts):
         return "".join([_render_piece(part, lang, way) for part in parts])
     return "".join([_render_unbroken(group, lang, way) for group in unbreakable_groups(parts)])
 
 
 def _render_unbroken(group: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -> str:
-    """Pieces inside which no line may end: held by our style, or by blanks that do not break."""
+    """Return the HTML of pieces inside which no line may end.
+
+    They are held by our style where there is one, else by blanks that do not break.
+    """
     if len(group) == 1:
         return _render_piece(group[0], lang, way)
     if way.ours:
@@ -82,21 +90,29 @@ def _render_unbroken(group: tuple[markdown.Inline, ...], lang: str, way: HtmlDia
 
 
 def _escape_html(text: str) -> str:
+    """Return text that is safe between tags and inside attributes.
+
+    Quotes are written as numbers, as ``markupsafe`` writes them: pages stay equal to those that
+    a Jinja template escapes.
+    """
     return escape(text, quote=False).replace('"', "&#34;").replace("'", "&#39;")
 
 
 @_render_piece.register
 def _render_words(part: markdown.PlainText, _lang: str, _way: HtmlDialect) -> str:
+    """Return plain text, escaped."""
     return _escape_html(part.text)
 
 
 @_render_piece.register
 def _render_maths(part: TypesetMaths, lang: str, way: HtmlDialect) -> str:
+    """Return a formula as the page's dialect writes it."""
     return way.maths(part.node, lang)
 
 
 @_render_piece.register
 def _render_code(part: markdown.InlineCode, _lang: str, _way: HtmlDialect) -> str:
+    """Return program text in a sentence."""
     return f"<code>{_escape_html(part.text)}</code>"
 
 
@@ -108,11 +124,13 @@ def _render_data_file(part: DataFileLink, _lang: str, way: HtmlDialect) -> str:
 
 @_render_piece.register
 def _render_styled(part: markdown.Emphasis, lang: str, way: HtmlDialect) -> str:
+    """Return emphasised or strong text; the tag is the style's name."""
     return f"<{part.style}>{_render_piece(part.children, lang, way)}</{part.style}>"
 
 
 @_render_piece.register
 def _render_picture(part: PlacedPicture, _lang: str, way: HtmlDialect) -> str:
+    """Return an ``img`` with its words; sizes in CSS pixels, of which 4 are 3 points."""
     file = part.picture
     size = f'width="{file.width_pt * 4 / 3:.0f}" height="{file.height_pt * 4 / 3:.0f}"'
     named = ' class="picture"' if way.ours else ""
@@ -121,23 +139,29 @@ def _render_picture(part: PlacedPicture, _lang: str, way: HtmlDialect) -> str:
 
 @singledispatch
 def _render_block(part: markdown.Block, lang: str, _way: HtmlDialect) -> str:
+    """Return the HTML of a block; each type of them registers what writes it.
+
+    Raises ``TypeError`` for a type without one.
+    """
     raise TypeError(f"no HTML for {type(part).__name__} ({lang})")
 
 
 @_render_block.register
 def _render_paragraph(part: markdown.Paragraph, lang: str, way: HtmlDialect) -> str:
+    """Return a ``p`` element around the sentence."""
     return f"<p>{_render_piece(part.children, lang, way)}</p>"
 
 
 @_render_block.register
-def _code_block(part: markdown.CodeBlock, _lang: str, way: HtmlDialect) -> str:
-    """Program text; a long line scrolls, also by keyboard."""
+def _render_code_block(part: markdown.CodeBlock, _lang: str, way: HtmlDialect) -> str:
+    """Return a block of program text; a long line scrolls, also by keyboard."""
     scrolls = ' tabindex="0"' if way.ours else ""
     return f"<pre{scrolls}><code>{_escape_html(part.text)}</code></pre>"
 
 
 @_render_block.register
 def _render_list(part: markdown.ListBlock, lang: str, way: HtmlDialect) -> str:
+    """Return a list; an item of one sentence has no paragraph around it."""
     tag = "ol" if part.ordered else "ul"
     items = "".join(
         [f"<li>{blocks_to_html(item, lang, way, tight=True)}</li>" for item in part.items]
@@ -147,16 +171,19 @@ def _render_list(part: markdown.ListBlock, lang: str, way: HtmlDialect) -> str:
 
 @_render_block.register
 def _render_table(part: markdown.TableBlock, lang: str, way: HtmlDialect) -> str:
-    """Rows under a head; a wide one scrolls, also by keyboard."""
-    head = "".join([_head_cell(cell, lang, way) for cell in part.head])
+    """Return rows under a head; a wide table scrolls, also by keyboard."""
+    head = "".join([_render_head_cell(cell, lang, way) for cell in part.head])
     rows = [[f"<td>{_render_piece(cell, lang, way)}</td>" for cell in cells] for cells in part.rows]
     body = "".join([f"<tr>{''.join(row)}</tr>" for row in rows])
     table = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
     return f'<div class="scroll" tabindex="0">{table}</div>' if way.ours else table
 
 
-def _head_cell(cell: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -> str:
-    """A head cell; a lone formula is spelled out for listeners, and empty is no head."""
+def _render_head_cell(cell: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -> str:
+    """Return a head cell; a lone formula is spelled out for listeners.
+
+    An empty cell is no head: a screen reader would announce it for every row.
+    """
     if not cell:
         return "<td></td>"
     shown = _render_piece(cell, lang, way)
@@ -170,7 +197,7 @@ def _head_cell(cell: tuple[markdown.Inline, ...], lang: str, way: HtmlDialect) -
 def blocks_to_html(
     parts: Sequence[markdown.Block], lang: str, way: HtmlDialect = OURS, *, tight: bool = False
 ) -> Markup:
-    """Blocks as HTML; ``tight`` drops the paragraph around a single sentence."""
+    """Return blocks as HTML; ``tight`` drops the paragraph around a single sentence."""
     if tight and len(parts) == 1 and isinstance(parts[0], markdown.Paragraph):
         return inlines_to_html(parts[0].children, lang, way)
     made = "".join([_render_block(part, lang, way) for part in parts])
@@ -178,7 +205,7 @@ def blocks_to_html(
 
 
 def display_to_html(maths: TypesetMaths, lang: str, way: HtmlDialect = OURS) -> Markup:
-    """A worked line on its own; a long one scrolls, also by keyboard."""
+    """Return a worked line on its own; a long one scrolls, also by keyboard."""
     attributes = ' class="line" tabindex="0"' if way.ours else ""
     made = f"<div{attributes}>{way.display(maths.node, lang)}</div>"
     return Markup(made)

@@ -26,11 +26,25 @@ class TypesetMaths(msgspec.Struct, frozen=True):
 
     @property
     def text(self) -> str:
-        """How it is written in plain text, for people; a comma in numbers separates none."""
+        """Return it in plain text for people; a comma in numbers separates none."""
         text = pretty.format_formula(self.typed)
         if localise_numbers(self.lang, text) != text:
             text = text.replace(", ", "; ")
         return localise_numbers(self.lang, text)
+
+
+class TypesetLayout(TypesetMaths, frozen=True):
+    """A formula that is more than the grammar of typed ones has; its layout says all of it."""
+
+    @property
+    def text(self) -> str:
+        """How it is written in plain text, for people."""
+        return typeset.to_text(self.node, self.lang)
+
+
+def typeset_layout(node: typeset.Node) -> TypesetLayout:
+    """Return a laid out formula ready for printing."""
+    return TypesetLayout(node, typeset.to_text(node))
 
 
 class PlacedPicture(msgspec.Struct, frozen=True):
@@ -41,17 +55,17 @@ class PlacedPicture(msgspec.Struct, frozen=True):
 
     @property
     def alt(self) -> str:
-        """What it shows, for who cannot see it."""
+        """Return what it shows in words, for those who cannot see it."""
         return "".join(part.text for part in self.told)  # type: ignore[union-attr]
 
     @property
     def text(self) -> str:
-        """What stands in its place in plain text."""
+        """Return what stands in its place in plain text."""
         return f"[{self.alt}]"
 
     @property
     def typed(self) -> str:
-        """The same: nobody types a picture."""
+        """Return the same as ``text``: nobody types a picture."""
         return self.text
 
 
@@ -62,16 +76,18 @@ _BEFORE_UNIT = re.compile(r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?![A-Z]\d)[
 
 
 def to_inlines(shown: TextOrInlines) -> tuple[Inline, ...]:
-    """Pieces of a sentence; in a text powers of ten are typeset, and units stay with numbers."""
+    """Return text as pieces of a sentence, powers of ten typeset and units held to numbers."""
     return _split_powers(shown) if isinstance(shown, str) else shown
 
 
 @lru_cache(maxsize=4096)
 def _split_powers(text: str) -> tuple[Inline, ...]:
-    return tuple(_with_powers(_BEFORE_UNIT.sub("\u00a0", text)))
+    """Return a text as inlines, with blanks that do not break before units."""
+    return tuple(_iter_powers(_BEFORE_UNIT.sub("\u00a0", text)))
 
 
-def _with_powers(text: str) -> Iterator[Inline]:
+def _iter_powers(text: str) -> Iterator[Inline]:
+    """Yield words, and powers of ten as mathematics."""
     last = 0
     for found in pretty.POWER.finditer(text):
         yield from _make_words(text[last : found.start()])
@@ -81,18 +97,19 @@ def _with_powers(text: str) -> Iterator[Inline]:
 
 
 def _make_words(text: str) -> tuple[Inline, ...]:
+    """Return words as a tuple; an empty text gives none, so that no empty piece is printed."""
     return (PlainText(text),) if text else ()
 
 
 def name_inline(symbol: str) -> Inline:
-    """The name of a quantity, typeset; a label in words stays text."""
+    """Return the name of a quantity, typeset; a label in words stays text."""
     if not NAME.fullmatch(symbol) or isinstance(node := typeset.lay_out_name(symbol), Word):
         return PlainText(symbol)
     return TypesetMaths(node, symbol)
 
 
 def join_inlines(rows: Iterable[Iterable[Inline]], between: str) -> tuple[Inline, ...]:
-    """Several things of a kind with a sign between them."""
+    """Return several sentences as one, with a sign between them."""
     found: list[Inline] = []
     for row in rows:
         found += [PlainText(between), *row] if found else row
@@ -100,14 +117,14 @@ def join_inlines(rows: Iterable[Iterable[Inline]], between: str) -> tuple[Inline
 
 
 def assignment_inlines(values: Iterable[tuple[str, str]]) -> tuple[Inline, ...]:
-    """Names with their values: ``n₁ = 128; n₂ = 3``."""
+    """Return names with their values in a sentence: ``n₁ = 128; n₂ = 3``."""
     return join_inlines(
         ((name_inline(name), *to_inlines(f" = {text}")) for name, text in values), "; "
     )
 
 
 def translate_inlines(lang: str, key: str, **blanks: tuple[Inline, ...]) -> tuple[Inline, ...]:
-    """A sentence of the interface with pieces in its blanks."""
+    """Return a sentence of the interface with inlines in its blanks."""
     marks = {name: f"\0{name}\0" for name in blanks}
     cut = translate(lang, key, **marks).split("\0")
     texts, names = cut[::2], cut[1::2]

@@ -1,4 +1,4 @@
-"""Sentences of a template with their blanks filled from a draw."""
+"""Sentences of a template with their blanks filled from a variant."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from quizgen.bank.markdown import (
     ConditionalSentence,
     Emphasis,
     Inline,
+    InlineFormula,
+    LaidOutFormula,
     Paragraph,
     PictureLink,
     PlainText,
@@ -29,13 +31,22 @@ from quizgen.bank.markdown import (
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
-from quizgen.kinds.contract import LabelledName
+from quizgen.kinds.contract import VALUE_OPTION, LabelledName, asked_form
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.numbers import MINUS, format_exact, format_rounded
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Values
-from quizgen.question.inlines import PlacedPicture, TypesetMaths, name_inline, to_inlines
+from quizgen.question.inlines import (
+    PlacedPicture,
+    TypesetLayout,
+    TypesetMaths,
+    name_inline,
+    to_inlines,
+    typeset_layout,
+)
+from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names, make_leaf_value
+from quizgen.typeset.nodes import MathRow, Node, Phrase
 
 NBSP = "\u00a0"
 LIST_SEPARATOR = "; "
@@ -47,24 +58,28 @@ _TAIL = re.compile(r"[^ \n]*(?: [=≈<>≤≥≠] [^ \n]*)?")
 
 
 class Interpolator:
-    """Puts the numbers and phrases of a draw into the sentences of one language.
+    """Puts the numbers and phrases of a variant into the sentences of one language.
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     lang : str
     hidden : bool
         Refuse quantities that are solved for, so that a stem cannot give an answer away.
     """
 
     def __init__(self, drawn: Variant, lang: str, *, hidden: bool = False) -> None:
+        """Take the prose of one language; ``hidden`` makes only drawn values known.
+
+        A question must not print what is solved; a solution may.
+        """
         self.drawn, self.lang, self.hidden = drawn, lang, hidden
         self.own: dict[str, LabelledName] = {}
         self.known: Values = drawn.shown if hidden else drawn.shown_values
         self.text = drawn.template.texts[lang]
 
     def blocks(self, parts: tuple[Block, ...]) -> tuple[Block, ...]:
-        """Blocks with their slots filled.
+        """Return blocks with their slots filled.
 
         Raises
         ------
@@ -104,17 +119,19 @@ class Interpolator:
             raise self._format_problem(what, "QG158", TEXT, f"{{{{ {blank} }}}}")
 
     def section(self, name: str) -> tuple[Block, ...]:
-        """A section of the language file, filled; empty if there is none."""
+        """Return a section of the language file, filled; empty if there is none."""
         return self.blocks(self.text.sections.get(name, ()))
 
     def sentence(self, section: str, name: str) -> tuple[Inline, ...]:
-        """A named sentence, filled.
+        """Return a named sentence, filled.
 
         Raises
         ------
         BankError
             If the language file lacks it, or a slot names nothing that may stand there.
         """
+        if section == "options" and name.startswith(VALUE_OPTION):
+            return to_inlines(name.removeprefix(VALUE_OPTION))
         place = section, name
         if place in self.text.unslotted_sentences:
             return self.text.unslotted_sentences[place]
@@ -125,7 +142,7 @@ class Interpolator:
         return filled
 
     def raw_sentence(self, section: str, name: str) -> tuple[Inline, ...]:
-        """A named sentence as it is written; of several cases the one that fits the draw.
+        """Return a named sentence as it is written; of several cases the one that fits.
 
         Raises
         ------
@@ -142,19 +159,20 @@ class Interpolator:
         return found
 
     def _choose_sentence(self, cases: tuple[ConditionalSentence, ...]) -> tuple[Inline, ...] | None:
-        """The first sentence whose condition holds, else the one without a condition."""
+        """Return the first sentence whose condition holds, else the one without a condition."""
         for condition, sentence in sorted(cases, key=lambda case: not case[0]):
             if not condition or self.drawn.evaluate(condition):
                 return sentence
         return None
 
     def with_sentence(self, name: str, section: str, sentence: str) -> Interpolator:
-        """The same with a blank that a named sentence fills."""
+        """Return a copy with a slot that a named sentence fills."""
         filler = Interpolator(self.drawn, self.lang, hidden=self.hidden)
         filler.own[name] = (section, sentence)
         return filler
 
     def _fill_value(self, part: Unfilled) -> tuple[Inline, ...]:
+        """Return what a slot, a formula or a picture is replaced by."""
         if isinstance(part, PictureLink):
             picture = self.drawn.template.pictures[part.file]
             return (
@@ -162,9 +180,31 @@ class Interpolator:
                     picture, fill_inlines(part.alt, self._fill_value, self._fill_program)
                 ),
             )
-        return self._fill_slot(part.name) if isinstance(part, Slot) else (_inline_maths(part.expr),)
+        if isinstance(part, Slot):
+            return self._fill_slot(part.name)
+        if isinstance(part, InlineFormula):
+            return (_inline_maths(part.expr),)
+        names = _names_in_layout(part)
+        if not names:
+            return (_inline_layout(part),)
+        return (typeset_layout(fill_leaves(part.node, {n: self._fill_leaf(n) for n in names})),)
+
+    def _fill_leaf(self, name: str) -> LeafValue:
+        """Return what stands for a quantity, a formula or a phrase inside a formula."""
+        if name not in self.own and (formula := self._find_formula(name)) is not None:
+            return make_leaf_value(formula)
+        if name in self.own or name not in self.known or name in self.drawn.words:
+            return LeafValue(_inlines_to_node(self._fill_slot(name)))
+        value, unit = self.known[name], self.drawn.template.units.get(name, "")
+        rounded = self.drawn.is_rounded(name)
+        text = format_rounded(value) if rounded else self.drawn.format_value(name)
+        return make_leaf_value(text, unit, is_rounded=rounded)
 
     def _fill_slot(self, name: str) -> tuple[Inline, ...]:
+        """Return the value, formula, phrase or sentence for a slot.
+
+        Raises ``BankError`` at the slot if its name is none of these.
+        """
         drawn = self.drawn
         if name in self.own:
             return self.sentence(*self.own[name])
@@ -176,19 +216,21 @@ class Interpolator:
             return to_inlines(text) if own else self.sentence("words", text)
         if not self.hidden and ("words", name) in self.text.cases:
             return self.sentence("words", name)
+        if (formula := self._find_formula(name)) is not None:
+            return (_inline_maths(formula),)
         return self._fill_number(name)
 
     def _fill_number(self, name: str) -> tuple[Inline, ...]:
-        drawn = self.drawn
+        """Return a quantity with its unit; ≈ goes before a rounded value."""
         if name not in self.known:
             what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
             raise self._format_problem(what, "QG158", TEXT, blank)
-        if not drawn.is_rounded(name):
-            return to_inlines(format_quantity(drawn, name))
+        if not self.drawn.is_rounded(name):
+            return to_inlines(format_quantity(self.drawn, name))
         rounded = format_rounded(self.known[name])
         return (
             RoundedMarker(),
-            *to_inlines(join_unit(rounded, drawn.template.units.get(name, ""))),
+            *to_inlines(join_unit(rounded, self.drawn.template.units.get(name, ""))),
         )
 
     def _fill_list_slot(self, name: str) -> tuple[Inline, ...]:
@@ -210,18 +252,33 @@ class Interpolator:
             raise self._format_problem(what, "QG158", TEXT, f"{{{{ {name} }}}}")
         return to_inlines(join_unit(texts[index - 1], unit))
 
+    def _find_formula(self, name: str) -> Expr | None:
+        """Return the formula that a step stands for, with the drawn numbers in it, if it is one.
+
+        None in a stem for a formula that is asked for.
+        """
+        parts = self.drawn.template.rules.part
+        if name not in self.drawn.template.chain.form_by_name:
+            return None
+        if self.hidden and any(asked_form(part.answer) == name for part in parts):
+            return None
+        return self.drawn.form(name)
+
     def _fill_program(self, text: str) -> str:
+        """Return program text with the known values in place."""
         return fill_program(text, self.drawn, self.known)
 
     def _format_problem(self, what: str, rule: str, *place: str) -> BankError:
+        """Return an error at a place of the language file."""
         file = self.drawn.template.path / f"{self.lang}.md"
         return BankError(what, rule=rule, file=file, place=place)
 
 
 def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
-    """Cut a sentence into pieces of which no line may end inside: ``f`` and ``= 6 mm`` are one.
+    """Yield the pieces of a sentence inside which no line may end.
 
-    Browsers and Typst break a line on either side of a formula, even before a comma.
+    ``f`` and ``= 6 mm`` are one. Browsers and Typst break a line on either side of a formula, even
+    before a comma.
     """
     rest = deque(parts)
     while rest:
@@ -240,7 +297,7 @@ def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
 
 
 def _take_formula_tail(rest: deque[Inline]) -> str:
-    """Take away what belongs to a formula in front."""
+    """Remove from the pieces what belongs to the formula in front, and return it."""
     text = ""
     while rest and isinstance(words := rest[0], PlainText):
         text += words.text
@@ -254,16 +311,36 @@ def _take_formula_tail(rest: deque[Inline]) -> str:
 
 @lru_cache(maxsize=4096)
 def _inline_maths(expr: Expr) -> TypesetMaths:
+    """Return a formula typeset for a sentence."""
     return TypesetMaths(typeset.lay_out(expr, inline=True), format_tree(expr))
 
 
+@lru_cache(maxsize=4096)
+def _inline_layout(part: LaidOutFormula) -> TypesetLayout:
+    return typeset_layout(part.node)
+
+
+@lru_cache(maxsize=4096)
+def _names_in_layout(part: LaidOutFormula) -> frozenset[str]:
+    return list_leaf_names(part.node)
+
+
+def _inlines_to_node(parts: Iterable[Inline]) -> Node:
+    """Pieces of a sentence inside a formula: its formulas as they are, all else as words."""
+    nodes = [
+        part.node if isinstance(part, TypesetMaths) else Phrase(_get_plain_text(part))
+        for part in parts
+    ]
+    return nodes[0] if len(nodes) == 1 else MathRow(tuple(nodes))
+
+
 def fill_program(text: str, drawn: Variant, known: Values) -> str:
-    """Program text or its output with the drawn values in place, as a program writes them.
+    """Return program text, or its output, with the drawn values as a program writes them.
 
     Parameters
     ----------
     text : str
-    drawn : Draw
+    drawn : Variant
     known : mapping of str to number
         The quantities that may stand there, in shown units.
 
@@ -274,6 +351,7 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
     """
 
     def value(name: str) -> str:
+        """Return a value as a program writes it; raise ``BankError`` if it is not exact."""
         listed, _, place = name.partition("[")
         if listed in drawn.lists:
             texts = [text.replace(MINUS, "-") for text in drawn.format_list(listed)]
@@ -291,18 +369,18 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
 
 
 def format_quantity(drawn: Variant, name: str) -> str:
-    """A quantity of a draw with its unit as text, exact if that is short."""
+    """Return a quantity of a variant with its unit as text, exact if that is short."""
     return join_unit(drawn.format_value(name), drawn.template.units.get(name, ""))
 
 
 def join_unit(text: str, unit: str) -> str:
-    """A number and its unit; only the degree sign stands close."""
+    """Return a number and its unit with a blank between; only the degree sign stands close."""
     shown = format_unit(unit)
     return f"{pretty.format_number(text)}{'' if shown in {'', '°'} else NBSP}{shown}"
 
 
 def inlines_to_text(parts: Iterable[Inline]) -> str:
-    """Text of a filled sentence, for people.
+    """Return the text of a filled sentence, for people.
 
     Raises
     ------
@@ -313,6 +391,7 @@ def inlines_to_text(parts: Iterable[Inline]) -> str:
 
 
 def _get_plain_text(part: Inline) -> str:
+    """Return the text of one piece for people; raise ``BankError`` if it is still a slot."""
     if isinstance(part, Emphasis):
         return inlines_to_text(part.children)
     if isinstance(part, Unfilled | RoundedMarker):
@@ -321,7 +400,7 @@ def _get_plain_text(part: Inline) -> str:
 
 
 def inlines_as_typed(parts: Iterable[Inline]) -> str:
-    """Text of a filled sentence as it would be typed, to compare with what was."""
+    """Return a filled sentence as it would be typed, to compare with what was typed."""
     return "".join(
         inlines_as_typed(part.children)
         if isinstance(part, Emphasis)

@@ -1,7 +1,7 @@
 """A composed question with its numbers as a language writes them.
 
-Numbers come with a decimal point, from draws, templates and figures. What a learner reads of them
-gets the sign of its language here, once it is all put together; formulas get it where they are
+Numbers come with a decimal point, from variants, templates and figures. What a learner reads of
+them gets the sign of its language here, once it is all put together; formulas get it where they are
 written. Programs, keys and what is typed back stay as they are.
 """
 
@@ -13,7 +13,14 @@ from typing import Any, TypeVar
 import msgspec
 from msgspec.structs import replace
 
-from quizgen.bank.markdown import CodeBlock, InlineCode, InlineFormula, PlainText, Slot
+from quizgen.bank.markdown import (
+    CodeBlock,
+    InlineCode,
+    InlineFormula,
+    LaidOutFormula,
+    PlainText,
+    Slot,
+)
 from quizgen.bank.pictures import PictureFile
 from quizgen.figures import FieldPicture
 from quizgen.kinds.contract import InputControl
@@ -21,7 +28,16 @@ from quizgen.locale import get_language, is_right_to_left, localise_numbers
 from quizgen.question.inlines import TypesetMaths
 
 Localisable = TypeVar("Localisable")
-LEFT = (InlineCode, CodeBlock, InputControl, FieldPicture, InlineFormula, PictureFile, Slot)
+LEFT = (
+    InlineCode,
+    CodeBlock,
+    InputControl,
+    FieldPicture,
+    InlineFormula,
+    LaidOutFormula,
+    PictureFile,
+    Slot,
+)
 """What has no numbers for a learner, or its own way to write them."""
 _LEFT_TO_RIGHT = "\u200e"
 """What stands behind it is written so, as far as it can be either way: signs, digits, blanks."""
@@ -30,7 +46,7 @@ _WITH_UNIT = re.compile(r"(?<![\w.,])[âˆ’+-]?\d[\d.,\u202f]*[ \u00a0](?=[A-Za-zÂ
 
 
 def localise(lang: str, said: Localisable) -> Localisable:
-    """What is said in a language, with the decimal sign of that language.
+    """Return blocks or inlines with their numbers as a language writes them.
 
     Parameters
     ----------
@@ -43,6 +59,11 @@ def localise(lang: str, said: Localisable) -> Localisable:
 
 
 def _localise_inlines(lang: str, said: Any) -> Any:
+    """Return the same structure with its numbers as the language writes them.
+
+    It goes into tuples and structs of any kind, but into none of ``LEFT``. In a language that
+    is read from right to left, numbers with a unit are marked to stay together.
+    """
     if isinstance(said, PlainText):
         text = localise_numbers(lang, said.text)
         return PlainText(

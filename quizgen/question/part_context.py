@@ -1,4 +1,4 @@
-"""What answer kinds may ask of a part of a draw: its values, its sentences, their order."""
+"""What answer kinds may ask of a part of a variant: its values, its sentences, their order."""
 
 from __future__ import annotations
 
@@ -20,26 +20,33 @@ from quizgen.kinds.contract import (
     asked_quantities,
 )
 from quizgen.locale import localise_numbers
+from quizgen.maths.numbers import format_exact, format_rounded, is_readable_exactly
+from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value
 from quizgen.question.interpolation import (
     Interpolator,
     fill_program,
     inlines_as_typed,
     inlines_to_text,
+    join_unit,
 )
+
+OPTION_FIGURES = 4
+"""Significant figures of a value to choose that has no short exact form."""
 
 
 class VariantPart(PartContext):
-    """A part of a draw as its kind sees it.
+    """The part of one variant that an answer kind reads (``PartContext``).
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     index : int
         Of the part, from 0.
     """
 
     def __init__(self, drawn: Variant, index: int) -> None:
+        """Take the part's answer, values, units and words from the variant."""
         template = drawn.template
         self.drawn, self.index = drawn, index
         self.answer = template.rules.part[index].answer
@@ -48,19 +55,41 @@ class VariantPart(PartContext):
         self.terms = template.about.terms
 
     def error(self, what: str, rule: str = "QG112") -> BankError:
+        """Return an error that stands at the part's ``answer`` table; the caller raises it.
+
+        ``rule`` is its diagnostic code.
+        """
         said, place = f"part {self.index + 1}: {what}", ("part", self.index, "answer")
         return BankError(said, rule=rule, file=self.drawn.template.file, place=place)
 
     def evaluate(self, formula: str) -> Value:
+        """Return the value of a formula over the quantities in shown units."""
         return self.drawn.evaluate(formula)
 
     def answer_values(self) -> tuple[Value, ...]:
+        """Return the components of the answer, each in the unit it is asked in."""
         return self.drawn.answer_of_part(self.index)
 
     def misconception_answers(self) -> dict[str, tuple[Value, ...]]:
+        """Return the answer that each usable misconception gives, as ``answer_values``."""
         return self.drawn.misconception_answers(self.index)
 
+    def exact_texts(self) -> tuple[str, ...]:
+        return self.drawn.exact_texts(self.index)
+
+    def answer_form(self) -> Expr:
+        return self.drawn.form_of_part(self.index)
+
+    def misconception_forms(self) -> dict[str, Expr]:
+        return self.drawn.misconception_forms(self.index)
+
     def count_nouns(self) -> dict[str, Any]:
+        """Return the field ``counts`` of a specification, or an empty dict if there is none.
+
+        An author may list the words, for the answer or for each of its components. Otherwise they
+        follow from the unit, if all that is asked for is shown in one; a table or an answer with a
+        unit of its own has no such word.
+        """
         stated = self.answer.get("counts")
         if isinstance(stated, Mapping):
             return {"counts": {name: self._nouns(things) for name, things in stated.items()}}
@@ -72,7 +101,13 @@ class VariantPart(PartContext):
         return {"counts": self._nouns(stated or [*units])}
 
     def _nouns(self, things: str | list[str]) -> list[str]:
-        """Listed units as they are, and the bank's words for whatever else is counted."""
+        """Return listed units as they are, and the bank's words for whatever else is counted.
+
+        Raises
+        ------
+        BankError
+            If one is neither a unit nor counted in ``bank.toml``.
+        """
         about, found = self.drawn.template.about, list[str]()
         for thing in [things] if isinstance(things, str) else things:
             if thing not in about.system.simple and thing not in about.counted:
@@ -81,17 +116,24 @@ class VariantPart(PartContext):
         return found
 
     def misconception_notes(self, mistakes: Iterable[str]) -> dict[str, dict[str, str]]:
+        """Return what to tell somebody who made a mistake, by language and mistake."""
         return self._sentences("traps", [(name, name) for name in mistakes])
 
     def with_reason(self, names: Iterable[LabelledName]) -> tuple[LabelledName, ...]:
+        """Return those of the marks and names for which some language has a reason."""
         known = {*self.reason_names()}
         return tuple((mark, name) for mark, name in names if name in known)
 
     def reasons(self, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
+        """Return the reasons as plain text, by language and mark; empty if none is written."""
         found = self.with_reason(names)
         return self._sentences("reasons", found) if found else {}
 
     def _sentences(self, section: str, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
+        """Return filled sentences of a section as plain text, by language and mark.
+
+        Their numbers have the decimal sign of the language: a key may quote them as they are.
+        """
         named = tuple(names)
         fillers = {lang: Interpolator(self.drawn, lang) for lang in self.drawn.template.texts}
         return {
@@ -103,18 +145,31 @@ class VariantPart(PartContext):
         }
 
     def reason_names(self) -> list[str]:
+        """Return the names of all sentences in section ``reasons``, each once, of all languages."""
         texts = self.drawn.template.texts.values()
         return list(dict.fromkeys(n for text in texts for n in text.named.get("reasons", ())))
 
     def shuffle_names(self, names: Iterable[str], side: str = "") -> list[str]:
+        """Return the names in the order in which they are shown.
+
+        A drawn one, unless the author set ``in_order``; ``side`` tells lists of one part apart.
+        """
         return [*names] if self.answer.get("in_order") else self.shuffle([*names], side)
 
     def shuffle(self, names: Sequence[str], side: str) -> list[str]:
+        """Return the names in a drawn order, whatever ``in_order`` says.
+
+        The order follows from origin, version, seed and slot, so that a code rebuilds it.
+        """
         drawn, template = self.drawn, self.drawn.template
         place = f"{drawn.seed}/{drawn.slot}/order/{self.index}{side}"
         return shuffle(f"{template.origin}/{template.rules.version}/{place}", names)
 
     def accepted_words(self, name: str) -> list[str]:
+        """Return the words of a gap or of a key point, of all languages, each once.
+
+        A learner may answer in any language of the bank, whichever the paper is printed in.
+        """
         found: list[str] = []
         for lang in self.drawn.template.texts:
             words = inlines_as_typed(Interpolator(self.drawn, lang).raw_sentence("gaps", name))
@@ -122,39 +177,51 @@ class VariantPart(PartContext):
         return list(dict.fromkeys(found))
 
     def has_gap(self, name: str) -> bool:
+        """Return whether a language file has words for a gap of this name."""
         return any(text.sentence("gaps", name) for text in self.drawn.template.texts.values())
 
+    def format_option(self, value: Value, unit: str) -> str:
+        exactly = format_exact(value) if is_readable_exactly(value) else None
+        return join_unit(exactly or format_rounded(value, figures=OPTION_FIGURES), unit)
+
     def option_texts(self, names: Iterable[str]) -> list[str]:
+        """Return the wording of options in the first language, as it would be typed."""
         filler = Interpolator(self.drawn, self.drawn.template.languages[0])
         return [inlines_as_typed(filler.sentence("options", name)) for name in names]
 
     def condition_holds(self, condition: Condition) -> bool:
+        """Return whether an authored condition holds in this variant."""
         return condition_holds(self.drawn, condition)
 
     def selection(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Return what the part shows of its pool, and what of it fits nowhere."""
         shown = select_from_pool(self.drawn, self.index)
         return shown.names, shown.extra
 
     def matching_pairs(self) -> dict[str, str]:
+        """Return the right side of each left side of a matching, whatever is shown of it."""
         return matching_pairs(self.drawn, self.index)
 
     def claim(self) -> tuple[str, Condition, str]:
+        """Return the claim that the part takes: its name, when it is true, its source."""
         name = selected_claims(self.drawn)[self.index]
         claim = get_claim(self.drawn.template.rules, name)
         return name, claim.true, claim.source
 
     def fill_program(self, text: str) -> str:
+        """Return program text, or its output, with the drawn values in place."""
         return fill_program(text, self.drawn, self.drawn.shown_values)
 
 
 @lru_cache(maxsize=128)
 def ask_part(drawn: Variant, index: int) -> AskedPart[Any]:
-    """One part of a draw as its kind asks it, the same for every language.
+    """Return one part of a variant as its kind asks it, the same for every language.
 
     Raises
     ------
     BankError
-        If its kind is unknown or its answer is not complete.
+        If its kind is unknown or its answer is not complete. What a kind raises on a wrong
+        answer becomes one, too: an author sees where it stands and never a traceback.
     """
     part = VariantPart(drawn, index)
     name = str(part.answer.get("kind", ""))
@@ -169,5 +236,5 @@ def ask_part(drawn: Variant, index: int) -> AskedPart[Any]:
 
 
 def authored_answer(drawn: Variant, index: int) -> Mapping[str, Any]:
-    """The ``answer`` table of a part as authored."""
+    """Return the ``answer`` table of a part as authored."""
     return drawn.template.rules.part[index].answer

@@ -1,4 +1,4 @@
-"""The worked solution of a draw in one language: answers, steps with their why, mistakes, remarks.
+"""The worked solution of a variant in one language: answers, steps, misconceptions, remarks.
 
 The steps come from the solver's chain; the language files add one sentence of why per step.
 """
@@ -30,6 +30,7 @@ from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, 
 from quizgen.question.worked_steps import (
     FORMULA,
     WorkedSide,
+    form_sides,
     join_sides,
     quantity_inlines,
     step_sides,
@@ -37,12 +38,12 @@ from quizgen.question.worked_steps import (
 
 
 def inlines_to_plain(shown: tuple[Inline, ...]) -> str:
-    """Pieces as text with ordinary blanks before units."""
+    """Return inlines as text with ordinary blanks before units."""
     return inlines_to_text(shown).replace(NBSP, " ")
 
 
 class SolutionHint(msgspec.Struct, frozen=True):
-    """A hint: what it is, and what it shows.
+    """A hint to a step: what kind it is, and what it shows.
 
     ``kind`` is ``quantity`` (which one is needed, and why), ``formula`` (with its number on the
     formula sheet), ``numbers``, ``result``, or ``why`` where nothing else is known of the step.
@@ -69,7 +70,7 @@ class SolutionStep(msgspec.Struct, frozen=True):
 
     @property
     def hints(self) -> tuple[SolutionHint, ...]:
-        """What a learner may be told of it, little by little."""
+        """Return what a learner may be told of the step, little by little."""
         if not self.sides:
             return (SolutionHint("why", self.why),)
         found = [SolutionHint("quantity", self.thing, self.why)]
@@ -83,7 +84,7 @@ class SolutionStep(msgspec.Struct, frozen=True):
 
 
 class SolvedMisconception(msgspec.Struct, frozen=True):
-    """A known mistake: its name, what went wrong, and the answer it would give.
+    """A misconception: its name, what went wrong, and the answer it would give.
 
     Of one that is drawn no answer is shown: its points would tell nobody what it looks like.
     """
@@ -94,7 +95,7 @@ class SolvedMisconception(msgspec.Struct, frozen=True):
 
     @property
     def value(self) -> str:
-        """The answer that it gives, as text."""
+        """Return the answer that it gives, as text."""
         return inlines_to_plain(self.shown)
 
 
@@ -116,7 +117,7 @@ class PartSolution(msgspec.Struct, frozen=True):
 
     @property
     def answer(self) -> str:
-        """The key as text, as it can be typed back; empty where sentences tell it."""
+        """Return the key as text that can be typed back; empty where sentences tell it."""
         return inlines_to_plain(self.shown)
 
 
@@ -133,7 +134,7 @@ class Solution(msgspec.Struct, frozen=True):
 
 
 def build_solution(drawn: Variant, lang: str, parts: tuple[PartSolution, ...]) -> Solution:
-    """The solved parts of an instance with the remarks on the whole, in one language."""
+    """Return the solved parts of a variant with the remarks on the whole, in one language."""
     filler = Interpolator(drawn, lang)
     return Solution(
         lang=lang,
@@ -147,7 +148,7 @@ def build_solution(drawn: Variant, lang: str, parts: tuple[PartSolution, ...]) -
 
 
 def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartSolution:
-    """Work one authored part out.
+    """Return the worked solution of one authored part.
 
     Parameters
     ----------
@@ -161,7 +162,10 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
     explained = filler.text.sentence("why", label or "a") is not None
     return PartSolution(
         label=label,
-        lines=tuple(solution_step(filler, step) for step in drawn.steps_of_part(index)),
+        lines=tuple(
+            solution_step(filler, step)
+            for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps)
+        ),
         shown=to_inlines(KINDS[spec.kind].explain_key(spec, filler.lang)),
         mistakes=tuple(solved_misconceptions(filler, built)),
         options=tuple(
@@ -175,9 +179,10 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
 
 
 def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
-    """A step of the chain as the solution shows it."""
+    """Return a step of the chain as the solution shows it."""
     formula = filler.drawn.template.chain.formulas.get(step.name, "")
-    sides = step_sides(filler.drawn, step)
+    is_form = step.name in filler.drawn.template.chain.form_by_name
+    sides = (form_sides if is_form else step_sides)(filler.drawn, step)
     return SolutionStep(
         join_sides(step.name, sides),
         filler.sentence("steps", step.name),
@@ -191,7 +196,7 @@ def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
 def solved_misconceptions(
     filler: Interpolator, built: AskedPart[Any]
 ) -> Iterator[SolvedMisconception]:
-    """The known mistakes of a part with the answers that they give."""
+    """Yield the misconceptions of a part with the answers that they give."""
     for trap, wrong in built.mistakes.items():
         spec = as_student_writes(wrong, built.spec.traps[trap])
         shown = () if built.drawn else to_inlines(_show_wrong_answer(spec, filler.lang))
@@ -199,7 +204,7 @@ def solved_misconceptions(
 
 
 def _show_wrong_answer(wrong: AnySpec, lang: str) -> TextOrInlines:
-    """A wrong answer; of numbers nobody wants to see the exact value."""
+    """Return a wrong answer for print; nobody wants to see the exact value of a number."""
     if isinstance(wrong, ScalarSpec | VectorSpec):
         return show_key(wrong, lang)
     return KINDS[wrong.kind].explain_key(wrong, lang)
@@ -208,7 +213,7 @@ def _show_wrong_answer(wrong: AnySpec, lang: str) -> TextOrInlines:
 def _iter_wrong_options(
     filler: Interpolator, built: AskedPart[Any]
 ) -> Iterator[SolvedMisconception]:
-    """Wrong options, pairs and steps with the reason."""
+    """Yield wrong options, pairs and steps with the reason."""
     right = {name for _, name in built.right}
     for mark, name in built.reasons:
         if name not in right:
@@ -216,11 +221,12 @@ def _iter_wrong_options(
 
 
 def _format_citation(source: str) -> tuple[Inline, ...]:
+    """Return a source in brackets, to end a sentence; nothing if there is none."""
     return (PlainText(f" [{source}]"),) if source else ()
 
 
 def _build_right_option(filler: Interpolator, section: str, name: str) -> tuple[Inline, ...]:
-    """A right option, and why it is right if that is written."""
+    """Return a right option, and why it is right if that is written."""
     told = filler.sentence(section, name)
     if section == "options" and filler.text.sentence("reasons", name) is not None:
         return (*_drop_full_stop(told), PlainText(": "), *filler.sentence("reasons", name))
@@ -228,7 +234,7 @@ def _build_right_option(filler: Interpolator, section: str, name: str) -> tuple[
 
 
 def _drop_full_stop(told: tuple[Inline, ...]) -> tuple[Inline, ...]:
-    """A sentence that goes on after a colon has no full stop before it."""
+    """Return a sentence without its full stop, to go on after a colon."""
     *most, last = told
     return (*most, PlainText(last.text.rstrip(".।"))) if isinstance(last, PlainText) else told
 
@@ -238,7 +244,7 @@ FIGURES = 9
 
 
 def precision_table(drawn: Variant, lang: str) -> tuple[Block, ...]:
-    """What the template's chosen steps come to in float32, in float64 and exactly."""
+    """Return what the template's chosen steps come to in float32, in float64 and exactly."""
     chosen = drawn.template.rules.precision
     if not chosen:
         return ()
@@ -254,14 +260,15 @@ def precision_table(drawn: Variant, lang: str) -> tuple[Block, ...]:
 
 
 def _iter_number_systems(drawn: Variant, name: str) -> Iterator[tuple[str, str]]:
+    """Yield the name of each number system and the value that it gives, with its unit."""
     shown = drawn.template.units.get(name, "")
-    yield "float32", _rounded_at_each_step(drawn, name, shown, float32_system())
-    yield "float64", _rounded_at_each_step(drawn, name, shown, float64_system())
+    yield "float32", _compute_with_rounding(drawn, name, shown, float32_system())
+    yield "float64", _compute_with_rounding(drawn, name, shown, float64_system())
     yield "exact", join_unit(format_rounded(drawn.shown_values[name], figures=FIGURES), shown)
 
 
-def _rounded_at_each_step(drawn: Variant, name: str, shown: str, numbers: NumberSystem) -> str:
-    """A quantity as floats give it, or a dash where they give nothing."""
+def _compute_with_rounding(drawn: Variant, name: str, shown: str, numbers: NumberSystem) -> str:
+    """Return a quantity as floats give it, or a dash where they give nothing."""
     chain = drawn.template.chain
     env: dict[str, Any] = {
         n: map_numbers(lambda value: numbers.constant(to_fraction(value)), drawn.values[n])

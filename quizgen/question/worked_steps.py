@@ -30,7 +30,7 @@ FORMULA, NUMBERS, RESULT = "formula", "numbers", "result"
 
 
 class WorkedSide(NamedTuple):
-    """One side of a worked line.
+    """One side of a worked line: formula, numbers, exact or rounded value.
 
     The sign before it, its layout, how it would be typed, and what it is: the formula, the formula
     with numbers, or the result.
@@ -43,7 +43,7 @@ class WorkedSide(NamedTuple):
 
 
 def quantity_inlines(drawn: Variant, name: str, lang: str) -> tuple[Inline, ...]:
-    """A quantity in a sentence: what it is called, and its letter."""
+    """Return a quantity for a sentence: what it is called, and its letter."""
     said = fill_inlines(drawn.template.quantities.name(name, lang), typeset_slot)
     return (
         (*said, PlainText(" ("), name_inline(name), PlainText(")"))
@@ -53,11 +53,11 @@ def quantity_inlines(drawn: Variant, name: str, lang: str) -> tuple[Inline, ...]
 
 
 def typeset_step(drawn: Variant, step: ChainStep) -> TypesetMaths:
-    """One step, printed from formula to rounded value.
+    """Return one step, typeset from formula to rounded value.
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     step : ChainStep
     """
     return join_sides(step.name, step_sides(drawn, step))
@@ -65,27 +65,38 @@ def typeset_step(drawn: Variant, step: ChainStep) -> TypesetMaths:
 
 @lru_cache(maxsize=128)
 def step_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
-    """The sides of a worked step, from formula to rounded value, the same in every language."""
+    """Return the sides of a worked step, from formula to rounded value, for any language."""
     with working_precision():
         expr = select_branch(step.expr, drawn.values, exact_system())
     sides = [WorkedSide("=", typeset.lay_out(expr), format_tree(expr), FORMULA)]
     if names_in(expr):
-        sides.append(_with_numbers(drawn, expr))
+        sides.append(_substitute_numbers(drawn, expr))
     values = _build_value_sides(drawn, step, about=sides[-1].sign == "≈")
     sides += [side for side in values if side.typed != sides[-1].typed]
     return tuple(sides)
 
 
+def form_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
+    """The sides of a form: its formula, and the same with numbers in place, tidied."""
+    with working_precision():
+        expr = select_branch(step.expr, drawn.values, exact_system())
+    sides = [WorkedSide("=", typeset.lay_out(expr), format_tree(expr), FORMULA)]
+    bound = drawn.form(step.name)
+    if bound != expr:
+        sides.append(WorkedSide("=", typeset.lay_out(bound), format_tree(bound), RESULT))
+    return tuple(sides)
+
+
 def join_sides(name: str, sides: Sequence[WorkedSide]) -> TypesetMaths:
-    """A quantity and some of its sides, one behind another."""
+    """Return a quantity and some of its sides as one worked line."""
     signs = [side.sign for side in sides]
     nodes = [typeset.lay_out_name(name), *(side.node for side in sides)]
     typed = "".join(f" {side.sign} {side.typed}" for side in sides)
     return TypesetMaths(typeset.relation_chain(signs, nodes), f"{name}{typed}")
 
 
-def _with_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
-    """The formula with numbers in place; equal unless one of them is shown rounded."""
+def _substitute_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
+    """Return the formula with numbers in place; equal unless one of them is shown rounded."""
     if names_in(expr) & drawn.lists.keys():
         return _with_list_values(drawn, expr)
     quantities = sorted(names_in(expr))
@@ -113,18 +124,18 @@ def _with_list_values(drawn: Variant, expr: Expr) -> WorkedSide:
 
 
 def value_node(drawn: Variant, name: str) -> typeset.Node:
-    """The number of a quantity with its unit, to stand in a formula."""
+    """Return the number of a quantity with its unit, to stand in a formula."""
     return typeset.quantity(drawn.format_value(name), format_unit(drawn.template.units[name]))
 
 
 def value_typed(drawn: Variant, name: str) -> str:
-    """A quantity inside a typed formula: in brackets unless it is a number alone."""
+    """Return a quantity for a typed formula: in brackets unless it is a number alone."""
     text = format_quantity(drawn, name)
     return text if re.fullmatch(rf"[0-9.{pretty.GAP}]+", text) else f"({text})"
 
 
 def _build_value_sides(drawn: Variant, step: ChainStep, *, about: bool) -> list[WorkedSide]:
-    """The exact value if it can be shown, and the rounded one if that says more.
+    """Return the exact value if it can be shown, and the rounded one if that says more.
 
     Behind rounded numbers (``about``) nothing is equal, and only a short exact value says more.
     """

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import importlib.util
+import re
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -16,9 +17,27 @@ from pathlib import Path
 from quizgen.core.errors import RenderError
 from quizgen.core.untrusted import read_bytes
 from quizgen.locale import languages_in_script
+from quizgen.typeset.signs import list_formula_characters
 
 WEB = Path(__file__).parent / "webfonts"
-MATHS = "stix-two-math"
+MATHS, ALL_MATHS = "stix-two-math", "stix-two-math-all"
+"""The packed font of formulas, and the one with all signs that LaTeX can put into them."""
+MATHS_RANGE = [
+    *range(0x20, 0x7F), 0xA0, 0xAC, 0xAF, 0xB0, 0xB1, 0xB5, 0xB7, 0xD7, 0xF7,
+    *range(0x391, 0x3CA), 0x3D1, 0x3D5, 0x3F1, 0x3F5, 0x302, 0x303, 0x304, 0x305, 0x307,
+    0x2C6, 0x2DC, 0x202F, 0x2243, 0x223C, *range(0x1D400, 0x1D434), *range(0x1D6A8, 0x1D6E2),
+    0x2009, 0x200A, 0x2010, 0x2013, 0x2026, 0x2032, 0x2033, 0x203E, 0x207B,
+    0x2061, 0x2062, 0x2063, 0x2064, 0x2070, *range(0x2074, 0x208F), 0xB2, 0xB3, 0xB9,
+    0x210E, 0x2113, 0x2190, 0x2192, 0x2194, 0x21A6, 0x21D2, 0x2200, 0x2202, 0x2203, 0x2205, 0x2207,
+    0x2208, 0x2209, 0x220F, 0x2211, 0x2212, 0x2213, 0x2217, 0x2218, 0x221A, 0x221D, 0x221E, 0x2225,
+    0x2227, 0x2228, 0x2229, 0x222A, 0x222B, 0x2248, 0x2260, 0x2261, 0x2264, 0x2265, 0x226A, 0x226B,
+    0x2282, 0x2286, 0x22A4, 0x22C5, 0x22EF, 0x2308, 0x2309, 0x230A, 0x230B, 0x239B, 0x239C, 0x239D,
+    0x239E, 0x239F, 0x23A0, 0x23A7, 0x23A8, 0x23A9, 0x23AA, 0x23B4, 0x23B5, 0x27E8, 0x27E9,
+    *range(0x1D434, 0x1D468), *range(0x1D6E2, 0x1D71C), 0x1D4A9, 0x1D6A4, 0x1D6A5,
+]  # fmt: skip
+"""Characters of the formulas that most pages have; the others make the font twice as large."""
+ALL_MATHS_RANGE = sorted({*MATHS_RANGE, *map(ord, list_formula_characters())})
+_RARE = re.compile(f"[{''.join(map(chr, sorted({*ALL_MATHS_RANGE} - {*MATHS_RANGE})))}]")
 BANGLA = {"Regular": "hind-siliguri-400", "Bold": "hind-siliguri-700"}
 """Weight to the name of the packed font."""
 
@@ -65,6 +84,17 @@ def bangla_faces(langs: Iterable[str], text: str = "") -> dict[int, str]:
 def maths_uri() -> str:
     """Return the font of formulas as a data address for a page."""
     return _build_font_uri(MATHS)
+
+
+@cache
+def all_maths_uri() -> str:
+    """Maths font with every sign for a page, as a data address."""
+    return _build_font_uri(ALL_MATHS)
+
+
+def has_rare_signs(page: str) -> bool:
+    """Whether a page has a sign that only the larger maths font has."""
+    return _RARE.search(page) is not None
 
 
 def _build_font_uri(name: str) -> str:

@@ -82,6 +82,8 @@ def render_html_page(
             **content,
         )
     )
+    if fonts.has_rare_signs(made):
+        made = made.replace(fonts.maths_uri(), fonts.all_maths_uri())
     return made.encode()
 
 

@@ -1,11 +1,12 @@
-r"""Printing formulas: one layout tree, four outputs (LaTeX, MathML, Typst, spoken).
+r"""Printing formulas: one layout tree, five outputs (LaTeX, MathML, Typst, spoken, plain text).
 
-In: formula trees, numbers and units as text. Out: layout nodes and what they look like in a medium.
-Must never know: what a formula is worth, a template, a page.
+In: formula trees, LaTeX, numbers and units as text. Out: layout nodes and what they look like in a
+medium. Must never know: what a formula is worth, a template, a page.
 
 ``lay_out(expr)`` turns a formula tree into layout nodes; ``leaves`` puts drawn numbers in the place
-of symbols; ``relation_chain`` joins the sides of a worked line; ``to_latex``, ``to_mathml``,
-``to_typst`` and ``to_speech`` write the nodes.
+of symbols; ``relation_chain`` joins the sides of a worked line; ``from_latex`` reads what authors
+write, and ``leaves`` fills its places; ``to_latex``, ``to_mathml``, ``to_typst``, ``to_speech`` and
+``to_text`` write the nodes.
 
 Examples
 --------
@@ -36,6 +37,7 @@ from quizgen.typeset.layout import add_brackets, lay_out, lay_out_power
 from quizgen.typeset.mathml import to_mathml
 from quizgen.typeset.names import lay_out_name
 from quizgen.typeset.nodes import Node
+from quizgen.typeset.plain import to_text
 from quizgen.typeset.speech import to_speech
 from quizgen.typeset.typst import to_typst
 
@@ -56,5 +58,6 @@ __all__ = [
     "to_latex",
     "to_mathml",
     "to_speech",
+    "to_text",
     "to_typst",
 ]

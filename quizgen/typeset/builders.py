@@ -35,7 +35,7 @@ _NUMBER = re.compile(
 
 
 def number(value: Fraction | int | str, lang: str = "en") -> Node:
-    """Lay a number out.
+    """Return the layout of a number.
 
     Parameters
     ----------
@@ -66,18 +66,19 @@ def number(value: Fraction | int | str, lang: str = "en") -> Node:
 
 
 def _group_digit_text(text: str) -> Digits:
-    """Digits in groups, however they were grouped before."""
+    """Return digits in groups, however they were grouped before."""
     return Digits(pretty.group_digits("".join(text.split())))
 
 
 def _build_rational(value: Fraction) -> Node:
+    """Return a rational as digits or a fraction, with a minus sign before all of it."""
     top: Node = _group_digit_text(str(abs(value.numerator)))
     node = top if value.denominator == 1 else Frac(top, _group_digit_text(str(value.denominator)))
     return negative(node) if value < 0 else node
 
 
 def decimal(value: Fraction) -> str:
-    """Write a rational as a finite decimal, or as a fraction if it has none.
+    """Return a rational as a finite decimal, or as a fraction if it has none.
 
     Sizes below 0.0001 are written with a power of ten, for example ``2.5e-6``.
     """
@@ -86,7 +87,7 @@ def decimal(value: Fraction) -> str:
 
 
 def _insert_decimal_point(digits: int, count: int) -> str:
-    """Digits with a point before the last ``count`` of them."""
+    """Return digits with a point before the last ``count`` of them."""
     sign, text = "-" * (digits < 0), str(abs(digits))
     if count == 0:
         return sign + text
@@ -98,19 +99,24 @@ def _insert_decimal_point(digits: int, count: int) -> str:
 
 
 def power_of_ten(exponent: int) -> Node:
-    """Lay out 10 to an integer power."""
+    """Return the layout of 10 to an integer power."""
     return Scripts(Digits("10"), None, _build_rational(Fraction(exponent)))
 
 
 def negative(node: Node) -> MathRow:
-    """Put a minus sign before a node."""
+    """Return a node with a minus sign before it."""
     return MathRow((OperatorSign("neg"), node), NEGATIVE)
 
 
 def quantity(value: Node | str, unit: str) -> Node:
-    """Lay out a number with its unit, for example ``quantity("2.5", "um/px")``.
+    """Return the layout of a number with its unit, for example ``quantity("2.5", "um/px")``.
 
     An empty unit (or ``1``) gives the number alone.
+
+    Raises
+    ------
+    RenderError
+        If a text is not a number.
     """
     node = number(value) if isinstance(value, str) else value
     if unit in {"", "1"}:
@@ -123,7 +129,7 @@ def quantity(value: Node | str, unit: str) -> Node:
 
 
 def relation_chain(signs: Sequence[str], nodes: Sequence[Node]) -> MathRow:
-    """Chain nodes with relation signs, one sign fewer than nodes.
+    """Return nodes chained by relation signs, one sign fewer than nodes.
 
     Parameters
     ----------
@@ -148,12 +154,12 @@ def relation_chain(signs: Sequence[str], nodes: Sequence[Node]) -> MathRow:
 
 
 def fence(nodes: Sequence[Node], kind: str = "()") -> Fenced:
-    """Put a comma-separated list in brackets: points, tuples, intervals, sets."""
+    """Return a comma-separated list in brackets: points, tuples, intervals, sets."""
     return Fenced(kind, comma_list(nodes))
 
 
 def comma_list(nodes: Sequence[Node]) -> Node:
-    """Separate nodes by commas."""
+    """Return nodes separated by commas; a single one is itself."""
     if len(nodes) == 1:
         return nodes[0]
     items = [nodes[0]]

@@ -20,19 +20,23 @@ from quizgen.typeset.nodes import (
     FRACTION,
     MODULO,
     NEGATIVE,
+    POWER,
     PRODUCT,
     QUANTITY,
     RELATION,
     SUM,
     WORDS,
     Accent,
+    Binomial,
     Cases,
     Digits,
     Fenced,
     Frac,
     Func,
     Ident,
+    LargeOperator,
     MathRow,
+    Matrix,
     Node,
     NumberWithUnit,
     OperatorSign,
@@ -59,13 +63,13 @@ def needs_dot(left: Node, right: Node) -> OperatorSign:
 
 
 def _has_slash_between(left: Node, right: Node) -> bool:
-    """Whether one factor is a quotient with a slash, whose end would be unclear."""
+    """Return whether one factor is a quotient with a slash, whose end would be unclear."""
     ends = _find_last_visible(left), right
     return any(isinstance(node, Frac) and node.inline for node in ends)
 
 
 def _has_call_look(before: Node, after: Fenced) -> bool:
-    """Whether a factor before a bracket looks like a function, or bars like one pair of bars."""
+    """Return whether a factor before a bracket looks like a function, or bars like one pair."""
     if isinstance(before, Digits | Func):
         return after.kind == "()"
     if isinstance(before, Ident):
@@ -74,7 +78,7 @@ def _has_call_look(before: Node, after: Fenced) -> bool:
 
 
 def _find_first_visible(node: Node) -> Node:
-    """Find what a reader meets first in a factor."""
+    """Return what a reader meets first in a factor."""
     while True:
         match node:
             case MathRow():
@@ -88,7 +92,7 @@ def _find_first_visible(node: Node) -> Node:
 
 
 def _find_last_visible(node: Node) -> Node:
-    """Find what a reader meets last in a factor."""
+    """Return what a reader meets last in a factor."""
     while True:
         match node:
             case MathRow():
@@ -100,7 +104,7 @@ def _find_last_visible(node: Node) -> Node:
 
 
 def _starts_number(node: Node) -> bool:
-    """Whether a factor is a number, maybe in brackets with a sign or a unit."""
+    """Return whether a factor is a number, maybe in brackets with a sign or a unit."""
     if isinstance(node, Fenced):
         node = node.body
         if isinstance(node, MathRow) and node.level == NEGATIVE:
@@ -116,6 +120,9 @@ HEADS: dict[str, Node] = {
     "asin": Word("arcsin"),
     "acos": Word("arccos"),
     "atan": Word("arctan"),
+    "asinh": Word("arsinh"),
+    "acosh": Word("arcosh"),
+    "atanh": Word("artanh"),
     "sign": Word("sgn"),
 }
 """Functions that are printed under another name than they are typed."""
@@ -129,7 +136,7 @@ _MINUS_ONES = (Num(-_ONE), Call("neg", (Num(_ONE),)))
 
 
 def lay_out(expr: Expr, *, leaves: Mapping[str, Node] | None = None, inline: bool = False) -> Node:
-    """Lay a formula out in the order in which it is written.
+    """Return the layout of a formula in the order in which it is written.
 
     Parameters
     ----------
@@ -150,16 +157,27 @@ def lay_out(expr: Expr, *, leaves: Mapping[str, Node] | None = None, inline: boo
 
 
 class _Layout:
-    """One run of the layout: the printed leaves, and whether divisions take a slash."""
+    """One run of the layout: the printed leaves, and whether divisions take a slash.
+
+    The rules below take a run and the arguments of a call. They may unpack too few or too many, or
+    raise ValueError: ``lay`` makes a RenderError of it.
+    """
 
     __slots__ = ("inline", "leaves")
 
     def __init__(self, leaves: Mapping[str, Node], *, inline: bool) -> None:
+        """Store the leaves and the style of divisions."""
         self.leaves = leaves
         self.inline = inline
 
     def lay(self, expr: Expr) -> Node:
-        """Lay out one node of the tree."""
+        """Return the layout of one node of the tree.
+
+        Raises
+        ------
+        RenderError
+            If an operator is unknown or has the wrong number of arguments.
+        """
         if isinstance(expr, Sym):
             return self.leaf(expr.name)
         if isinstance(expr, Num):
@@ -173,12 +191,12 @@ class _Layout:
             raise RenderError(f"{expr.op!r} cannot have {len(expr.args)} arguments") from error
 
     def leaf(self, symbol: str) -> Node:
-        """Print the drawn number of a symbol, or its name."""
+        """Return the drawn number of a symbol, or its name."""
         node = self.leaves.get(symbol)
         return lay_out_name(symbol) if node is None else self.allow_slash(node)
 
     def allow_slash(self, node: Node) -> Node:
-        """Let a fraction of two numbers follow the style of the formula around it."""
+        """Return a node in which a fraction of two numbers follows the style around it."""
         if self.inline and isinstance(node, Frac):
             return replace(node, inline=True)
         if self.inline and isinstance(node, MathRow) and isinstance(node.items[-1], Frac):
@@ -186,11 +204,11 @@ class _Layout:
         return node
 
     def small(self, expr: Expr) -> Node:
-        """Exponents are set on one line."""
+        """Return an exponent, which is set on one line."""
         return self.lay(expr) if self.inline else _Layout(self.leaves, inline=True).lay(expr)
 
     def lay_out_bracketed(self, expr: Expr, level: int) -> Node:
-        """Lay out, in brackets unless it holds together at ``level``."""
+        """Return a layout, in brackets unless it holds together at ``level``."""
         return add_brackets(self.lay(expr), level)
 
 
@@ -198,7 +216,7 @@ LayoutRule = Callable[[_Layout, tuple[Expr, ...]], Node]
 
 
 def add_brackets(node: Node, level: int) -> Node:
-    """Put round brackets around a node that is weaker than ``level``."""
+    """Return a node, in round brackets if it is weaker than ``level``."""
     return node if node.level >= level else Fenced("()", node)
 
 
@@ -206,6 +224,7 @@ def add_brackets(node: Node, level: int) -> Node:
 
 
 def _lay_out_sum(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return a sum in one row; terms with a minus sign are subtracted."""
     if not args:
         raise ValueError
     items = [run.lay_out_bracketed(args[0], SUM)]
@@ -220,6 +239,7 @@ def _lay_out_sum(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_difference(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return a difference, in one row with the sums in it."""
     first, second = args
     return MathRow(
         _flatten_rows(
@@ -235,12 +255,13 @@ def _lay_out_difference(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_subtrahend(run: _Layout, expr: Expr) -> Node:
+    """Return what is subtracted, in brackets if it is a sum."""
     node = run.lay(expr)
     return node if node.level == MODULO else add_brackets(node, PRODUCT)
 
 
 def _lay_out_term(run: _Layout, expr: Expr) -> Node:
-    """Lay out a later term of a sum: a sum needs no brackets, a minus sign does."""
+    """Return a later term of a sum: a sum needs no brackets, a minus sign does."""
     node = run.lay(expr)
     return (
         node
@@ -250,18 +271,20 @@ def _lay_out_term(run: _Layout, expr: Expr) -> Node:
 
 
 def _has_leading_minus(node: Node) -> bool:
+    """Return whether a node begins with a minus sign."""
     while isinstance(node, MathRow):
         node = node.items[0]
     return node == _NEG
 
 
 def _lay_out_negative(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return a minus sign before the argument, a sum in brackets."""
     (arg,) = args
     return negative(run.lay_out_bracketed(arg, PRODUCT))
 
 
 def split_sign(expr: Expr) -> tuple[bool, Expr]:
-    """Take a leading minus sign off a term of a sum."""
+    """Return whether a term of a sum has a leading minus sign, and the term without it."""
     if isinstance(expr, Num) and expr.value < 0:
         return True, Num(-expr.value, expr.decimal)
     if not isinstance(expr, Call) or not expr.args:
@@ -275,7 +298,7 @@ def split_sign(expr: Expr) -> tuple[bool, Expr]:
 
 
 def _with_first(expr: Call, first: Expr) -> Expr:
-    """Replace the first factor; a factor 1 is not written."""
+    """Return a call with another first factor; a factor 1 is not written."""
     rest = expr.args[1:]
     if expr.op == "mul" and first == Num(_ONE) and rest:
         return rest[0] if len(rest) == 1 else Call("mul", rest)
@@ -283,7 +306,7 @@ def _with_first(expr: Call, first: Expr) -> Expr:
 
 
 def _flatten_rows(items: list[Node], level: int) -> tuple[Node, ...]:
-    """Merge rows of the same kind, so that a long sum or product is one row."""
+    """Return the items with rows of the same kind merged into one row."""
     flat: list[Node] = []
     for item in items:
         if isinstance(item, MathRow) and item.level == level:
@@ -297,6 +320,7 @@ def _flatten_rows(items: list[Node], level: int) -> tuple[Node, ...]:
 
 
 def _lay_out_product(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return a product in one row, with dots where factors would run together."""
     if args[0] in _MINUS_ONES and len(args) > 1:
         return negative(run.lay_out_bracketed(_with_first(Call("mul", args), Num(_ONE)), PRODUCT))
     items = [run.lay_out_bracketed(args[0], NEGATIVE)]
@@ -308,6 +332,7 @@ def _lay_out_product(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_quotient(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return a quotient with a bar, or with a slash and the brackets that it needs."""
     top, bottom = (run.lay(arg) for arg in args)
     if run.inline:
         over = Fenced("()", top) if _has_slash(top) else add_brackets(top, NEGATIVE)
@@ -316,12 +341,14 @@ def _lay_out_quotient(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _has_slash(node: Node) -> bool:
+    """Return whether a division with a slash stands in a node outside brackets."""
     if isinstance(node, MathRow):
         return node.level >= NEGATIVE and any(map(_has_slash, node.items))
     return isinstance(node, Frac) and node.inline
 
 
 def _lay_out_modulo(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return a remainder with its word between both sides."""
     left, right = (run.lay_out_bracketed(arg, FRACTION) for arg in args)
     return MathRow((left, OperatorSign("mod"), right), MODULO)
 
@@ -330,16 +357,18 @@ def _lay_out_modulo(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_power_of(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return a power, of some functions on their name."""
     base, exponent = args
     return lay_out_power(run.lay(base), run.small(exponent), on_name=_takes_power(base))
 
 
 def _takes_power(base: Expr) -> bool:
+    """Return whether a power stands on a function's name: sin²(x)."""
     return isinstance(base, Call) and base.op in _POWER_ON_NAME
 
 
 def lay_out_power(base: Node, exponent: Node, *, on_name: bool = False) -> Node:
-    """Raise a node, merging with its subscript; ``on_name`` writes sin²(x)."""
+    """Return a node raised, merged with its subscript; ``on_name`` writes sin²(x)."""
     if on_name and isinstance(base, Func):
         return Func(lay_out_power(base.head, exponent), base.args)
     base = Fenced("()", base) if isinstance(base, Func) else add_brackets(base, ATOM)
@@ -349,17 +378,51 @@ def lay_out_power(base: Node, exponent: Node, *, on_name: bool = False) -> Node:
 
 
 def _lay_out_exponential(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return e to a power."""
     (exponent,) = args
     return Scripts(Ident("e"), None, run.small(exponent))
 
 
 def _lay_out_square_root(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return a square root."""
     (body,) = args
     return Root(run.lay(body))
 
 
-def _make_fence_rule(kind: str) -> LayoutRule:
+def _lay_out_factorial(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    (arg,) = args
+    return MathRow((run.lay_out_bracketed(arg, ATOM), OperatorSign("!")), POWER)
+
+
+def _lay_out_binomial(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    top, bottom = args
+    return Binomial(run.lay(top), run.lay(bottom))
+
+
+def _make_series_rule(sign: str) -> LayoutRule:
+    """Return the rule of a sum or product: a name, its first and last value, what is combined."""
+
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        name, first, last, body = args
+        start = MathRow((run.lay(name), OperatorSign("="), run.small(first)), RELATION)
+        operator = LargeOperator(sign, start, run.small(last))
+        return MathRow((operator, run.lay_out_bracketed(body, PRODUCT)), PRODUCT)
+
+    return rule
+
+
+def _lay_out_integral(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    name, first, last, body = args
+    sign = LargeOperator("∫", run.small(first), run.small(last))
+    over = MathRow((OperatorSign(" "), Ident("d"), run.lay(name)))
+    return MathRow((sign, run.lay_out_bracketed(body, PRODUCT), over), PRODUCT)
+
+
+def _make_fence_rule(kind: str) -> LayoutRule:
+    """Return the rule for a function that is written as brackets of a kind, such as |x|."""
+
+    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        """Return the argument in the brackets."""
         (body,) = args
         return Fenced(kind, run.lay(body))
 
@@ -367,9 +430,11 @@ def _make_fence_rule(kind: str) -> LayoutRule:
 
 
 def _make_function_rule(row: Operator) -> LayoutRule:
+    """Return the rule for a function that is written by its name."""
     head = HEADS.get(row.name, Word(row.name))
 
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        """Return the function; ValueError for a wrong number of arguments."""
         if not row.least <= len(args) <= row.most:
             raise ValueError
         return Func(head, tuple([run.lay(arg) for arg in args]))
@@ -381,7 +446,10 @@ def _make_function_rule(row: Operator) -> LayoutRule:
 
 
 def _make_relation_rule(sign: str) -> LayoutRule:
+    """Return the rule for a relation of two sides."""
+
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        """Return both sides with the sign between them."""
         left, right = (run.lay_out_bracketed(arg, SUM) for arg in args)
         return MathRow((left, OperatorSign(sign), right), RELATION)
 
@@ -389,7 +457,10 @@ def _make_relation_rule(sign: str) -> LayoutRule:
 
 
 def _make_connective_rule(word: str) -> LayoutRule:
+    """Return the rule for conditions joined by a word."""
+
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        """Return the conditions; two bounds of one quantity as 0 ≤ x < 1."""
         between = _between_bounds(run, args) if word == "and" and len(args) == 2 else None
         if between is not None:
             return between
@@ -402,7 +473,7 @@ def _make_connective_rule(word: str) -> LayoutRule:
 
 
 def _between_bounds(run: _Layout, args: tuple[Expr, ...]) -> Node | None:
-    """Write ``x >= 0 and x < 1`` as 0 ≤ x < 1."""
+    """Return ``x >= 0 and x < 1`` as 0 ≤ x < 1; None if it is no pair of bounds."""
     first, second = map(_order_comparison, args)
     if first is None or second is None:
         return None
@@ -417,6 +488,7 @@ def _between_bounds(run: _Layout, args: tuple[Expr, ...]) -> Node | None:
 
 
 def _order_comparison(expr: Expr) -> tuple[str, Expr, Expr] | None:
+    """Return sign, lower and upper side of a comparison; None if it is none."""
     if not isinstance(expr, Call) or expr.op not in {"lt", "le", "gt", "ge"}:
         return None
     low, high = expr.args if expr.op in {"lt", "le"} else expr.args[::-1]
@@ -424,6 +496,7 @@ def _order_comparison(expr: Expr) -> tuple[str, Expr, Expr] | None:
 
 
 def _lay_out_negation(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the opposite relation, or *not* before what has none."""
     (arg,) = args
     if isinstance(arg, Call) and arg.op in _OPPOSITES:
         return run.lay(Call(_OPPOSITES[arg.op], arg.args))
@@ -431,6 +504,7 @@ def _lay_out_negation(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_cases(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the branches, the last one without a condition."""
     if len(args) % 2 == 0:
         raise ValueError
     pairs = zip(args[:-1:2], args[1::2], strict=True)
@@ -450,9 +524,82 @@ def _lay_out_item(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the letter π."""
     if args:
         raise ValueError
     return Ident("π")
+
+
+# Sums with bounds, and forms: matrices, sets, complex numbers
+
+
+_LARGE = {"sum": "∑", "product": "∏", "integral": "∫"}
+
+
+def _make_binder_rule(op: str) -> LayoutRule:
+    def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        name, low, high, body = args
+        lower = run.small(low)
+        if op != "integral":
+            lower = MathRow((run.small(name), OperatorSign("="), lower), RELATION)
+        items: list[Node] = [LargeOperator(_LARGE[op], lower, run.small(high))]
+        items.append(run.lay_out_bracketed(body, PRODUCT))
+        if op == "integral":
+            items += [OperatorSign(" "), Word("d"), OperatorSign(""), run.lay(name)]
+        return MathRow(tuple(items), PRODUCT)
+
+    return rule
+
+
+def _lay_out_matrix(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    rows = [row.args for row in args if isinstance(row, Call)]
+    return Fenced("()", Matrix(tuple(tuple(map(run.lay, row)) for row in rows)))
+
+
+def _lay_out_vector(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    return Fenced("()", Matrix(tuple((run.lay(arg),) for arg in args)))
+
+
+def _list_items(run: _Layout, args: tuple[Expr, ...], sign: str = ";") -> Node:
+    items: list[Node] = []
+    for arg in args:
+        items += [OperatorSign(sign), run.lay(arg)] if items else [run.lay(arg)]
+    return MathRow(tuple(items), WORDS)
+
+
+def _lay_out_set(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    return Fenced("{}", _list_items(run, args))
+
+
+def _lay_out_interval(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    low, high, *sides = args
+    left, right = (isinstance(side, Num) and side.value for side in sides)
+    fence = f"{'[' if left else '('}{']' if right else ')'}"
+    return Fenced(fence, _list_items(run, (low, high), ","))
+
+
+def _lay_out_union(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    if not args:
+        return Fenced("{}", OperatorSign(" "))
+    items = [run.lay(args[0])]
+    for arg in args[1:]:
+        items += [ReaderWord("or"), run.lay(arg)]
+    return MathRow(tuple(items), WORDS)
+
+
+def _lay_out_complex(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    real, imaginary = args
+    unit: Expr = Call("mul", (imaginary, Sym("i")))
+    minus, size = split_sign(imaginary)
+    if size == Num(_ONE):
+        unit = Call("neg", (Sym("i"),)) if minus else Sym("i")
+    if real == Num(Fraction(0)):
+        return run.lay(unit)
+    return _lay_out_sum(run, (real, unit))
+
+
+def _lay_out_infinity(_run: _Layout, _args: tuple[Expr, ...]) -> Node:
+    return Ident("∞")
 
 
 _RULES: dict[str, LayoutRule] = {
@@ -477,8 +624,21 @@ _RULES: dict[str, LayoutRule] = {
     "not": _lay_out_negation,
     "piecewise": _lay_out_cases,
     "pi": _lay_out_pi,
+    "factorial": _lay_out_factorial,
+    "binomial": _lay_out_binomial,
+    "sum": _make_series_rule("∑"),
+    "product": _make_series_rule("∏"),
+    "integral": _lay_out_integral,
     "and": _make_connective_rule("and"),
     "or": _make_connective_rule("or"),
     **{op: _make_relation_rule(sign) for op, sign in SIGNS.items()},
     **{op: _make_fence_rule(kind) for op, kind in FENCES.items()},
+    **{op: _make_binder_rule(op) for op in _LARGE},
+    "matrix": _lay_out_matrix,
+    "vector": _lay_out_vector,
+    "set": _lay_out_set,
+    "interval": _lay_out_interval,
+    "union": _lay_out_union,
+    "complex": _lay_out_complex,
+    "infinity": _lay_out_infinity,
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import lru_cache, singledispatch
 from html import escape
 
@@ -18,6 +19,17 @@ from quizgen.typeset.printer import (
     split_unit,
     strict_lookup,
 )
+from quizgen.typeset.signs import (
+    ACCENTS,
+    ARROWS,
+    FENCES,
+    GAPS,
+    INTEGRALS,
+    LARGE,
+    LETTERLIKE,
+    SIGN_COMMANDS,
+    find_styled_letter,
+)
 
 _known = strict_lookup("MathML")
 
@@ -27,6 +39,7 @@ _OPERATORS = {
     "": _TIMES,
     " ": THIN,
     "neg": '<mo form="prefix">−</mo>',
+    "pos": '<mo form="prefix">+</mo>',
     "-": "<mo>−</mo>",
     "·": "<mo>⋅</mo>",
     "mod": '<mo lspace="0.22em" rspace="0.22em">mod</mo>',
@@ -41,20 +54,35 @@ _OPERATORS = {
     "|": '<mo stretchy="false" lspace="0.28em" rspace="0.28em">|</mo>',
     "ᵀ": '<mi mathvariant="normal">T</mi>',
     **{same: f"<mo>{same}</mo>" for same in "+=≠≤≥≈∝∈±≪≫×′…:"},
+    "such that": '<mo stretchy="false" lspace="0.28em" rspace="0.28em">|</mo>',
+    "divides": "<mo>∣</mo>",
+    "colon": '<mo lspace="0" rspace="0.28em">:</mo>',
+    "apply": '<mo rspace="0.17em">\u2061</mo>',
+    "apply tight": "<mo>\u2061</mo>",
+    "!": '<mo form="postfix" lspace="0" rspace="0">!</mo>',
+    "?": '<mo form="postfix" lspace="0" rspace="0">?</mo>',
+    ".": '<mo separator="true" lspace="0" rspace="0.17em">.</mo>',
+    "°": '<mi mathvariant="normal">°</mi>',
+    "%": '<mi mathvariant="normal">%</mi>',
+    "≔": '<mo lspace="0.28em" rspace="0.28em">≔</mo>',
+    "¬": '<mo form="prefix">¬</mo>',
+    **{arrow: f'<mo stretchy="false">{arrow}</mo>' for arrow in ARROWS},
 }
-_ACCENTS = {"bar": "¯", "hat": "ˆ", "tilde": "˜"}
+_OPERATORS |= {sign: f"<mo>{sign}</mo>" for sign in SIGN_COMMANDS if sign not in _OPERATORS}
 # A maths font raises its prime by itself: as a superscript it floats above the letter in Chromium,
 # and as an operator Firefox takes a form made for superscripts.
 _PRIME = "<mtext>′</mtext>"
 _PRIME_WIDTH = 0.3
 _TIMES_NAMED = '<mo lspace="0" rspace="0.17em">\u2062</mo>'
-_BOLD = (("A", 26, 0x1D400), ("a", 26, 0x1D41A), ("Α", 25, 0x1D6A8), ("α", 25, 0x1D6C2))
-_TALL = re.compile("<(?:mfrac|msqrt|mroot|mtable|munder|mo>[∑∏∫])")
-_OPENING, _CLOSING = "([{|⌊⌈", ")]}|⌋⌉"
+_BOLD = (
+    ("A", 26, 0x1D400), ("a", 26, 0x1D41A), ("Α", 25, 0x1D6A8), ("α", 25, 0x1D6C2),
+    ("0", 10, 0x1D7CE),
+)  # fmt: skip
+_TALL = re.compile(f"<(?:mfrac|msqrt|mroot|mtable|munder|mo>[{''.join(LARGE)}])")
 
 
 def to_mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
-    """Write a layout as a ``<math>`` element.
+    """Return a layout as a ``<math>`` element.
 
     Parameters
     ----------
@@ -77,44 +105,80 @@ def to_mathml(node: n.Node, lang: str = "en", *, display: bool = False) -> str:
 
 
 def _join_items(items: tuple[n.Node, ...], lang: str) -> str:
+    """Return the items of a row, with a language's separators and space before functions."""
     items = insert_separators(items, lang)
     written = [_format_node(item, lang) for item in items]
     for index, item in enumerate(items):
         if isinstance(item, n.Func) and isinstance(item.head, n.Word | n.Scripts):
             _widen_before_function(written, index)
+        elif index and _is_function_name(item) and not isinstance(items[index - 1], _NO_FACTORS):
+            written[index] = THIN + written[index]
+        if index and _needs_gap_behind(items[index - 1]) and not isinstance(item, _NO_FACTORS):
+            written[index] = THIN + written[index]
     return "".join(written)
 
 
 def _widen_before_function(written: list[str], index: int) -> None:
-    """Leave a thin space between a factor and a function's name."""
+    """Put a thin space between a factor and a function's name, in ``written`` itself."""
     if index and written[index - 1] == _TIMES:
         written[index - 1] = _TIMES_NAMED
 
 
+_NO_FACTORS = (n.OperatorSign, n.Gap, n.Phrase, n.LargeOperator, n.FunctionName)
+
+
+def _needs_gap_behind(node: n.Node) -> bool:
+    """Whether a node is a name with something below it, which no application sign follows."""
+    return isinstance(node, n.Under) and isinstance(node.base, n.FunctionName)
+
+
+def _is_function_name(node: n.Node) -> bool:
+    """Whether a node is a name such as ``sin``, maybe with scripts or something below."""
+    while isinstance(node, n.Scripts | n.Under):
+        node = node.base
+    return isinstance(node, n.FunctionName)
+
+
 @singledispatch
 def _format_node(node: n.Node, lang: str) -> str:
+    """Return a node in MathML; each kind of node registers its own function.
+
+    Raises
+    ------
+    RenderError
+        For a kind that has none.
+    """
     raise RenderError(f"no MathML for {type(node).__name__} ({lang})")
 
 
 @_format_node.register
 def _format_digits(node: n.Digits, lang: str) -> str:
+    """Return digits with the signs of a language."""
     return f"<mn>{localise_numbers(lang, node.text).replace(' ', chr(0x202F))}</mn>"
 
 
 @_format_node.register
 def _format_letter(node: n.Ident, _lang: str) -> str:
+    """Return a letter, bold if it stands for a vector or matrix."""
     if node.bold:
         return f"<mi>{bold_letter(node.text)}</mi>"
-    upright = node.text in GREEK_LETTERS and node.text.isupper()
+    if node.style:
+        return f"<mi>{find_styled_letter(node.text, node.style)}</mi>"
+    upright = (node.text in GREEK_LETTERS and node.text.isupper()) or node.text in _UPRIGHT
     return f'<mi mathvariant="normal">{node.text}</mi>' if upright else f"<mi>{node.text}</mi>"
 
 
 def bold_letter(letter: str) -> str:
-    """Find the mathematical bold form of a letter, which maths fonts have even when bold is not.
+    """Return the mathematical bold form of a letter, which maths fonts have even when bold is not.
+
+    Raises
+    ------
+    RenderError
+        If there is none.
 
     Examples
     --------
-    >>> bold("p"), bold("μ")
+    >>> bold_letter("p"), bold_letter("μ")
     ('𝐩', '𝛍')
     """
     for first, count, start in _BOLD:
@@ -123,18 +187,37 @@ def bold_letter(letter: str) -> str:
     raise RenderError(f"no bold form of {letter!r}")
 
 
+_UPRIGHT = LETTERLIKE.keys() - {*"ℓϑϕϵϱς∂"}
+
+
 @_format_node.register
-def _format_word(node: n.Word, _lang: str) -> str:
-    return f"<mi>{escape(node.text)}</mi>"
+def _format_word(node: n.Word | n.FunctionName, _lang: str) -> str:
+    """Return a name of several letters, upright."""
+    shape = ' mathvariant="normal"' if len(node.text) == 1 else ""
+    return f"<mi{shape}>{escape(node.text)}</mi>"
+
+
+@_format_node.register
+def _format_phrase(node: n.Phrase, _lang: str) -> str:
+    # blanks at the ends of an element are dropped
+    text = re.sub("^ | $", "\u00a0", node.text)
+    return f"<mtext>{escape(text)}</mtext>" if text else "<mrow></mrow>"
+
+
+@_format_node.register
+def _format_gap(node: n.Gap, _lang: str) -> str:
+    return f'<mspace width="{_known(GAPS, node.width, "gap"):.2f}em"/>'
 
 
 @_format_node.register
 def _format_reader_word(node: n.ReaderWord, lang: str) -> str:
+    """Return a word between formulas, such as *and*, with blanks around it."""
     return f"<mtext>\u00a0{_known(load_speech_words(lang).printed, node.key, 'word')}\u00a0</mtext>"
 
 
 @lru_cache(maxsize=512)
 def _unit_text(text: str) -> str:
+    """Return a unit in MathML, cached since a paper repeats it."""
     written, plain = "", ""
     for part in split_unit(text):
         plain += part.sign.replace("·", "⋅") + part.shown
@@ -148,27 +231,32 @@ def _unit_text(text: str) -> str:
 
 @_format_node.register
 def _format_unit(node: n.UnitText, _lang: str) -> str:
+    """Return a unit that stands alone."""
     return _unit_text(node.text)
 
 
 @_format_node.register
 def _format_quantity(node: n.NumberWithUnit, lang: str) -> str:
+    """Return a number with its unit, a thin space between them unless the unit has none."""
     space = "" if node.unit.text in TIGHT else THIN
     return f"<mrow>{_format_node(node.value, lang)}{space}{_unit_text(node.unit.text)}</mrow>"
 
 
 @_format_node.register
 def _format_operator(node: n.OperatorSign, _lang: str) -> str:
+    """Return an operator's sign; RenderError if there is none."""
     return _known(_OPERATORS, node.name, "operator")
 
 
 @_format_node.register
 def _format_row(node: n.MathRow, lang: str) -> str:
+    """Return the items of a row one after the other."""
     return f"<mrow>{_join_items(node.items, lang)}</mrow>"
 
 
 @_format_node.register
 def _format_fraction(node: n.Frac, lang: str) -> str:
+    """Return a fraction with a bar, or with a slash within a line."""
     top, bottom = _format_node(node.top, lang), _format_node(node.bottom, lang)
     if node.inline:
         return f"<mrow>{top}{_OPERATORS['/']}{bottom}</mrow>"
@@ -177,6 +265,7 @@ def _format_fraction(node: n.Frac, lang: str) -> str:
 
 @_format_node.register
 def _format_root(node: n.Root, lang: str) -> str:
+    """Return a root, with its index unless it is a square root."""
     body = _format_node(node.body, lang)
     if node.index is None:
         return f"<msqrt>{body}</msqrt>"
@@ -185,6 +274,7 @@ def _format_root(node: n.Root, lang: str) -> str:
 
 @_format_node.register
 def _format_scripts(node: n.Scripts, lang: str) -> str:
+    """Return a base with primes, subscript and superscript."""
     base = _format_node(node.base, lang)
     sup = "" if node.sup is None else _format_node(node.sup, lang)
     if node.sub is None:
@@ -199,37 +289,55 @@ def _format_scripts(node: n.Scripts, lang: str) -> str:
 
 @_format_node.register
 def _format_accent(node: n.Accent, lang: str) -> str:
-    mark = _known(_ACCENTS, node.kind, "accent")
+    """Return a letter with its accent; RenderError if there is none."""
+    accent = _known(ACCENTS, node.kind, "accent")
+    base = _format_node(node.base, lang)
+    if accent.below:
+        return f'<munder accentunder="true">{base}<mo stretchy="true">{accent.mark}</mo></munder>'
+    if accent.stretches:
+        return f'<mover accent="true">{base}<mo stretchy="true">{accent.mark}</mo></mover>'
     # the padding keeps Chromium from lowering the mark into the letter
-    sign = f'<mo stretchy="false" style="padding-bottom:.07em">{mark}</mo>'
-    return f'<mover accent="true">{_format_node(node.base, lang)}{sign}</mover>'
+    small = ";font-size:.65em" if accent.mark == "→" else ""
+    sign = f'<mo stretchy="false" style="padding-bottom:.07em{small}">{accent.mark}</mo>'
+    return f'<mover accent="true">{base}{sign}</mover>'
 
 
 @_format_node.register
 def _format_fence(node: n.Fenced, lang: str) -> str:
+    """Return brackets around a node, as tall as it is."""
     return f"<mrow>{_format_brackets(node.kind, _format_inside(node.body, lang))}</mrow>"
 
 
 def _format_inside(node: n.Node, lang: str) -> str:
+    """Return a node for the inside of brackets, without a group of its own."""
     return (
         _join_items(node.items, lang) if isinstance(node, n.MathRow) else _format_node(node, lang)
     )
 
 
 def _format_brackets(kind: str, body: str) -> str:
+    """Return brackets around MathML, stretched only if it is tall.
+
+    Raises
+    ------
+    RenderError
+        If there are no such brackets.
+    """
     left, right = kind[0], kind[-1]
-    if left not in _OPENING or right not in _CLOSING:
+    if left not in FENCES or right not in FENCES:
         raise RenderError(f"no MathML for the brackets {kind!r}")
     # stretched to the height of one letter, brackets get loose in Chromium
-    stretchy = "true" if _TALL.search(body) else "false"
-    return (
-        f'<mo form="prefix" stretchy="{stretchy}">{left}</mo>{body}'
-        f'<mo form="postfix" stretchy="{stretchy}">{right}</mo>'
+    stretchy = "true" if _TALL.search(body) or "." in kind else "false"
+    opening, closing = (
+        "" if sign == "." else f'<mo form="{form}" stretchy="{stretchy}">{sign}</mo>'
+        for form, sign in (("prefix", left), ("postfix", right))
     )
+    return f"{opening}{body}{closing}"
 
 
 @_format_node.register
 def _format_function(node: n.Func, lang: str) -> str:
+    """Return a function with its arguments in brackets, separated as a language does."""
     arguments = _OPERATORS[list_separator(node.args, lang).name].join(
         [_format_inside(arg, lang) for arg in node.args]
     )
@@ -239,11 +347,12 @@ def _format_function(node: n.Func, lang: str) -> str:
 
 @_format_node.register
 def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
-    if node.sign not in {"∑", "∏", "∫"}:
+    """Return a sum, product or integral sign with its bounds."""
+    if node.sign not in LARGE:
         raise RenderError(f"no MathML for the sign {node.sign!r}")
     sign = f"<mo>{node.sign}</mo>"
     low, high = (bound and _format_node(bound, lang) for bound in (node.lower, node.upper))
-    kind = ("sub", "sup") if node.sign == "∫" else ("under", "over")
+    kind = ("sub", "sup") if node.sign in INTEGRALS else ("under", "over")
     if low and high:
         return f"<m{kind[0]}{kind[1]}>{sign}{low}{high}</m{kind[0]}{kind[1]}>"
     if low or high:
@@ -254,11 +363,38 @@ def _format_large_operator(node: n.LargeOperator, lang: str) -> str:
 
 @_format_node.register
 def _format_under(node: n.Under, lang: str) -> str:
+    """Return a node with another one below it."""
     return f"<munder>{_format_node(node.base, lang)}{_format_node(node.below, lang)}</munder>"
 
 
 @_format_node.register
+def _format_over(node: n.Over, lang: str) -> str:
+    return f"<mover>{_format_node(node.base, lang)}{_format_node(node.above, lang)}</mover>"
+
+
+@_format_node.register
+def _format_brace(node: n.Brace, lang: str) -> str:
+    body, note = (part and _format_node(part, lang) for part in (node.body, node.note))
+    tag, mark = ("mover", "⏞") if node.upside else ("munder", "⏟")
+    braced = f'<{tag}>{body}<mo stretchy="true">{mark}</mo></{tag}>'
+    return f"<{tag}>{braced}{note}</{tag}>" if note else braced
+
+
+@_format_node.register
+def _format_display(node: n.Display, lang: str) -> str:
+    return f'<mstyle displaystyle="true">{_format_inside(node.body, lang)}</mstyle>'
+
+
+@_format_node.register
+def _format_binomial(node: n.Binomial, lang: str) -> str:
+    top, bottom = _format_node(node.top, lang), _format_node(node.bottom, lang)
+    body = f'<mfrac linethickness="0">{top}{bottom}</mfrac>'
+    return f"<mrow>{_format_brackets('()', body)}</mrow>"
+
+
+@_format_node.register
 def _format_cases(node: n.Cases, lang: str) -> str:
+    """Return branches behind a brace, the last one with the word for *otherwise*."""
     rows = []
     for value, condition in node.rows:
         when = f"<mtext>{load_speech_words(lang).printed['otherwise']}</mtext>"
@@ -270,10 +406,12 @@ def _format_cases(node: n.Cases, lang: str) -> str:
 
 
 def _format_cell(body: str) -> str:
+    """Return a cell of a table of branches."""
     return f'<mtd style="text-align:left;padding:0.2em 0.4em">{body}</mtd>'
 
 
 def _format_case_condition(condition: str, lang: str) -> str:
+    """Return a condition between the words that a language has for *if*."""
     before, after = (half.strip() for half in load_speech_words(lang).printed["if"].split("{}"))
     left = f"<mtext>{before}\u00a0</mtext>" if before else ""
     return left + condition + (f"<mtext>\u00a0{after}</mtext>" if after else "")
@@ -281,9 +419,34 @@ def _format_case_condition(condition: str, lang: str) -> str:
 
 @_format_node.register
 def _format_matrix(node: n.Matrix, lang: str) -> str:
+    """Return a matrix in round brackets."""
     rows = [
         "<mtr>" + "".join([f"<mtd>{_format_node(cell, lang)}</mtd>" for cell in row]) + "</mtr>"
         for row in node.rows
     ]
     table = f"<mtable>{''.join(rows)}</mtable>"
-    return f"<mrow>{_format_brackets('()', table)}</mrow>"
+    return f"<mrow>{_format_brackets(node.kind, table)}</mrow>" if node.kind else table
+
+
+@_format_node.register
+def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
+    rows = [
+        "<mtr>" + "".join(_format_aligned_cells(node, row, lang)) + "</mtr>" for row in node.rows
+    ]
+    if not node.brace:
+        return f'<mtable displaystyle="true">{"".join(rows)}</mtable>'
+    brace = '<mo form="prefix" stretchy="true">{</mo>'
+    return f"<mrow>{brace}<mtable>{''.join(rows)}</mtable></mrow>"
+
+
+def _format_aligned_cells(node: n.AlignedRows, row: tuple[n.Node, ...], lang: str) -> Iterator[str]:
+    """Cells to the left after a brace; else alternately to the right and left, or alone centred."""
+    for place, cell in enumerate(row):
+        body = _format_inside(cell, lang)
+        if node.brace:
+            yield _format_cell(body)
+        elif len(row) == 1:
+            yield f'<mtd style="padding:0.2em 0">{body}</mtd>'
+        else:
+            side, gap = ("left", "0") if place % 2 else ("right", "2em" if place else "0")
+            yield f'<mtd style="text-align:{side};padding:0.2em 0 0.2em {gap}">{body}</mtd>'

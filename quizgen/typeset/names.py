@@ -8,13 +8,17 @@ several letters (``SNR``, the ``max`` of ``I_max``) are upright words.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from functools import lru_cache
+
+from msgspec import Struct
 
 from quizgen.core.errors import RenderError
 from quizgen.typeset.nodes import (
     PRODUCT,
     Accent,
     Digits,
+    FunctionName,
     Ident,
     MathRow,
     Node,
@@ -32,6 +36,7 @@ GREEK = {
     "zeta": "ζ",
     "eta": "η",
     "theta": "θ",
+    "iota": "ι",
     "kappa": "κ",
     "lambda": "λ",
     "lamda": "λ",
@@ -42,6 +47,7 @@ GREEK = {
     "rho": "ρ",
     "sigma": "σ",
     "tau": "τ",
+    "upsilon": "υ",
     "phi": "φ",
     "chi": "χ",
     "psi": "ψ",
@@ -50,7 +56,10 @@ GREEK = {
     "Delta": "Δ",
     "Theta": "Θ",
     "Lambda": "Λ",
+    "Xi": "Ξ",
+    "Pi": "Π",
     "Sigma": "Σ",
+    "Upsilon": "Υ",
     "Phi": "Φ",
     "Psi": "Ψ",
     "Omega": "Ω",
@@ -61,6 +70,8 @@ KNOWN = frozenset(
     {
         *("sin", "cos", "tan", "arcsin", "arccos", "arctan"),
         *("ln", "log", "exp", "min", "max", "lim", "det"),
+        *("cot", "sec", "csc", "sinh", "cosh", "tanh", "lg", "sup", "inf", "arg", "gcd", "dim"),
+        *("ker", "deg", "Pr", "hom"),
     }
 )
 """Functions that LaTeX and Typst know by name."""
@@ -74,7 +85,7 @@ _PART = re.compile(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
 
 @lru_cache(maxsize=4096)
 def lay_out_name(symbol: str) -> Node:
-    """Lay a quantity's name out.
+    """Return the layout of a quantity's name.
 
     Parameters
     ----------
@@ -105,7 +116,10 @@ def lay_out_name(symbol: str) -> Node:
 
 
 def _lay_out_stem(stem: str) -> tuple[Node, str]:
-    """Letter, Greek letter, accented letter, difference or word; and the accent's name."""
+    """Return a letter, Greek letter, accented letter, difference or word; and the accent's name.
+
+    The accent is empty if there is none.
+    """
     letter = GREEK.get(stem, stem)
     if len(letter) == 1:
         return Ident(letter), ""
@@ -120,6 +134,13 @@ def _lay_out_stem(stem: str) -> tuple[Node, str]:
 
 
 def _lay_out_subscript(part: str, symbol: str) -> Node:
+    """Return one part of a subscript: digits, a sign, letters of axes or a name.
+
+    Raises
+    ------
+    RenderError
+        If it is none of them; ``symbol`` is the whole name, for the message.
+    """
     if part.isdigit():
         return Digits(part)
     if part in _SIGNS:
@@ -137,9 +158,43 @@ def _lay_out_subscript(part: str, symbol: str) -> Node:
 
 
 def _join_subscripts(subs: list[Node]) -> Node | None:
+    """Return the parts of a subscript with commas between; None if there are none."""
     if len(subs) < 2:
         return subs[0] if subs else None
     items: list[Node] = [subs[0]]
     for sub in subs[1:]:
         items += [OperatorSign(","), sub]
     return MathRow(tuple(items))
+
+
+_ASCII = {char: word for word, char in GREEK.items() if word != "lamda"}
+
+
+def iter_names_written(part: object) -> Iterator[str]:
+    """Yield the names of the quantities that a layout shows, spelled as in solvers: ``mu_1``."""
+    if isinstance(part, Scripts) and (name := _spell_name(part)):
+        yield name
+        yield from iter_names_written(part.sup)
+    elif isinstance(part, Ident | Accent) and (name := _spell_name(part)):
+        yield name
+    elif isinstance(part, Struct):
+        for field in part.__struct_fields__:
+            yield from iter_names_written(getattr(part, field))
+    elif isinstance(part, tuple):
+        for one in part:
+            yield from iter_names_written(one)
+
+
+def _spell_name(node: Node) -> str:
+    """A name as solvers spell it; empty if a node is no name."""
+    match node:
+        case Ident(text):
+            return _ASCII.get(text, text)
+        case Digits(text) | Word(text) | FunctionName(text):
+            return text
+        case Accent(kind, base) if kind in ACCENTS and (name := _spell_name(base)):
+            return f"{name}{kind}"
+        case Scripts(base, sub, _, primes) if name := _spell_name(base):
+            low = "" if sub is None else _spell_name(sub)
+            return f"{name}{chr(39) * primes}" + (f"_{low}" if low else "")
+    return ""

@@ -37,7 +37,7 @@ class UnitPart(NamedTuple):
 
 @lru_cache(maxsize=512)
 def split_unit(text: str) -> tuple[UnitPart, ...]:
-    """Split a unit into its simple parts.
+    """Return the simple parts of a unit, in order.
 
     Raises
     ------
@@ -62,19 +62,20 @@ COMMA, SEMICOLON = OperatorSign(","), OperatorSign(";")
 
 
 def list_separator(items: Sequence[Node], lang: str) -> OperatorSign:
-    """The sign between items in a language: ``(1.5, 2)``, but ``(1,5; 2)``."""
+    """Return the sign between items in a language: ``(1.5, 2)``, but ``(1,5; 2)``."""
     commas = get_language(lang).decimal == "," and any(map(_has_decimals, items))
     return SEMICOLON if commas else COMMA
 
 
 def insert_separators(items: tuple[Node, ...], lang: str) -> tuple[Node, ...]:
-    """Items of a row with the separators between them as a language has them."""
+    """Return the items of a row with the separators between them as a language has them."""
     if COMMA not in items or list_separator(items, lang) == COMMA:
         return items
     return tuple([SEMICOLON if item == COMMA else item for item in items])
 
 
 def _has_decimals(node: object) -> bool:
+    """Return whether a decimal stands anywhere in a node."""
     if isinstance(node, Digits):
         return "." in node.text
     if isinstance(node, tuple):
@@ -88,9 +89,13 @@ V = TypeVar("V")
 
 
 def strict_lookup(medium: str) -> Callable[[Mapping[str, V], str, str], V]:
-    """Look-up in a medium's tables that names what it does not know."""
+    """Return a look-up in a medium's tables that names what is missing.
+
+    It raises RenderError where a table has no such key.
+    """
 
     def look_up(table: Mapping[str, V], key: str, what: str) -> V:
+        """Return the entry of a table, else raise RenderError with ``what`` is missing."""
         try:
             return table[key]
         except KeyError:
@@ -117,6 +122,7 @@ class SpeechWords(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     accents: dict[str, str]
     signs: dict[str, tuple[str, str, str, str]]
     powers: dict[str, str]
+    raised: dict[str, str]
     short: dict[str, str]
     long: dict[str, str]
     prefixes: dict[str, str]
@@ -126,7 +132,7 @@ class SpeechWords(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
 @cache
 def load_speech_words(lang: str) -> SpeechWords:
-    """Read the words of a language, once.
+    """Return the words of a language, read once.
 
     Raises
     ------

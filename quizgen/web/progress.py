@@ -13,13 +13,23 @@ from starlette.routing import Route
 
 from quizgen.bank.formulas import read_formulas, templates_by_formula
 from quizgen.bank.language_file import read_language_file
-from quizgen.bank.markdown import Inline, InlineFormula, PlainText, Unfilled, fill_inlines
+from quizgen.bank.markdown import (
+    Inline,
+    InlineFormula,
+    LaidOutFormula,
+    PlainText,
+    Unfilled,
+    fill_inlines,
+)
 from quizgen.core.errors import StoreError
 from quizgen.practice.agenda import Agenda, Mastery
 from quizgen.practice.scheduler import NAMED, ReviewCard
 from quizgen.question.entry_prose import entry_inlines, typeset_slot
 from quizgen.question.html import inlines_to_html
+from quizgen.question.inlines import typeset_layout
 from quizgen.store.archive import read_archive
+from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names
+from quizgen.typeset.nodes import Phrase
 from quizgen.web.due import due_today, progress_of
 from quizgen.web.forms import field_text, read_form, read_upload
 from quizgen.web.question_view import Html
@@ -136,6 +146,10 @@ def _replace_formula_by_blank(part: Unfilled) -> tuple[Inline, ...]:
 
     A mistake is of any variant, so no numbers belong into its sentence.
     """
+    if isinstance(part, LaidOutFormula):
+        names = list_leaf_names(part.node)
+        blanks = dict.fromkeys(names, LeafValue(Phrase(BLANK)))
+        return (typeset_layout(fill_leaves(part.node, blanks)),)
     return typeset_slot(part) if isinstance(part, InlineFormula) else (PlainText(BLANK),)
 
 

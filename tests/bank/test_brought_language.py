@@ -188,7 +188,7 @@ def test_all_that_is_said_can_be_translated(place):
         ("fr/interface.toml", "[paper]\nexam = 3", ":2:1: QG507 paper.exam: is to be a text"),
         ("fr/interface.toml", "paper = 'x'", ":1:1: QG507 paper: is to be a table, and not a text"),
         ("fr/interface.toml", "[paper\n", ":1:1: QG103 not valid TOML"),
-        ("fr/inter.toml", "", ": QG508 is none of language.toml, cards.toml"),
+        ("fr/inter.toml", "", ": QG508 is none of language.toml, answers.toml, cards.toml"),
         ("fr/language.toml", "name = 7", ":1:1: QG106 name: Expected `str`, got `int`"),
         ("fr/language.toml", 'nam = "x"', "contains unknown field `nam`"),
         ("French/language.toml", "", ": QG508 'French' is no language (call the folder fr, or pt-BR)"),

@@ -130,6 +130,7 @@ def test_editors_are_told_what_each_key_means(kind):
 ANSWERS = {
     "Number", "Quantity", "Angle", "Point", "Set", "Table", "Interval", "Expression", "Choice",
     "Multi", "Truth", "Match", "Order", "Gap", "Witness", "Code", "Text", "Sketch",
+    "Complex", "Equation", "Matrix", "Vector",
 }  # fmt: skip
 """Names that editors know the answers of each kind by."""
 
@@ -150,6 +151,10 @@ def test_nothing_is_told_of_a_key_that_there_is_not():
 UNUSED = {
     "set": {"kind": "set", "of": ["x"]},
     "interval": {"kind": "interval", "value": "[0, 1]"},
+    "equation": {"kind": "equation", "of": "c", "symbols": ["x", "y"]},
+    "complex": {"kind": "complex", "of": "z", "form": "polar"},
+    "matrix": {"kind": "matrix", "of": "A"},
+    "vector": {"kind": "vector", "of": "v", "up_to": "scale"},
 }
 """Answers of the kinds that no bank here asks."""
 OF_MULTI = {"choice": {"negative"}, "tf": {"negative", "options"}}
@@ -166,6 +171,10 @@ MADE = {
     "units",
     "traps",
     "terms",
+    "letters",
+    "parts",
+    "entries",
+    "components",
 }
 """What a draw, the bank or the words give to the key of a part, and nobody writes in an answer."""
 

@@ -150,11 +150,17 @@ def test_a_comparison_that_cannot_be_certified_is_not_false(relation):
 
 
 def test_an_example_that_cannot_be_decided_is_asked_back():
-    """sin(pi*x) of a whole number is zero, but a ball around it never excludes other values."""
-    spec = {"kind": "witness", "predicate": "sin(pi*x) < 0", "symbols": ["x"]}
+    """The sine of a whole number of pi is zero, but a ball around it never excludes other values."""
+    spec = {"kind": "witness", "predicate": "sin(pi*sqrt(x)) < 0", "symbols": ["x"]}
     assert grade_answer(spec, "1").note == "undecided"
+    assert grade_answer(spec, "9/4").verdict == "correct"
+    assert grade_answer(spec, "1/4").verdict == "wrong"
+
+
+def test_a_rational_multiple_of_pi_is_decided():
+    spec = {"kind": "witness", "predicate": "sin(pi*x) < 0", "symbols": ["x"]}
+    assert grade_answer(spec, "1").note == "predicate"
     assert grade_answer(spec, "3/2").verdict == "correct"
-    assert grade_answer(spec, "1/2").verdict == "wrong"
 
 
 def nearly(points: int) -> str:

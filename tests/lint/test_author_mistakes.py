@@ -43,7 +43,6 @@ def test_a_mistake_gets_one_located_message_that_names_the_mend(tmp_path, row):
 NOT_HERE = {
     "QG100": "an error that has no code of its own",
     "QG128": "a bank that is not trusted: tests/cli/test_banks.py",
-    "QG153": "the parser of words knows nothing else",
     "QG204": "no author can cause it: a mistake of quizgen or of a new answer kind",
     "QG206": "the same",
     "QG209": "the same",

@@ -151,8 +151,9 @@ def test_conditions():
     "bad",
     [
         sp.Function("g")(x),
-        sp.gamma(x),
+        sp.polylog(2, x),
         sp.Integral(x, x),
+        sp.Sum(x, (x, 0, sp.oo)),
         sp.Derivative(x**2, x, evaluate=False),
         sp.Matrix([x]),
         sp.I,

@@ -12,7 +12,7 @@ import sympy
 from quizgen.maths import number_systems
 from quizgen.maths.from_sympy import from_sympy
 from quizgen.maths.notation import format_tree, parse_formula
-from quizgen.maths.operators import CONDITIONS, SYSTEMS, OperatorSyntax
+from quizgen.maths.operators import BINDERS, CONDITIONS, DISTRIBUTIONS, SYSTEMS, OperatorSyntax
 from quizgen.maths.operators import OPERATORS as TABLE
 from quizgen.maths.tree import Call, Sym, make_number
 from quizgen.typeset import lay_out, to_latex, to_mathml, to_speech, to_typst
@@ -37,6 +37,19 @@ VALUES = {
     "sign": 1.0, "floor": 0.0, "ceil": 1.0, "round": 1.0, "mod": 0.0, "min": Y, "max": X,
     "pi": math.pi, "eq": False, "ne": True, "lt": False, "le": False, "gt": True, "ge": True,
     "and": True, "or": True, "not": False, "piecewise": X,
+    "sinh": 0.82231673193582998, "cosh": 1.2946832846768447, "tanh": 0.63514895238728732,
+    "asinh": 0.69314718055994531, "acosh": 1.1588103604299468, "atanh": 0.97295507452765665,
+    "sec": 1.3667011246722261, "csc": 1.4670527244750101, "cot": 1.0734261485493774,
+    "factorial": 0.91906252684888323, "gamma": 1.2254167024651776, "erfinv": 0.81341984759761854,
+    "zeta": -3.4412853869452229, "binomial": 1.1631239206755094, "beta": 3.0844646770030915,
+    "besselj": 0.30384292761693685, "bessely": -1.4829648879462711,
+    "besseli": 0.31629980132089778, "besselk": 1.7543403981447849,
+    "lambertw": 0.46915021069498823, "lowergamma": 0.54746337649881262,
+    "uppergamma": 0.67795332596636502, "normal_cdf": 0.7733726476231318,
+    "normal_quantile": 0.67448975019608174, "t_cdf": 0.64714096414896522,
+    "t_quantile": 2.1457942046790832, "chi2_cdf": 0.85435919656472034,
+    "chi2_quantile": 0.31760272348248694, "f_cdf": 0.58506623593746616,
+    "f_quantile": 4.6024408202570962, "sum": 2.25, "product": 0.31640625, "integral": 1.5,
 }  # fmt: skip
 """Each operator at (0.75, 0.375), printed by mpmath where it is not arithmetic."""
 
@@ -50,9 +63,11 @@ def example(name: str) -> Call:
         "and": (more, more),
         "or": (less, more),
         "not": (more,),
+        "acosh": (Call("add", (x, make_number(1))),),
+        **dict.fromkeys(BINDERS, (x, make_number(1), make_number(3), Call("mul", (x, y)))),
     }
     row = OPERATORS[name]
-    return Call(name, special.get(name, (x, y)[: max(row.least, min(2, row.most))]))
+    return Call(name, special.get(name, (x, y, x)[: max(row.least, min(2, row.most))]))
 
 
 def close(found, expected) -> bool:
@@ -63,6 +78,10 @@ def close(found, expected) -> bool:
 
 def runs(name: str, system: str) -> bool:
     """Whether a system runs an operator: ``piecewise`` runs everywhere that conditions do."""
+    if name in BINDERS:
+        return system in {"exact", "floats"}
+    if name in DISTRIBUTIONS and system == "sympy":
+        return False  # SymPy carries them as names
     return name == "piecewise" or system not in OPERATORS[name].absent
 
 
@@ -148,6 +167,10 @@ def test_sympy_reads_back_what_it_was_given(name):
     if name == "piecewise":
         x, y = sympy.symbols("x y")
         built = sympy.Piecewise((x, x > y), (y, True))
+    elif name in BINDERS:
+        x, y = sympy.symbols("x y")
+        kinds = {"sum": sympy.Sum, "product": sympy.Product, "integral": sympy.Integral}
+        built = kinds[name](x * y, (x, 1, 3))
     else:
         env = {n: sympy.Symbol(n, real=True) for n in ("x", "y")}
         with sympy.evaluate(False):

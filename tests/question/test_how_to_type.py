@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "marking"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "grading"))
 
 from test_specifications import FULL
 

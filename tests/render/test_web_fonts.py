@@ -16,12 +16,13 @@ from quizgen.core.errors import RenderError
 from quizgen.lint.doctor import all_bangla_text
 from quizgen.paper.paper import single_question_paper
 from quizgen.render import fonts, render_paper
+from quizgen.typeset.signs import list_formula_characters
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 
-from pack_fonts import pack, sources
+from pack_fonts import list_sources, pack_font
 
-NAMES = [fonts.MATHS, *fonts.BANGLA.values()]
+NAMES = [fonts.MATHS, fonts.ALL_MATHS, *fonts.BANGLA.values()]
 
 
 def characters(name: str) -> set[str]:
@@ -33,8 +34,8 @@ def characters(name: str) -> set[str]:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_packed_font_is_what_the_command_makes(name):
     """Packing takes up to 3 CPU s; that is why the fonts are kept."""
-    source, wanted = sources()[fonts.packed_font_path(name)]
-    assert fonts.read_web_font(name) == pack(source, wanted)
+    source, wanted = list_sources()[fonts.packed_font_path(name)]
+    assert fonts.read_web_font(name) == pack_font(source, wanted)
 
 
 @pytest.mark.parametrize("name", fonts.BANGLA.values())
@@ -59,6 +60,21 @@ def test_formulas_of_all_templates_have_their_letters():
     used = set().union(*map(mathematics, pages))
     assert len(used) > 80
     assert used <= characters(fonts.MATHS)
+
+
+def test_the_larger_font_has_every_sign_of_latex():
+    small, large = characters(fonts.MATHS), characters(fonts.ALL_MATHS)
+    assert small < large
+    assert list_formula_characters() <= large
+
+
+def test_a_page_brings_the_larger_font_only_where_it_needs_it():
+    template = next(iter(builtin_bank()))
+    page = render_paper(single_question_paper(template, 1, "en", figures=False), "exam", "html")
+    assert fonts.maths_uri().encode() in page
+    assert fonts.all_maths_uri().encode() not in page
+    assert fonts.has_rare_signs("<math><mi>ℝ</mi></math>")
+    assert not fonts.has_rare_signs("<math><mi>x</mi><mo>∑</mo></math>")
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from quizgen.core.errors import MathError, RenderError
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.number_systems import evaluate
-from quizgen.maths.tree import Call, Num, Sym
+from quizgen.maths.tree import Call, Num, Sym, make_number
 from quizgen.maths.units import SIMPLE, format_unit
 from quizgen.typeset import (
     decimal,
@@ -24,6 +24,7 @@ from quizgen.typeset import (
     to_latex,
     to_mathml,
     to_speech,
+    to_text,
     to_typst,
 )
 from quizgen.typeset import nodes as n
@@ -278,9 +279,9 @@ class Stranger:
         Stranger(),
         n.OperatorSign("§"),
         n.ReaderWord("unless"),
-        n.Accent("dot", n.Ident("x")),
+        n.Accent("wave", n.Ident("x")),
         n.Fenced("<>", n.Ident("x")),
-        n.LargeOperator("⋃"),
+        n.LargeOperator("⨌"),
     ],
 )
 def test_unknown_nodes_raise(write, node):
@@ -304,4 +305,34 @@ def test_bold_letters():
     assert unicodedata.name(bold_letter("μ")) == "MATHEMATICAL BOLD SMALL MU"
     assert unicodedata.name(bold_letter("Σ")) == "MATHEMATICAL BOLD CAPITAL SIGMA"
     with pytest.raises(RenderError):
-        bold_letter("1")
+        bold_letter("ж")
+
+
+K, N, ONE = Sym("k"), Sym("n"), make_number(1)
+
+
+@pytest.mark.parametrize(
+    ("tree", "text", "speech"),
+    [
+        (Call("factorial", (N,)), "n!", "n factorial"),
+        (
+            Call("factorial", (Call("sub", (N, ONE)),)),
+            "(n − 1)!",
+            "open bracket n minus 1 close bracket factorial",
+        ),
+        (Call("pow", (Call("factorial", (N,)), make_number(2))), "(n!)²", None),
+        (Call("binomial", (N, K)), "C(n, k)", "n choose k"),
+        (
+            Call("sum", (K, ONE, N, Call("pow", (K, make_number(2))))),
+            "∑ₖ₌₁ⁿ k²",
+            "the sum over k equals 1 up to n of k squared",
+        ),
+        (Call("product", (K, ONE, N, Call("add", (K, ONE)))), "∏ₖ₌₁ⁿ (k + 1)", None),
+        (Call("integral", (Sym("x"), make_number(0), ONE, Sym("x"))), "∫[0…1] x dx", None),
+        (Call("mul", (make_number(2), Call("sum", (K, ONE, N, K)))), "2·∑ₖ₌₁ⁿ k", None),
+    ],
+)
+def test_sums_and_their_kin_are_written_with_their_signs(tree, text, speech):
+    node = lay_out(tree)
+    assert to_text(node) == text
+    assert speech is None or to_speech(node) == speech

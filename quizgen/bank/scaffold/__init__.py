@@ -28,7 +28,7 @@ FIRST = ("example", "travel-time")
 
 
 def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
-    """The files of a bank with one question, by their path in it.
+    """Return the files of a bank with one question, by their path in it.
 
     Parameters
     ----------
@@ -53,13 +53,13 @@ def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
 
 
 def scaffold_language(lang: str) -> dict[str, bytes]:
-    """What a bank says of a language that quizgen has no words for, by path in the bank."""
+    """Return what a bank says of a language that quizgen has no words for, by path."""
     said = _fill_scaffold_file(_HERE / "language.toml", {"LANG": lang})
     return {f"{_locate_locale_folder(lang)}/language.toml": said}
 
 
 def english_translation_files(lang: str) -> dict[str, bytes]:
-    """All that quizgen says, to be translated, by path in the bank; what is left out stays."""
+    """Return the sentences of quizgen to be translated, by path; what is left out stays English."""
     return {
         f"{_locate_locale_folder(lang)}/{file.name}": file.read_bytes()
         for file in translatable_files()
@@ -67,11 +67,12 @@ def english_translation_files(lang: str) -> dict[str, bytes]:
 
 
 def _locate_locale_folder(lang: str) -> str:
+    """Return where a bank keeps its own words of a language, relative to its root."""
     return f"templates/locale/{lang}"
 
 
 def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) -> dict[str, bytes]:
-    """The files of a question, by their path in the bank.
+    """Return the files of a question, by their path in the bank.
 
     Parameters
     ----------
@@ -97,6 +98,7 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
 
 
 def _fill_scaffold_file(file: Traversable, blanks: dict[str, str]) -> bytes:
+    """Return a file of the scaffold with each ``@name@`` replaced."""
     text = file.read_text("utf-8")
     for name, value in blanks.items():
         text = text.replace(f"@{name}@", value)
@@ -104,4 +106,5 @@ def _fill_scaffold_file(file: Traversable, blanks: dict[str, str]) -> bytes:
 
 
 def _make_title_from_name(name: str) -> str:
+    """Return a title made of a name: words instead of hyphens, a capital in front."""
     return name.replace("-", " ").replace("_", " ").capitalize()

@@ -25,7 +25,20 @@ EARLY = "rounded-too-early"
 
 
 class NumberDiagnosis(msgspec.Struct, frozen=True):
-    """The question around one quantity."""
+    """The question around one quantity: what explains a wrong value of it.
+
+    Parameters
+    ----------
+    spec : NumericSpec
+        Whose tolerance decides what agrees.
+    number : ReadNumber
+        How the answer was written.
+    factor : flint.fmpq
+        Base units in the unit that values are judged in.
+    context : QuestionContext
+    target : str
+        The chain's name of the quantity.
+    """
 
     spec: NumericSpec
     number: ReadNumber
@@ -34,7 +47,7 @@ class NumberDiagnosis(msgspec.Struct, frozen=True):
     target: str
 
     def carried_forward(self, value: Value) -> Verdict | None:
-        """Full method marks for a value computed rightly from an own earlier one."""
+        """Return full marks for a value that follows rightly from an own earlier one, else None."""
         result = recompute_from_earlier(self.context, self.target)
         if result is None or not matches_target(
             self.spec, self.number, value, result / self.factor
@@ -43,7 +56,10 @@ class NumberDiagnosis(msgspec.Struct, frozen=True):
         return partial(Fraction(1), self.number.read_as, CARRIED)
 
     def find_slip(self, value: Value) -> Verdict | None:
-        """Name the single slip that explains a value."""
+        """Return the verdict of the single slip that explains a value; None if no single one does.
+
+        Rounding too early costs half the credit, any other slip all of it.
+        """
         if _is_rounded_early(
             self.context, self.target, value * self.factor, self.number, self.factor
         ):
@@ -58,13 +74,13 @@ def diagnosis_for(
 
     Parameters
     ----------
-    spec : Measured
-        The spec; ``of`` names the quantity.
-    number : Number
+    spec : NumericSpec
+        Its ``of`` names the quantity.
+    number : ReadNumber
         How the answer was written.
     scale : flint.fmpq
         Key units per judged unit (1/100 when percent are judged).
-    options : Options
+    options : GradingOptions
         With the question around.
     target : str
         The quantity, if the spec names several.
@@ -82,7 +98,7 @@ def diagnosis_for(
 
 
 def recompute_from_earlier(context: QuestionContext, target: str) -> Value | None:
-    """Recompute a quantity from the student's own earlier values.
+    """Return a quantity in base units, recomputed from the student's own earlier values.
 
     None if there is nothing to carry: no earlier value is wrong, one is zero, the result is the
     key's own, zero, or simply the student's earlier value again.
@@ -109,14 +125,17 @@ def recompute_from_earlier(context: QuestionContext, target: str) -> Value | Non
 
 
 def _is_solved_value(context: QuestionContext, name: str, value: Value) -> bool:
+    """Return whether an earlier value is right, or of a quantity that the chain does not solve."""
     return name not in context.solved_values or _is_nearly_equal(value, context.solved_values[name])
 
 
 def _is_nearly_equal(a: Value, b: Value) -> bool:
+    """Return whether two values agree to nine digits: they differ by rounding at most."""
     return bool(abs(a - b) <= fmpq(1, 10**9) * abs(b))
 
 
 def _to_constant(value: Value) -> Num:
+    """Return a value as a number in a formula; a ball becomes its midpoint."""
     exact = value.mid().fmpq() if isinstance(value, arb) else value
     return Num(to_fraction(exact))
 
@@ -124,7 +143,11 @@ def _to_constant(value: Value) -> Num:
 def _is_rounded_early(
     context: QuestionContext, target: str, value: Value, number: ReadNumber, factor: fmpq
 ) -> bool:
-    """Whether rounding the intermediate results to two or three figures gives the value."""
+    """Return whether intermediate results rounded to 0 to 4 decimals give the value.
+
+    ``value`` is in base units, ``factor`` is base units in the unit answered in. Beyond 2 percent
+    of the key rounding explains nothing.
+    """
     if abs(value - context.solved_values[target]) > fmpq(1, 50) * abs(
         context.solved_values[target]
     ):
@@ -147,6 +170,11 @@ def _is_result_of_rounding(
     upstream: frozenset[str],
     places: int,
 ) -> bool:
+    """Return whether all upstream quantities, rounded to ``places`` decimals, give the value.
+
+    Each is rounded in the unit that the chain shows. ``value`` and ``slack`` are in base units;
+    what rounding does not change is not explained by it.
+    """
     chain = context.chain
     steps = []
     for name in upstream:
@@ -165,7 +193,10 @@ def _is_result_of_rounding(
 def _find_slip_verdict(
     number: ReadNumber, value: Value, factor: fmpq, context: QuestionContext, target: str
 ) -> Verdict | None:
+    """Return a wrong verdict that names the one slip in the chain; None if none or several fit."""
     base = float(value * factor)
+    # Half a unit of the last decimal written, and a little more: the slip is recomputed in floats,
+    # which may miss a rounding tie. Few decimals must not make any slip fit, hence 0.5 percent.
     half = 0.5001 * 10.0**-number.places * float(factor)
     exactly = number.form in {"fraction", "mixed", "expression"}
     slack = abs(base) * 1e-9 if exactly else min(half, 0.005 * abs(base))

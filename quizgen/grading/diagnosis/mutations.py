@@ -16,14 +16,14 @@ PI = Call("pi", ())
 
 
 def mutate_formula(expr: Expr, alike: Mapping[str, list[str]]) -> Iterator[Mutation]:
-    """Every formula that differs by one slip.
+    """Yield every formula that differs from the right one by one slip.
 
     Parameters
     ----------
     expr : Expr
         The right formula.
     alike : mapping of str to list of str
-        Quantity name to other known quantities of the same dimension.
+        Quantity name to other given quantities of the same dimension.
     """
     if isinstance(expr, Sym):
         for other in alike.get(expr.name, ()):
@@ -39,21 +39,25 @@ def mutate_formula(expr: Expr, alike: Mapping[str, list[str]]) -> Iterator[Mutat
 
 
 def _replace_argument(expr: Call, position: int, arg: Expr) -> Call:
+    """Return a call with another argument at a position."""
     return Call(expr.op, (*expr.args[:position], arg, *expr.args[position + 1 :]))
 
 
 def _drop_argument(expr: Call, position: int) -> Expr:
+    """Return a call without one argument; what is left, if that is a single one."""
     rest = (*expr.args[:position], *expr.args[position + 1 :])
     return rest[0] if len(rest) == 1 else Call(expr.op, rest)
 
 
 def _mutate_sum(expr: Call) -> Iterator[Mutation]:
+    """Yield the sum with one term left out, or with its sign turned."""
     for position, term in enumerate(expr.args):
         yield "term-left-out", "+", _drop_argument(expr, position)
         yield "operator", "+ / -", _replace_argument(expr, position, Call("neg", (term,)))
 
 
 def _mutate_difference(expr: Call) -> Iterator[Mutation]:
+    """Yield the sum in its stead, the terms exchanged, and each term alone."""
     first, second = expr.args
     yield "operator", "- / +", Call("add", (first, second))
     yield "operands", "-", Call("sub", (second, first))
@@ -62,6 +66,7 @@ def _mutate_difference(expr: Call) -> Iterator[Mutation]:
 
 
 def _mutate_product(expr: Call) -> Iterator[Mutation]:
+    """Yield the product with one factor left out, or divided by."""
     for position, factor in enumerate(expr.args):
         rest = _drop_argument(expr, position)
         yield "factor-left-out", "*", rest
@@ -69,6 +74,7 @@ def _mutate_product(expr: Call) -> Iterator[Mutation]:
 
 
 def _mutate_quotient(expr: Call) -> Iterator[Mutation]:
+    """Yield the quotient upside down, the product in its stead, and the numerator alone."""
     first, second = expr.args
     yield "ratio-inverted", "/", Call("div", (second, first))
     yield "operator", "÷ / *", Call("mul", (first, second))
@@ -76,6 +82,7 @@ def _mutate_quotient(expr: Call) -> Iterator[Mutation]:
 
 
 def _mutate_power(expr: Call) -> Iterator[Mutation]:
+    """Yield the base alone, the power with the reciprocal exponent, and base times exponent."""
     base, exponent = expr.args
     note = "square-forgotten" if exponent == TWO else "exponent-forgotten"
     yield note, "^", base
@@ -84,10 +91,12 @@ def _mutate_power(expr: Call) -> Iterator[Mutation]:
 
 
 def _mutate_root(expr: Call) -> Iterator[Mutation]:
+    """Yield what stands under the root."""
     yield "root-forgotten", "sqrt", expr.args[0]
 
 
 def _mutate_trigonometry(expr: Call) -> Iterator[Mutation]:
+    """Yield the function of an angle in the wrong unit, and other functions of the angle."""
     (arg,) = expr.args
     for scale in (Call("div", (PI, HALF_TURN)), Call("div", (HALF_TURN, PI))):
         yield "degrees-radians", expr.op, Call(expr.op, (Call("mul", (arg, scale)),))
@@ -95,31 +104,39 @@ def _mutate_trigonometry(expr: Call) -> Iterator[Mutation]:
         yield "function", f"{other} / {expr.op}", Call(other, (arg,))
 
 
-def _inverse_trigonometry(expr: Call) -> Iterator[Mutation]:
+def _mutate_inverse_trigonometry(expr: Call) -> Iterator[Mutation]:
+    """Yield the angle in degrees taken for radians, and the other way round."""
     for scale in (Call("div", (PI, HALF_TURN)), Call("div", (HALF_TURN, PI))):
         yield "degrees-radians", expr.op, Call("mul", (expr, scale))
 
 
 def _mutate_logarithm(expr: Call) -> Iterator[Mutation]:
+    """Yield the logarithms to the other usual bases."""
     for other in ("ln", "log2", "log10"):
         if other != expr.op:
             yield "log-base", f"{other} / {expr.op}", Call(other, expr.args)
 
 
 def _mutate_negation(expr: Call) -> Iterator[Mutation]:
+    """Yield the formula without its minus sign."""
     yield "sign-inside", "-", expr.args[0]
 
 
 def _mutate_exponential(expr: Call) -> Iterator[Mutation]:
+    """Yield the exponential function of the opposite exponent."""
     yield "sign-inside", "exp", Call("exp", (Call("neg", expr.args),))
 
 
 def _mutate_absolute_value(expr: Call) -> Iterator[Mutation]:
+    """Yield what stands between the bars."""
     yield "absolute-forgotten", "abs", expr.args[0]
 
 
 def _make_function_swapper(*others: str) -> Callable[[Call], Iterator[Mutation]]:
+    """Return a rule that yields a call with each of some other functions in its place."""
+
     def swap(expr: Call) -> Iterator[Mutation]:
+        """Yield the call with another function."""
         for other in others:
             yield "function", f"{other} / {expr.op}", Call(other, expr.args)
 
@@ -138,10 +155,10 @@ _LOCAL: dict[str, Callable[[Call], Iterator[Mutation]]] = {
     "sin": _mutate_trigonometry,
     "cos": _mutate_trigonometry,
     "tan": _mutate_trigonometry,
-    "asin": _inverse_trigonometry,
-    "acos": _inverse_trigonometry,
-    "atan": _inverse_trigonometry,
-    "atan2": _inverse_trigonometry,
+    "asin": _mutate_inverse_trigonometry,
+    "acos": _mutate_inverse_trigonometry,
+    "atan": _mutate_inverse_trigonometry,
+    "atan2": _mutate_inverse_trigonometry,
     "ln": _mutate_logarithm,
     "log2": _mutate_logarithm,
     "log10": _mutate_logarithm,

@@ -43,19 +43,19 @@ _TENS = {power: fmpq(10) ** power for power in range(-19, 20)}
 
 
 def agrees_within_half_percent(value: Value, target: Value) -> bool:
-    """Whether two values agree within half a percent of the target."""
+    """Return whether two values agree within half a percent of the target."""
     return bool(abs(value - target) <= CLOSE * abs(target))
 
 
 def power_of_ten_off(value: Value, key: Value) -> int:
-    """Exponent k if the value is 10^k times the key, else 0."""
+    """Return the exponent k if the value is 10^k times the key (within half a percent), else 0."""
     ratio = _compute_ratio_to_key(value, key)
     power = round(math.log10(ratio)) if 1e-19 < ratio < 1e19 else 0
     return power if power and agrees_within_half_percent(value, key * _TENS[power]) else 0
 
 
 def _compute_ratio_to_key(value: Value, key: Value) -> float:
-    """About how many times the key a value is; zero where no float can say."""
+    """Return about how many times the key a value is; 0 where no float can hold that."""
     try:
         return to_float(value / key)
     except (ZeroDivisionError, OverflowError):
@@ -63,18 +63,18 @@ def _compute_ratio_to_key(value: Value, key: Value) -> float:
 
 
 def is_in_radians(value: Value, key: Value) -> bool:
-    """Whether a number is the key's angle, given in radians for degrees."""
+    """Return whether a number is the key's angle, given in radians for degrees."""
     return value != 0 and agrees_within_half_percent(value * 180 / arb.pi(), key)
 
 
 def find_generic_slip(
     number: ReadNumber, value: Value, key: Value, *, ratio: bool
 ) -> tuple[str, dict[str, object]]:
-    """Explain a wrong number by one generic slip; a sign alone was looked for before.
+    """Return the one generic slip that explains a wrong number; a turned sign is tested before.
 
     Parameters
     ----------
-    number : Number
+    number : ReadNumber
         How it was written.
     value, key : Value
         The wrong number and the right one, in one unit.
@@ -88,7 +88,7 @@ def find_generic_slip(
     """
     power = power_of_ten_off(value, key)
     if power:
-        return _power_note(number, key, power)
+        return _choose_power_note(number, key, power)
     if ratio and agrees_within_half_percent(value * key, fmpq(1)):
         return "reciprocal", {}
     if power_of_ten_off(-value, key):
@@ -97,9 +97,10 @@ def find_generic_slip(
 
 
 def find_common_slip(cells: Sequence[Verdict]) -> tuple[str, dict[str, object]]:
-    """The slip that all cells of a table or coordinates of a point share.
+    """Return the note that all cells of a table or coordinates of a point share, and its fields.
 
-    Its fields are kept where they are the same, too; a sentence does without the others.
+    The note is empty if they have several, or if a cell is right. Only fields with one value in
+    all cells are returned; a sentence does without the others.
     """
     notes = {cell.note for cell in cells}
     if len(notes) != 1 or any(cell.credit == 1 for cell in cells):
@@ -109,7 +110,11 @@ def find_common_slip(cells: Sequence[Verdict]) -> tuple[str, dict[str, object]]:
     return notes.pop(), same
 
 
-def _power_note(number: ReadNumber, key: Value, power: int) -> tuple[str, dict[str, object]]:
+def _choose_power_note(number: ReadNumber, key: Value, power: int) -> tuple[str, dict[str, object]]:
+    """Return the note for a number that is off by 10^power, and what its sentence fills in.
+
+    A turned sign of the exponent and a percent sign forgotten have notes of their own.
+    """
     if number.form == "scientific" and power == -2 * decimal_exponent(key):
         return "exponent-sign", {}
     if power == 2 and 0 < key <= 1:
@@ -118,6 +123,7 @@ def _power_note(number: ReadNumber, key: Value, power: int) -> tuple[str, dict[s
 
 
 def _find_common_factor(value: Value, key: Value) -> tuple[str, dict[str, object]]:
+    """Return the note ``factor`` and the constant that the value is off by; empty if none."""
     ratio = _compute_ratio_to_key(value, key)
     for name, factor in FACTORS.items():
         if abs(ratio / _ABOUT[name] - 1) < NEAR and agrees_within_half_percent(value, key * factor):

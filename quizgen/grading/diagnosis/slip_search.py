@@ -21,7 +21,7 @@ MOST_CHAINS = 256
 
 
 class SlipCandidate(msgspec.Struct, frozen=True):
-    """One slip: its note, what it concerns, and the float plan that recomputes the target."""
+    """One slip: its note, what it concerns, and the compiled steps that recompute the target."""
 
     note: str
     detail: str
@@ -42,7 +42,7 @@ class SlipSearch(msgspec.Struct, dict=True):
 
     @cached_property
     def _same_dimension_names(self) -> dict[str, list[str]]:
-        """Name to the other given quantities of the same dimension."""
+        """Return the name of each given quantity with the others of the same dimension."""
         kinds = {name: get_unit(text).dimension for name, text in self.chain.given.items()}
         return {
             name: [other for other in kinds if other != name and kinds[other] == kind]
@@ -50,12 +50,13 @@ class SlipSearch(msgspec.Struct, dict=True):
         }
 
     def slips(self, target: str) -> list[SlipCandidate]:
-        """Every slip that can change a quantity."""
+        """Return every slip that can change a quantity, compiled when it is first needed."""
         if target not in self._slips:
             self._slips[target] = list(self._iter_slips(target))
         return self._slips[target]
 
     def _iter_slips(self, target: str) -> Iterator[SlipCandidate]:
+        """Yield the slips in the steps that a quantity needs, then those in given units."""
         needed = self.chain.required_steps(target)
         for step in self.chain.steps:
             if step.name in needed:
@@ -69,12 +70,20 @@ class SlipSearch(msgspec.Struct, dict=True):
         yield from self._iter_unit_prefix_slips(needed)
 
     def _iter_step_mutations(self, step: ChainStep) -> Iterator[tuple[str, str, Expr]]:
+        """Yield note, detail and wrong formula for each slip in one step.
+
+        The detail is the step's name; for a wrong parameter or base it is both that were confused.
+        """
         for note, detail, changed in mutate_formula(step.expr, self._same_dimension_names):
             yield note, detail if note in {"wrong-parameter", "log-base"} else step.name, changed
         for name in sorted(names_in(step.expr)):
             yield "step-left-out", step.name, Sym(name)
 
     def _iter_unit_prefix_slips(self, needed: frozenset[str]) -> Iterator[SlipCandidate]:
+        """Yield the slips of reading a given number with a wrong prefix of its unit.
+
+        Numbers without a dimension have no prefix to mistake.
+        """
         used = {n for name in needed for n in self.chain.operands[name]}
         for name in sorted(used & self.chain.given.keys()):
             if not get_unit(self.chain.given[name]).dimension:
@@ -90,7 +99,7 @@ class SlipSearch(msgspec.Struct, dict=True):
     def find(
         self, target: str, solved: Mapping[str, Any], value: float, slack: float
     ) -> tuple[str, str]:
-        """Name the one slip that gives a value.
+        """Return the note and the place of the one slip that gives a value.
 
         Parameters
         ----------
@@ -118,7 +127,10 @@ class SlipSearch(msgspec.Struct, dict=True):
         return note, detail
 
     def _try_all_slips(self, target: str, solved: Mapping[str, Any]) -> Results:
-        """Every slip that changes a quantity, and what it gives."""
+        """Return every slip that changes a quantity, and what it gives in base units.
+
+        The results for the last numbers are stored, since a class shares a paper.
+        """
         env = {name: map_numbers(float, number) for name, number in solved.items()}
         last = self._last.get(target)
         if last is not None and last[0] == env:
@@ -130,6 +142,7 @@ class SlipSearch(msgspec.Struct, dict=True):
 
 
 def _evaluate_target(plan: CompiledSteps, env: dict[str, Any], target: str) -> float | None:
+    """Return what a slip gives for the target; None where it has no finite real value."""
     env = dict(env)
     try:
         for name, compiled in plan:
@@ -143,7 +156,7 @@ _EXPLAINERS: dict[int, SlipSearch] = {}
 
 
 def slip_search_for(chain: Chain) -> SlipSearch:
-    """Return the compiled slips of a chain; the last few hundred chains are kept."""
+    """Return the compiled slips of a chain, stored for the last ``MOST_CHAINS`` chains."""
     found = _EXPLAINERS.get(id(chain))
     if found is None or found.chain is not chain:
         if len(_EXPLAINERS) >= MOST_CHAINS:

@@ -32,7 +32,7 @@ AROUND = 2
 
 
 class CurveFeature(Feature, frozen=True):
-    """All that is said here, of the curve.
+    """What makes a curve right; every one that is set must hold.
 
     ``peaks``: as many as the wanted one has. ``top``: the highest point is where its own is,
     nearer than half way to where a mistake has it, and about as high. ``ends``: it is as good as
@@ -44,7 +44,13 @@ class CurveFeature(Feature, frozen=True):
     ends: bool = False
 
     def validate(self, sheet: DrawingComparison, /) -> None:
-        """Of a curve something must be asked, and it must have heights above 0."""
+        """Check that something is asked of the curve, and that it has heights above 0.
+
+        Raises
+        ------
+        ValueError
+            If not, or if the field does not begin at 0.
+        """
         if not (self.peaks or self.top or self.ends):
             raise ValueError("peaks, top or ends must be asked of a curve")
         if sheet.scale.view[2]:
@@ -53,11 +59,11 @@ class CurveFeature(Feature, frozen=True):
             raise ValueError("a curve runs along x and has one height at each place, above 0")
 
     def is_judgeable(self, sheet: DrawingComparison, /) -> bool:
-        """Whether there is a line above or below any of the wanted ones."""
+        """Return whether there is a line above or below any of the wanted ones."""
         return any(sheet.compute_once(drawn_heights)[name] for name in self.of)
 
     def holds_for(self, name: str, sheet: DrawingComparison, /) -> bool:
-        """Whether a curve has it."""
+        """Return whether a curve covers its width and has all that is asked of it."""
         drawn, wanted = (
             sheet.compute_once(drawn_heights)[name],
             sheet.compute_once(wanted_heights)[name],
@@ -73,6 +79,10 @@ class CurveFeature(Feature, frozen=True):
     def _is_peak_nearest_wanted(
         self, sheet: DrawingComparison, name: str, drawn: Sequence[FieldPoint]
     ) -> bool:
+        """Return whether the highest point is about as high as wanted, and nearer its own place.
+
+        Nearer than to the place where any known mistake has it, that is.
+        """
         own, *others = (_find_highest_point(one[name]) for one in (sheet.wanted, *sheet.others))
         apart = [abs(other - own) / 2 for other in others if other != own]
         tall, most = (max(y for _, y in line) for line in (sheet.wanted[name], drawn))
@@ -82,17 +92,21 @@ class CurveFeature(Feature, frozen=True):
 
 
 def drawn_heights(sheet: DrawingComparison) -> dict[str, list[FieldPoint]]:
-    """What was drawn over the places of each wanted line."""
+    """Return what was drawn over the width of each wanted line, as smoothed heights by its name."""
     return {name: _build_height_profile(sheet.strokes, line) for name, line in sheet.wanted.items()}
 
 
 def wanted_heights(sheet: DrawingComparison) -> dict[str, list[FieldPoint]]:
-    """What was wanted there."""
+    """Return the heights of each wanted line, measured as those of a drawing are."""
     return {name: _build_height_profile([line], line) for name, line in sheet.wanted.items()}
 
 
 def _build_height_profile(strokes: Sequence[StrokePoints], line: StrokePoints) -> list[FieldPoint]:
-    """Heights over the places of a line; none if it has no width or height, or several at many."""
+    """Return smoothed heights at ``PLACES`` points along a line's width, where something was drawn.
+
+    The list is empty if the line has no width or height, or the drawing several heights at many
+    points: then it is no curve.
+    """
     left, right = min(x for x, _ in line), max(x for x, _ in line)
     step, tall = (right - left) / (PLACES - 1), max(y for _, y in line)
     if step <= 0 or tall <= 0:
@@ -104,16 +118,18 @@ def _build_height_profile(strokes: Sequence[StrokePoints], line: StrokePoints) -
             if 0 <= place < PLACES:
                 found[place].append(y)
     heights = [(left + step * place, median(ys)) for place, ys in enumerate(found) if ys]
-    even = sum(_one_height(ys, tall) for ys in found if ys)
+    even = sum(_has_one_height(ys, tall) for ys in found if ys)
     return _smooth_heights(heights) if even >= MOSTLY * len(heights) else []
 
 
-def _one_height(heights: Sequence[float], tall: float) -> bool:
+def _has_one_height(heights: Sequence[float], tall: float) -> bool:
+    """Return whether heights read at one x are of one line; ``tall`` is the wanted height."""
     middle = median(heights)
     return fmean(abs(height - middle) for height in heights) <= THICK * tall
 
 
 def _smooth_heights(heights: Sequence[FieldPoint]) -> list[FieldPoint]:
+    """Return the heights, each averaged with ``AROUND`` neighbours on either side."""
     return [
         (x, fmean(y for _, y in heights[max(0, place - AROUND) : place + AROUND + 1]))
         for place, (x, _) in enumerate(heights)
@@ -121,7 +137,7 @@ def _smooth_heights(heights: Sequence[FieldPoint]) -> list[FieldPoint]:
 
 
 def _count_peaks(heights: Sequence[FieldPoint]) -> int:
-    """How many hills there are, each higher than the valleys beside it."""
+    """Return how many hills there are, each higher by ``RISE`` than the valleys next to it."""
     rise = RISE * max(y for _, y in heights)
     count, climbing, turn = 0, False, heights[0][1]
     for _, y in heights:
@@ -133,16 +149,21 @@ def _count_peaks(heights: Sequence[FieldPoint]) -> int:
 
 
 def _find_summit(heights: Sequence[FieldPoint]) -> float:
-    """Middle of what is nearly as high as the highest: a hand makes no point of it."""
+    """Return the x of the middle of all that is nearly as high as the highest point.
+
+    A hand draws a plateau rather than a point.
+    """
     most = max(y for _, y in heights)
     near = [x for x, y in heights if y >= most * 0.97]
     return (near[0] + near[-1]) / 2
 
 
 def _find_highest_point(line: StrokePoints) -> float:
+    """Return the x of the highest point of a wanted line."""
     return max(line, key=lambda point: point[1])[0]
 
 
 def _has_falling_ends(drawn: Sequence[FieldPoint], wanted: Sequence[FieldPoint]) -> bool:
+    """Return whether the drawn curve is as good as 0 at every end where the wanted one is."""
     limit = LOW * max(y for _, y in wanted)
     return all(drawn[end][1] <= limit for end in (0, -1) if wanted[end][1] <= limit / 2)

@@ -67,12 +67,12 @@ class StrokeFit(msgspec.Struct, frozen=True):
         return -self.curve / (2 * self.half)
 
     def offset_at(self, along: float) -> float:
-        """Distance from the chord at a place along it."""
+        """Return the distance from the chord at a point along it."""
         t = (along - self.middle) / self.half
         return self.level + self.slope * t + self.curve * t * t
 
     def relative_offset(self, placed: FieldPoint) -> float:
-        """How far from it a point of the frame is, as a share of its length."""
+        """Return how far from it a point of the frame is, as a share of its length."""
         along, off = placed
         return abs(off - self.offset_at(along)) / (2 * self.half)
 
@@ -86,13 +86,13 @@ class LineFrame(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, line: StrokePoints) -> LineFrame:
-        """The frame of a line that does not end where it begins."""
+        """Return the frame of a line that does not end where it begins."""
         (x, y), (to_x, to_y) = line[0], line[-1]
         length = math.hypot(to_x - x, to_y - y)
         return cls((x, y), ((to_x - x) / length, (to_y - y) / length), length)
 
     def __call__(self, point: FieldPoint) -> FieldPoint:
-        """A point along the chord, and to the left of it."""
+        """Return a point of the field as its distance along the chord, and to the left of it."""
         x, y = point[0] - self.origin[0], point[1] - self.origin[1]
         return x * self.way[0] + y * self.way[1], y * self.way[0] - x * self.way[1]
 
@@ -100,8 +100,11 @@ class LineFrame(msgspec.Struct, frozen=True):
 def match_strokes(
     strokes: Sequence[StrokePoints], wanted: Mapping[str, StrokePoints]
 ) -> dict[str, StrokeFit]:
-    """The drawn lines by the names of the wanted ones that they are taken for."""
-    lines = {name: _Line(line) for name, line in wanted.items()}
+    """Return the drawn lines by the names of the wanted ones that they are taken for.
+
+    Wanted lines that nothing was drawn for are left out.
+    """
+    lines = {name: _LineMatcher(line) for name, line in wanted.items()}
     found: dict[str, list[FieldPoint]] = {}
     length = sum(math.dist(a, b) for stroke in strokes for a, b in pairwise(stroke))
     for stroke in strokes:
@@ -116,8 +119,10 @@ def match_strokes(
     return {name: one for name, one in fits.items() if one is not None}
 
 
-def _find_closest_line(points: Sequence[FieldPoint], lines: Mapping[str, _Line]) -> str | None:
-    """The line that a piece of a stroke is taken for, the first of several; None if it is none."""
+def _find_closest_line(
+    points: Sequence[FieldPoint], lines: Mapping[str, _LineMatcher]
+) -> str | None:
+    """Return the line that a piece of a stroke is taken for; None if it is none of them."""
     least, found = math.inf, None
     for name, line in lines.items():
         cost = line.cost(points, least)
@@ -127,7 +132,10 @@ def _find_closest_line(points: Sequence[FieldPoint], lines: Mapping[str, _Line])
 
 
 def split_at_corners(stroke: StrokePoints) -> Iterator[StrokePoints]:
-    """A stroke cut where it turns, so that a hand need not lift the pen between lines."""
+    """Yield the pieces of a stroke between its corners.
+
+    A hand need not lift the pen between lines.
+    """
     (x, y), (to_x, to_y) = stroke[0], stroke[-1]
     run = math.hypot(to_x - x, to_y - y)
     off = [abs((to_x - x) * (y - b) - (x - a) * (to_y - y)) / run if run
@@ -141,7 +149,7 @@ def split_at_corners(stroke: StrokePoints) -> Iterator[StrokePoints]:
 
 
 def resample(stroke: StrokePoints, step: float) -> list[FieldPoint]:
-    """Points along a stroke, no farther apart than a step."""
+    """Return points along a stroke, no farther apart than a step."""
     points = [stroke[0]]
     for (x, y), (to_x, to_y) in pairwise(stroke):
         count = max(1, math.ceil(math.dist((x, y), (to_x, to_y)) / step))
@@ -150,10 +158,11 @@ def resample(stroke: StrokePoints, step: float) -> list[FieldPoint]:
     return points
 
 
-class _Line:
+class _LineMatcher:
     """A wanted line as what drawn points are compared with."""
 
     def __init__(self, line: StrokePoints) -> None:
+        """Store where each piece of a line begins, its direction (length 1) and its length."""
         self.pieces = [
             (a[0], a[1], (b[0] - a[0]) / run, (b[1] - a[1]) / run, run)
             for a, b in pairwise(line)
@@ -161,9 +170,10 @@ class _Line:
         ]
 
     def cost(self, points: Sequence[FieldPoint], most: float) -> float:
-        """How unlike the line a piece of a stroke is; infinite if it is not it, or not below most.
+        """Return how unlike the line a piece of a stroke is; infinite if it is another.
 
-        Distances only add up, so a line that lies elsewhere is known by its first points.
+        ``most`` is the cost of the best line so far: no distance needs to be measured beyond it.
+        Distances only add up, so a line that lies elsewhere is refused after its first points.
         """
         far, ways, limit, count = 0.0, [], min(REACH, most), len(points)
         for point in points:
@@ -176,7 +186,7 @@ class _Line:
         return far / count + TURN_COSTS * turned if turned < TURNED else math.inf
 
     def _measure_nearest(self, point: FieldPoint) -> tuple[float, FieldPoint]:
-        """Distance to the line, and its direction there."""
+        """Return the distance of a point to the line, and the line's direction there."""
         x, y = point
         least, way = math.inf, (1.0, 0.0)
         for from_x, from_y, w_x, w_y, run in self.pieces:
@@ -191,7 +201,7 @@ class _Line:
     def _measure_angle_sine(
         self, points: Sequence[FieldPoint], ways: Sequence[FieldPoint]
     ) -> float:
-        """Sine of the angle between a piece and the line beside it."""
+        """Return the mean sine of the angle between a piece of a stroke and the line next to it."""
         (x, y), (to_x, to_y) = points[0], points[-1]
         run = math.hypot(to_x - x, to_y - y)
         if run < SHORT:
@@ -200,9 +210,9 @@ class _Line:
 
 
 def fit_parabola(points: Sequence[FieldPoint], frame: LineFrame) -> StrokeFit | None:
-    """The curve of second degree that is nearest to points, none where they make no line.
+    """Return the curve of second degree that is nearest to points; None where they make no line.
 
-    Single points far from it are of another line that begins or ends there.
+    Single points far from it belong to another line that begins or ends there, and are left out.
     """
     own = _fit_points_in_frame(points, frame)
     if own is None:
@@ -213,6 +223,10 @@ def fit_parabola(points: Sequence[FieldPoint], frame: LineFrame) -> StrokeFit | 
 
 
 def _fit_points_in_frame(points: Sequence[FieldPoint], frame: LineFrame) -> StrokeFit | None:
+    """Return the curve of second degree nearest to all points.
+
+    None if there are fewer than ``FEWEST``, or they spread over less than ``STEP`` each way.
+    """
     placed = [frame(point) for point in points]
     first, last = min(s for s, _ in placed), max(s for s, _ in placed)
     middle, half = (first + last) / 2, (last - first) / 2
@@ -227,7 +241,11 @@ def _fit_points_in_frame(points: Sequence[FieldPoint], frame: LineFrame) -> Stro
 
 
 def _solve_least_squares(pairs: Sequence[FieldPoint]) -> tuple[float, float, float]:
-    """Least squares: the normal equations in the first three Legendre polynomials."""
+    """Return the coefficients of 1, t and t² that fit best.
+
+    Computed from the normal equations in the first three Legendre polynomials, which are nearly
+    independent on [-1, 1].
+    """
     along, off = zip(*pairs, strict=True)
     basis = ([1.0] * len(along), along, [(3 * t * t - 1) / 2 for t in along])
     rows = [[sum(map(mul, one, other)) for other in (*basis, off)] for one in basis]
@@ -236,7 +254,7 @@ def _solve_least_squares(pairs: Sequence[FieldPoint]) -> tuple[float, float, flo
 
 
 def _solve_three_equations(rows: list[list[float]]) -> list[float]:
-    """Three equations; what they do not decide is 0."""
+    """Return the solution of three equations; what they do not decide is 0."""
     for place in range(3):
         largest = max(range(place, 3), key=[abs(row[place]) for row in rows].__getitem__)
         pivot = rows[largest]
@@ -248,6 +266,6 @@ def _solve_three_equations(rows: list[list[float]]) -> list[float]:
 
 
 def _eliminate_entry(row: list[float], pivot: list[float], place: int) -> list[float]:
-    """A row less as much of another as takes its number at a place away."""
+    """Return a row less as much of another as makes its number in one column 0."""
     share = row[place] / pivot[place]
     return [a - share * b for a, b in zip(row, pivot, strict=True)]

@@ -39,7 +39,7 @@ SHARE = 0.3
 
 
 class LineFeature(Feature, frozen=True):
-    """All that is said here, of each line.
+    """What makes a line right; every one that is set must hold.
 
     ``bend``: straight, or bent to the same side as the wanted line. ``on``: it lies on the wanted
     line, whose ends it need not reach, nearer to it in place and direction than half way to where
@@ -53,17 +53,23 @@ class LineFeature(Feature, frozen=True):
     circle: tuple[Scalar, Scalar, Scalar] | None = None
 
     def validate(self, sheet: DrawingComparison, /) -> None:
-        """Check lines and circle."""
+        """Check lines and circle.
+
+        Raises
+        ------
+        ValueError
+            If a line is too short or closed, or the circle has no radius.
+        """
         sheet.compute_once(wanted_lines)
         if self.circle:
             circle_on_sheet(self.circle, sheet)
 
     def is_judgeable(self, sheet: DrawingComparison, /) -> bool:
-        """Whether any line lies where one is wanted."""
+        """Return whether any line lies where one is wanted."""
         return bool(sheet.compute_once(fit_lines))
 
     def holds_for(self, name: str, sheet: DrawingComparison, /) -> bool:
-        """Whether a line has it."""
+        """Return whether a line is long and even enough, and has all that is asked of it."""
         drawn, wish = (
             sheet.compute_once(fit_lines).get(name),
             sheet.compute_once(wanted_lines)[name],
@@ -79,7 +85,19 @@ class LineFeature(Feature, frozen=True):
 
 
 class WantedLine(msgspec.Struct, frozen=True):
-    """A wanted line with its own fit, and where mistakes have it."""
+    """A wanted line with its own fit, and how near a drawn one must come.
+
+    Parameters
+    ----------
+    line, frame, fit
+        The line, its coordinates, and the curve of second degree that it is.
+    near : float
+        How far off a drawn line may run, as a share of the width of the field.
+    turned : float
+        How far its direction may be off, in radians.
+    short : (float, float)
+        How far from the first and the last point it may begin and end, as ``near``.
+    """
 
     line: StrokePoints
     frame: LineFrame
@@ -90,7 +108,13 @@ class WantedLine(msgspec.Struct, frozen=True):
 
     @classmethod
     def from_stroke(cls, line: StrokePoints, others: list[StrokePoints]) -> WantedLine:
-        """A line that is told apart from others."""
+        """Return a wanted line that is told apart from where mistakes have it.
+
+        Raises
+        ------
+        ValueError
+            If it has no two ends apart from each other.
+        """
         frame, own = _fit_wanted_line(tuple(line))
         placed = [(frame(other[0]), frame(other[-1])) for other in others]
         turns = [_measure_angle_to_axis(*ends) for ends in placed]
@@ -100,26 +124,26 @@ class WantedLine(msgspec.Struct, frozen=True):
         end = min(NEAR, SHARE * frame.length)
         return cls(
             line, frame, own,
-            _half_way(NEAR, gaps, NEAR / 10), _half_way(turned, turns, ALIKE),
-            (_half_way(end, [abs(a[0]) for a, _ in placed], NEAR / 10),
-             _half_way(end, [abs(b[0] - frame.length) for _, b in placed], NEAR / 10)),
+            _halve_distance(NEAR, gaps, NEAR / 10), _halve_distance(turned, turns, ALIKE),
+            (_halve_distance(end, [abs(a[0]) for a, _ in placed], NEAR / 10),
+             _halve_distance(end, [abs(b[0] - frame.length) for _, b in placed], NEAR / 10)),
         )  # fmt: skip
 
     def is_comparable(self, drawn: StrokeFit) -> bool:
-        """Whether a drawn line is long and even enough to be judged."""
+        """Return whether a drawn line is long and even enough to be judged."""
         length = 2 * drawn.half
         return (drawn.half >= COVERED * self.fit.half
                 and drawn.rough * length <= max(ROUGH * length, TREMBLES))  # fmt: skip
 
     def bends_alike(self, drawn: StrokeFit) -> bool:
-        """Whether it is straight, or bent to the same side."""
+        """Return whether it is straight as wanted, or bent to the same side."""
         bow, wanted = drawn.curvature, self.fit.curvature
         if abs(wanted) < FLAT:
             return abs(drawn.curve) < max(FLAT * 2 * drawn.half, 2 * TREMBLES)
         return FLAT <= math.copysign(bow, bow * wanted) <= MOST_BENT
 
     def runs_along(self, drawn: StrokeFit) -> bool:
-        """Whether it lies on the wanted one, as far as both run."""
+        """Return whether it lies on the wanted one, as far as both run."""
         first = max(drawn.middle - drawn.half, self.fit.middle - self.fit.half)
         last = min(drawn.middle + drawn.half, self.fit.middle + self.fit.half)
         places = (first, (first + last) / 2, last)
@@ -128,14 +152,20 @@ class WantedLine(msgspec.Struct, frozen=True):
         return off[1] <= self.near and max(off) <= NEAR and abs(turned) <= self.turned
 
     def ends_alike(self, drawn: StrokeFit) -> bool:
-        """Whether it begins and ends where the wanted one does."""
+        """Return whether it begins and ends where the wanted one does."""
         begins, stops = drawn.middle - drawn.half, drawn.middle + drawn.half
         return abs(begins) <= self.short[0] and abs(stops - self.frame.length) <= self.short[1]
 
 
 @lru_cache(maxsize=512)
 def _fit_wanted_line(line: tuple[FieldPoint, ...]) -> tuple[LineFrame, StrokeFit]:
-    """A wanted line's frame and fit; a key that is read again brings the same line."""
+    """Return a wanted line's frame and fit, cached since a key brings the same line again.
+
+    Raises
+    ------
+    ValueError
+        If it is closed or too short.
+    """
     if len(line) < 2 or line[0] == line[-1]:
         raise ValueError("a line has two ends, apart from each other")
     frame = LineFrame.of(line)
@@ -146,12 +176,12 @@ def _fit_wanted_line(line: tuple[FieldPoint, ...]) -> tuple[LineFrame, StrokeFit
 
 
 def fit_lines(sheet: DrawingComparison) -> dict[str, StrokeFit]:
-    """The drawn lines by the names of those that they are taken for."""
+    """Return the drawn lines by the names of those that they are taken for."""
     return match_strokes(sheet.strokes, sheet.wanted)
 
 
 def wanted_lines(sheet: DrawingComparison) -> dict[str, WantedLine]:
-    """The wanted lines, to compare drawn ones with."""
+    """Return the wanted lines by their names, to compare drawn ones with."""
     return {
         name: WantedLine.from_stroke(line, [other[name] for other in sheet.others])
         for name, line in sheet.wanted.items()
@@ -159,18 +189,22 @@ def wanted_lines(sheet: DrawingComparison) -> dict[str, WantedLine]:
 
 
 def _measure_angle_to_axis(first: FieldPoint, last: FieldPoint) -> float:
-    """Angle of a line to the axis of a frame, whichever way it runs."""
+    """Return the angle of a line to the axis of a frame in radians, whichever way it runs."""
     return math.atan2(abs(last[1] - first[1]), abs(last[0] - first[0]))
 
 
-def _half_way(most: float, distances: list[float], least: float) -> float:
-    """Half way to the nearest of others, as far as they are apart from what is wanted at all."""
+def _halve_distance(most: float, distances: list[float], least: float) -> float:
+    """Return half the distance to the nearest of others, at most ``most``.
+
+    Others nearer than ``least`` are as good as in the same place and do not count.
+    """
     return min([most, *(distance / 2 for distance in distances if distance > least)])
 
 
 def _is_on_wanted_sides(
     circle: tuple[Scalar, ...], sheet: DrawingComparison, wish: WantedLine, drawn: StrokeFit
 ) -> bool:
+    """Return whether both ends lie clearly inside or outside the circle, as the wanted ones do."""
     centre, limit = circle_on_sheet(circle, sheet)
     return all(
         (math.dist(end, centre) / limit - 1) * (1 if math.dist(goal, centre) > limit else -1)
@@ -182,7 +216,13 @@ def _is_on_wanted_sides(
 def circle_on_sheet(
     circle: tuple[Scalar, ...], sheet: DrawingComparison
 ) -> tuple[FieldPoint, float]:
-    """Centre and radius of a circle on a sheet."""
+    """Return centre and radius of a circle, as shares of the width of the field.
+
+    Raises
+    ------
+    ValueError
+        If the radius is not above 0.
+    """
     x, y, radius = to_floats(circle)
     if radius <= 0:
         raise ValueError("circle: its radius must be above 0")

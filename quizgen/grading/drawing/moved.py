@@ -12,7 +12,7 @@ from quizgen.maths.constants import Scalar
 
 
 class MovedFeature(Feature, frozen=True):
-    """The ends of all its lines together: from a circle they are as far as wanted.
+    """The ends of all lines together have moved from a circle as far as wanted.
 
     ``circle`` is the centre and the radius on which they were; ``within`` the factor by which the
     median of what they have moved by may be too much or too little.
@@ -22,18 +22,24 @@ class MovedFeature(Feature, frozen=True):
     within: Scalar
 
     def validate(self, sheet: DrawingComparison, /) -> None:
-        """Check lines, circle and factor."""
+        """Check lines, circle and factor.
+
+        Raises
+        ------
+        ValueError
+            If one of them cannot serve.
+        """
         sheet.compute_once(wanted_lines)
         circle_on_sheet(self.circle, sheet)
         if to_floats([self.within])[0] <= 1:
             raise ValueError("within: a factor above 1")
 
     def is_judgeable(self, sheet: DrawingComparison, /) -> bool:
-        """Whether any line lies where one is wanted."""
+        """Return whether any line lies where one is wanted."""
         return bool(sheet.compute_once(fit_lines))
 
     def holds_for(self, name: str, sheet: DrawingComparison, /) -> bool:
-        """Whether the line is there, and the ends of all have moved as far as wanted."""
+        """Return whether the line is there, and the ends of all have moved as far as wanted."""
         drawn = sheet.compute_once(fit_lines).get(name)
         if drawn is None or not sheet.compute_once(wanted_lines)[name].is_comparable(drawn):
             return False
@@ -41,7 +47,7 @@ class MovedFeature(Feature, frozen=True):
         return bool(ratios) and 1 / within <= median(ratios) <= within
 
     def _iter_shift_ratios(self, sheet: DrawingComparison) -> Iterator[float]:
-        """What each end has moved by over what was wanted of it."""
+        """Yield how far each drawn end has moved, over how far it was to move."""
         centre, radius = circle_on_sheet(self.circle, sheet)
         for name in self.of:
             drawn, line = sheet.compute_once(fit_lines).get(name), sheet.wanted[name]

@@ -18,11 +18,11 @@ T = TypeVar("T")
 
 
 class FieldScale(msgspec.Struct, frozen=True):
-    """From the numbers on the axes to shares of the width.
+    """The change from numbers on the axes to shares of the width of the field.
 
     Parameters
     ----------
-    view : View
+    view : FieldBounds
         What the field shows.
     tall : float
         Its height over its width where both axes do not have one scale, else 0.
@@ -32,24 +32,24 @@ class FieldScale(msgspec.Struct, frozen=True):
     tall: float
 
     def point(self, point: FieldPoint) -> FieldPoint:
-        """A point of the field."""
+        """Return a point in shares of the width, from the lower left corner."""
         left, right, low, high = self.view
         x, y = point
         wide = right - left
         return (x - left) / wide, (y - low) * (self.tall / (high - low) if self.tall else 1 / wide)
 
     def line(self, line: StrokePoints) -> list[FieldPoint]:
-        """A line in it."""
+        """Return a line in shares of the width."""
         return [self.point(point) for point in line]
 
 
 @dataclass(frozen=True, slots=True)
 class DrawingComparison:
-    """One drawing beside the lines that were wanted.
+    """One drawing next to the lines that were wanted.
 
     Parameters
     ----------
-    scale : Scale
+    scale : FieldScale
     strokes : sequence of strokes
         What was drawn.
     wanted : mapping of str to stroke
@@ -65,14 +65,14 @@ class DrawingComparison:
     _read: dict[object, object] = field(default_factory=dict, repr=False, compare=False)
 
     def compute_once(self, read: Callable[[DrawingComparison], T]) -> T:
-        """What is read off the sheet, worked out for the first feature that asks."""
+        """Return what a function reads off the sheet, computed for the first caller only."""
         if read not in self._read:
             self._read[read] = read(self)
         return cast("T", self._read[read])
 
 
 def _name_in_files(class_name: str) -> str:
-    """Word that stands for a feature in templates and keys: ``LineFeature`` is ``line``."""
+    """Return the word for a feature in templates and keys: ``LineFeature`` is ``line``."""
     return class_name.removesuffix("Feature").lower()
 
 
@@ -87,23 +87,35 @@ class Feature(msgspec.Struct, kw_only=True, frozen=True, omit_defaults=True,
     worth: int = 1
 
     def validate(self, sheet: DrawingComparison, /) -> None:
-        """Check what types cannot say, also of the wanted lines, so that nothing drawn raises."""
+        """Check what types cannot, also of the wanted lines, so that no drawing raises.
+
+        Raises
+        ------
+        ValueError
+            If the feature can never be judged.
+        """
 
     @abstractmethod
     def is_judgeable(self, sheet: DrawingComparison, /) -> bool:
-        """Whether there is anything to judge it by."""
+        """Return whether anything was drawn that it can be judged by."""
 
     @abstractmethod
     def holds_for(self, name: str, sheet: DrawingComparison, /) -> bool:
-        """Whether a line has it."""
+        """Return whether the drawn line of a name has the feature."""
 
     def satisfied_share(self, sheet: DrawingComparison) -> Fraction:
-        """Which share of its lines has it."""
+        """Return which share of its lines has the feature, 0 to 1."""
         return Fraction(sum(self.holds_for(name, sheet) for name in self.of), len(self.of))
 
 
 def to_floats(scalars: Sequence[Scalar]) -> list[float]:
-    """What a key stores, as floats."""
+    """Return numbers of a key as floats.
+
+    Raises
+    ------
+    ValueError
+        If one is beyond all floats.
+    """
     try:
         return [float(parse_written_number(one)) for one in scalars]
     except OverflowError:

@@ -25,7 +25,7 @@ _BETWEEN = re.compile(r"[ ,]*")
 
 
 def read_strokes(typed: str, view: FieldBounds) -> list[list[FieldPoint]]:
-    """Read the lines of a drawing; a lone point is no line.
+    """Return the lines of a drawing; a lone point is no line.
 
     Raises
     ------
@@ -45,7 +45,7 @@ def read_strokes(typed: str, view: FieldBounds) -> list[list[FieldPoint]]:
 
 
 def parse_key_line(written: str) -> list[FieldPoint]:
-    """The points of a line of a key.
+    """Return the points of a line of a key.
 
     Raises
     ------
@@ -56,7 +56,13 @@ def parse_key_line(written: str) -> list[FieldPoint]:
 
 
 def _iter_points(source: SourceText) -> Iterator[tuple[FieldPoint, int]]:
-    """Points and the columns that they stand at."""
+    """Yield points and the columns that they stand at.
+
+    Raises
+    ------
+    FormulaReadError
+        Where something else stands.
+    """
     name = _NAME.match(source.text)
     at = name.end() if name else 0
     while (at := _skip_pattern(_BETWEEN, source.text, at)) < len(source.text):
@@ -68,11 +74,19 @@ def _iter_points(source: SourceText) -> Iterator[tuple[FieldPoint, int]]:
 
 
 def _skip_pattern(pattern: re.Pattern[str], text: str, at: int) -> int:
+    """Return the position behind a match that begins at ``at``, or ``at`` if there is none."""
     match = pattern.match(text, at)
     return match.end() if match else at
 
 
 def _require_in_view(point: FieldPoint, view: FieldBounds, column: int) -> FieldPoint:
+    """Return a point that lies in the field, or nearly.
+
+    Raises
+    ------
+    FormulaReadError
+        If it lies farther outside of the field than ``BEYOND``.
+    """
     left, right, low, high = view
     wide, tall = BEYOND * (right - left), BEYOND * (high - low)
     (x, y) = point
@@ -83,11 +97,12 @@ def _require_in_view(point: FieldPoint, view: FieldBounds, column: int) -> Field
 
 
 def format_strokes(lines: Iterable[StrokePoints], digits: tuple[int, int]) -> str:
-    """Lines as they are typed, with so many decimals along x and along y."""
+    """Return lines as they are typed, with so many decimals along x and along y."""
     along, up = digits
     return "; ".join(" ".join(f"{_format_short(x, along)},{_format_short(y, up)}" for x, y in line)
                      for line in lines)  # fmt: skip
 
 
 def _format_short(value: float, digits: int) -> str:
+    """Return a number with at most so many decimals; 0 has no minus sign."""
     return f"{round(value, digits) + 0.0:g}"

@@ -18,7 +18,7 @@ Quotient = tuple[Any, Any]
 
 
 def is_rational(tree: Expr) -> bool:
-    """Whether a formula uses arithmetic only, and is small enough to expand."""
+    """Return whether a formula uses arithmetic only, and is small enough to expand."""
     nodes = list(walk_tree(tree))
     return len(nodes) <= MOST_NODES and all(
         not isinstance(node, Call) or node.op in _OPERATORS for node in nodes
@@ -26,36 +26,49 @@ def is_rational(tree: Expr) -> bool:
 
 
 def prove_equal(first: Expr, second: Expr) -> bool:
-    """Whether two formulas are proved to be the same rational function."""
+    """Return whether two formulas are proved to be the same rational function.
+
+    False proves nothing: they may differ, be no rational functions, or be too large to expand.
+    """
     if not (is_rational(first) and is_rational(second)):
         return False
     used = tuple(sorted(names_in(first) | names_in(second)))
     try:
         top1, low1 = _of_key(first, used)
-        top2, low2 = _convert_to_quotient(second, used)
+        top2, low2 = convert_to_quotient(second, used)
     except (ValueError, ZeroDivisionError):
         return False
     return bool(top1 * low2 == top2 * low1)
 
 
-def _convert_to_quotient(tree: Expr, used: tuple[str, ...]) -> Quotient:
+def convert_to_quotient(tree: Expr, used: tuple[str, ...]) -> Quotient:
+    """Return a rational formula as a quotient of polynomials in the names used.
+
+    Raises
+    ------
+    ValueError
+        If an exponent is no integer up to ``LARGEST_POWER``.
+    ZeroDivisionError
+        If a divisor is zero everywhere.
+    """
     ctx, env = _build_polynomial_field(used)
     return _evaluate_quotient(tree, ctx, env)
 
 
-_of_key = lru_cache(maxsize=512)(_convert_to_quotient)
+_of_key = lru_cache(maxsize=512)(convert_to_quotient)
 """The same for a key, which a whole class is compared with."""
 
 
 @lru_cache(maxsize=512)
 def _build_polynomial_field(used: tuple[str, ...]) -> tuple[fmpq_mpoly_ctx, dict[str, Quotient]]:
-    """Polynomials in so many variables, and what each name stands for."""
+    """Return the context of polynomials in so many variables, and what each name stands for."""
     ctx = fmpq_mpoly_ctx.get([f"x{i}" for i in range(len(used))] or ["x0"], Ordering.lex)
     one = ctx.constant(1)
     return ctx, {name: (gen, one) for name, gen in zip(used, ctx.gens(), strict=False)}
 
 
 def _evaluate_quotient(tree: Expr, ctx: fmpq_mpoly_ctx, env: Mapping[str, Quotient]) -> Quotient:
+    """Return the quotient of a tree whose names stand for quotients; errors as its operators'."""
     if isinstance(tree, Num):
         return ctx.constant(to_rational(tree.value)), ctx.constant(1)
     if isinstance(tree, Sym):
@@ -66,28 +79,48 @@ def _evaluate_quotient(tree: Expr, ctx: fmpq_mpoly_ctx, env: Mapping[str, Quotie
 
 
 def _add_quotients(a: Quotient, b: Quotient) -> Quotient:
+    """Return the sum over the product of the denominators; nothing is cancelled."""
     return a[0] * b[1] + b[0] * a[1], a[1] * b[1]
 
 
 def _negate_quotient(a: Quotient) -> Quotient:
+    """Return the quotient with the other sign."""
     return -a[0], a[1]
 
 
 def _subtract_quotients(a: Quotient, b: Quotient) -> Quotient:
+    """Return the difference over the product of the denominators."""
     return _add_quotients(a, _negate_quotient(b))
 
 
 def _multiply_quotients(a: Quotient, b: Quotient) -> Quotient:
+    """Return the product of the numerators over that of the denominators."""
     return a[0] * b[0], a[1] * b[1]
 
 
 def _divide_quotients(a: Quotient, b: Quotient) -> Quotient:
+    """Return the first quotient times the second upside down.
+
+    Raises
+    ------
+    ZeroDivisionError
+        If the second is zero everywhere.
+    """
     if b[0] == 0:
         raise ZeroDivisionError
     return a[0] * b[1], a[1] * b[0]
 
 
 def _raise_quotient(a: Quotient, b: Quotient) -> Quotient:
+    """Return a power of a quotient, upside down for a negative exponent.
+
+    Raises
+    ------
+    ValueError
+        If the exponent is no integer up to ``LARGEST_POWER``.
+    ZeroDivisionError
+        If zero is raised to a negative power.
+    """
     exponent = _require_integer_exponent(b)
     if exponent < 0:
         return _divide_quotients(
@@ -97,6 +130,13 @@ def _raise_quotient(a: Quotient, b: Quotient) -> Quotient:
 
 
 def _require_integer_exponent(value: Quotient) -> int:
+    """Return the integer that an exponent is.
+
+    Raises
+    ------
+    ValueError
+        If it holds a name, is no integer, or is beyond ``LARGEST_POWER`` either way.
+    """
     top, low = value
     if not (top.is_constant() and low.is_constant()):
         raise ValueError("exponent is not a number")

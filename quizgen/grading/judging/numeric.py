@@ -23,10 +23,19 @@ NumberJudge = Callable[[ReadNumber], Verdict]
 def judge_readings(
     readings: Readings, judge: NumberJudge, places_asked: int | None = None
 ) -> Verdict:
-    """Judge a number that may have two readings; ask back when they would be marked differently.
+    """Return the verdict on a number that may have two readings.
 
-    The decimal reading of the learner's own decimal sign may count when it is right; a reading
-    with thousands groups counts only when the learner declared the other sign.
+    It is ``ambiguous``, and asked back, when the readings would be marked differently. The decimal
+    reading of the learner's own decimal sign may count when it is right; a reading with thousands
+    groups counts only when the learner declared the other sign.
+
+    Parameters
+    ----------
+    readings : Readings
+    judge : callable
+        From one reading to its verdict.
+    places_asked : int, optional
+        Decimals that the question asks for: with three, ``1.234`` is meant as a decimal.
     """
     verdict = judge(readings.main)
     if readings.other is None or readings.doubt is None:
@@ -40,7 +49,16 @@ def judge_readings(
 
 
 def best_verdict(verdicts: Iterable[Verdict]) -> Verdict:
-    """The best verdict of equal things that were chained; of equals the last."""
+    """Return the verdict with most credit; of equal ones the last.
+
+    Students end a line with the form they believe in (``x = 20/3 = 6.67``), so of equal verdicts
+    the last one counts: its note is about what they meant to hand in.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
     *before, chosen = verdicts
     for verdict in reversed(before):
         chosen = verdict if verdict.credit > chosen.credit else chosen
@@ -50,7 +68,17 @@ def best_verdict(verdicts: Iterable[Verdict]) -> Verdict:
 def choose_reading(
     first: Verdict, second: Verdict, doubt: Ambiguity, echoes: tuple[str, str]
 ) -> Verdict:
-    """Choose between the verdicts of two readings, or ask back."""
+    """Return the verdict of one of two readings, or an ``ambiguous`` one that asks back.
+
+    Parameters
+    ----------
+    first, second : Verdict
+        Of the decimal reading, and of that with thousands groups.
+    doubt : Ambiguity
+        Why there are two.
+    echoes : (str, str)
+        Both readings as they are shown to the learner.
+    """
     if doubt.group_wins and not first.credit:
         return second
     if not (first.credit or second.credit):
@@ -88,7 +116,21 @@ class NumberTarget(msgspec.Struct, frozen=True):
 def judge_value(
     asked: NumberTarget, number: ReadNumber, value: Value, read_as: str = ""
 ) -> Verdict:
-    """Judge a value that stands in the key's unit; ``number`` says how it was written."""
+    """Return the verdict on a value that stands in the key's unit.
+
+    The order matters: what is right comes before a known mistake, an error carried forward before
+    a misconception, and a guess at a slip last.
+
+    Parameters
+    ----------
+    asked : NumberTarget
+    number : ReadNumber
+        How it was written: its form, decimals and significant figures.
+    value : Value
+        What is judged, in the unit of ``asked.key``.
+    read_as : str
+        What to echo; that of ``number`` if empty.
+    """
     read_as = read_as or number.read_as
     if asked.spec.accepts(value, asked.key):
         return _judge_number_form(asked.spec, number, asked.form, read_as)
@@ -108,6 +150,7 @@ def judge_value(
 def _diagnose_wrong_value(
     asked: NumberTarget, number: ReadNumber, value: Value, read_as: str
 ) -> Verdict:
+    """Return a wrong or half right verdict whose note names the slip, if one explains the value."""
     if value != 0 and agrees_within_half_percent(-value, asked.key):
         return wrong(read_as, "sign")
     diagnosed = asked.hints.find_slip(value) if asked.hints else None
@@ -120,7 +163,7 @@ def _diagnose_wrong_value(
 def is_integer_written_as_decimal(
     spec: Tolerance, number: ReadNumber, value: Value, key: Value
 ) -> bool:
-    """Whether an exact whole number was given as a decimal within 0.01 of it."""
+    """Return whether an exact whole number was given as a decimal within 0.01 of it."""
     if not spec.exact or number.form != "decimal" or not isinstance(key, fmpq):
         return False
     return bool(key.q == 1 and key != 0 and abs(value - key) <= fmpq(1, 100))
@@ -129,7 +172,7 @@ def is_integer_written_as_decimal(
 def matching_misconception(
     spec: Tolerance, number: ReadNumber, value: Value, traps: Iterable[tuple[str, Value]]
 ) -> str:
-    """Name of the nearest known mistake that gives the value, or an empty text."""
+    """Return the name of the nearest known mistake that gives the value, or an empty text."""
     hits = [
         (abs(value - trap), name)
         for name, trap in traps
@@ -145,6 +188,7 @@ def matching_misconception(
 
 
 def _judge_number_form(spec: Tolerance, number: ReadNumber, form: str, read_as: str) -> Verdict:
+    """Return the verdict on a right value: half the credit in another form than was asked."""
     if form in {"fraction", "lowest"} and number.form not in {"fraction", "mixed", "integer"}:
         return partial(HALF, read_as, "form-fraction")
     if form == "lowest" and not number.lowest:
@@ -155,6 +199,10 @@ def _judge_number_form(spec: Tolerance, number: ReadNumber, form: str, read_as: 
 
 
 def _judge_precision(spec: Tolerance, number: ReadNumber, read_as: str) -> Verdict:
+    """Return the verdict on a right value in a right form: half the credit for other decimals.
+
+    Decimals count only under a strict tolerance, and not for fractions.
+    """
     if spec.sigfigs is not None:
         return _judge_significant_figures(spec, number, spec.sigfigs, read_as)
     plain = number.form in {"decimal", "integer"}
@@ -166,6 +214,11 @@ def _judge_precision(spec: Tolerance, number: ReadNumber, read_as: str) -> Verdi
 def _judge_significant_figures(
     spec: Tolerance, number: ReadNumber, asked: int, read_as: str
 ) -> Verdict:
+    """Return the verdict on a right value by its significant figures.
+
+    Zeros at the end of a whole number may count or not, so figures are a range: too few even if
+    they all count costs half, and so does a doubtful number under a strict tolerance.
+    """
     least, most = number.figures
     if most < asked:
         return partial(HALF, read_as, "figures-asked", asked=asked, given=most)
@@ -177,7 +230,10 @@ def _judge_significant_figures(
 def _judge_coarse_rounding(
     spec: Tolerance, number: ReadNumber, value: Value, key: Value, read_as: str
 ) -> Verdict | None:
-    """Right value with too few digits: rounded correctly, but not as far as asked."""
+    """Return the verdict on a key rounded rightly but not as far as asked; None if it is not.
+
+    It costs half the credit, and all of it where the exact number was asked for.
+    """
     if not number.places or number.figures[1] < 2 or number.form != "decimal":
         return None
     if abs(value - key) * 2 * 10**number.places > 1:

@@ -36,10 +36,20 @@ Env = Values
 
 
 class SamplingResult(msgspec.Struct, frozen=True):
-    """What sampling found.
+    """Whether two formulas are equal, and how far that is certain.
 
-    ``equal`` is None when it could not be decided; ``ratio`` and ``difference`` are the common
-    factor and offset of two different formulas, if there are any.
+    Parameters
+    ----------
+    equal : bool or None
+        None when it could not be decided.
+    points : int
+        Points at which the formulas were compared.
+    ground : str
+        ``proved`` (exact constants), ``sampled``, ``differs``, ``domain`` (one has a value where
+        the other has none) or ``undecided``.
+    ratio, difference : Value, optional
+        Typed formula over key, and typed formula less key, where they are the same at all points
+        of two different formulas.
     """
 
     equal: bool | None
@@ -53,7 +63,10 @@ class SamplingResult(msgspec.Struct, frozen=True):
 def _draw_sample_points(
     domains: tuple[tuple[str, SampleInterval], ...],
 ) -> tuple[dict[str, fmpq], ...]:
-    """The sample points of some domains: the same in every process."""
+    """Return the sample points of some domains: ``TRIES`` of them, the same in every process.
+
+    The domains are the seed, so that an answer is judged alike today and when it is appealed.
+    """
     source = random.Random("|".join(map(str, domains)))  # noqa: S311 - points, not secrets
     return tuple(
         {name: _draw_sample_value(domain, source) for name, domain in domains} for _ in range(TRIES)
@@ -61,6 +74,9 @@ def _draw_sample_points(
 
 
 def _draw_sample_value(domain: SampleInterval, source: random.Random) -> fmpq:
+    """Return a rational number of a domain: any size from 1e-3 to 16, or inside the two bounds."""
+    # The offsets have a prime in the denominator, and all else a power of 2: no point is 0, 1, a
+    # bound or a simple fraction, at which different formulas (x, x^2) happen to agree.
     size = fmpq(source.randint(1, 4095), 2 ** source.randint(8, 12)) + fmpq(1, 977)
     if domain == "positive":
         return size
@@ -71,27 +87,36 @@ def _draw_sample_value(domain: SampleInterval, source: random.Random) -> fmpq:
 
 
 def sample_points(symbols: Mapping[str, Domain]) -> tuple[dict[str, fmpq], ...]:
-    """Return rational points of the domain: both signs for ``real``, spread over the magnitudes."""
+    """Return rational points of the domain: both signs for ``real``, spread over the magnitudes.
+
+    Each is a mapping of every name in ``symbols`` to a number; there are always ``TRIES``.
+    """
     return _draw_sample_points(_freeze_domains(symbols))
 
 
 def _freeze_domains(symbols: Mapping[str, Domain]) -> tuple[tuple[str, SampleInterval], ...]:
+    """Return the domains as a sorted tuple, which a cache can look up."""
     return tuple([(n, tuple(d) if isinstance(d, list) else d) for n, d in sorted(symbols.items())])
 
 
 def compile_exact(tree: Expr) -> Callable[[Env], Any]:
-    """Compile a formula for bounded exact evaluation.
+    """Return a formula compiled for bounded exact evaluation, which never raises.
 
-    The result is None where it has no value, and the class ``Undecided`` or ``TooLargeError``
-    where that cannot be told.
+    Its result is None where it has no value, and the class ``UndecidedError`` or
+    ``TooLargeError`` where that cannot be told.
     """
     return _guard_evaluation(compile_expr(tree, bounded_exact_system()))
 
 
 def _guard_evaluation(function: CompiledFormula) -> Callable[[Env], Any]:
-    """Say what a formula's value is, or why it has none."""
+    """Return a function that gives a formula's value, or why it has none, and never raises.
+
+    The result is None where the formula has no value, and the class ``UndecidedError`` or
+    ``TooLargeError`` where that cannot be told.
+    """
 
     def evaluate(env: Env) -> Any:
+        """Return the value at one point, None, or the class of the error."""
         try:
             return function(env)
         except UndecidedError:
@@ -105,38 +130,47 @@ def _guard_evaluation(function: CompiledFormula) -> Callable[[Env], Any]:
 
 
 class SampledFormula:
-    """A formula's values at some points, each computed when it is first asked for.
+    """A formula's values at some points, each computed when it is first needed.
 
-    The precision is stated once around all of them.
+    The caller sets the precision once around all of them, since setting it takes a lock.
     """
 
     def __init__(self, tree: Expr, points: Sequence[Env]) -> None:
+        """Compile a formula; nothing is evaluated yet."""
         self.points = points
         self._function = _guard_evaluation(compile_nested(tree, bounded_exact_system()))
         self._values: list[Any] = []
 
     def at(self, index: int) -> Any:
-        """The value at one point."""
+        """Return the value at one point, or what ``compile_exact`` gives where there is none."""
         while len(self._values) <= index:
             self._values.append(self._function(self.points[len(self._values)]))
         return self._values[index]
 
 
 @lru_cache(maxsize=512)
-def _of_key(tree: Expr, domains: tuple[tuple[str, SampleInterval], ...]) -> SampledFormula:
-    """The values of a key, which a whole class is compared with."""
+def _sample_key_formula(
+    tree: Expr, domains: tuple[tuple[str, SampleInterval], ...]
+) -> SampledFormula:
+    """Return the values of a key, which the answers of a whole class are compared with."""
     return SampledFormula(tree, _draw_sample_points(domains))
 
 
 def are_equal(first: Expr, second: Expr, symbols: Mapping[str, Domain]) -> bool | None:
-    """Whether a typed formula equals another one, as ``compare`` finds it."""
+    """Return whether two formulas are equal over a domain; None if sampling cannot decide.
+
+    Parameters and errors are those of ``compare_by_sampling``.
+    """
     return compare_by_sampling(first, second, symbols, related=False).equal
 
 
 def compare_by_sampling(
     first: Expr, second: Expr, symbols: Mapping[str, Domain], *, related: bool = True
 ) -> SamplingResult:
-    """Compare a typed formula with the key.
+    """Return whether a typed formula equals the key, and by what factor or offset it does not.
+
+    Equal means: at ``POINTS`` points of the domain both have a value, and the values agree to 20
+    digits or exactly. One point at which they differ is a proof that the formulas do.
 
     Parameters
     ----------
@@ -146,6 +180,16 @@ def compare_by_sampling(
         ``real``, ``positive`` or ``[low, high]`` per name.
     related : bool
         Whether to look for the factor or offset between different ones.
+
+    Returns
+    -------
+    SamplingResult
+        ``equal`` is None if too few points have a value, or the values are too uncertain.
+
+    Raises
+    ------
+    FormulaReadError
+        ``too-large`` if the typed formula is too large to be computed at any point.
     """
     used = names_in(first) | names_in(second)
     if not used:
@@ -153,12 +197,19 @@ def compare_by_sampling(
     wanted = {name: domain for name, domain in symbols.items() if name in used}
     typed = SampledFormula(second, sample_points(wanted))
     with working_precision(BITS):
-        key = _of_key(first, _freeze_domains(wanted))
+        key = _sample_key_formula(first, _freeze_domains(wanted))
         found = _compare_at_samples(key, typed)
         return _find_relation(key, typed, found) if related and found.ground == "differs" else found
 
 
 def _compare_constants(first: Expr, second: Expr) -> SamplingResult:
+    """Return whether two formulas without names have one value: proved if both are rational.
+
+    Raises
+    ------
+    FormulaReadError
+        If the typed one is too large to be computed.
+    """
     with working_precision(2 * BITS):
         a, b = compile_exact(first)({}), compile_exact(second)({})
         if b is TooLargeError:
@@ -172,6 +223,16 @@ def _compare_constants(first: Expr, second: Expr) -> SamplingResult:
 
 
 def _compare_at_samples(key: SampledFormula, typed: SampledFormula) -> SamplingResult:
+    """Return whether two formulas agree at ``POINTS`` points, or differ at one.
+
+    Points where the key has no value do not count; a typed formula that has none where the key
+    has one is wrong about the domain.
+
+    Raises
+    ------
+    FormulaReadError
+        If the typed formula is too large at every point.
+    """
     apart = large = met = 0
     sure = True
     for index in range(len(key.points)):
@@ -199,7 +260,7 @@ def _compare_at_samples(key: SampledFormula, typed: SampledFormula) -> SamplingR
 
 
 def values_agree(a: Value, b: Value) -> bool | None:
-    """Whether two values agree: exactly, or as sharp balls; None if the balls are too wide."""
+    """Return whether two values agree: exactly, or as sharp balls; None if a ball is too wide."""
     if isinstance(a, fmpq) and isinstance(b, fmpq):
         return bool(a == b)
     difference = a - b
@@ -213,18 +274,26 @@ def values_agree(a: Value, b: Value) -> bool | None:
 def _find_relation(
     key: SampledFormula, typed: SampledFormula, found: SamplingResult
 ) -> SamplingResult:
-    """Tell whether two different formulas differ by a factor or by an offset."""
+    """Return the result with the factor or the offset of two different formulas, if they have one.
+
+    The first twelve points serve; three of them must have a value, or a relation means nothing.
+    """
     pairs = [(key.at(index), typed.at(index)) for index in range(12)]
-    valued = [(a, b) for a, b in pairs if not any(map(_without_value, (a, b)))]
+    valued = [(a, b) for a, b in pairs if not any(map(_is_without_value, (a, b)))]
     ratio, difference = _find_common_ratio_or_offset(valued) if len(valued) >= 3 else (None, None)
     return replace(found, ratio=ratio, difference=difference)
 
 
-def _without_value(value: object) -> bool:
+def _is_without_value(value: object) -> bool:
+    """Return whether a formula has no value at a point, or none that could be computed."""
     return value is None or isinstance(value, type)
 
 
 def _find_common_ratio_or_offset(pairs: list[tuple[Any, Any]]) -> tuple[Any, Any]:
+    """Return the ratio and the difference of typed value and key, each None if it varies.
+
+    Both are None as soon as one value is 0: zero has no ratio, and an offset alone misleads there.
+    """
     if any(a == 0 or b == 0 for a, b in pairs):
         return None, None
     ratios = [b / a for a, b in pairs]

@@ -30,7 +30,7 @@ _DASHES = re.compile(r"(?<=[^\W_])[-‐‑‒–—−_/]|[-‐‑‒–—−_/
 
 @lru_cache(maxsize=4096)
 def fold_word(text: str) -> str:
-    """Fold what does not matter in a word answer.
+    """Return a word answer without what does not matter in it.
 
     Case, blanks, hyphens, punctuation at the ends, articles, British spelling, digits of any
     script, umlauts written out and decomposed letters are folded.
@@ -54,12 +54,12 @@ MOST = 2
 
 @lru_cache(maxsize=4096)
 def allowed_typos(term: str) -> int:
-    """Typing slips allowed: none up to four letters or with digits, one up to eight, else two."""
+    """Return the typing slips allowed: 0 to four letters or with digits, 1 to eight, else 2."""
     return 0 if len(term) <= 4 or any(map(str.isdigit, term)) else 1 if len(term) <= 8 else MOST
 
 
 def typo_distance(first: str, second: str, most: int) -> int:
-    """Typing slips between two words: letters put in, left out, changed or exchanged.
+    """Return the typing slips between two words: letters put in, left out, changed or exchanged.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def typo_distance(first: str, second: str, most: int) -> int:
 
 
 def _is_too_different(first: str, second: str, most: int) -> bool:
-    """Whether letters alone, wherever they stand, tell of more slips than ``most``."""
+    """Return whether letters alone, wherever they stand, show more slips than ``most``."""
     if abs(len(first) - len(second)) > most or len({*first} ^ {*second}) > 2 * most:
         return True
     return max(len(first), len(second)) - (Counter(first) & Counter(second)).total() > most
@@ -80,6 +80,7 @@ def _is_too_different(first: str, second: str, most: int) -> bool:
 
 @cache
 def _load_edit_distance() -> Callable[..., int]:
+    """Return the distance function of RapidFuzz, imported on first use."""
     from rapidfuzz.distance import OSA  # loaded when a word is not known as it stands
 
     return OSA.distance
@@ -112,10 +113,10 @@ _PREFIXES = re.compile(
 
 
 def is_another_word(typed: str, term: str, known: Iterable[str]) -> bool:
-    """Whether what was typed is a word of its own rather than a slip in spelling a term.
+    """Return whether what was typed is a word of its own rather than a slip in spelling a term.
 
-    An opposite (``un-``, ``de-``, ``an-``), a known word, two letters replaced, or the term with
-    a short word beside it (``increases no``).
+    That is an opposite (``un-``, ``de-``, ``an-``), one of the ``known`` words, a term with two
+    letters replaced, or the term next to a short word (``increases no``).
     """
     word, wanted = fold_word(typed), fold_word(term)
     pieces = typed.split()
@@ -134,11 +135,12 @@ def is_another_word(typed: str, term: str, known: Iterable[str]) -> bool:
 
 @lru_cache(maxsize=4096)
 def _strip_word_prefix(word: str) -> str:
+    """Return a folded word without a prefix that turns or shifts its meaning."""
     return _PREFIXES.sub("", word)
 
 
 def confusable_terms(terms: Iterable[str], words: Iterable[str]) -> list[str]:
-    """The terms that could be taken for a slip in spelling one of some words, and are none."""
+    """Return the terms that look like a slip in spelling one of some words, and are none."""
     known, right = tuple(terms), {fold_word(word) for word in words}
     near = set().union(*(_find_similar_terms(known, word) for word in right))
     return [term for term in known if term in near and fold_word(term) not in right]
@@ -146,6 +148,9 @@ def confusable_terms(terms: Iterable[str], words: Iterable[str]) -> list[str]:
 
 @lru_cache(maxsize=256)
 def _find_similar_terms(terms: tuple[str, ...], word: str) -> frozenset[str]:
-    """Those of some terms that may be slips in spelling a word: asked again for each paper."""
+    """Return those of some terms that may be slips in spelling a word.
+
+    They are cached, since each paper of a class needs the same.
+    """
     few = allowed_typos(word)
     return frozenset(term for term in terms if typo_distance(fold_word(term), word, few) <= few)

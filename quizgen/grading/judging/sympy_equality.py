@@ -21,8 +21,9 @@ SECONDS = 4.0
 def decide_by_sympy(
     first: Expr, second: Expr, symbols: Mapping[str, object], seconds: float = SECONDS
 ) -> bool | None:
-    """Decide by simplifying the difference; None if that does not end in time.
+    """Return whether two formulas are equal, by simplifying their difference; None if undecided.
 
+    It is undecided when SymPy cannot tell, does not end within ``seconds``, or cannot be started.
     The formulas travel as text of the formula grammar and are rebuilt node by node, so nothing
     that was typed is ever evaluated as code.
     """
@@ -45,14 +46,21 @@ def decide_by_sympy(
 
 
 def run_decider() -> None:
-    """Read two formulas from standard input and print ``equal``, ``different`` or ``unknown``."""
+    """Print ``equal``, ``different`` or ``unknown`` for two formulas of standard input.
+
+    One formula stands in each line; the first argument of the command names the positive
+    quantities, with commas between.
+    """
     first, second = sys.stdin.read().split("\n")[:2]
     positive = frozenset(filter(None, sys.argv[1].split(",")))
     sys.stdout.write(decide_equality(first, second, positive))
 
 
 def decide_equality(first: str, second: str, positive: frozenset[str]) -> str:
-    """Simplify the difference of two formulas: ``equal``, ``different`` or ``unknown``."""
+    """Return ``equal``, ``different`` or ``unknown`` for two formulas as text.
+
+    ``positive`` names the quantities above 0; all others are real.
+    """
     import sympy
 
     try:
@@ -66,7 +74,13 @@ def decide_equality(first: str, second: str, positive: frozenset[str]) -> str:
 
 
 def _to_sympy(tree: Expr, positive: frozenset[str]) -> Any:
-    """Build the SymPy object of a tree; KeyError for a condition, which says nothing here."""
+    """Return the SymPy object of a tree.
+
+    Raises
+    ------
+    KeyError
+        For a condition, whose difference means nothing.
+    """
     import sympy
 
     ops = {name: op for name, op in sympy_system().ops.items() if name not in CONDITIONS}

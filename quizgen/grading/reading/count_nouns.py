@@ -27,7 +27,7 @@ def check_count_nouns(words: list[str]) -> None:
 
 
 def drop_count_noun(source: SourceText, words: Iterable[str]) -> SourceText:
-    """Drop the word for what is counted, behind or before the number."""
+    """Return a number without the word for what is counted, behind or before it."""
     named = tuple(word for word in words if word not in active_units().simple) if words else ()
     if not named:
         return source
@@ -40,12 +40,12 @@ def drop_count_noun(source: SourceText, words: Iterable[str]) -> SourceText:
 
 
 def count_noun_unit(words: Iterable[str]) -> str:
-    """The listed unit among the words for what is counted, or an empty text."""
+    """Return the listed unit among the words for what is counted, or an empty text."""
     return next((word for word in words if word in active_units().simple), "")
 
 
 def count_noun_name(words: list[str], lang: str) -> str:
-    """What is counted, as it is called in a language."""
+    """Return what is counted, as it is called in a language."""
     if words[0] in active_units().simple:
         return format_unit(words[0])
     return next((word for word in words if is_written_in(fallback_language(lang), word)), words[0])
@@ -53,6 +53,7 @@ def count_noun_name(words: list[str], lang: str) -> str:
 
 @lru_cache(maxsize=256)
 def _build_count_noun_patterns(words: tuple[str, ...]) -> tuple[re.Pattern[str], re.Pattern[str]]:
+    """Return the patterns of the words behind and before a number, cached for each question."""
     longest_first = sorted(words, key=len, reverse=True)
     spelt = (re.escape(unicodedata.normalize("NFC", word)) for word in longest_first)
     listed = "|".join(spelt).replace("/", "/ ?")

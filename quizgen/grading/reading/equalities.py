@@ -48,7 +48,7 @@ class EqualitySide(msgspec.Struct, frozen=True):
 
     @property
     def places(self) -> int:
-        """Decimals written; a fraction or formula is sharper than any decimal."""
+        """Decimals written; 100 for a fraction or formula, which is sharper than any decimal."""
         number = self.readings.main
         return number.places if number.form in {"decimal", "scientific"} else 100
 
@@ -59,9 +59,9 @@ _READ = SourceText("", ())
 
 
 def read_plain_side(typed: str, decimal: str) -> EqualitySide | None:
-    """Read a plain number, alone or with a plain unit behind it, without any rewriting.
+    """Return a plain number, alone or with a plain unit behind it; None if it is not plain.
 
-    Most of what people type is one: ``6.67 mm``, ``12,5%``, ``20/3``.
+    Most of what people type is one, and needs no rewriting: ``6.67 mm``, ``12,5%``, ``20/3``.
     """
     match = _PLAIN.fullmatch(typed)
     readings = match and read_plain_number(match[1], decimal)
@@ -76,7 +76,7 @@ def read_plain_side(typed: str, decimal: str) -> EqualitySide | None:
 
 
 def read_typed_sides(typed: str, decimal: str) -> list[EqualitySide]:
-    """Read what was typed: as it stands if it is plain, else without names and odd spellings.
+    """Return the sides of what was typed, without names and odd spellings.
 
     Raises
     ------
@@ -88,7 +88,7 @@ def read_typed_sides(typed: str, decimal: str) -> list[EqualitySide]:
 
 
 def read_sides(source: SourceText, decimal: str) -> list[EqualitySide]:
-    """Read a number with or without a unit; every side, if equal things are chained.
+    """Return a number with or without a unit; every side, if equal things are chained.
 
     Raises
     ------
@@ -111,17 +111,27 @@ def read_sides(source: SourceText, decimal: str) -> list[EqualitySide]:
 
 
 def most_precise_side(sides: list[EqualitySide]) -> EqualitySide:
-    """The side that says most: an exact one, else the one with most decimals."""
+    """Return the side that is most precise: an exact one, else the one with most decimals."""
     return sides[0] if len(sides) == 1 else max(sides, key=lambda side: side.places)
 
 
 def _read_side(source: SourceText, decimal: str) -> EqualitySide:
+    """Return one side, read strictly: a number and maybe a unit.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is anything else.
+    """
     quantity = split_quantity(source)
     return EqualitySide(quantity, read_number(quantity.number, decimal))
 
 
 def _iter_lenient_sides(source: SourceText, decimal: str) -> Iterator[EqualitySide]:
-    """The sides of a chain, each without names and brackets; none if one cannot be read."""
+    """Yield the sides of a chain, each without names and brackets.
+
+    Nothing is yielded where a side of digits alone, or the last one, cannot be read.
+    """
     pieces = [piece for piece in _split_at_equal_signs(source) if piece.text]
     if len({piece.text for piece in pieces}) < len(pieces):
         return
@@ -141,6 +151,7 @@ def _iter_lenient_sides(source: SourceText, decimal: str) -> Iterator[EqualitySi
 
 
 def _split_at_equal_signs(source: SourceText) -> Iterator[SourceText]:
+    """Yield the pieces between equals signs and arrows."""
     start = 0
     for match in _EQUAL.finditer(source.text):
         yield source.slice(start, match.start()).strip()
@@ -149,7 +160,10 @@ def _split_at_equal_signs(source: SourceText) -> Iterator[SourceText]:
 
 
 def _read_lenient_side(piece: SourceText, decimal: str) -> EqualitySide | None:
-    """Read one side, also behind a name in words, in brackets or as a formula of numbers."""
+    """Return one side, also behind a name in words, in brackets or as a formula of numbers.
+
+    None if it is none of these.
+    """
     named = _NAMED.match(piece.text)
     if named is not None:
         piece = piece.slice(named.end())
@@ -167,6 +181,7 @@ def _read_lenient_side(piece: SourceText, decimal: str) -> EqualitySide | None:
 
 
 def _read_constant_formula(piece: SourceText, decimal: str) -> EqualitySide | None:
+    """Return a formula of numbers as a side; None if it cannot be read or has two readings."""
     try:
         found = read_formula(piece.text, (), decimal)
         if found.other is not None:
@@ -178,13 +193,23 @@ def _read_constant_formula(piece: SourceText, decimal: str) -> EqualitySide | No
 
 
 def _check_sides_agree(source: SourceText, sides: list[EqualitySide]) -> None:
-    """Ask back when two sides are not equal."""
+    """Ask back when two sides are not equal.
+
+    Raises
+    ------
+    FormulaReadError
+        ``two-readings``.
+    """
     for side in sides[1:]:
         if not _is_equal_side(sides[0], side):
             raise FormulaReadError("two-readings", source.column(0), source.text)
 
 
 def _is_equal_side(first: EqualitySide, second: EqualitySide) -> bool:
+    """Return whether two sides agree within the last decimal of either, or half a percent.
+
+    Sides in units of other dimensions never do.
+    """
     one, other = first.quantity.unit, second.quantity.unit
     if one is not None and other is not None and one.dimension != other.dimension:
         return False
@@ -193,7 +218,7 @@ def _is_equal_side(first: EqualitySide, second: EqualitySide) -> bool:
 
 
 def _convert_to_base_units(side: EqualitySide) -> tuple[Value, Value]:
-    """The value in base units, and what its last decimal stands for."""
+    """Return the value in base units, and one unit of its last decimal there (0 if exact)."""
     number: ReadNumber = side.readings.main
     factor = side.quantity.unit.factor if side.quantity.unit else fmpq(1)
     factor = factor / 100 if number.percent else factor
@@ -204,7 +229,23 @@ def _convert_to_base_units(side: EqualitySide) -> tuple[Value, Value]:
 def read_items(
     items: list[SourceText], asked: str, unit: TypedUnit | None, decimal: str
 ) -> tuple[list[ReadNumber], list[ReadNumber] | None, Ambiguity | None]:
-    """Read every item in the asked unit; both readings if one item has two."""
+    """Return every item in the asked unit, the other readings or None, and why there are two.
+
+    Parameters
+    ----------
+    items : list of SourceText
+    asked : str
+        The unit to convert to.
+    unit : TypedUnit or None
+        What stood behind the list, for items without a unit of their own.
+    decimal : str
+        The learner's decimal sign.
+
+    Raises
+    ------
+    FormulaReadError
+        If an item cannot be read, or its unit is of another dimension.
+    """
     first, second, doubt = [], [], None
     for item in items:
         side = most_precise_side(read_sides(item, decimal))
@@ -217,6 +258,13 @@ def read_items(
 
 
 def _compute_unit_factor(unit: TypedUnit | None, asked: str, item: SourceText) -> Value:
+    """Return how many asked units a typed one is; 1 if none was typed.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is of another dimension, or no unit was asked for.
+    """
     if unit is None:
         return fmpq(1)
     wanted = listed_unit(asked)

@@ -26,7 +26,8 @@ from quizgen.maths.notation.names import FUNCTIONS, GREEK, fold_name
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.tree import Call, Expr, Num
 
-MULTI_ARGUMENT = r"(?:atan2|min|max|mod|piecewise)"
+_SEVERAL = (n for n, (_, most) in FUNCTIONS.items() if most > 1 and n not in GREEK.values())
+MULTI_ARGUMENT = rf"(?:{'|'.join(_SEVERAL)})"
 _SYNONYMS = {
     "arctan2": "atan2",
     "arctan": "atan",
@@ -53,6 +54,12 @@ _SYNONYMS = {
     "Ln": "ln",
     "Exp": "exp",
     "EXP": "exp",
+    "arsinh": "asinh",
+    "arcosh": "acosh",
+    "artanh": "atanh",
+    "arcsinh": "asinh",
+    "arccosh": "acosh",
+    "arctanh": "atanh",
     "Sin": "sin",
     "Cos": "cos",
     "Tan": "tan",
@@ -102,12 +109,12 @@ class TypedFormula(msgspec.Struct, frozen=True):
 
     @property
     def read_as(self) -> str:
-        """Echo as people write it."""
+        """The formula as people write it, to echo."""
         return pretty.format_formula(format_tree(self.tree))
 
 
 def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> TypedFormula:
-    """Read a typed formula over declared names.
+    """Return a typed formula over declared names, with its other reading if it has two.
 
     Parameters
     ----------
@@ -138,7 +145,7 @@ def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> T
 
 
 def _right_side(source: SourceText) -> SourceText:
-    """Drop the name on the left of ``u = ...``."""
+    """Return what stands behind ``u =``, where that is the only equals sign."""
     match = re.match(r"([^\W\d_][\w']*(?:\([^()]*\))?) ?(?:=|:=|≈) ?(?=\S)", source.text)
     if match is None or "=" in source.text[match.end() :]:
         return source
@@ -146,11 +153,18 @@ def _right_side(source: SourceText) -> SourceText:
 
 
 def _rewrite_euler_powers(source: SourceText) -> SourceText:
-    """``e^x`` and ``e^(…)`` become ``exp(1)^…`` when no quantity is named e."""
+    """Return ``e^x`` and ``e^(…)`` as ``exp(1)^…``, for formulas in which e is no quantity."""
     return source.substitute(_EULER, lambda _m: "exp(1)^")
 
 
 def _refuse_bare_log(source: SourceText, declared: frozenset[str]) -> None:
+    """Raise if ``log`` stands without a base: fields disagree on which one is meant.
+
+    Raises
+    ------
+    FormulaReadError
+        ``which-base``.
+    """
     match = re.search(r"(?<![^\W_])log(?![\w'])", source.text)
     if match and "log" not in declared:
         raise FormulaReadError("which-base", source.column(match.start()), "log")
@@ -159,6 +173,13 @@ def _refuse_bare_log(source: SourceText, declared: frozenset[str]) -> None:
 def _read_number_literals(
     source: SourceText, declared: frozenset[str], decimal: str
 ) -> TypedFormula:
+    """Return the formula with its numbers read by the decimal sign, both readings if there are two.
+
+    Raises
+    ------
+    FormulaReadError
+        If a comma may separate arguments or mark a decimal, or the formula cannot be read.
+    """
     if "," not in source.text and not _GROUPED.search(source.text):
         return TypedFormula(_parse_loose_and_tight(source, declared))
     if _ARGUMENTS.search(source.text) and decimal != "comma":
@@ -176,6 +197,14 @@ def _read_number_literals(
 
 
 def _parse_loose_and_tight(source: SourceText, declared: frozenset[str]) -> Expr:
+    """Return the tree of a formula in which ``a/b c`` has one meaning.
+
+    Raises
+    ------
+    FormulaReadError
+        ``two-readings`` if a product behind a division sign may belong to the denominator, or
+        whatever keeps it from being read.
+    """
     try:
         pieces = tokenize(source.text, declared, loose=True)
         loose = _require_formula(parse_tokens(pieces, len(source.text), tight=False))
@@ -195,13 +224,20 @@ _E = Call("exp", (Num(Fraction(1)),))
 
 
 def _require_formula(tree: Expr) -> Expr:
+    """Return the tree with exponentials in one form.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is a condition.
+    """
     if isinstance(tree, Call) and tree.op in CONDITIONS:
         raise FormulaReadError("not-a-formula", 1)
     return _rewrite_exponentials(tree)
 
 
 def _rewrite_exponentials(tree: Expr) -> Expr:
-    """``exp(1)^x`` is ``exp(x)``."""
+    """Return the tree with ``exp(x)`` for ``exp(1)^x``."""
     if not isinstance(tree, Call):
         return tree
     args = tuple(map(_rewrite_exponentials, tree.args))
@@ -211,7 +247,10 @@ def _rewrite_exponentials(tree: Expr) -> Expr:
 
 
 def _suggest_declared_name(error: FormulaReadError, declared: frozenset[str]) -> FormulaReadError:
-    """Suggest a declared name or function that differs in case only."""
+    """Return the error, with the declared name that differs from an unknown one in case only.
+
+    Without such a name it lists all of them; a function without bracket has an error of its own.
+    """
     if error.code != "unknown-name":
         return error
     same = [n for n in declared if fold_name(n).lower() == fold_name(error.found).lower()]
@@ -222,7 +261,7 @@ def _suggest_declared_name(error: FormulaReadError, declared: frozenset[str]) ->
 
 @lru_cache(maxsize=2048)
 def parse_authored(text: str, symbols: tuple[str, ...]) -> Expr:
-    """Parse an author's formula once."""
+    """Return the tree of an author's formula, cached since a bank repeats it."""
     return parse_formula(text, symbols=symbols)
 
 
@@ -231,7 +270,11 @@ MOST = 40
 
 _GREEK = "".join(GREEK)
 _PLAIN = "|".join(
-    sorted((name for name, (_, most) in FUNCTIONS.items() if most == 1), key=len, reverse=True)
+    sorted(
+        (n for n, (_, most) in FUNCTIONS.items() if most == 1 and n not in GREEK.values()),
+        key=len,
+        reverse=True,
+    )
 )
 _CALL = re.compile(
     rf"(?<![^\W\d_])(?P<name>{_PLAIN})(?![^\W\d_{_GREEK}]) ?"
@@ -243,7 +286,7 @@ _DEGREES = re.compile(r" ?°")
 
 
 def add_call_brackets(source: SourceText, declared: frozenset[str]) -> SourceText:
-    """Put brackets where only one reading exists.
+    """Return the text with brackets around bare arguments where only one reading exists.
 
     Raises
     ------
@@ -262,6 +305,13 @@ def add_call_brackets(source: SourceText, declared: frozenset[str]) -> SourceTex
 
 
 def _rewrite_call(source: SourceText, match: re.Match[str]) -> SourceText:
+    """Return the text with one call in brackets, a power of the function behind them.
+
+    Raises
+    ------
+    FormulaReadError
+        For ``sin^-1``, which is the inverse to some and the reciprocal to others.
+    """
     power = match["power"] or match["signed"] or match["minus"]
     if power == "-1":
         raise FormulaReadError("two-readings", source.column(match.start()), match[0])
@@ -277,6 +327,13 @@ def _rewrite_call(source: SourceText, match: re.Match[str]) -> SourceText:
 def _bracket_bare_argument(
     source: SourceText, match: re.Match[str], power: str | None
 ) -> SourceText:
+    """Return the text with ``sin x`` as ``sin(x)``.
+
+    Raises
+    ------
+    FormulaReadError
+        If more follows that may belong to the argument: ``sin x y``.
+    """
     end = match.end()
     degrees = _DEGREES.match(source.text, end)
     end = degrees.end() if degrees else end
@@ -290,7 +347,7 @@ def _bracket_bare_argument(
 def _write_call(
     source: SourceText, match: re.Match[str], argument: SourceText, end: int, power: str | None
 ) -> SourceText:
-    """``cos^4 θ`` becomes ``cos(θ)^(4)``."""
+    """Return the text with a call written out: ``cos^4 θ`` becomes ``cos(θ)^(4)``."""
     behind = f")^({power})" if power else ")"
     at = source.column(match.start())
     text = f"{match['name']}({argument.text}{behind}"
@@ -302,7 +359,7 @@ def _write_call(
 
 
 def _find_closing_bracket(text: str, start: int) -> int:
-    """Position behind the bracket that closes the one at a position; 0 if none does."""
+    """Return the position behind the bracket that closes the one at ``start``; 0 if none does."""
     depth = 0
     for position in range(start, len(text)):
         depth += (text[position] == "(") - (text[position] == ")")

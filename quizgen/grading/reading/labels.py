@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import cache
 
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.locale import list_languages, load_words
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.notation.names import fold_name
 
@@ -24,7 +26,7 @@ _NAME = re.compile(rf"([^\W\d][\w' ./{SIGNS}-]*?) ?(?::=|[=:≈]|->|→) ?")
 
 
 def split_name(item: SourceText) -> tuple[str, SourceText]:
-    """Split ``u = 420`` into the name and the rest; the name is empty if there is none."""
+    """Return the name and the rest of ``u = 420``; the name is empty if there is none."""
     match = _NAME.match(item.text)
     if match is None or match.end() == len(item.text):
         return "", item
@@ -36,24 +38,18 @@ def name_key(name: str) -> str:
     return _INSIDE.sub("", fold_name(name))
 
 
-NAMED_BY_WORD = {
-    "red": "r", "rot": "r", "লাল": "r",
-    "green": "g", "grün": "g", "gruen": "g", "সবুজ": "g",
-    "blue": "b", "blau": "b", "নীল": "b",
-    "cyan": "c", "zyan": "c", "সায়ান": "c",
-    "magenta": "m", "ম্যাজেন্টা": "m",
-    "yellow": "y", "gelb": "y", "হলুদ": "y",
-    "black": "kb", "schwarz": "ks", "কালো": "kb",
-    "white": "w", "weiß": "w", "weiss": "w", "সাদা": "w",
-    "hue": "h", "farbton": "h", "হিউ": "h",
-    "saturation": "s", "sättigung": "s", "স্যাচুরেশন": "s",
-    "brightness": "v", "value": "v", "hellwert": "v", "ভ্যালু": "v",
-    "column": "u", "spalte": "u", "কলাম": "u",
-    "row": "v", "zeile": "v", "সারি": "v",
-    "horizontal": "x", "vertical": "y", "vertikal": "y", "অনুভূমিক": "x", "উল্লম্ব": "y",
-    "long": "l", "medium": "m", "short": "s", "lang": "l", "mittel": "m", "kurz": "s",
-}  # fmt: skip
-"""Word for a coordinate or a colour to the letters that it may stand for."""
+@cache
+def _letters_of_words() -> dict[str, str]:
+    """Return the letters that a word may stand for, from every language.
+
+    A learner at a German university writes any of them in an English paper.
+    """
+    found: dict[str, str] = {}
+    for lang in list_languages():
+        for word, letters in load_words(lang, "answers")["letters"].items():
+            found[word] = "".join(sorted({*found.get(word, ""), *letters}))
+    return found
+
 
 _SHORTENED = re.compile(r"([^\W_]+)('*)(?:_(.+))?")
 _BEFORE_NUMBER = re.compile(rf"((?:[^\W\d_]|[{SIGNS}])+'*(?:_[^\W_]+'*)*) ?(?=[-+]?[\d.(])")
@@ -73,7 +69,7 @@ def find_name(typed: str, names: list[str]) -> str:
             return found[0]
     short = typed.strip().lower()
     return _find_short_name(short, names) or _find_unique(
-        _find_short_name(letter, names) for letter in NAMED_BY_WORD.get(short, "")
+        _find_short_name(letter, names) for letter in _letters_of_words().get(short, "")
     )
 
 
@@ -95,7 +91,7 @@ def _find_unique(found: Iterable[str]) -> str:
 
 
 def split_named_items(items: list[SourceText], names: list[str]) -> list[tuple[str, SourceText]]:
-    """Split each item into the name that it carries, '' for none, and its value.
+    """Return each item as the name that it carries, '' for none, and its value.
 
     Besides ``u = 420`` a name may stand before or after the value without a sign (``R 25``,
     ``25 red``), provided that all items do so and all names are meant: a word after a number is
@@ -112,11 +108,13 @@ def split_named_items(items: list[SourceText], names: list[str]) -> list[tuple[s
 
 
 def _split_name_before(item: SourceText) -> tuple[str, SourceText]:
+    """Return the name and the value of ``R 25``; the name is empty if there is none."""
     match = _BEFORE_NUMBER.match(item.text)
     return (match[1], item.slice(match.end())) if match else ("", item)
 
 
 def _split_name_after(item: SourceText) -> tuple[str, SourceText]:
+    """Return the name and the value of ``25 red``; the name is empty if there is none."""
     match = _AFTER_NUMBER.fullmatch(item.text)
     return (match["name"], item.slice(0, match.end("value"))) if match else ("", item)
 
@@ -143,7 +141,7 @@ def place_by_name(items: list[SourceText], names: list[str]) -> dict[str, Source
 
 
 def reorder_by_name(items: list[SourceText], names: list[str]) -> list[SourceText]:
-    """Put named items into the declared order; items without names keep theirs.
+    """Return the values in the declared order; items without names keep theirs.
 
     Raises
     ------
@@ -164,6 +162,6 @@ _LEADING = re.compile(rf"(?:{NAME}|{WORDS}) ?(?:=|≈|:|:=) ?")
 
 
 def drop_name(source: SourceText) -> SourceText:
-    """Drop a leading ``u =``."""
+    """Return a text without a leading ``u =``."""
     match = _LEADING.match(source.text)
     return source.slice(match.end()) if match and match.end() < len(source.text) else source

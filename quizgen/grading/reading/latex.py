@@ -53,17 +53,18 @@ _ONCE: tuple[Rewrite, ...] = (
 
 
 def _unwrap_text_command(match: re.Match[str]) -> str:
-    """Keep a blank between a number and the word that follows."""
+    """Return the text inside, with a blank if it follows a number or word."""
     before = match.string[: match.start()][-1:]
     return f" {match[1].strip()}" if before.isalnum() and before != "μ" else match[1]
 
 
 def _bracket_term(text: str) -> str:
+    """Return a term in brackets, unless it is one number or letter."""
     return text if re.fullmatch(r"\d+|[^\W\d_]", text) else f"({text})"
 
 
 def _rewrite_fraction_command(match: re.Match[str]) -> str:
-    """A proper fraction behind a whole number is a mixed number."""
+    """Return a fraction; a proper one behind a whole number makes a mixed number."""
     whole, *terms = match.groups(default="")
     above, below = (terms[0] or terms[1]).strip(), (terms[2] or terms[3]).strip()
     if whole and above.isdecimal() and below.isdecimal() and int(above) < int(below):
@@ -72,11 +73,13 @@ def _rewrite_fraction_command(match: re.Match[str]) -> str:
 
 
 def _rewrite_root_command(match: re.Match[str]) -> str:
+    """Return ``sqrt(...)``, with a blank where a name or number stands before it."""
     before = " " if match.string[: match.start()][-1:].isalnum() else ""
     return f"{before}sqrt({(match[1] or match[2] or '').strip()})"
 
 
 def _rewrite_subscript(match: re.Match[str]) -> str:
+    """Return a subscript as part of the name, without blanks and commas."""
     return "_" + re.sub(r"[\s,{}\\]", "", match[1])
 
 
@@ -100,7 +103,7 @@ _LAST: tuple[Rewrite, ...] = ((re.compile(r"\\([%{}&#])"), lambda m: m[1]),)
 
 
 def rewrite_latex(source: SourceText) -> SourceText:
-    """Rewrite a text that may hold LaTeX.
+    """Return a text with its LaTeX as it would have been typed.
 
     Dollar signs go in pairs only; a lone one is no LaTeX.
     """
@@ -116,6 +119,7 @@ def rewrite_latex(source: SourceText) -> SourceText:
 
 
 def _apply_rewrites(source: SourceText, rewrites: tuple[Rewrite, ...]) -> SourceText:
+    """Return a text after some rewrites, in order."""
     for pattern, new in rewrites:
         source = source.substitute(pattern, new)
     return source

@@ -26,7 +26,7 @@ _SPACED = re.compile(r"(?<=[\d)%°A-Za-z]) +(?=[-+]?[\d.(])")
 
 
 def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[SourceText], SourceText]:
-    """Split a typed list.
+    """Return the items of a typed list, and what stood behind its closing bracket (a unit).
 
     Parameters
     ----------
@@ -36,11 +36,6 @@ def read_list(typed: str, count: int | None, decimal: str) -> tuple[list[SourceT
         How many items are expected; None for sets.
     decimal : str
         The learner's decimal sign.
-
-    Returns
-    -------
-    list of Source, Source
-        The items, and what stood behind the closing bracket (a unit).
 
     Raises
     ------
@@ -73,7 +68,7 @@ _NOTHING = SourceText("", ())
 
 
 def _plain_items(typed: str, count: int | None) -> list[SourceText]:
-    """The items of ``(1.5; 2)`` and ``1.5, 2``, where nothing has to be rewritten; else none."""
+    """Return the items of ``(1.5; 2)`` and ``1.5, 2``, which need no rewriting; else none."""
     match = _PLAIN.fullmatch(typed) if len(typed) <= LONGEST else None
     if match is None or (match[2] and count is None):
         return []
@@ -85,7 +80,7 @@ def _plain_items(typed: str, count: int | None) -> list[SourceText]:
 
 
 def normalise_separators(source: SourceText) -> SourceText:
-    """Take away blanks before separators, and put one for a word that joins values."""
+    """Return a text without blanks before separators, and one in place of a joining word."""
     if " ," in source.text or " ;" in source.text or " |" in source.text:
         source = source.substitute(_BLANK_BEFORE, lambda _m: "")
     if source.text.count(" ") < 2:
@@ -95,12 +90,9 @@ def normalise_separators(source: SourceText) -> SourceText:
 
 
 def split_prefix(source: SourceText) -> tuple[list[str], SourceText]:
-    """Cut off what stands before a point: ``p' = (..)``, ``P(..)``, ``(u, v) = (..)``.
+    """Return the names before a point and the rest: ``p' = (..)``, ``P(..)``, ``(u, v) = (..)``.
 
-    Returns
-    -------
-    list of str, Source
-        The names of the coordinates, if they are given, and the rest.
+    Only the names of coordinates are returned; that of the whole point is dropped.
     """
     several = _NAMES.match(source.text)
     if several is not None:
@@ -114,7 +106,7 @@ def split_prefix(source: SourceText) -> tuple[list[str], SourceText]:
 
 
 def attach_names(names: list[str], items: list[SourceText]) -> list[SourceText]:
-    """Put each name before its value.
+    """Return the items, each with its name before it.
 
     Raises
     ------
@@ -130,7 +122,7 @@ def attach_names(names: list[str], items: list[SourceText]) -> list[SourceText]:
 
 
 def _strip_outer_brackets(source: SourceText) -> tuple[SourceText, SourceText]:
-    """Remove all pairs of brackets around everything."""
+    """Return a text without all pairs of brackets around it, and what followed one of them."""
     inner, tail = strip_brackets(source)
     while True:
         again, behind = strip_brackets(inner)
@@ -140,7 +132,10 @@ def _strip_outer_brackets(source: SourceText) -> tuple[SourceText, SourceText]:
 
 
 def strip_brackets(source: SourceText) -> tuple[SourceText, SourceText]:
-    """Remove one pair of brackets around everything; what follows it is returned apart."""
+    """Return a text without one pair of brackets around it, and what follows the pair.
+
+    A text that no pair encloses is returned as it is.
+    """
     close = BRACKETS.get(source.text[:1])
     if close is None:
         return source, source.slice(0, 0)
@@ -151,6 +146,7 @@ def strip_brackets(source: SourceText) -> tuple[SourceText, SourceText]:
 
 
 def _find_closing_bracket(text: str, close: str) -> int:
+    """Return the position of the bracket that closes the first character; -1 if none does."""
     depth = 0
     for position, character in enumerate(text):
         depth += (character == text[0]) - (character == close)
@@ -160,6 +156,13 @@ def _find_closing_bracket(text: str, close: str) -> int:
 
 
 def _split_items(source: SourceText, count: int | None, decimal: str) -> list[SourceText]:
+    """Return the items, cut at the strongest separator: semicolons, names, then blanks or commas.
+
+    Raises
+    ------
+    FormulaReadError
+        If commas separate and mark decimals at once, or an item is empty.
+    """
     if _HARD.search(source.text):
         return [
             named
@@ -182,6 +185,16 @@ def _split_items(source: SourceText, count: int | None, decimal: str) -> list[So
 def _by_commas(
     source: SourceText, commas: int, count: int | None, decimal: str
 ) -> list[SourceText]:
+    """Return the items of a list in which commas stand, as separators or as decimal signs.
+
+    ``count`` decides where it can: as many commas as separators are needed, or as many pieces
+    between blanks as items.
+
+    Raises
+    ------
+    FormulaReadError
+        ``comma-twice`` if both readings are possible.
+    """
     spaced = list(_split_at_separator(source, re.compile(r",? +")))
     if _mixed_commas(source.text):
         raise FormulaReadError("comma-twice", source.column(source.text.index(",")), source.text)
@@ -201,12 +214,18 @@ def _by_commas(
 
 
 def _mixed_commas(text: str) -> bool:
-    """``1,5, 2,5``: some commas stand between digits, others before a blank."""
+    """Return whether some commas stand between digits, others before a blank: ``1,5, 2,5``."""
     return bool(re.search(r"\d,\d", text) and re.search(r", ", text))
 
 
 def _split_at_separator(source: SourceText, separator: re.Pattern[str]) -> Iterator[SourceText]:
-    """Cut at separators outside brackets; empty pieces at the ends are dropped."""
+    """Yield the pieces between separators outside brackets; empty ones at the end are dropped.
+
+    Raises
+    ------
+    FormulaReadError
+        If a piece before others is empty.
+    """
     start, pieces = 0, []
     for match in separator.finditer(source.text):
         if bracket_depth(source.text, match.start()) == 0:
@@ -222,6 +241,6 @@ def _split_at_separator(source: SourceText, separator: re.Pattern[str]) -> Itera
 
 
 def bracket_depth(text: str, end: int) -> int:
-    """Brackets that are open at a position."""
+    """Return how many brackets are open at a position."""
     before = text[:end]
     return sum(before.count(b) for b in "([{") - sum(before.count(b) for b in ")]}")

@@ -39,7 +39,7 @@ class NumberLiteral(msgspec.Struct, frozen=True):
 
 
 def read_literal(typed: str, decimal: str = "auto", column: int = 1) -> NumberLiteral:
-    """Read one decimal literal.
+    """Return one decimal literal in point notation, with its second reading if it has two.
 
     Parameters
     ----------
@@ -47,6 +47,8 @@ def read_literal(typed: str, decimal: str = "auto", column: int = 1) -> NumberLi
         Digits with ``.``, ``,``, blanks or apostrophes.
     decimal : str
         The learner's decimal sign: ``auto``, ``point`` or ``comma``.
+    column : int
+        Where it was typed, for the error.
 
     Raises
     ------
@@ -65,7 +67,7 @@ def read_literal(typed: str, decimal: str = "auto", column: int = 1) -> NumberLi
 
 
 def find_ambiguity(mark: str, decimal: str) -> Ambiguity | None:
-    """Tell how far the declared decimal sign settles the matter."""
+    """Return what stays doubtful about ``1.000`` for a decimal sign; None if nothing does."""
     if decimal == "point":
         return None if mark == "." else Ambiguity(mark, native=False, group_wins=True)
     native = decimal == "auto" or mark == ","
@@ -73,6 +75,13 @@ def find_ambiguity(mark: str, decimal: str) -> Ambiguity | None:
 
 
 def _several_marks(compact: str, column: int) -> str:
+    """Return a literal with no mark or several of them in point notation, without groups.
+
+    Raises
+    ------
+    FormulaReadError
+        If the marks fit no way of writing numbers.
+    """
     if compact.rstrip(".").isdigit():
         return compact.rstrip(".")
     match = _GROUPED_DECIMAL.fullmatch(compact)
@@ -90,7 +99,7 @@ _GROUPS_BEHIND = re.compile(r"(?<![\d.,])\d+[.,]\d{3}(?:[ ']\d{3})*[ ']\d{1,2}(?
 
 
 def join_digit_groups(source: SourceText) -> SourceText:
-    """Close up groups of digits behind the decimal sign: ``3.141 592 65``.
+    """Return the text with groups of digits behind the decimal sign closed up: ``3.141 592 65``.
 
     Raises
     ------
@@ -106,22 +115,30 @@ def join_digit_groups(source: SourceText) -> SourceText:
 def with_decimal_points(
     source: SourceText, decimal: str
 ) -> tuple[SourceText, SourceText | None, Ambiguity | None]:
-    """Write every literal of a text with a decimal point.
+    """Return a text with a decimal point in every literal, and its other reading.
 
     Returns
     -------
     tuple
-        The decimal reading; the reading with thousands groups, if it differs; and the doubt.
+        The decimal reading; the reading with thousands groups, if it differs, else None; and the
+        doubt, else None.
+
+    Raises
+    ------
+    FormulaReadError
+        If a literal cannot be read.
     """
     doubts: list[Ambiguity] = []
 
     def first(match: re.Match[str]) -> str:
+        """Return the decimal reading of a literal, and note its doubt."""
         literal = read_literal(match[0], decimal, source.column(match.start()))
         if literal.doubt:
             doubts.append(literal.doubt)
         return literal.text
 
     def second(match: re.Match[str]) -> str:
+        """Return the reading with thousands groups where there is one."""
         literal = read_literal(match[0], decimal)
         return literal.other or literal.text
 

@@ -63,16 +63,18 @@ _EXPONENTS = {word.lower(): power for power, words in _TENS.items() for word in 
 
 
 def _make_character_replacer(pairs: dict[str, str]) -> Callable[[re.Match[str]], str]:
+    """Return a replacement for single characters."""
     return lambda match: pairs[match[0]]
 
 
 def _rewrite_vulgar_fraction(match: re.Match[str]) -> str:
+    """Return ``½`` as ``(1/2)``, and ``1½`` as ``(1+1/2)``."""
     digits = unicodedata.normalize("NFKC", match[2]).replace("⁄", "/")
     return f"({match[1]}+{digits})" if match[1] else f"({digits})"
 
 
 def _on_line(match: re.Match[str]) -> str:
-    """A subscript; behind a prime it would be a name of its own."""
+    """Return a subscript on the line; behind a prime it needs an underscore to stay one name."""
     below = match[0].translate(FROM_BELOW)
     return f"_{below}" if match.string[match.start() - 1 : match.start()] == "'" else below
 
@@ -133,13 +135,13 @@ _CONTROL = frozenset({"Cc", "Cf", "Co", "Cs", "Cn", "Zl", "Zp"})
 
 
 def apply_rewrite(name: str, text: str) -> str:
-    """Apply one named rewrite."""
+    """Return a text after one named rewrite."""
     pattern, new = REWRITES[name]
     return SourceText.of(text).substitute(pattern, new).text
 
 
 def normalise_typed(typed: str, *, keep_x: bool = False, longest: int = LONGEST) -> SourceText:
-    """Apply all rewrites to a typed text.
+    """Return a typed text after all rewrites, with the columns that it came from.
 
     Parameters
     ----------
@@ -178,13 +180,16 @@ def normalise_typed(typed: str, *, keep_x: bool = False, longest: int = LONGEST)
 
 
 def strip_code_fence(source: SourceText) -> SourceText:
-    """Drop marks of code around everything."""
+    """Return a text without marks of code around all of it."""
     fence = _FENCED.fullmatch(source.text) if "`" in source.text else None
     return source.slice(*fence.span(1)) if fence else source
 
 
 def _drop_final_full_stop(source: SourceText) -> SourceText:
-    """Drop the full stop of a sentence; ``1.000.000.`` and ``3;`` may not be written out."""
+    """Return a text without the full stop of a sentence.
+
+    ``1.000.000.`` and ``3;`` keep theirs: they may not be written out yet.
+    """
     if _UNFINISHED.fullmatch(source.text):
         return source
     kept = source.slice(0, len(source.text) - 1).strip()
@@ -192,6 +197,13 @@ def _drop_final_full_stop(source: SourceText) -> SourceText:
 
 
 def _fold_characters(source: SourceText) -> SourceText:
+    """Return a text with special characters in their plain spelling.
+
+    Raises
+    ------
+    FormulaReadError
+        If a raised point may be a decimal sign or a product, or a character is invisible.
+    """
     source = source.strip(" \t\r\n\u00a0")
     if "·" in source.text and _RAISED.fullmatch(source.text):
         raise FormulaReadError("two-readings", source.column(0), source.text)
@@ -208,17 +220,17 @@ def _fold_characters(source: SourceText) -> SourceText:
 
 @lru_cache(maxsize=4096)
 def _list_rewrites_for(character: str) -> frozenset[str]:
-    """Rewrites that a character gives work to: each looks for single characters."""
+    """Return the names of the rewrites that a character needs: each looks for single ones."""
     return frozenset(name for name, (pattern, _) in REWRITES.items() if pattern.search(character))
 
 
 def refuse_invisible(source: SourceText, allowed: str = "") -> None:
-    """Name the first control or invisible character instead of dropping it.
+    """Raise for the first control or invisible character, instead of dropping it.
 
     Raises
     ------
     FormulaReadError
-        With the character's name and column.
+        With the character and its column.
     """
     if source.text.isprintable():
         return

@@ -65,23 +65,23 @@ class Readings(msgspec.Struct, frozen=True):
 
 
 def map_readings(readings: Readings, change: Callable[[ReadNumber], ReadNumber]) -> Readings:
-    """Both readings, changed."""
+    """Return both readings, changed."""
     other = None if readings.other is None else change(readings.other)
     return Readings(change(readings.main), other, readings.doubt)
 
 
 def scale_number(number: ReadNumber, scale: Value) -> ReadNumber:
-    """The number in another unit."""
+    """Return the number in another unit; how it was written stays."""
     return number if scale == 1 else replace(number, value=number.value * scale)
 
 
 def as_percent(number: ReadNumber) -> ReadNumber:
-    """The number with a percent sign behind it."""
+    """Return the number as one with a percent sign behind it."""
     return replace(number, read_as=f"{number.read_as} %", percent=True)
 
 
 def percent_to_fraction(number: ReadNumber) -> ReadNumber:
-    """The share that a percentage is: ``5 %`` is 0.05."""
+    """Return the share that a percentage is: ``5 %`` is 0.05."""
     decimal = number.form in {"integer", "decimal"}
     form, places = ("decimal", number.places + 2) if decimal else (number.form, number.places)
     return replace(number, value=number.value / 100, form=form, places=places, percent=False)
@@ -112,7 +112,7 @@ _E_SPACED = re.compile(r"(?<=[\d.]) ?[eE] ?(?=[-+]?\d)")
 
 
 def read_plain_number(typed: str, decimal: str) -> Readings | None:
-    """Read a plain number without any rewriting, with both readings if there are two.
+    """Return the readings of a plain number without any rewriting; None if it is not plain.
 
     Most of what people type is one: ``6.67``, ``6,67``, ``20/3``, ``1.5e-3``.
     """
@@ -139,6 +139,7 @@ def read_plain_number(typed: str, decimal: str) -> Readings | None:
 
 
 def _make_decimal_number(sign: str, whole: str, digits: str) -> ReadNumber:
+    """Return the number of a sign (``-`` or empty) and digits before and after the point."""
     top = int(whole + digits)
     value = fmpq(-top if sign else top, 10 ** len(digits))
     shown = whole if len(whole) <= pretty.LONGEST_UNGROUPED else pretty.group_digits(whole)
@@ -154,6 +155,7 @@ def _make_decimal_number(sign: str, whole: str, digits: str) -> ReadNumber:
 
 
 def _make_quotient_number(sign: str, top: str, bottom: str) -> ReadNumber:
+    """Return the fraction of two runs of digits; the denominator is not 0."""
     value = fmpq(int(top), int(bottom))
     lowest = int(bottom) == value.q
     read_as = (
@@ -163,7 +165,7 @@ def _make_quotient_number(sign: str, top: str, bottom: str) -> ReadNumber:
 
 
 def read_number(source: SourceText, decimal: str) -> Readings:
-    """Read a number whose text has been normalised already.
+    """Return the readings of a number whose text has been normalised already.
 
     Raises
     ------
@@ -185,7 +187,7 @@ def read_number(source: SourceText, decimal: str) -> Readings:
 
 
 def _move_error_to_start(error: FormulaReadError, source: SourceText) -> FormulaReadError:
-    """What is wrong with a number as a whole is wrong where the number begins."""
+    """Return the error with a column in the number: one about all of it points at its beginning."""
     begin = source.column(0)
     if (error.column or 1) >= begin:
         return error
@@ -193,7 +195,13 @@ def _move_error_to_start(error: FormulaReadError, source: SourceText) -> Formula
 
 
 def _read_point_notation(source: SourceText) -> ReadNumber:
-    """Read a number in point notation."""
+    """Return a number in point notation, in the first form that fits.
+
+    Raises
+    ------
+    FormulaReadError
+        If no form fits, or it is too large.
+    """
     text = source.text
     percent = text.endswith("%")
     if percent:
@@ -211,6 +219,13 @@ def _read_point_notation(source: SourceText) -> ReadNumber:
 
 
 def _parse_power_of_ten(text: str) -> int:
+    """Return the exponent of a power of ten.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is out of range.
+    """
     exponent = int(text.strip("()"))
     if not SMALLEST_EXPONENT <= exponent <= LARGEST_EXPONENT:
         raise FormulaReadError("number-too-large", 1, text)
@@ -218,6 +233,13 @@ def _parse_power_of_ten(text: str) -> int:
 
 
 def _read_scientific(text: str) -> ReadNumber | None:
+    """Return a decimal number, with or without a power of ten; None if it is no such number.
+
+    Raises
+    ------
+    FormulaReadError
+        If it has too many digits or too large an exponent.
+    """
     match = _SCIENTIFIC.fullmatch(text)
     if match is None or not (match["whole"] or match["digits"]):
         return None
@@ -232,7 +254,7 @@ def _read_scientific(text: str) -> ReadNumber | None:
 
 
 def _multiply_by_power_of_ten(number: ReadNumber, power: int) -> ReadNumber:
-    """A decimal or whole number times a power of ten."""
+    """Return a decimal or whole number times a power of ten."""
     least, most = number.figures
     return ReadNumber(
         number.value * fmpq(10) ** power,
@@ -244,6 +266,13 @@ def _multiply_by_power_of_ten(number: ReadNumber, power: int) -> ReadNumber:
 
 
 def _read_bare_power_of_ten(text: str) -> ReadNumber | None:
+    """Return ``10^-3`` as a number; None if it is none.
+
+    Raises
+    ------
+    FormulaReadError
+        If the exponent is out of range.
+    """
     match = _TEN.fullmatch(text)
     if match is None:
         return None
@@ -254,6 +283,13 @@ def _read_bare_power_of_ten(text: str) -> ReadNumber | None:
 
 
 def _read_fraction(text: str) -> ReadNumber | None:
+    """Return a fraction of whole numbers; None if it is none.
+
+    Raises
+    ------
+    FormulaReadError
+        If its denominator is 0.
+    """
     match = _FRACTION.fullmatch(text)
     if match is None or len(text) > 2 * LONGEST_NUMBER:
         return None
@@ -268,10 +304,18 @@ def _read_fraction(text: str) -> ReadNumber | None:
 
 
 def _format_minus(sign: str) -> str:
+    """Return the minus sign for a typed ``-``, nothing for ``+`` or no sign."""
     return pretty.MINUS if sign == "-" else ""
 
 
 def _read_mixed_number(text: str) -> ReadNumber | None:
+    """Return a mixed number such as ``1 2/3``; None if it is none.
+
+    Raises
+    ------
+    FormulaReadError
+        If its denominator is 0.
+    """
     match = _MIXED.fullmatch(text)
     if match is None or len(text) > 2 * LONGEST_NUMBER:
         return None
@@ -286,6 +330,13 @@ def _read_mixed_number(text: str) -> ReadNumber | None:
 
 
 def _read_number_expression(source: SourceText, text: str) -> ReadNumber:
+    """Return the number that a formula without names gives.
+
+    Raises
+    ------
+    FormulaReadError
+        If it cannot be read or has no value.
+    """
     text = _E_SPACED.sub("e", text) if "e " in text or "E " in text else text
     try:
         pieces = tokenize(text, frozenset(), loose=True)
@@ -296,7 +347,7 @@ def _read_number_expression(source: SourceText, text: str) -> ReadNumber:
 
 
 def number_from_tree(tree: Expr) -> ReadNumber:
-    """The number that a formula without names stands for.
+    """Return the number that a formula without names stands for.
 
     Raises
     ------
@@ -310,7 +361,7 @@ def number_from_tree(tree: Expr) -> ReadNumber:
 
 
 def relocate_error(error: FormulaReadError, source: SourceText) -> FormulaReadError:
-    """Point a reading error at the column in the typed text."""
+    """Return a reading error that points at the column in the typed text."""
     if error.code == "unknown-name" and not error.expected:
         error.code = "number-expected"
     column = source.column((error.column or 1) - 1)

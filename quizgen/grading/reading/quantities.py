@@ -24,12 +24,12 @@ class TypedQuantity(msgspec.Struct, frozen=True):
 
 
 def split_quantity(source: SourceText) -> TypedQuantity:
-    """Split at the first letter that is not part of the number.
+    """Return the number part and the unit, split at the first letter of no number.
 
     Raises
     ------
     FormulaReadError
-        If what follows the number is not a listed unit.
+        If what follows the number is not a listed unit, or there is no number.
     """
     match = _NUMBER_PART.match(source.text)
     end = match.end() if match else 0
@@ -48,13 +48,13 @@ def split_quantity(source: SourceText) -> TypedQuantity:
 
 
 def _move_bracket_to_unit(number: str, rest: str) -> tuple[str, str]:
-    """``66.67 (mm)``: the bracket belongs to the unit."""
+    """Return number and rest of ``66.67 (mm)``, where the bracket belongs to the unit."""
     kept = number.rstrip(" (")
     return (number[: len(kept)], number[len(kept) :].lstrip() + rest) if kept else (number, rest)
 
 
 def _unit_with_sign(number: str, rest: str) -> tuple[str, str]:
-    """``15 1/mm`` and ``0.015/mm``: the division sign belongs to the unit."""
+    """Return number and unit of ``15 1/mm`` and ``0.015/mm``: the unit has the division sign."""
     match = re.search(r"(?:(?<=[\d)] )1 ?)?([/*]) ?$", number)
     if match is None:
         return number, rest
@@ -62,6 +62,13 @@ def _unit_with_sign(number: str, rest: str) -> tuple[str, str]:
 
 
 def _read_quantity_unit(text: str, source: SourceText, position: int) -> TypedUnit:
+    """Return the unit behind a number.
+
+    Raises
+    ------
+    FormulaReadError
+        With the unit that may be meant, if it differs in case only.
+    """
     try:
         return read_unit(text)
     except FormulaError:

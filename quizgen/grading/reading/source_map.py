@@ -19,11 +19,11 @@ class SourceText(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, text: str) -> SourceText:
-        """Wrap a typed text."""
+        """Return a typed text with its own columns."""
         return cls(text, tuple(range(1, len(text) + 1)))
 
     def column(self, position: int) -> int:
-        """Column in the typed text of a position in the rewritten one."""
+        """Return the column in the typed text of a position in the rewritten one."""
         if position < len(self.columns):
             return self.columns[position]
         return self.columns[-1] + 1 if self.columns else 1
@@ -35,7 +35,7 @@ class SourceText(msgspec.Struct, frozen=True):
     def substitute(
         self, pattern: re.Pattern[str], new: Callable[[re.Match[str]], str]
     ) -> SourceText:
-        """Replace matches; a replacement takes the column of the match's start."""
+        """Return a text with matches replaced, each at the column where the match began."""
         if pattern.search(self.text) is None:
             return self
         text, columns, last = [], list[int](), 0
@@ -48,7 +48,7 @@ class SourceText(msgspec.Struct, frozen=True):
         return SourceText("".join([*text, self.text[last:]]), (*columns, *self.columns[last:]))
 
     def strip(self, characters: str = " ") -> SourceText:
-        """Remove characters at both ends."""
+        """Return a text without some characters at both ends."""
         if self.text[:1] not in characters and self.text[-1:] not in characters:
             return self
         left = len(self.text) - len(self.text.lstrip(characters))

@@ -122,7 +122,10 @@ _NO_UNIT = {"", "1"}
 
 
 def _iter_spoken_words(simple: Container[str]) -> Iterator[tuple[str, str]]:
-    """What units are called when they are read aloud, in every language, with their prefixes."""
+    """Yield each word for a unit as it is read aloud, in every language, and its listed name.
+
+    Words with prefixes are among them.
+    """
     for lang in list_languages():
         words = load_words(lang, "speech")
         for listed, spoken in words["units"].items():
@@ -140,7 +143,7 @@ def _iter_spoken_words(simple: Container[str]) -> Iterator[tuple[str, str]]:
 def _iter_prefixed_words(
     stems: Mapping[str, tuple[str, ...]], simple: Container[str]
 ) -> Iterator[tuple[str, str]]:
-    """``MBytes`` and ``kBit``: a letter that stands for a large prefix, before a word."""
+    """Yield ``MBytes`` and ``kBit``, a prefix letter and a word, and the listed name of each."""
     for listed, words in stems.items():
         for letter in _LARGE:
             if letter + listed in simple:
@@ -149,7 +152,7 @@ def _iter_prefixed_words(
 
 
 def _iter_bank_words(known: UnitRegistry) -> Iterator[tuple[str, str]]:
-    """Words of the units that a bank defines, with English prefixes."""
+    """Yield each word for a unit that a bank defines, with English prefixes, and its symbol."""
     prefixes = load_words(FIRST, "speech")["prefixes"]
     for symbol, words in known.words.items():
         for letter, pattern in prefixes.items():
@@ -167,7 +170,7 @@ class _Spellings(NamedTuple):
 
 @cache
 def _build_unit_spellings(known: UnitRegistry) -> _Spellings:
-    """The words for the listed units, and for those that a bank defines."""
+    """Return the words for the listed units, and for those that a bank defines."""
     words = {
         **dict(_iter_spoken_words(known.simple)),
         **dict(_iter_prefixed_words(known.words, known.simple)),
@@ -193,13 +196,20 @@ class TypedUnit(msgspec.Struct, frozen=True):
 
 
 def listed_unit(listed: str) -> TypedUnit:
-    """Look up a unit in use; radians count as 180/π degrees."""
+    """Return a unit in use with its factor to base units; a radian is 180/π degrees.
+
+    Raises
+    ------
+    FormulaError
+        If it is not listed.
+    """
     return _get_listed_unit(active_units(), listed)
 
 
 @lru_cache(maxsize=2048)
 @working_precision()
 def _get_listed_unit(known: UnitRegistry, listed: str) -> TypedUnit:
+    """Return a unit of a registry with its factor and dimension, angles in degrees."""
     found: Unit = known.unit(listed)
     factor, powers = to_rational(found.factor), dict(found.dimension)
     turned = powers.pop("rad", 0)
@@ -231,7 +241,7 @@ def _find_unit_word(word: str) -> str:
 
 
 def read_unit(text: str) -> TypedUnit:
-    """Read a typed unit such as ``mm``, ``Pixel``, ``µm/px``, ``lx s``, ``mm²``, ``1/mm``.
+    """Return a typed unit such as ``mm``, ``Pixel``, ``µm/px``, ``lx s``, ``mm²``, ``1/mm``.
 
     Raises
     ------
@@ -243,6 +253,13 @@ def read_unit(text: str) -> TypedUnit:
 
 @lru_cache(maxsize=2048)
 def _parse_typed_unit(_known: UnitRegistry, text: str) -> TypedUnit:
+    """Return a typed unit, cached for each registry.
+
+    Raises
+    ------
+    FormulaError
+        If a name in it is not listed.
+    """
     try:
         return listed_unit(_find_unit_word(text))
     except FormulaError:
@@ -251,6 +268,13 @@ def _parse_typed_unit(_known: UnitRegistry, text: str) -> TypedUnit:
 
 
 def _parse_compound_unit(text: str) -> str:
+    """Return a compound unit in the spelling of the registry: ``lx s`` is ``lx*s``.
+
+    Raises
+    ------
+    FormulaError
+        If a name in it is not listed.
+    """
     text = _BRACKETS.sub(r"\1", text)
     if (text[:1], text[-1:]) in {("(", ")"), ("[", "]")} and text.count(text[0]) == 1:
         text = text[1:-1]
@@ -264,6 +288,7 @@ def _parse_compound_unit(text: str) -> str:
 
 
 def _parse_unit_product(piece: str) -> str:
+    """Return one unit word, or several with blanks between them as a product."""
     if piece == "1":
         return "1"
     try:
@@ -273,6 +298,7 @@ def _parse_unit_product(piece: str) -> str:
 
 
 def _parse_unit_power(word: str) -> str:
+    """Return a unit with its exponent, if it has one: ``mm2`` is ``mm^2``."""
     match = re.fullmatch(r"(.*?[^\d^(-])\^?\(?(-?[1-9])\)?", word)
     if match is None:
         return _find_unit_word(word)

@@ -1,11 +1,13 @@
 """Typed mathematics to formula trees and back.
 
-In: text in the formula grammar, and the names that may occur. Out: trees, or a ``ReadError`` with
-the column. Must never know: how students spell, a language, how a formula is printed.
+In: text in the formula grammar, and the names that may occur. Out: trees, or a
+``FormulaReadError`` with the column. Must never know: how students spell, a language, how a formula
+is printed.
 
-``parse`` reads the strict notation of authors: decimal point, declared names, explicit products
-(or juxtaposition of declared names). ``to_text`` writes a tree in the same notation. Students'
-spelling is normalised first (``quizgen.grading.reading``) and ends in the same grammar.
+``parse_formula`` reads the strict notation of authors: decimal point, declared names, explicit
+products (or juxtaposition of declared names). ``format_tree`` writes a tree in the same
+notation. Students' spelling is normalised first (``quizgen.grading.reading``) and ends in
+the same grammar.
 """
 
 from __future__ import annotations
@@ -35,7 +37,7 @@ DEEPEST = 100
 
 
 def parse_formula(text: str, *, symbols: Iterable[str] | None = None) -> Expr:
-    """Read an author's formula.
+    """Return the tree of an author's formula.
 
     Parameters
     ----------
@@ -64,7 +66,9 @@ def parse_formula(text: str, *, symbols: Iterable[str] | None = None) -> Expr:
 
 
 def parse_tokens(pieces: list[Token], length: int, *, tight: bool) -> Expr:
-    """Parse tokens; ``tight`` lets juxtaposition bind stronger than a division sign.
+    """Return the tree of some tokens, at most ``DEEPEST`` levels deep.
+
+    With ``tight`` juxtaposition binds stronger than a division sign: ``a/b c`` is ``a/(b c)``.
 
     Raises
     ------
@@ -84,7 +88,10 @@ def parse_tokens(pieces: list[Token], length: int, *, tight: bool) -> Expr:
 
 
 def tree_depth(expr: Expr) -> int:
-    """Levels of nesting of a tree, found without recursion."""
+    """Return the levels of nesting of a tree, counted without recursion.
+
+    It is what keeps deep trees from functions that do recurse.
+    """
     level, layer = 0, [expr]
     while layer:
         level += 1

@@ -49,6 +49,7 @@ class FormulaReadError(FormulaError):
     def __init__(
         self, code: str, column: int = 1, found: str = "", expected: Iterable[str] = ()
     ) -> None:
+        """Build the English sentence from the language-free reason."""
         self.code = code
         self.found = found
         self.expected = tuple(expected)
@@ -58,7 +59,7 @@ class FormulaReadError(FormulaError):
 
 
 def _in_words(expected: Iterable[str]) -> str:
-    """Kinds of tokens as people call them; what a formula can begin with is one thing."""
+    """Return kinds of tokens as people call them; what a formula can begin with is one."""
     kinds = set(expected)
     if "NUMBER" in kinds:
         return "a number, a name or a bracket"
@@ -78,6 +79,7 @@ class Token(msgspec.Struct, frozen=True):
     column: int
 
     def __str__(self) -> str:
+        """Return the text that the token came from."""
         return self.text
 
 
@@ -115,7 +117,7 @@ _BREAKS = frozenset({"PLUS", "MINUS", "TIMES", "RELATION", "COMMA", "AND", "OR",
 
 
 def tokenize(text: str, symbols: frozenset[str] | None, *, loose: bool = False) -> list[Token]:
-    """Split a formula into tokens, with ``JOIN`` where a product is written by juxtaposition.
+    """Return the tokens of a formula, with ``JOIN`` where juxtaposition is a product.
 
     Parameters
     ----------
@@ -138,6 +140,13 @@ def tokenize(text: str, symbols: frozenset[str] | None, *, loose: bool = False) 
 
 
 def _split_tokens(text: str, symbols: frozenset[str] | None, *, loose: bool) -> list[Token]:
+    """Return the tokens without implied products.
+
+    Raises
+    ------
+    FormulaReadError
+        At the first character or name that is not part of the grammar.
+    """
     found: list[Token] = []
     position = 0
     for match in TOKEN.finditer(text):
@@ -156,6 +165,7 @@ def _split_tokens(text: str, symbols: frozenset[str] | None, *, loose: bool) -> 
 
 
 def _make_token(match: re.Match[str]) -> Token:
+    """Return the token of a number, relation or sign."""
     word, column, kind = match[0], match.start() + 1, match.lastgroup
     if kind == "number":
         return Token("NUMBER", parse_number_literal(word, column), word, column)
@@ -167,6 +177,13 @@ def _make_token(match: re.Match[str]) -> Token:
 
 
 def _make_quoted_name(match: re.Match[str], symbols: frozenset[str] | None) -> Token:
+    """Return the token of a name in back quotes.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is not declared.
+    """
     word, column = match[0], match.start() + 1
     name = word[1:-1]
     if symbols is not None and name not in symbols:
@@ -177,6 +194,13 @@ def _make_quoted_name(match: re.Match[str], symbols: frozenset[str] | None) -> T
 def _split_name_tokens(
     match: re.Match[str], symbols: frozenset[str] | None, *, loose: bool
 ) -> list[Token]:
+    """Return the tokens of a word: a name, keyword, constant, function, or several names.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is none of them, or can be split in two ways.
+    """
     word, column = match[0], match.start() + 1
     if symbols is not None and word in symbols:
         return [Token("NAME", word, word, column)]
@@ -195,6 +219,13 @@ def _split_name_tokens(
 def _split_declared_names(
     word: str, column: int, symbols: frozenset[str], *, loose: bool
 ) -> list[Token]:
+    """Return the tokens of a word that is one loosely spelt name, or a product of names.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is neither, or can be split in two ways.
+    """
     table = spellings(symbols)
     single = table.get(word, table.get(fold_name(word))) if loose else None
     ways = [[single]] if single else split_product(word, symbols)
@@ -206,7 +237,7 @@ def _split_declared_names(
 
 
 def parse_number_literal(word: str, column: int = 1) -> Num:
-    """Read an unsigned decimal literal such as ``2``, ``2.50`` or ``1e-3`` exactly.
+    """Return an unsigned decimal literal such as ``2``, ``2.50`` or ``1e-3`` exactly.
 
     Raises
     ------
@@ -223,6 +254,13 @@ def parse_number_literal(word: str, column: int = 1) -> Num:
 
 
 def _parse_braced_literal(word: str, column: int) -> Num:
+    """Return the number of ``{-1/3}`` or ``{-0.5}``, as the printer writes them.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is none, too long, or divides by 0.
+    """
     match = _LITERAL.fullmatch(word)
     if match is None or len(word) > 2 * LONGEST_NUMBER or (match[4] and not int(match[4])):
         raise FormulaReadError("bad-number", column, word)
@@ -232,7 +270,7 @@ def _parse_braced_literal(word: str, column: int) -> Num:
 
 
 def _direct_bars(pieces: list[Token]) -> list[Token]:
-    """Decide for each ``|`` whether it opens or closes an absolute value."""
+    """Return the tokens with each ``|`` as the one that opens or closes an absolute value."""
     result: list[Token] = []
     for piece in pieces:
         if piece.kind == "BAR":
@@ -245,6 +283,13 @@ def _direct_bars(pieces: list[Token]) -> list[Token]:
 
 
 def _insert_implied_products(pieces: list[Token], *, named: bool) -> list[Token]:
+    """Return the tokens with ``JOIN`` between operands that stand side by side.
+
+    Raises
+    ------
+    FormulaReadError
+        Where that cannot be meant.
+    """
     result: list[Token] = []
     for piece in pieces:
         if result and result[-1].kind in _ENDS and piece.kind in _STARTS:
@@ -255,7 +300,14 @@ def _insert_implied_products(pieces: list[Token], *, named: bool) -> list[Token]
 
 
 def _allow_join(left: Token, right: Token, *, named: bool) -> None:
-    """Two numbers side by side are a slip; undeclared names could be misspelt functions."""
+    """Check that two operands side by side can be a product.
+
+    Raises
+    ------
+    FormulaReadError
+        For a number behind another, which is a slip, and for a name that is not declared, which
+        could be a misspelt function.
+    """
     if right.kind == "NUMBER":
         raise FormulaReadError("unexpected", right.column, right.text, ["OPERATOR"])
     if not named and left.kind == "NAME":
@@ -264,7 +316,7 @@ def _allow_join(left: Token, right: Token, *, named: bool) -> None:
 
 
 def find_ambiguous_division(pieces: list[Token]) -> Token | None:
-    """Where ``a/b c`` could mean ``(a/b) c`` or ``a/(b c)``, else None.
+    """Return the token where ``a/b c`` could mean ``(a/b) c`` or ``a/(b c)``, else None.
 
     A denominator in brackets is complete: ``1/(2 b) c`` is a product.
     """

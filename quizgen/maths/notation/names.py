@@ -33,35 +33,47 @@ GREEK = {
     "γ": "gamma",
     "δ": "delta",
     "ε": "epsilon",
+    "ζ": "zeta",
     "η": "eta",
     "θ": "theta",
+    "ι": "iota",
     "κ": "kappa",
     "λ": "lambda",
     "μ": "mu",
     "µ": "mu",
     "ν": "nu",
+    "ξ": "xi",
     "ρ": "rho",
     "σ": "sigma",
     "τ": "tau",
+    "υ": "upsilon",
     "φ": "phi",
+    "χ": "chi",
+    "ψ": "psi",
     "ω": "omega",
+    "Γ": "Gamma",
     "Δ": "Delta",
     "∆": "Delta",
+    "Θ": "Theta",
+    "Λ": "Lambda",
+    "Ξ": "Xi",
     "Σ": "Sigma",
     "Φ": "Phi",
+    "Ψ": "Psi",
     "Ω": "Omega",
 }
 """Greek letters that students type or paste, and the names authors use."""
 
 
 def is_plain_name(name: str) -> bool:
-    """Whether a name can stand in a formula without back quotes."""
-    reserved = name in CONSTANTS or name in KEYWORDS or name in FUNCTIONS
+    """Return whether a name can stand in a formula without back quotes."""
+    # gamma and beta are letters of Greek first: functions only in front of a bracket.
+    reserved = name in (CONSTANTS.keys() | KEYWORDS | FUNCTIONS.keys()) - set(GREEK.values())
     return not reserved and NAME.fullmatch(name) is not None
 
 
 def fold_name(name: str) -> str:
-    """Spelling without subscript marks and Greek letters: ``k_1`` and ``k1`` are one name."""
+    """Return a name without subscript marks and Greek letters: ``k_1`` and ``k1`` are one."""
     if not name.isascii():
         for letter, word in GREEK.items():
             name = name.replace(letter, word)
@@ -70,7 +82,7 @@ def fold_name(name: str) -> str:
 
 @cache
 def spellings(symbols: frozenset[str]) -> dict[str, str]:
-    """Every accepted spelling of the declared names, to the declared name.
+    """Return every accepted spelling of the declared names, to the declared name.
 
     Two declared names that fold to one spelling keep only their exact spellings.
     """
@@ -86,6 +98,7 @@ def spellings(symbols: frozenset[str]) -> dict[str, str]:
 
 
 def _list_greek_spellings(name: str) -> set[str]:
+    """Return the name with Greek letters for their words, with and without underscores."""
     return {
         name.replace(word, letter).replace("_", cut)
         for letter, word in GREEK.items()
@@ -95,7 +108,10 @@ def _list_greek_spellings(name: str) -> set[str]:
 
 
 def split_product(word: str, symbols: frozenset[str]) -> list[list[str]]:
-    """All ways to read an undeclared word as a product of declared names (at most two)."""
+    """Return the ways to read an undeclared word as a product of declared names (at most two).
+
+    Two are enough to see that it is ambiguous.
+    """
     table = spellings(symbols)
     ways: list[list[list[str]]] = [[] for _ in range(len(word) + 1)]
     ways[0] = [[]]
@@ -109,5 +125,5 @@ def split_product(word: str, symbols: frozenset[str]) -> list[list[str]]:
 
 
 def _deduplicate_products(ways: list[list[str]]) -> list[list[str]]:
-    """Products of the same factors are the same reading."""
+    """Return the products without those of the same factors, which are the same reading."""
     return list({tuple(sorted(way)): way for way in ways}.values())

@@ -93,7 +93,7 @@ _SIGNS = {row.token: row for row in operators_with_syntax(OperatorSyntax.SIGN)}
 
 
 def _fold_operands(begun: _Begun) -> Expr:
-    """Fold from the left; a run of ``+`` (or of ``*``) becomes one node."""
+    """Return operands folded from the left; a run of ``+`` (or of ``*``) becomes one node."""
     result, *rest = begun.operands
     run = ""
     for sign, term in zip(begun.signs, rest, strict=True):
@@ -107,18 +107,20 @@ def _fold_operands(begun: _Begun) -> Expr:
 
 
 def _build_relation_chain(begun: _Begun) -> Expr:
-    """``a < b < c`` says two things."""
+    """Return a relation; ``a < b < c`` becomes two, joined by "and"."""
     pairs = zip(begun.signs, begun.operands, begun.operands[1:], strict=False)
     calls = tuple(Call(str(sign.value), (first, second)) for sign, first, second in pairs)
     return calls[0] if len(calls) == 1 else Call("and", calls)
 
 
 def _build_signed(begun: _Begun) -> Expr:
+    """Return the operand of a sign, negated if that is a minus."""
     (operand,) = begun.operands
     return operand if begun.signs[0].kind == "PLUS" else Call("neg", (operand,))
 
 
 def _make_call_builder(name: str) -> Callable[[_Begun], Expr]:
+    """Return a function that makes a call of a rule's operands."""
     return lambda begun: Call(name, tuple(begun.operands))
 
 
@@ -143,12 +145,19 @@ class _Parser:
     """One parse: the rules begun, outermost first, and the operand that was completed last."""
 
     def __init__(self) -> None:
+        """Begin outside of all brackets, before the first operand."""
         self.begun = [_Begun(BRACKET, [], [])]
         self.last: Expr | None = None
         self.function: Token | None = None
 
     def start(self, piece: Token) -> None:
-        """Take the first token of an operand."""
+        """Take the first token of an operand.
+
+        Raises
+        ------
+        FormulaReadError
+            If no operand begins with it.
+        """
         kind, rule = piece.kind, self.begun[-1].rule
         if kind not in _STARTS[rule]:
             raise self._make_unexpected_error(piece)
@@ -176,7 +185,13 @@ class _Parser:
         self.last = None
 
     def close(self, piece: Token, last: Expr, following: str) -> None:
-        """Take a token that ends a bracket or an argument."""
+        """Take a token that ends a bracket or an argument.
+
+        Raises
+        ------
+        FormulaReadError
+            If it does not close what is open.
+        """
         last = self._end_tighter_rules(BRACKET, last)
         begun = self.begun[-1]
         if piece.kind not in _CLOSING[_opened_by(begun)]:
@@ -188,7 +203,13 @@ class _Parser:
             self.last = _build_bracketed(begun, following)
 
     def finish(self, end: Token) -> Expr:
-        """The whole formula."""
+        """Return the tree of the complete formula.
+
+        Raises
+        ------
+        FormulaReadError
+            If an operand or a closing bracket is missing.
+        """
         if self.last is None:
             raise self._make_unexpected_error(end)
         tree = self._end_tighter_rules(BRACKET, self.last)
@@ -197,7 +218,7 @@ class _Parser:
         return tree
 
     def _end_tighter_rules(self, rule: int, last: Expr) -> Expr:
-        """End every rule that binds tighter."""
+        """Return the operand after every rule that binds tighter has ended with it."""
         while self.begun[-1].rule > rule:
             begun = self.begun.pop()
             begun.operands.append(last)
@@ -205,13 +226,14 @@ class _Parser:
         return last
 
     def _make_unexpected_error(self, piece: Token) -> FormulaReadError:
+        """Return the error for a token that cannot stand here, with what could."""
         code = "unfinished" if piece.kind == "$END" else "unexpected"
         return FormulaReadError(
             code, piece.column, piece.text, sorted(self._list_expected_kinds(piece.kind))
         )
 
     def _list_expected_kinds(self, kind: str) -> AbstractSet[str]:
-        """What could have stood there: for a closing token another one, else anything."""
+        """Return what could have stood there: for a closing token another one, else anything."""
         if self.last is None:
             return _STARTS[self.begun[-1].rule]
         bracket = next(begun for begun in reversed(self.begun) if begun.rule == BRACKET)
@@ -220,11 +242,12 @@ class _Parser:
 
 
 def _opened_by(bracket: _Begun) -> str:
+    """Return the kind of token that opened a bracket; empty for the formula itself."""
     return bracket.signs[0].kind if bracket.signs else ""
 
 
 def _build_bracketed(begun: _Begun, following: str) -> Expr:
-    """The value of what stood in brackets.
+    """Return the tree of what stood in brackets: itself, a call or an absolute value.
 
     Raises
     ------
@@ -249,12 +272,12 @@ def _build_bracketed(begun: _Begun, following: str) -> Expr:
 
 
 def build_tree(pieces: list[Token], end: int) -> Expr:
-    """Parse tokens into a tree.
+    """Return the tree of some tokens.
 
     Parameters
     ----------
-    pieces : list of Piece
-        From ``lexer.tokens``.
+    pieces : list of Token
+        From ``lexer.tokenize``.
     end : int
         Length of the text, to point behind it when something is missing.
 

@@ -42,13 +42,13 @@ POWER = re.compile(rf"(?P<sign>[-−]?)(?P<mantissa>{_DIGITS})·10(?P<power>{_RA
 
 
 def group_digits(digits: str) -> str:
-    """Digits in groups of three, from five on; those behind a point stay together.
+    """Return digits in groups of three, from five on; those behind a point stay together.
 
     Few stand there, and a blank among them would end the number for many a reader.
 
     Examples
     --------
-    >>> grouped("1228800.5"), grouped("1024")
+    >>> group_digits("1228800.5"), group_digits("1024")
     ('1\u202f228\u202f800.5', '1024')
     """
     whole, point, behind = digits.partition(".")
@@ -61,7 +61,7 @@ def group_digits(digits: str) -> str:
 
 
 def format_power_of_ten(exponent: str | int) -> str:
-    """``10⁻⁵``."""
+    """Return a power of ten as ``10⁻⁵``."""
     text = str(exponent)
     digits = text.lstrip(f"+-{MINUS}").lstrip("0")
     sign = "-" if digits and text[0] in {"-", MINUS} else ""
@@ -70,12 +70,14 @@ def format_power_of_ten(exponent: str | int) -> str:
 
 @lru_cache(maxsize=4096)
 def format_number(text: str) -> str:
-    """A number for people; a text that is no number only gets its minus sign.
+    """Return a number for people; a text that is no number only gets its minus sign.
 
     Examples
     --------
-    >>> number("-0.25"), number("2.2e-41"), number("0.00005"), number("-7/1550")
-    ('−0.25', '2.2·10⁻⁴¹', '5·10⁻⁵', '−7/1550')
+    >>> format_number("-0.25"), format_number("2.2e-41"), format_number("0.00005")
+    ('−0.25', '2.2·10⁻⁴¹', '5·10⁻⁵')
+    >>> format_number("-7/1550")
+    '−7/1550'
     """
     match = _NUMBER.fullmatch(text)
     if match is None:
@@ -91,6 +93,7 @@ def format_number(text: str) -> str:
 
 
 def _with_power(small: re.Match[str]) -> str:
+    """Return a small decimal as a mantissa with its power of ten."""
     mantissa = f"{small['first']}.{small['rest']}" if small["rest"] else small["first"]
     return f"{mantissa}·{format_power_of_ten(-len(small['zeros']) - 1)}"
 
@@ -107,14 +110,16 @@ _KEPT = frozenset({*FUNCTIONS, *KEYWORDS})
 
 @lru_cache(maxsize=4096)
 def format_name(symbol: str) -> str:
-    """A quantity's name, with the characters that Unicode has for it.
+    """Return a quantity's name, with the characters that Unicode has for it.
 
     A subscript that Unicode has no letters for stays behind its underscore.
 
     Examples
     --------
-    >>> name("n_1"), name("p'_x"), name("sigma_1"), name("zbar"), name("p'_y"), name("red")
-    ('n₁', 'p′ₓ', 'σ₁', 'z̄', 'p′_y', 'red')
+    >>> format_name("n_1"), format_name("p'_x"), format_name("sigma_1"), format_name("zbar")
+    ('n₁', 'p′ₓ', 'σ₁', 'z̄')
+    >>> format_name("p'_y"), format_name("red")
+    ('p′_y', 'red')
     """
     first, *rest = symbol.split("_")
     match = _BASE.fullmatch(first)
@@ -133,13 +138,14 @@ def format_name(symbol: str) -> str:
 
 
 def _format_subscript(low: list[str]) -> str:
+    """Return a subscript in small letters if Unicode has all of them, else behind underscores."""
     if len(low) == 1 and set(low[0]) <= set(_ON_LINE):
         return low[0].translate(TO_BELOW)
     return "".join(f"_{part}" for part in low)
 
 
 def _format_stem(stem: str) -> str:
-    """A letter, Greek letter, letter with an accent, or difference; else the word."""
+    """Return a letter, Greek letter, letter with an accent, or difference; else the word."""
     for accent, mark in _ACCENTS.items():
         head = stem.removesuffix(accent)
         if head != stem and len(LETTERS.get(head, head)) == 1:
@@ -167,32 +173,35 @@ _SPELLED = {"<=": "≤", ">=": "≥", "!=": "≠", "*": "·", "-": MINUS}
 
 
 def format_formula(text: str) -> str:
-    """A formula in the grammar, or a worked line of them, for people.
+    """Return a formula in the grammar, or a worked line of them, for people.
 
     Examples
     --------
-    >>> formula("p'_x = -f*X/Z^2 <= 1e-5")
+    >>> format_formula("p'_x = -f*X/Z^2 <= 1e-5")
     'p′ₓ = −f·X/Z² ≤ 1·10⁻⁵'
     """
     return _DOUBLED.sub(r"(\1)", _FORMULA.sub(_rewrite_match, text))
 
 
 def _rewrite_match(match: re.Match[str]) -> str:
+    """Return one piece of a formula as people write it."""
     kind = str(match.lastgroup)
     return _WRITERS[kind](match[kind])
 
 
 def _format_symbol(word: str) -> str:
+    """Return a name as people write it; those of functions and words stay."""
     return word if word in _KEPT else format_name(word)
 
 
 def _format_braced_constant(text: str) -> str:
-    """A number in braces: a sign or a bar inside a formula needs brackets."""
+    """Return a number in braces; with a sign or a bar it needs brackets inside a formula."""
     value = format_number(text.removesuffix("/1").removesuffix("."))
     return f"({value})" if {MINUS, "/"} & {*value} else value
 
 
 def _to_superscript(exponent: str) -> str:
+    """Return an exponent in raised digits."""
     return exponent.translate(RAISED)
 
 
@@ -217,11 +226,11 @@ _INDEXED = "_'"
 
 
 def format_names_in(text: str) -> str:
-    """A sentence in which the names of quantities that show an index or a prime are written.
+    """Return a sentence in which names with an index or a prime are written for people.
 
     Examples
     --------
-    >>> names_in("z'_p in front of λ_1 and z'")
+    >>> format_names_in("z'_p in front of λ_1 and z'")
     'z′ₚ in front of λ₁ and z′'
     """
     if not any(sign in text for sign in _INDEXED):  # looking for names takes long
@@ -234,11 +243,11 @@ _LONG = re.compile(rf"(?<![\w.,{GAP}])\d{{{LONGEST_UNGROUPED + 1},}}(?![\w{GAP}]
 
 
 def format_numbers_in_prose(text: str) -> str:
-    """A sentence with a real minus before its numbers, and groups in the long ones.
+    r"""Return a sentence with a real minus before its numbers, and groups in the long ones.
 
     Examples
     --------
-    >>> prose("between -1 and 65535")
+    >>> format_numbers_in_prose("between -1 and 65535")
     'between −1 and 65\u202f535'
     """
     return _LONG.sub(lambda m: group_digits(m[0]), _SIGNED.sub(MINUS, text))

@@ -21,7 +21,7 @@ _RELATIONS = {row.name: row.signs[0] for row in operators_with_syntax(OperatorSy
 
 
 def format_tree(expr: Expr, leaves: Mapping[str, str] | None = None) -> str:
-    """Write a tree in the formula grammar; ``parse(to_text(e)) == e``.
+    """Return a tree in the formula grammar: ``parse_formula(format_tree(e)) == e``.
 
     Constants that are not plain non-negative decimals stand in braces: ``{-1/3}``.
 
@@ -40,6 +40,13 @@ def format_tree(expr: Expr, leaves: Mapping[str, str] | None = None) -> str:
 
 
 def _format_with_level(expr: Expr, leaves: Leaves) -> tuple[str, int]:
+    """Return a tree as text, and how tightly its outermost operator binds.
+
+    Raises
+    ------
+    FormulaError
+        If an operator is unknown or has an impossible number of arguments.
+    """
     if isinstance(expr, Num):
         return _format_number_node(expr), ATOM
     if isinstance(expr, Sym):
@@ -58,15 +65,18 @@ def _format_with_level(expr: Expr, leaves: Leaves) -> tuple[str, int]:
 
 
 def _format_symbol_name(name: str) -> str:
+    """Return a name, in back quotes if it could not be read otherwise."""
     return name if is_plain_name(name) else f"`{name}`"
 
 
 def _format_at_level(expr: Expr, level: int, leaves: Leaves) -> str:
+    """Return a tree as text, in brackets if it binds less tightly than ``level``."""
     text, own = _format_with_level(expr, leaves)
     return text if own >= level else f"({text})"
 
 
 def _format_number_node(num: Num) -> str:
+    """Return a number, in braces if it is negative or no decimal that ends."""
     value = num.value
     if value.denominator == 1 and value >= 0:
         return f"{value.numerator}.0" if num.decimal else str(value.numerator)
@@ -77,7 +87,7 @@ def _format_number_node(num: Num) -> str:
 
 
 def _format_terminating_decimal(value: Fraction) -> str:
-    """Terminating decimal, or an empty text."""
+    """Return a decimal of at most 40 places that ends, else an empty text."""
     for places in range(1, 41):
         scaled = value * 10**places
         if scaled.denominator == 1:
@@ -87,7 +97,13 @@ def _format_terminating_decimal(value: Fraction) -> str:
 
 
 def _format_operand_run(expr: Call, leaves: Leaves, sign: str, own: int) -> tuple[str, int]:
-    """Write an n-ary sum or product; a nested one of the same kind keeps its brackets."""
+    """Return an n-ary sum or product; a nested one of the same kind keeps its brackets.
+
+    Raises
+    ------
+    FormulaError
+        If it has fewer than two arguments.
+    """
     if len(expr.args) < 2:
         raise FormulaError(f"{expr.op} needs two arguments")
     first, *rest = expr.args
@@ -97,6 +113,7 @@ def _format_operand_run(expr: Call, leaves: Leaves, sign: str, own: int) -> tupl
 
 
 def _format_left_associative(expr: Call, leaves: Leaves, sign: str, own: int) -> tuple[str, int]:
+    """Return a difference or quotient; the right side of the same kind is in brackets."""
     first, second = expr.args
     return (
         f"{_format_at_level(first, own, leaves)}{sign}{_format_at_level(second, own + 1, leaves)}",
@@ -105,6 +122,13 @@ def _format_left_associative(expr: Call, leaves: Leaves, sign: str, own: int) ->
 
 
 def _format_connective(expr: Call, leaves: Leaves, word: str, own: int) -> tuple[str, int]:
+    """Return conditions joined by a word.
+
+    Raises
+    ------
+    FormulaError
+        If there are fewer than two.
+    """
     if len(expr.args) < 2:
         raise FormulaError(f"{expr.op} needs two arguments")
     return f" {word} ".join(_format_at_level(arg, own + 1, leaves) for arg in expr.args), own
@@ -113,15 +137,36 @@ def _format_connective(expr: Call, leaves: Leaves, word: str, own: int) -> tuple
 def _format_prefix_operator(
     expr: Call, leaves: Leaves, sign: str, inner: int, own: int
 ) -> tuple[str, int]:
+    """Return a sign or word before its argument."""
     return f"{sign}{_format_at_level(expr.args[0], inner, leaves)}", own
 
 
 def _format_power(expr: Call, leaves: Leaves) -> tuple[str, int]:
+    """Return a power; towers bind from the right."""
     base, exponent = expr.args
     return (
         f"{_format_at_level(base, ATOM, leaves)}^{_format_at_level(exponent, POWER, leaves)}",
         POWER,
     )
+
+
+def _format_items(expr: Call, leaves: Leaves, separator: str) -> str:
+    return separator.join(
+        str(arg.value) if isinstance(arg, Num) else _format_with_level(arg, leaves)[0]
+        for arg in expr.args
+    )
+
+
+def _format_interval(expr: Call, leaves: Leaves) -> tuple[str, int]:
+    low, high, *sides = expr.args
+    left, right = (isinstance(side, Num) and side.value != 0 for side in sides)
+    bounds = _format_items(Call("", (low, high)), leaves, "; ")
+    return f"{'[' if left else '('}{bounds}{']' if right else ')'}", ATOM
+
+
+def _format_complex(expr: Call, leaves: Leaves) -> tuple[str, int]:
+    real, imaginary = (_format_at_level(part, PRODUCT, leaves) for part in expr.args)
+    return f"{real} + {imaginary}*i", SUM
 
 
 _WRITERS: dict[str, Callable[[Call, Leaves], tuple[str, int]]] = {
@@ -135,4 +180,12 @@ _WRITERS: dict[str, Callable[[Call, Leaves], tuple[str, int]]] = {
     "or": partial(_format_connective, word="or", own=EITHER),
     "and": partial(_format_connective, word="and", own=BOTH),
     "not": partial(_format_prefix_operator, sign="not ", inner=TRUTH, own=TRUTH),
+    "row": lambda expr, leaves: (_format_items(expr, leaves, ", "), ATOM),
+    "matrix": lambda expr, leaves: (f"[{_format_items(expr, leaves, '; ')}]", ATOM),
+    "vector": lambda expr, leaves: (f"({_format_items(expr, leaves, '; ')})", ATOM),
+    "set": lambda expr, leaves: (f"{{{_format_items(expr, leaves, '; ')}}}", ATOM),
+    "union": lambda expr, leaves: (_format_items(expr, leaves, " or ") or "{}", ATOM),
+    "interval": _format_interval,
+    "complex": _format_complex,
+    "infinity": lambda _expr, _leaves: ("inf", ATOM),
 }

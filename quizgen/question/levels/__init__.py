@@ -1,7 +1,7 @@
-"""Levels: the same draw as in an exam, step by step, or turned round; a module for each.
+"""Levels: one variant as in an exam, step by step, or turned round; a module for each.
 
-In: a draw and a language. Out: an ``Asking``: stem, parts with their specifications, solution.
-Must never know: an output, a paper.
+In: a variant and a language. Out: a ``LevelQuestion``: stem, parts with their specifications,
+solution. Must never know: an output, a paper.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ LEVELS = (EXAM, *get_args(DerivedLevel))
 
 
 def load_level(name: str) -> Level:
-    """What asks at a level; those of learners are loaded for who learns."""
+    """Return the module of a level; those for learners are imported on use."""
     match require_one_of("level", name, LEVELS):
         case "guided":
             from quizgen.question.levels import guided
@@ -36,7 +36,9 @@ def load_level(name: str) -> Level:
 
 
 def effective_level(drawn: Variant, wanted: str) -> str:
-    """The level at which a draw is asked: the wanted one if it has such a form, else the exam's.
+    """Return the level at which a variant is asked: the wanted one, else the exam's.
+
+    A level may have no form for a template.
 
     Raises
     ------

@@ -35,15 +35,15 @@ def make_choice_part(
     drawn: Variant, lang: str, body: tuple[Block, ...], options: Sequence[LevelOption],
     lines: tuple[SolutionStep, ...] = (),
 ) -> LevelPart:  # fmt: skip
-    """One part with lettered options; exactly one is right.
+    """Return a part with lettered options, exactly one of which is right.
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     lang : str
     body : tuple of blocks
         What is asked.
-    options : sequence of Option
+    options : sequence of LevelOption
         In the order in which they are shown.
     lines : tuple of Line
         The worked lines of its solution.
@@ -67,7 +67,7 @@ def make_choice_part(
 
 
 def _build_choice_spec(langs: Sequence[str], marked: Mapping[str, LevelOption]) -> ChoiceSpec:
-    """What the choice is marked by; its wordings are those of the first language."""
+    """Return what the choice is graded by; its wordings are those of the first language."""
     table = {
         "kind": "choice",
         "options": [inlines_as_typed(option.said(langs[0])) for option in marked.values()],

@@ -34,10 +34,11 @@ class PerturbationPair:
     answer: str
 
     def __call__(self, lang: str) -> LevelPart:
-        """The part in a language."""
+        """Return the part in a language."""
         drawn, target = self.first.drawn, self.first.target
 
         def because(each: str) -> tuple[Inline, ...]:
+            """Return the results of both changes, in a language."""
             return translate_inlines(
                 each, "transfer.two_results",
                 target=quantity_inlines(drawn, target, each),
@@ -47,6 +48,7 @@ class PerturbationPair:
             )  # fmt: skip
 
         def option(name: str) -> LevelOption:
+            """Return the option of this name, and whether it is right."""
             wording = f"transfer.{name}"
             return LevelOption(
                 lambda each: translate_inlines(each, wording), name == self.answer, because, name
@@ -65,7 +67,7 @@ class PerturbationPair:
 
 
 def choose_comparison(changes: Perturbations, asked: Consequence | None) -> PerturbationPair | None:
-    """Two changes of one result with a clear answer; None if there are none.
+    """Return two changes of one result with a clear answer; None if there are none.
 
     A change whose effect has been asked is not used again.
     """
@@ -88,13 +90,14 @@ def choose_comparison(changes: Perturbations, asked: Consequence | None) -> Pert
 
 
 def _is_same_perturbation(change: Perturbation, asked: Consequence | None) -> bool:
+    """Return whether another part asks about this change; nothing is asked twice."""
     return asked is not None and (change.target, change.given, change.scale) == (
         asked.change.target, asked.change.given, asked.change.scale
     )  # fmt: skip
 
 
 def _build_decidable_pair(first: Perturbation, second: Perturbation) -> PerturbationPair | None:
-    """The pair with its answer; None where nobody could tell without precise numbers.
+    """Return the pair with its answer; None where only precise numbers could tell.
 
     Two factors of one quantity are no comparison, but for one that grows and one that shrinks.
     """

@@ -58,7 +58,7 @@ class Consequence:
     way: str
 
     def __call__(self, lang: str) -> LevelPart:
-        """The part in a language."""
+        """Return the part in a language."""
         if self.way == "factor":
             return _ask_factor(self.change, lang)
         return (
@@ -69,7 +69,7 @@ class Consequence:
 
 
 def choose_consequence(changes: Perturbations) -> Consequence | None:
-    """What is asked about one change; None if no change makes sense."""
+    """Return what is asked about one change; None if no change makes sense."""
     drawn = changes.drawn
     other: list[Perturbation] = []
     for index, target in shuffle(f"{level_seed(drawn)}/effect", list(askable_results(drawn))):
@@ -81,22 +81,26 @@ def choose_consequence(changes: Perturbations) -> Consequence | None:
     if not other:
         return None
     if pick_index(f"{level_seed(drawn)}/effect/way", 2):
-        return Consequence(_one_way(changes, other), "direction")
+        return Consequence(_draw_directed_change(changes, other), "direction")
     return Consequence(other[0], "value")
 
 
-def _one_way(changes: Perturbations, moving: list[Perturbation]) -> Perturbation:
-    """A change in a drawn direction, if one is left: also of what the result does not rest on."""
+def _draw_directed_change(changes: Perturbations, moving: list[Perturbation]) -> Perturbation:
+    """Return a change whose result moves in a drawn direction.
+
+    Among the directions is "unchanged", by a change that the result does not rest on, if there
+    is one: larger and smaller are then not the only answers.
+    """
     idle = changes.of(moving[0].index, moving[0].target, idle=True)
     first: dict[str, Perturbation] = {}
     for change in (*moving, *islice(idle, 1)):
-        first.setdefault(_way_of(change), change)
+        first.setdefault(_get_direction(change), change)
     ways = [way for way in DIRECTIONS if way in first]
     return first[ways[pick_index(f"{level_seed(changes.drawn)}/effect/direction", len(ways))]]
 
 
-def _way_of(change: Perturbation) -> str:
-    """In which direction a result moves."""
+def _get_direction(change: Perturbation) -> str:
+    """Return the direction in which a result moves."""
     with working_precision():
         if change.after == change.before:
             return "unchanged"
@@ -106,6 +110,7 @@ def _way_of(change: Perturbation) -> str:
 def _build_effect_body(
     change: Perturbation, lang: str, key: str, hint: str = ""
 ) -> tuple[Block, ...]:
+    """Return the paragraph that states a change and asks for its effect."""
     only = translate_inlines(lang, "transfer.only", change=change.describe(lang))
     asked = translate_inlines(lang, key, target=quantity_inlines(change.drawn, change.target, lang))
     tail = (PlainText(" "), *translate_inlines(lang, hint)) if hint else ()
@@ -113,7 +118,10 @@ def _build_effect_body(
 
 
 def _ask_factor(change: Perturbation, lang: str) -> LevelPart:
-    """By what factor? The key follows from the power that the formulas prove."""
+    """Return a part that asks by what factor a result changes.
+
+    The key follows from the power that the formulas prove.
+    """
     found = change.factor or Fraction(1)
     traps: dict[str, str] = {}
     for name, wrong in _iter_factor_slips(change.scale, found):
@@ -144,16 +152,22 @@ def _ask_factor(change: Perturbation, lang: str) -> LevelPart:
 
 
 def _iter_factor_slips(scale: Fraction, found: Fraction) -> Iterator[tuple[str, Fraction]]:
+    """Yield the wrong factors that learners give, each with its name.
+
+    The inverse, the factor of the given quantity itself, and no change at all.
+    """
     yield "upside-down", 1 / found
     yield "plain", scale
     yield "unchanged", Fraction(1)
 
 
 def _build_slip_sentence(change: Perturbation, trap: str, lang: str) -> tuple[Inline, ...]:
+    """Return the sentence for somebody who gave a wrong factor."""
     return translate_inlines(lang, f"transfer.trap_{trap}", **_name_target_and_given(change, lang))
 
 
 def _name_target_and_given(change: Perturbation, lang: str) -> dict[str, tuple[Inline, ...]]:
+    """Return the names of the result and of the changed quantity, for the blanks of a sentence."""
     drawn = change.drawn
     return {
         "target": quantity_inlines(drawn, change.target, lang),
@@ -162,7 +176,7 @@ def _name_target_and_given(change: Perturbation, lang: str) -> dict[str, tuple[I
 
 
 def _iter_proof_lines(change: Perturbation, found: Fraction, lang: str) -> Iterator[SolutionStep]:
-    """To which power of the quantity the result is proportional, and the same with numbers."""
+    """Yield the power that the result is proportional to, and the same with numbers."""
     both = _name_target_and_given(change, lang)
     if not change.power:
         yield SolutionStep(
@@ -180,7 +194,7 @@ def _iter_proof_lines(change: Perturbation, found: Fraction, lang: str) -> Itera
 
 
 def _typeset_ratio(change: Perturbation, found: Fraction) -> TypesetMaths:
-    """The new value over the old one."""
+    """Return the new value over the old one, typeset."""
     draws = {"new": change.changed, "old": change.drawn}
     leaves = {name: value_node(draw, change.target) for name, draw in draws.items()}
     typed = {name: value_typed(draw, change.target) for name, draw in draws.items()}
@@ -193,11 +207,12 @@ def _typeset_ratio(change: Perturbation, found: Fraction) -> TypesetMaths:
 
 
 def _format_number(value: Value) -> str:
+    """Return a number as text: exact if it is short, else rounded."""
     return format_exact(value) or format_rounded(value)
 
 
 def value_inlines(drawn: Variant, name: str) -> tuple[Inline, ...]:
-    """A quantity with its unit in a sentence, with ≈ in front where it is rounded."""
+    """Return a quantity's value with its unit, with ≈ in front where it is rounded."""
     value, unit = drawn.shown_values[name], drawn.template.units[name]
     exactly = format_exact(value) if is_short_decimal(value) else None
     text = join_unit(exactly or format_rounded(value), unit)
@@ -205,7 +220,7 @@ def value_inlines(drawn: Variant, name: str) -> tuple[Inline, ...]:
 
 
 def _ask_new_value(change: Perturbation, lang: str) -> LevelPart:
-    """The new value, marked as the part marks the old one."""
+    """Return a part that asks for the new value, graded as the authored part grades the old one."""
     step = change.drawn.template.chain.by_name[change.target]
     spec = step_value_spec(change.changed, change.index, step)
     filler = Interpolator(change.changed, lang)
@@ -223,7 +238,7 @@ def _ask_new_value(change: Perturbation, lang: str) -> LevelPart:
 
 
 def _build_solution_lines(change: Perturbation, lang: str) -> tuple[SolutionStep, ...]:
-    """All steps after the change."""
+    """Return all steps after the change."""
     filler = Interpolator(change.changed, lang)
     return tuple(
         solution_step(filler, one) for one in required_steps(change.changed, change.target)
@@ -231,10 +246,11 @@ def _build_solution_lines(change: Perturbation, lang: str) -> tuple[SolutionStep
 
 
 def _ask_direction(change: Perturbation, lang: str) -> LevelPart:
-    """Larger, smaller or the same? Each option is answered with both values."""
-    right = _way_of(change)
+    """Return a part that asks: larger, smaller or the same? Both values answer each option."""
+    right = _get_direction(change)
 
     def because(each: str) -> tuple[Inline, ...]:
+        """Return the result before and after the change, in a language."""
         return translate_inlines(
             each, "transfer.before_after",
             target=quantity_inlines(change.drawn, change.target, each),
@@ -243,6 +259,7 @@ def _ask_direction(change: Perturbation, lang: str) -> LevelPart:
         )  # fmt: skip
 
     def option(way: str) -> LevelOption:
+        """Return the option of this direction, and whether it is right."""
         return LevelOption(
             lambda each: translate_inlines(each, f"transfer.{way}"), way == right, because, way
         )

@@ -1,4 +1,4 @@
-"""What a level makes of a draw: parts before they have a place in a paper."""
+"""What a level makes of a variant: parts before they have a place in a paper."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class LevelPart(msgspec.Struct, frozen=True):
 
     @property
     def label(self) -> str:
-        """Its label within the question; empty where it is the only part."""
+        """Return its label within the question; empty where it is the only part."""
         return self.solved.label
 
 
@@ -47,17 +47,17 @@ class LevelQuestion(msgspec.Struct, frozen=True):
 
 
 class Level(Protocol):
-    """A module of ``quizgen/question/levels``."""
+    """What a module of ``quizgen/question/levels`` offers."""
 
     def is_applicable(self, drawn: Variant) -> bool:
-        """Whether a draw has a form at this level."""
+        """Return whether a variant has a form at this level."""
 
     def ask(self, drawn: Variant, lang: str) -> LevelQuestion:
-        """Put a draw into words at this level."""
+        """Return a variant as a question in words at this level."""
 
 
 def without_bold_questions(block: Block) -> Block:
-    """A block without bold questions, where others are asked in their place."""
+    """Return a paragraph in plain type: its bold questions are not asked, but others instead."""
     if not isinstance(block, Paragraph):
         return block
     plain: list[Inline] = []
@@ -67,7 +67,7 @@ def without_bold_questions(block: Block) -> Block:
 
 
 def share_points(total: Fraction, weights: Sequence[Fraction]) -> tuple[Fraction, ...]:
-    """Marks shared out in quarters as the weights stand to each other, a quarter at least each.
+    """Return marks shared out in quarters by weight, a quarter at least to each.
 
     The sum is the total, unless that is less than a quarter for each.
     """

@@ -1,4 +1,4 @@
-"""The formulas to choose from: those of known mistakes, and slips of about the right one's length.
+"""The formulas to choose from: those of misconceptions, and slips of about the right one's length.
 
 Where the right formula is longer, or shorter, than those of all its mistakes, its length would tell
 it. Most times one of them then gives way to the right formula with a slip in it.
@@ -48,7 +48,7 @@ _RAISED = frozenset({"pow", "sqrt", "root"})
 def draw_formula_options(
     drawn: Variant, step: ChainStep, known: frozenset[str]
 ) -> list[FormulaOption]:
-    """The right formula and up to three wrong ones, in a drawn order.
+    """Return the right formula and up to three wrong ones, in a drawn order.
 
     The step has at least one wrong formula. A slip may replace the last, so that its length does
     not tell which one is right.
@@ -63,19 +63,20 @@ def draw_formula_options(
 
 
 def _compare_first_length(ways: list[FormulaOption]) -> int:
-    """1 where the first is the longest, -1 where it is the shortest, 0 where neither."""
+    """Return 1 if the first option is the longest, -1 if it is the shortest, else 0."""
     right, *others = map(_measure_formula, ways)
     return (right > max(others)) - (right < min(others))
 
 
 def _measure_formula(way: FormulaOption) -> int:
+    """Return the length of a formula in characters of plain text."""
     return len(inlines_to_text((way.shown,)))
 
 
 def _iter_distinct_slip_formulas(
     drawn: Variant, step: ChainStep, known: frozenset[str], ways: list[FormulaOption], side: int
 ) -> Iterator[FormulaOption]:
-    """Slips at least as long (or as short) as the right formula, with values that none has."""
+    """Yield slips at least as long (or as short) as the right formula, with new values."""
     expr = flatten_sums(applicable_branch(drawn, step.expr))
     slips = list(dict.fromkeys(_iter_slip_formulas(expr)))
     for name, wrong in shuffle(f"{level_seed(drawn)}/{step.name}/slips", slips):
@@ -90,7 +91,7 @@ def _iter_distinct_slip_formulas(
 
 
 def _iter_slip_formulas(expr: Expr) -> Iterator[tuple[str, Expr]]:
-    """The formula with one slip, and what kind of slip it is."""
+    """Yield the formula with one slip, and what kind of slip it is."""
     yield from _iter_operator_slips(expr)
     if isinstance(expr, Call) and expr.op not in _RAISED:
         yield "doubled", Call("mul", (Num(Fraction(2)), expr))
@@ -98,7 +99,7 @@ def _iter_slip_formulas(expr: Expr) -> Iterator[tuple[str, Expr]]:
 
 
 def _iter_operator_slips(expr: Expr) -> Iterator[tuple[str, Expr]]:
-    """Slips in one operator of a formula; exponents stay as they are."""
+    """Yield slips in one operator of a formula; exponents stay as they are."""
     if not isinstance(expr, Call):
         return
     first, *rest = expr.args or (expr,)
@@ -115,7 +116,7 @@ def _iter_operator_slips(expr: Expr) -> Iterator[tuple[str, Expr]]:
 
 
 def _group_operands(op: str, args: tuple[Expr, ...]) -> Expr:
-    """An operator between the last argument and the others."""
+    """Return an operator between the last argument and the others."""
     if op in {"sub", "div"} and len(args) > 2:
         inner = "add" if op == "sub" else "mul"
         return Call(op, (Call(inner, args[:-1]), args[-1]))

@@ -1,4 +1,4 @@
-"""A worked solution that somebody else made, with one of the known mistakes in it or with none."""
+"""A worked solution that somebody else made, with one of the misconceptions in it or with none."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ FEWEST, MOST = 2, 8
 
 @dataclass(frozen=True)
 class FaultySolution:
-    """A solution: its steps, the mistake in it (or none) and the place of its first wrong step."""
+    """A solution: its steps, the misconception in it (or none), its first wrong step."""
 
     drawn: Variant
     steps: tuple[ChainStep, ...]
@@ -44,7 +44,7 @@ class FaultySolution:
     place: int = -1
 
     def __call__(self, lang: str) -> LevelPart:
-        """The part in a language."""
+        """Return the part in a language."""
         shown = self._apply_misconception()
         rows = tuple(
             self._build_step_paragraph(shown, step, lang) for step in self._iter_shown_steps()
@@ -55,7 +55,7 @@ class FaultySolution:
         none = LevelOption(
             lambda each: translate_inlines(each, "transfer.none"),
             not self.trap,
-            self._about_none,
+            self._explain_no_error,
             "none",
         )
         right = Interpolator(self.drawn, lang)
@@ -64,12 +64,12 @@ class FaultySolution:
         return make_choice_part(self.drawn, lang, body, [*options, none], lines)
 
     def _apply_misconception(self) -> Variant:
-        """The draw with the values that the mistake leads to."""
+        """Return the variant with the values that the misconception leads to."""
         return _solve_with_misconception(self.drawn, self.trap) if self.trap else self.drawn
 
     @property
     def leaks_answer(self) -> bool:
-        """Whether a line holds a formula or a result that another question of the paper asks."""
+        """Return whether a line shows a formula or a result that another question asks."""
         values, numbers = self._apply_misconception().shown_values, self.drawn.elsewhere.numbers
         return any(
             leading_digits(values[step.name]) in numbers
@@ -78,15 +78,16 @@ class FaultySolution:
         )
 
     def _get_misconception_steps(self) -> tuple[ChainStep, ...]:
+        """Return the wrong steps of the misconception; none if the solution is right."""
         return self.drawn.template.chain.traps.get(self.trap, ())
 
     def _has_different_value(self, place: int) -> bool:
-        """Whether a step has another value than the right solution."""
+        """Return whether a step has another value than in the right solution."""
         name = self.steps[place].name
         return not is_same_value(self._apply_misconception().values[name], self.drawn.values[name])
 
     def _iter_shown_steps(self) -> Iterator[ChainStep]:
-        """The steps as that solution takes them."""
+        """Yield the steps as this solution takes them."""
         wrong = {step.name: step.expr for step in self._get_misconception_steps()}
         for step in self.steps:
             yield ChainStep(step.name, flatten_sums(wrong.get(step.name, step.expr)), step.unit)
@@ -94,10 +95,12 @@ class FaultySolution:
     def _build_step_paragraph(
         self, shown: Variant, step: ChainStep, lang: str
     ) -> tuple[Block, ...]:
+        """Return one line of the solution: its quantity and the typeset step."""
         name = quantity_inlines(self.drawn, step.name, lang)
         return (Paragraph((*name, PlainText(": "), typeset_step(shown, step))),)
 
     def _build_step_option(self, place: int) -> LevelOption:
+        """Return the option that names a step, counted from 0, as the first wrong one."""
         number = (PlainText(str(place + 1)),)
         return LevelOption(
             lambda each: translate_inlines(each, "transfer.step", n=number),
@@ -107,7 +110,7 @@ class FaultySolution:
         )
 
     def _explain_step(self, place: int, lang: str) -> tuple[Inline, ...]:
-        """Why a step is the wrong one, or why it is not."""
+        """Return why a step is the first wrong one, or why it is not."""
         filler = Interpolator(self.drawn, lang)
         if self.trap and place == self.place:
             return filler.sentence("traps", self.trap)
@@ -120,12 +123,15 @@ class FaultySolution:
         why = filler.sentence("steps", self.steps[place].name)
         return translate_inlines(lang, "transfer.right_step", n=number, why=why)
 
-    def _about_none(self, lang: str) -> tuple[Inline, ...]:
+    def _explain_no_error(self, lang: str) -> tuple[Inline, ...]:
+        """Return whether one step is wrong or all are right: the reason for the last option."""
         return translate_inlines(lang, "transfer.one_wrong" if self.trap else "transfer.all_right")
 
 
 def choose_faulty_solution(drawn: Variant) -> FaultySolution | None:
-    """A solution of one part with a drawn mistake, or with none; None if no part has steps for it.
+    """Return a solution of one part with a drawn misconception, or with none.
+
+    None if no part has steps for it.
 
     Which step is wrong is drawn first, then the mistake in it, so that no step is a safe guess.
     """
@@ -147,12 +153,12 @@ def choose_faulty_solution(drawn: Variant) -> FaultySolution | None:
 
 
 def _solve_with_misconception(drawn: Variant, trap: str) -> Variant:
-    """The draw with the values that a mistake leads to."""
+    """Return the variant with the values that a misconception leads to."""
     return replace(drawn, values=drawn.template.chain.solve_with_misconception(trap, drawn.values))
 
 
 def _list_steps_to_answer(drawn: Variant, index: int) -> tuple[ChainStep, ...]:
-    """All steps to the answer of a part, from the task on; none where one has no name."""
+    """Return all steps to a part's answer, from the task on; none where one has no name."""
     answer = drawn.template.rules.part[index].answer
     if answer["kind"] not in NUMERIC:
         return ()
@@ -167,7 +173,7 @@ def _list_steps_to_answer(drawn: Variant, index: int) -> tuple[ChainStep, ...]:
 def _iter_usable_misconceptions(
     drawn: Variant, index: int, steps: tuple[ChainStep, ...]
 ) -> Iterator[tuple[str, int]]:
-    """Mistakes that change the answer, and the place of their first wrong step."""
+    """Yield misconceptions that change the answer, and the place of their first wrong step."""
     places = {step.name: place for place, step in enumerate(steps)}
     answer = asked_quantities(drawn.template.rules.part[index].answer)
     for trap, wrong in drawn.template.chain.traps.items():
@@ -200,7 +206,7 @@ def _iter_usable_misconceptions(
 
 
 def _has_certain_digits(shown: Variant, steps: tuple[ChainStep, ...]) -> bool:
-    """Whether the digits of each step can be told: not where roots cancel to nothing."""
+    """Return whether the digits of each step are certain: not where roots cancel to nothing."""
     try:
         for step in steps:
             format_rounded(shown.shown_values[step.name])

@@ -20,13 +20,13 @@ STATEMENT = "claim"
 
 
 def is_applicable(_drawn: Variant) -> bool:
-    """Every draw can be asked as it was written."""
+    """Return True: every variant can be asked as it was written."""
     return True
 
 
 @lru_cache(maxsize=32)
 def ask(drawn: Variant, lang: str) -> LevelQuestion:
-    """Stem and parts as authored, with the whole worked solution."""
+    """Return stem and parts as authored, with the whole worked solution."""
     built = [ask_part(drawn, index) for index in range(len(drawn.template.rules.part))]
     hidden, told = Interpolator(drawn, lang, hidden=True), Interpolator(drawn, lang)
     parts = tuple(_build_asked_part(hidden, told, index, part) for index, part in enumerate(built))
@@ -39,6 +39,11 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 def _build_asked_part(
     hidden: Interpolator, told: Interpolator, index: int, built: AskedPart[Any]
 ) -> LevelPart:
+    """Return one authored part with its solution.
+
+    Two interpolators: the question's knows drawn values alone, the solution's all of them.
+    Raises ``BankError`` if the language file has no section for the part.
+    """
     template = hidden.drawn.template
     label = template.labels[index]
     body = _build_part_body(hidden, label, built.statements)
@@ -59,7 +64,7 @@ def _build_asked_part(
 def _build_part_body(
     filler: Interpolator, label: str, statements: tuple[LabelledName, ...]
 ) -> tuple[Block, ...]:
-    """The section of a part, and what it asks: its statement, or several in a numbered list."""
+    """Return the section of a part with its statement, or several in a numbered list."""
     section = filler.text.sections.get(label, ()) if label else ()
     if len(statements) == 1 and statements[0][0] == "claims":
         if STATEMENT in slot_names(section):
@@ -71,4 +76,5 @@ def _build_part_body(
 
 
 def _label_choices(filler: Interpolator, names: tuple[LabelledName, ...]) -> tuple[Choice, ...]:
+    """Return the marks of options with their wordings."""
     return tuple((mark, filler.sentence("options", name)) for mark, name in names)

@@ -54,7 +54,7 @@ from quizgen.question.worked_steps import quantity_inlines
 
 @dataclass(frozen=True, slots=True)
 class GuidedStage:
-    """What takes the place of one authored part.
+    """The questions that take the place of one authored part.
 
     Parameters
     ----------
@@ -78,13 +78,13 @@ class GuidedStage:
 
     @property
     def alone(self) -> bool:
-        """Whether nothing but the part itself is asked."""
+        """Return whether nothing but the part itself is asked."""
         return not self.before and self.formula is None
 
 
 @lru_cache(maxsize=128)
 def guided_stages(drawn: Variant) -> tuple[GuidedStage, ...]:
-    """What is asked before each authored part, whatever the language."""
+    """Return what is asked before each authored part, whatever the language."""
     found, asked = [], set[str]()
     for index in range(len(drawn.template.rules.part)):
         stage = _build_stage(drawn, index, frozenset(asked))
@@ -94,6 +94,7 @@ def guided_stages(drawn: Variant) -> tuple[GuidedStage, ...]:
 
 
 def _build_stage(drawn: Variant, index: int, asked: frozenset[str]) -> GuidedStage:
+    """Return what is asked before one authored part; ``asked`` are the quantities asked so far."""
     of, numeric = (
         asked_quantities(authored_answer(drawn, index)),
         authored_answer(drawn, index)["kind"] in NUMERIC,
@@ -110,11 +111,11 @@ def _build_stage(drawn: Variant, index: int, asked: frozenset[str]) -> GuidedSta
     ]  # fmt: skip
     whole = not numeric or _is_askable_at_once(drawn, of, steps)
     before = tuple(step for step in steps if not (whole and numeric and step.name in of))
-    return GuidedStage(index, before, _to_choose(drawn, index, steps, known), whole, known)
+    return GuidedStage(index, before, _find_formula_step(drawn, index, steps, known), whole, known)
 
 
 def _list_required_steps(drawn: Variant, index: int) -> list[ChainStep]:
-    """The steps on which the answer rests in the branches that apply to this draw."""
+    """Return the steps that the answer rests on, in the branches that apply to this variant."""
     todo, found = list(asked_quantities(authored_answer(drawn, index))), set[str]()
     steps = {step.name: step for step in drawn.steps_of_part(index)}
     while todo:
@@ -126,7 +127,7 @@ def _list_required_steps(drawn: Variant, index: int) -> list[ChainStep]:
 
 
 def _is_askable_at_once(drawn: Variant, of: tuple[str, ...], steps: list[ChainStep]) -> bool:
-    """Whether what a part asks can be asked at once, when the steps before have been."""
+    """Return whether a part can be asked at once after the steps before it."""
     chain = drawn.template.chain
     if any(chain.required_steps(name) & {*of} > {name} for name in of):
         return False
@@ -134,34 +135,37 @@ def _is_askable_at_once(drawn: Variant, of: tuple[str, ...], steps: list[ChainSt
     return len(of) == 1 or not alone or not all(has_name(drawn, name) for name in of)
 
 
-def _to_choose(
+def _find_formula_step(
     drawn: Variant, index: int, steps: list[ChainStep], known: frozenset[str]
 ) -> ChainStep | None:
-    """The step whose formula is asked: one of those with several known mistakes."""
+    """Return the step whose formula is asked: one of those with several misconceptions, or None."""
     told = defined_quantities(drawn)
     found = [
         step for step in steps
-        if step.name not in told and not _other_unit(drawn, step)
+        if step.name not in told and not _is_unit_conversion(drawn, step)
         and has_name(drawn, step.name) and not gives_away(drawn, step, known)
         and len(wrong_options(drawn, step, known)) > 1
     ]  # fmt: skip
     return found[pick_index(f"{level_seed(drawn)}/{index}/formula", len(found))] if found else None
 
 
-def _other_unit(drawn: Variant, step: ChainStep) -> bool:
-    """Whether a step is the same quantity in another unit: bits as bytes are no formula."""
+def _is_unit_conversion(drawn: Variant, step: ChainStep) -> bool:
+    """Return whether a step is the same quantity in another unit.
+
+    Nobody has to choose a formula for bits as bytes.
+    """
     right, units = applicable_branch(drawn, step.expr), drawn.template.units
     return isinstance(right, Sym) and units.get(right.name, "") != step.unit
 
 
 def is_applicable(drawn: Variant) -> bool:
-    """Whether some part has a step before it, or a formula to choose."""
+    """Return whether some part has a step before it, or a formula to choose."""
     allowed = "guided" in drawn.template.rules.levels
     return allowed and not all(stage.alone for stage in guided_stages(drawn))
 
 
 def ask(drawn: Variant, lang: str) -> LevelQuestion:
-    """Each authored part with the steps before it."""
+    """Return the question with steps before each authored part."""
     usual = exam.ask(drawn, lang)
     guide = _Guide(drawn, lang)
     groups = [guide.group(stage, usual.parts[stage.index]) for stage in guided_stages(drawn)]
@@ -177,14 +181,15 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 
 
 class _Guide:
-    """Puts the stages of a draw into words."""
+    """Writer of the parts of guided stages, for one variant in one language."""
 
     def __init__(self, drawn: Variant, lang: str) -> None:
+        """Take the variant's sentences in one language."""
         self.drawn, self.lang = drawn, lang
         self.filler = Interpolator(drawn, lang)
 
     def group(self, stage: GuidedStage, usual: LevelPart) -> list[LevelPart]:
-        """The parts that take the place of an authored one."""
+        """Return the parts that take the place of an authored one."""
         if stage.alone:
             return [usual]
         found: list[LevelPart] = []
@@ -207,15 +212,20 @@ class _Guide:
         ]
 
     def _make_substep_labels(self, label: str, count: int) -> list[str]:
-        """Labels of the parts that take the place of one."""
+        """Return the labels of the parts that take the place of one."""
         if label and count > 1:
             return [f"{label}{n}" for n in range(1, count + 1)]
         return [label] if label else part_labels(self.drawn, count)
 
     def _build_strong_paragraph(self, key: str, **blanks: tuple[Inline, ...]) -> tuple[Block, ...]:
+        """Return a sentence of the interface as a bold paragraph: it is what is asked."""
         return (Paragraph((Emphasis("strong", translate_inlines(self.lang, key, **blanks)),)),)
 
     def _ask_step_value(self, stage: GuidedStage, step: ChainStep, place: int) -> LevelPart:
+        """Return a part that asks for the value of one step.
+
+        A quantity without a name in the bank is asked for by its formula.
+        """
         key = "guided.value" if place else "guided.value_first"
         spec = step_value_spec(self.drawn, stage.index, step)
         if has_name(self.drawn, step.name):
@@ -238,7 +248,7 @@ class _Guide:
         return LevelPart(Fraction(1), body, spec, solved)
 
     def _ask_authored_part(self, stage: GuidedStage, usual: LevelPart) -> LevelPart:
-        """The authored part, with the mistakes that can still happen in it."""
+        """Return the authored part, with the misconceptions that can still happen in it."""
         before = {step.name for step in stage.before}
         traps = self.drawn.template.chain.traps
         gone = {
@@ -269,10 +279,11 @@ class _Guide:
         return replace(usual, body=body, spec=spec, solved=solved)
 
     def _list_quantities(self, of: tuple[str, ...]) -> tuple[Inline, ...]:
+        """Return the names of quantities, with commas between them."""
         return join_inlines((quantity_inlines(self.drawn, name, self.lang) for name in of), ", ")
 
     def _ask_step_formula(self, stage: GuidedStage, step: ChainStep, place: int) -> LevelPart:
-        """Which formula? The right one among those of the step's mistakes."""
+        """Return a part that asks for a formula: the right one among those of misconceptions."""
         key = "guided.formula" if place else "guided.formula_first"
         body = self._build_strong_paragraph(
             key, thing=quantity_inlines(self.drawn, step.name, self.lang)
@@ -283,7 +294,10 @@ class _Guide:
         )
 
     def _build_formula_option(self, step: ChainStep, way: FormulaOption) -> LevelOption:
+        """Return an option that shows a formula, with the reason why it is right or wrong."""
+
         def because(lang: str) -> tuple[Inline, ...]:
+            """Return the sentence on the slip, the misconception, or the right step."""
             if way.slip:
                 return translate_inlines(lang, f"guided.slip_{way.slip}")
             section, name = ("traps", way.trap) if way.trap else ("steps", step.name)

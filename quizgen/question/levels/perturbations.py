@@ -40,11 +40,11 @@ _ROOTS = {(2, Fraction(4)): Fraction(2), (2, Fraction(1, 4)): Fraction(1, 2)}
 
 @dataclass(frozen=True)
 class Perturbation:
-    """What one change does to one result.
+    """One given quantity multiplied by a factor, and what that does to one result.
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
         As it was asked.
     index : int
         The part that asks for the result.
@@ -54,7 +54,7 @@ class Perturbation:
         What is multiplied.
     scale : Fraction
         By what.
-    changed : Draw
+    changed : Variant
         The same after the change.
     """
 
@@ -67,17 +67,17 @@ class Perturbation:
 
     @property
     def before(self) -> Value:
-        """The result in the task."""
+        """Return the result in the task, in its shown unit."""
         return self.drawn.values[self.target]
 
     @property
     def after(self) -> Value:
-        """The result after the change."""
+        """Return the result after the change, in its shown unit."""
         return self.changed.values[self.target]
 
     @cached_property
     def power(self) -> Fraction | None:
-        """The power of the given quantity to which the result is proportional; None if none is."""
+        """Return the power of the given quantity that the result is proportional to, or None."""
         steps = {
             step.name: applicable_branch(self.drawn, step.expr)
             for step in required_steps(self.drawn, self.target)
@@ -86,14 +86,14 @@ class Perturbation:
 
     @cached_property
     def factor(self) -> Fraction | None:
-        """The factor of the result, where it follows from a proved power and is a plain number."""
+        """Return the factor of the result; None unless it follows from a proved power."""
         if self.power is None or self.scale not in SCALES:
             return None
         base = {(1, self.scale): self.scale, **_ROOTS}.get((self.power.denominator, self.scale))
         return None if base is None else base**self.power.numerator
 
     def describe(self, lang: str) -> tuple[Inline, ...]:
-        """The change in words."""
+        """Return the change in words."""
         if self.scale in SLIGHT:
             number = (PlainText(pretty.format_number(f"{float(self.scale):g}")),)
             how = translate_inlines(lang, "transfer.times", number=number)
@@ -109,13 +109,13 @@ class Perturbation:
 
 
 def required_steps(drawn: Variant, target: str) -> list[ChainStep]:
-    """All steps on which a result rests in the branches that apply, in order."""
+    """Return all steps that a result rests on in the branches that apply, in order."""
     found = dependencies(drawn, target)
     return [step for step in drawn.template.chain.steps if step.name in found]
 
 
 def dependencies(drawn: Variant, target: str) -> frozenset[str]:
-    """All quantities on which a result rests in the branches that apply, itself included."""
+    """Return all quantities that a result rests on in the branches that apply, with itself."""
     found, todo = set[str](), [target]
     while todo:
         name = todo.pop()
@@ -127,19 +127,20 @@ def dependencies(drawn: Variant, target: str) -> frozenset[str]:
 
 
 class Perturbations:
-    """Every change of a draw that makes sense, each solved once.
+    """Every change of a variant that makes sense, each solved once.
 
     Parameters
     ----------
-    drawn : Draw
+    drawn : Variant
     """
 
     def __init__(self, drawn: Variant) -> None:
+        """Take a variant; changes of it are solved when they are asked for."""
         self.drawn = drawn
         self._solved: dict[tuple[str, Fraction], Variant | None] = {}
 
     def of(self, index: int, target: str, *, idle: bool = False) -> Iterator[Perturbation]:
-        """The changes of what one result rests on, or (idle) of what it does not, as drawn."""
+        """Yield the changes of what a result rests on, or (idle) of what it does not, as drawn."""
         if self.drawn.values[target] == 0:
             return
         steps = required_steps(self.drawn, target)
@@ -148,7 +149,7 @@ class Perturbations:
             (given, scale)
             for given in self.drawn.template.chain.given
             if (given in used) is not idle
-            and _can_change(self.drawn, given)
+            and _is_changeable(self.drawn, given)
             and not used & _find_dependent_quantities(self.drawn, given)
             for scale in (*SCALES, *SLIGHT)
         ]
@@ -162,23 +163,25 @@ class Perturbations:
                 yield Perturbation(self.drawn, index, target, given, scale, changed)
 
     def _solve_perturbed(self, given: str, scale: Fraction) -> Variant | None:
+        """Return the variant after a change, solved once; None if it is not admissible."""
         if (given, scale) not in self._solved:
             self._solved[given, scale] = _scale_given(self.drawn, given, scale)
         return self._solved[given, scale]
 
 
 def _is_printed_integer(drawn: Variant, index: int, target: str) -> bool:
-    """Whether a result is a whole number that a program prints, or that is counted."""
+    """Return whether a result is an integer that a program prints, or that is counted."""
     exact = authored_answer(drawn, index).get("exact") and not drawn.template.units[target]
     return bool(exact) and _is_whole(drawn.values[target])
 
 
 def _is_whole(value: Value) -> bool:
+    """Return whether a value is an exact integer."""
     return isinstance(value, fmpq) and value.q == 1
 
 
 def askable_results(drawn: Variant) -> Iterator[tuple[int, str]]:
-    """The results of a question that can be called by a name."""
+    """Yield the results of a question that have a name in every language."""
     for index, part in enumerate(drawn.template.rules.part):
         if part.answer["kind"] in NUMERIC:
             for name in asked_quantities(part.answer):
@@ -187,7 +190,7 @@ def askable_results(drawn: Variant) -> Iterator[tuple[int, str]]:
 
 
 def _find_dependent_quantities(drawn: Variant, given: str) -> frozenset[str]:
-    """Drawn quantities that follow from one, and could not stay as they are."""
+    """Return drawn quantities that follow from one, and could not stay as they are."""
     found = {given}
     for name, rule in drawn.template.rules.draw.items():
         source = rule.formula or rule.by
@@ -196,14 +199,15 @@ def _find_dependent_quantities(drawn: Variant, given: str) -> frozenset[str]:
     return frozenset(found - {given})
 
 
-def _can_change(drawn: Variant, given: str) -> bool:
+def _is_changeable(drawn: Variant, given: str) -> bool:
+    """Return whether the task states a quantity that may change: named, not fixed, not zero."""
     named = has_name(drawn, given) and given in stated_quantities(drawn)
     fixed = given in drawn.template.quantities.fixed
     return named and not fixed and drawn.shown.get(given, 0) != 0
 
 
 def _scale_given(drawn: Variant, given: str, scale: Fraction) -> Variant | None:
-    """The draw after a change; None if the quantity cannot have that value."""
+    """Return the variant after a change; None if the quantity cannot have that value."""
     value = drawn.shown[given] * to_rational(scale)
     if not _is_drawable_value(drawn, given, to_fraction(value)):
         return None
@@ -218,7 +222,7 @@ def _scale_given(drawn: Variant, given: str, scale: Fraction) -> Variant | None:
 
 
 def _is_drawable_value(drawn: Variant, given: str, value: Fraction) -> bool:
-    """Whether a value lies within those that are drawn, and stays whole where all of them are."""
+    """Return whether a value lies within those that are drawn, and is an integer if all are."""
     rule = drawn.template.rules.draw.get(given)
     if rule is None:  # what an author's Python gives has no range that is known
         return False
@@ -231,7 +235,7 @@ def _is_drawable_value(drawn: Variant, given: str, value: Fraction) -> bool:
 
 
 def _is_admissible(changed: Variant) -> bool:
-    """Whether the template's conditions hold, those aside that only keep numbers handy."""
+    """Return whether the template's conditions hold, but for those that keep numbers handy."""
     rules, template = changed.template.rules, changed.template
     for text in rules.where:
         expr = template.parse_formula(text)
@@ -252,7 +256,7 @@ def _is_admissible(changed: Variant) -> bool:
 
 
 def _has_same_formulas(drawn: Variant, changed: Variant, steps: list[ChainStep]) -> bool:
-    """Whether the same formulas apply after a change, and no quantity changes its sign."""
+    """Return whether the same formulas apply after a change, and no quantity changes its sign."""
     with working_precision():
         return all(
             applicable_branch(drawn, step.expr) == applicable_branch(changed, step.expr)
@@ -262,16 +266,17 @@ def _has_same_formulas(drawn: Variant, changed: Variant, steps: list[ChainStep])
 
 
 def _compute_sign(value: Value) -> int:
+    """Return -1, 0 or 1."""
     return bool(value > 0) - bool(value < 0)
 
 
 def change_size(change: Perturbation) -> Value:
-    """How far the result moves."""
+    """Return how far the result moves."""
     with working_precision():
         return abs(change.after - change.before)
 
 
 def is_clearly_more(one: Value, other: Value) -> bool:
-    """Whether one distance is larger by so much that nobody has to compute it precisely."""
+    """Return whether a distance is so much larger that nobody has to compute it precisely."""
     with working_precision():
         return bool(one > other * fmpq(5, 4))

@@ -18,6 +18,7 @@ from quizgen.bank.markdown import (
     Inline,
     InlineCode,
     InlineFormula,
+    LaidOutFormula,
     PlainText,
     leaves,
     slot_names,
@@ -41,6 +42,7 @@ from quizgen.maths.values import Value
 from quizgen.question.inlines import TypesetMaths
 from quizgen.question.part_context import VariantPart, authored_answer
 from quizgen.question.worked_steps import value_node, value_typed
+from quizgen.typeset.names import iter_names_written
 
 USUAL = {"rel": "0.005"}
 """What is accepted where the rule of the part does not fit the step."""
@@ -52,7 +54,7 @@ _DEGREES = Call("div", (Num(Fraction(180)), Call("pi", ())))
 
 
 class FormulaOption(NamedTuple):
-    """A formula that may be taken for a step: the right one, that of a mistake, or of a slip."""
+    """A formula that may be taken for a step: the right one, a misconception's, or a slip's."""
 
     trap: str
     shown: TypesetMaths
@@ -61,24 +63,24 @@ class FormulaOption(NamedTuple):
 
     @property
     def is_right(self) -> bool:
-        """Whether it is the right one."""
+        """Return whether it is the right formula."""
         return not self.trap and not self.slip
 
 
 def has_name(drawn: Variant, name: str) -> bool:
-    """Whether it is said in every language what a quantity is."""
+    """Return whether every language says what a quantity is called."""
     known = drawn.template.quantities
     return all(known.name(name, lang) for lang in drawn.template.languages)
 
 
 def has_sentence(drawn: Variant, section: str, name: str) -> bool:
-    """Whether a sentence is written in every language."""
+    """Return whether a sentence is written in every language."""
     return all(text.sentence(section, name) for text in drawn.template.texts.values())
 
 
 @lru_cache(maxsize=128)
 def introduced_names(drawn: Variant) -> frozenset[str]:
-    """Letters that the question itself uses: in formulas and programs, or as capitals."""
+    """Return the letters that the question itself uses: in formulas, programs, or as capitals."""
     return frozenset(_iter_mentioned_names(_iter_authored_text(drawn)))
 
 
@@ -86,7 +88,7 @@ _WORD = re.compile(r"[A-Za-z]\w*")
 
 
 def _iter_authored_text(drawn: Variant) -> Iterator[Block | Inline]:
-    """Stem and parts in the first language."""
+    """Yield stem and parts in the first language."""
     text = drawn.template.texts[drawn.template.languages[0]]
     yield from text.stem
     for label in drawn.template.labels:
@@ -95,7 +97,7 @@ def _iter_authored_text(drawn: Variant) -> Iterator[Block | Inline]:
 
 @lru_cache(maxsize=128)
 def stated_quantities(drawn: Variant) -> frozenset[str]:
-    """Quantities whose numbers text or figure give, or that follow from such numbers."""
+    """Return the quantities whose numbers text or figure give, or that follow from these."""
     figure = drawn.template.rules.figure
     found = {*slot_names(_iter_authored_text(drawn)), *(figure.reads if figure else ())}
     for name, rule in drawn.template.rules.draw.items():
@@ -106,7 +108,7 @@ def stated_quantities(drawn: Variant) -> frozenset[str]:
 
 
 def _is_one_over(step: ChainStep, found: Collection[str]) -> bool:
-    """Whether the text gives a quantity as one over a number: an exposure time of 1/250 s."""
+    """Return whether the text gives a quantity as one over a number: an exposure of 1/250 s."""
     match step.expr:
         case Call("div", (Num(value=1), Sym(below))):
             return below in found and step.unit == "s"
@@ -115,7 +117,7 @@ def _is_one_over(step: ChainStep, found: Collection[str]) -> bool:
 
 @lru_cache(maxsize=128)
 def defined_quantities(drawn: Variant) -> frozenset[str]:
-    """Quantities whose formula the text writes down."""
+    """Return the quantities whose formula the text writes down."""
     return frozenset(
         left.name
         for part in leaves(_iter_authored_text(drawn))
@@ -131,10 +133,13 @@ _CAPITAL = re.compile(r"(?<![\w'])[B-HJ-Z](?!\w)")
 
 
 def _iter_mentioned_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
+    """Yield the letters that prose uses, in formulas, programs, and as capitals in words."""
     for part in leaves(parts):
         match part:
             case InlineFormula(expr):
                 yield from names_in(expr)
+            case LaidOutFormula(node):
+                yield from iter_names_written(node)
             case CodeBlock(text) | InlineCode(text):
                 yield from _WORD.findall(_BLANK.sub("", text))
             case PlainText(text):
@@ -144,7 +149,7 @@ def _iter_mentioned_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
 
 
 def flatten_sums(expr: Expr) -> Expr:
-    """The same formula with sums of sums as one sum: no bracket in ((a + b) + c)/3."""
+    """Return the same formula with sums of sums as one sum: no bracket in ((a + b) + c)/3."""
     if not isinstance(expr, Call):
         return expr
     args = tuple(map(flatten_sums, expr.args))
@@ -157,7 +162,7 @@ def flatten_sums(expr: Expr) -> Expr:
 def step_formula(
     drawn: Variant, step: ChainStep, expr: Expr, known: frozenset[str]
 ) -> TypesetMaths:
-    """A step's formula, with numbers in place of letters that nobody has introduced."""
+    """Return a step's formula, with numbers for letters that the question does not introduce."""
     expr, strangers = flatten_sums(expr), names_in(expr) - known
     node = typeset.lay_out(expr, leaves={name: value_node(drawn, name) for name in strangers})
     typed = format_tree(expr, {name: value_typed(drawn, name) for name in strangers})
@@ -168,7 +173,7 @@ def step_formula(
 
 
 def gives_away(drawn: Variant, step: ChainStep, known: frozenset[str]) -> bool:
-    """Whether the formula of a step would print its value, or anything else that is asked."""
+    """Return whether a step's formula would print its value, or anything else that is asked."""
     formulas = [step.expr, *(expr for _, expr in _iter_step_misconceptions(drawn, step))]
     strangers = {
         name for expr in formulas for name in names_in(applicable_branch(drawn, expr)) - known
@@ -181,7 +186,7 @@ def gives_away(drawn: Variant, step: ChainStep, known: frozenset[str]) -> bool:
 
 
 def right_option(drawn: Variant, step: ChainStep, known: frozenset[str]) -> FormulaOption:
-    """The right formula, in the branch that applies."""
+    """Return the right formula, in the branch that applies."""
     return FormulaOption(
         "",
         step_formula(drawn, step, applicable_branch(drawn, step.expr), known),
@@ -190,13 +195,13 @@ def right_option(drawn: Variant, step: ChainStep, known: frozenset[str]) -> Form
 
 
 def leaks_answer(drawn: Variant, name: str, expr: Expr) -> bool:
-    """Whether a formula in print tells what another question of the paper asks."""
+    """Return whether a formula in print tells what another question of the paper asks."""
     asked = drawn.elsewhere.formulas
     return bool(asked) and not asked.isdisjoint(canonical_forms(Call("eq", (Sym(name), expr))))
 
 
 def applicable_branch(drawn: Variant, expr: Expr) -> Expr:
-    """A formula in the branch that applies to this draw."""
+    """Return a formula in the branch that applies to this variant."""
     with working_precision():
         return select_branch(expr, drawn.values, exact_system())
 
@@ -205,7 +210,7 @@ def applicable_branch(drawn: Variant, expr: Expr) -> Expr:
 def wrong_options(
     drawn: Variant, step: ChainStep, known: frozenset[str]
 ) -> tuple[FormulaOption, ...]:
-    """The formulas of the step's mistakes that give another value, each once, in a drawn order."""
+    """Return formulas of a step's misconceptions with another value, each once, shuffled."""
     right = right_option(drawn, step, known)
     found = {right.shown.typed: right}
     for trap, expr in _iter_step_misconceptions(drawn, step):
@@ -225,7 +230,7 @@ def wrong_options(
 
 
 def part_labels(drawn: Variant, count: int) -> list[str]:
-    """Labels of parts that a level makes: letters, unless the task itself tells things by them."""
+    """Return labels of parts that a level makes: letters, unless the task uses letters itself."""
     if count == 1:
         return [""]
     task = {*_iter_mentioned_names(_iter_authored_text(drawn)), *_iter_table_fields(drawn)}
@@ -234,20 +239,20 @@ def part_labels(drawn: Variant, count: int) -> list[str]:
 
 
 def _iter_table_fields(drawn: Variant) -> Iterator[str]:
-    """What the authored parts call the fields of a table."""
+    """Yield what the authored parts call the fields of a table."""
     for part in drawn.template.rules.part:
         if isinstance(part.answer.get("of"), Mapping):
             yield from part.answer["of"]
 
 
 def level_seed(drawn: Variant) -> str:
-    """What the choices of a level are drawn from."""
+    """Return the text that the choices of a level are drawn from."""
     template = drawn.template
     return f"{template.origin}/{template.rules.version}/{drawn.seed}/{drawn.slot}/levels"
 
 
 def _iter_step_misconceptions(drawn: Variant, step: ChainStep) -> Iterator[tuple[str, Expr]]:
-    """The mistakes of a step that have a sentence in every language."""
+    """Yield the misconceptions of a step that have a sentence in every language."""
     template = drawn.template
     for trap, steps in template.chain.traps.items():
         wrong = [one.expr for one in steps if one.name == step.name]
@@ -256,12 +261,13 @@ def _iter_step_misconceptions(drawn: Variant, step: ChainStep) -> Iterator[tuple
 
 
 def differs_in_unit_only(wrong: Expr, right: Expr) -> bool:
-    """Whether a wrong formula differs in its unit alone: a factor of 1000, or radians for degrees.
+    """Return whether a wrong formula differs by a factor of 1000, or radians for degrees, alone.
 
     Without numbers nobody can call 2·atan(W/(2·f)) a wrong formula of an angle.
     """
 
     def numbers(expr: Expr) -> set[object]:
+        """Return the numbers that a formula is written with."""
         return {node.value for node in walk_tree(expr) if isinstance(node, Num)}
 
     odd = numbers(wrong) - numbers(right)
@@ -271,7 +277,7 @@ def differs_in_unit_only(wrong: Expr, right: Expr) -> bool:
 
 
 def evaluate_formula(drawn: Variant, expr: Expr) -> Value | None:
-    """What a formula gives with the right values before it; None if nothing."""
+    """Return what a formula gives with the right values before it; None if it has no value."""
     with working_precision():
         try:
             value: Value = compile_expr(expr, exact_system())(drawn.values)
@@ -281,14 +287,14 @@ def evaluate_formula(drawn: Variant, expr: Expr) -> Value | None:
 
 
 def is_same_value(a: Value, b: Value) -> bool:
-    """Whether two values are as good as equal."""
+    """Return whether two values are equal but for rounding of the computation."""
     with working_precision():
         return bool(abs(a - b) <= fmpq(1, 10**6) * abs(b))
 
 
 def step_value_spec(drawn: Variant, index: int, step: ChainStep) -> ScalarSpec:
-    """What the value of a step is marked by: the rule of its part, and the step's own mistakes."""
-    answer, about = _rule_of(drawn, index, step), drawn.template.about
+    """Return what a step's value is graded by: its part's rule, the step's misconceptions."""
+    answer, about = _select_answer_rule(drawn, index, step), drawn.template.about
     unit = str(answer.get("unit", step.unit))
     table = _build_answer_table(answer, unit, _find_count_nouns(drawn, index, step))
     table |= {"define": about.units} if about.units else {}
@@ -307,6 +313,7 @@ def step_value_spec(drawn: Variant, index: int, step: ChainStep) -> ScalarSpec:
 
 
 def _decode_step_spec(table: Mapping[str, object]) -> ScalarSpec:
+    """Return a table as the specification of its kind."""
     return decode_spec(_SHAPES[str(table["kind"])], table)
 
 
@@ -318,7 +325,7 @@ _SHAPES: dict[str, type[ScalarSpec]] = {
 def _iter_telling_misconceptions(
     drawn: Variant, step: ChainStep, spec: ScalarSpec, value: Value, unit: str
 ) -> Iterator[tuple[str, str]]:
-    """Mistakes that can be told from the key and from each other, with what they give."""
+    """Yield misconceptions that differ from the key and from each other, with their answers."""
     width = APART * spec.outer_width(to_float(value))
     taken, factor = [to_float(value)], drawn.template.unit_factor(unit)
     for trap, expr in _iter_step_misconceptions(drawn, step):
@@ -331,8 +338,11 @@ def _iter_telling_misconceptions(
             yield trap, format_for_key(wrong / factor)
 
 
-def _rule_of(drawn: Variant, index: int, step: ChainStep) -> Mapping[str, Any]:
-    """The part's answer as far as it concerns a step: of its own quantities unit and rule."""
+def _select_answer_rule(drawn: Variant, index: int, step: ChainStep) -> Mapping[str, Any]:
+    """Return the part's answer as far as it concerns a step.
+
+    Unit and rule of the part hold for its own quantities alone.
+    """
     answer = dict(authored_answer(drawn, index))
     of = answer.get("of", ())
     labels = {name: label for label, name in of.items()} if isinstance(of, Mapping) else {}
@@ -344,7 +354,7 @@ def _rule_of(drawn: Variant, index: int, step: ChainStep) -> Mapping[str, Any]:
 
 
 def _find_count_nouns(drawn: Variant, index: int, step: ChainStep) -> dict[str, list[str]]:
-    """The words for what an asked quantity counts."""
+    """Return the words for what an asked quantity counts."""
     answer = authored_answer(drawn, index)
     if step.name not in asked_quantities(answer):
         return {}
@@ -363,7 +373,7 @@ def _find_count_nouns(drawn: Variant, index: int, step: ChainStep) -> dict[str, 
 def _build_answer_table(
     answer: Mapping[str, Any], unit: str, counted: dict[str, list[str]]
 ) -> dict[str, Any]:
-    """Kind and unit of the value."""
+    """Return kind and unit of the value."""
     if unit == "deg":
         return {"kind": "angle", "period": 0}
     if unit and unit != "1":
@@ -374,7 +384,10 @@ def _build_answer_table(
 
 
 def _choose_tolerance(answer: Mapping[str, Any], value: Value) -> Mapping[str, Any]:
-    """The part's rule where it fits: decimals and distances are meant for the asked quantity."""
+    """Return the part's tolerance where it fits a step.
+
+    Decimals and absolute distances are meant for the asked quantity alone.
+    """
     stated = {rule: answer[rule] for rule in (*RULES, "within") if rule in answer}
     if answer.get("own"):
         return stated or USUAL

@@ -40,7 +40,7 @@ Maker = Callable[[str], LevelPart]
 
 
 def is_applicable(drawn: Variant) -> bool:
-    """Whether something can be asked about changes or mistakes."""
+    """Return whether something can be asked about changes or mistakes."""
     if "transfer" not in drawn.template.rules.levels or not drawn.template.chain.steps:
         return False
     return bool(_list_part_builders(drawn))
@@ -48,7 +48,7 @@ def is_applicable(drawn: Variant) -> bool:
 
 @lru_cache(maxsize=128)
 def _list_part_builders(drawn: Variant) -> tuple[Maker, ...]:
-    """What can be asked in this draw, in the order in which it is asked."""
+    """Return the builders of the parts that can be asked of this variant, in order."""
     changes = Perturbations(drawn)
     asked = choose_consequence(changes)
     makers = (asked, choose_comparison(changes, asked), choose_faulty_solution(drawn))
@@ -56,7 +56,7 @@ def _list_part_builders(drawn: Variant) -> tuple[Maker, ...]:
 
 
 def ask(drawn: Variant, lang: str) -> LevelQuestion:
-    """The task, and what is asked about it."""
+    """Return the task without its questions, and what is asked about it."""
     usual = exam.ask(drawn, lang)
     total = sum((part.points for part in usual.parts), Fraction(0))
     makers = _list_part_builders(drawn)
@@ -75,11 +75,12 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
 
 
 def _relabel_part(part: LevelPart, label: str, points: Fraction) -> LevelPart:
+    """Return a part with another label and other marks."""
     return replace(part, points=points, solved=replace(part.solved, label=label))
 
 
 def _iter_task_blocks(drawn: Variant, lang: str, usual: LevelQuestion) -> Iterator[Block]:
-    """The task as the exam asks it, with what its calculating parts say."""
+    """Yield the task as the exam asks it, with what its calculating parts say."""
     yield Paragraph((Emphasis("em", (PlainText(translate(lang, "transfer.about")),)),))
     yield from map(
         without_bold_questions,

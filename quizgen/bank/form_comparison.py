@@ -1,0 +1,97 @@
+"""Whether two forms say the same, in floats: it only ever rejects a draw."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from quizgen.maths.number_systems import compile_expr, float64_system
+from quizgen.maths.tree import Call, Expr, names_in
+
+NEAR = 1e-9
+"""Relative distance at which two values count as one."""
+_STRUCTURES = frozenset({"matrix", "row", "vector", "set", "union", "interval", "complex", "eq"})
+_POINTS = (0.731, 1.377, 2.219, 3.071, 0.263, -0.617, -1.849)
+"""Where formulas are compared; each name takes its own turn of them."""
+
+
+def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
+    """Whether two forms with numbers in place are the same one.
+
+    Parameters
+    ----------
+    first, second : Expr
+    relation : str
+        ``constant`` or ``factor`` where they may differ by one, ``scale`` of vectors.
+    """
+    if first == second:
+        return True
+    if _is_call(first, "eq") and _is_call(second, "eq"):
+        return _formulas_agree(_difference(first), _difference(second), "factor")
+    if _is_call(first, "vector") and _is_call(second, "vector") and relation == "scale":
+        return _are_parallel(first, second)
+    if isinstance(first, Call) and first.op in _STRUCTURES:
+        return (
+            isinstance(second, Call)
+            and second.op == first.op
+            and len(first.args) == len(second.args)
+            and all(forms_agree(a, b) for a, b in zip(first.args, second.args, strict=True))
+        )
+    return _formulas_agree(first, second, relation)
+
+
+def _is_call(expr: Expr, op: str) -> bool:
+    return isinstance(expr, Call) and expr.op == op
+
+
+def _difference(equation: Expr) -> Expr:
+    return Call("sub", equation.args) if isinstance(equation, Call) else equation
+
+
+def _are_parallel(first: Expr, second: Expr) -> bool:
+    a, b = (_values(arg) for arg in (first, second))
+    return len(a) == len(b) and all(
+        math.isclose(a[i] * b[j], a[j] * b[i], rel_tol=NEAR, abs_tol=1e-12)
+        for i in range(len(a))
+        for j in range(i)
+    )
+
+
+def _values(vector: Expr) -> list[float]:
+    found = [_evaluate_at(arg, {}) for arg in (vector.args if isinstance(vector, Call) else ())]
+    return [math.nan if value is None else value for value in found]
+
+
+def _formulas_agree(first: Expr, second: Expr, relation: str) -> bool:
+    names = sorted(names_in(first) | names_in(second))
+    pairs = []
+    for turn in range(len(_POINTS) if names else 1):
+        env = {n: _POINTS[(turn + 2 * i) % len(_POINTS)] for i, n in enumerate(names)}
+        a, b = _evaluate_at(first, env), _evaluate_at(second, env)
+        if a is not None and b is not None:
+            pairs.append((a, b))
+    return bool(pairs) and _are_related(pairs, relation)
+
+
+def _are_related(pairs: Sequence[tuple[float, float]], relation: str) -> bool:
+    if relation == "constant":
+        shift = pairs[0][0] - pairs[0][1]
+        return all(_is_near(a - b, shift, max(abs(a), abs(b))) for a, b in pairs)
+    if relation == "factor":
+        a0, b0 = pairs[0]
+        return all(_is_near(a * b0, a0 * b, max(abs(a * b0), abs(a0 * b))) for a, b in pairs)
+    return all(_is_near(a, b, max(abs(a), abs(b))) for a, b in pairs)
+
+
+def _is_near(a: float, b: float, size: float) -> bool:
+    return abs(a - b) <= NEAR * max(size, 1e-12)
+
+
+def _evaluate_at(expr: Expr, env: dict[str, float]) -> float | None:
+    if _is_call(expr, "infinity"):
+        return math.inf
+    try:
+        value = float(compile_expr(expr, float64_system())(env))
+    except (ValueError, ZeroDivisionError, OverflowError, TypeError, KeyError):
+        return None
+    return value if math.isfinite(value) else None

@@ -1,0 +1,168 @@
+"""Kind ``complex``: ``3 + 4i``, ``5*exp(i*pi/4)``, ``5(cos(1) + i sin(1))``, ``(5; 53.1°)``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import msgspec
+
+from quizgen.grading.judging.sampled_equality import values_agree
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.formulas import read_formula
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
+from quizgen.kinds.asking import hint, make_spec, misconception_specs
+from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
+from quizgen.kinds.forms import entry_matches, format_entry, parse_entry
+from quizgen.locale import translate
+from quizgen.maths.complex_values import ComplexValue, evaluate_complex
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.notation import format_tree, pretty
+from quizgen.maths.tidy import tidy_formula
+from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators_in, walk_tree
+from quizgen.maths.values import Value
+
+if TYPE_CHECKING:
+    from quizgen.question.inlines import TextOrInlines
+
+_HINT = hint("ask.complex")
+_UNITS = ("i", "j")
+
+
+class AuthoredComplex(AuthoredAnswer, kw_only=True, tag="complex", frozen=True):
+    """A complex number of the solver."""
+
+    of: str
+    form: Literal["cartesian", "polar", "any"] = "any"
+
+
+class ComplexSpec(WordSpec, kw_only=True, frozen=True):
+    """Complex: ``parts`` = real and imaginary; ``form`` = cartesian, polar or any."""
+
+    parts: list[str]
+    form: Literal["cartesian", "polar", "any"] = "any"
+    traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check both parts."""
+        for parts in (self.parts, *self.traps.values()):
+            if len(parts) != len(("real", "imaginary")):
+                raise ValueError("parts: the real and the imaginary part are needed")
+            for text in parts:
+                parse_exact(text)
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge a typed complex number."""
+        tree = read_formula(typed, _UNITS, options.decimal).tree
+        value = evaluate_complex(tree, frozenset(_UNITS))
+        read_as = pretty.format_formula(format_tree(tree))
+        if _is_same(value, self.parts):
+            return self._judge_form(tree, correct(read_as))
+        for name, parts in self.traps.items():
+            if _is_same(value, parts):
+                return wrong(read_as, f"trap:{name}")
+        return wrong(read_as, self._find_slip(value))
+
+    def _find_slip(self, value: ComplexValue) -> str:
+        real, imaginary = value
+        if _is_same((real, -imaginary), self.parts):
+            return "conjugate"
+        if _is_same((imaginary, real), self.parts):
+            return "parts-swapped"
+        return "sign" if _is_same((-real, -imaginary), self.parts) else ""
+
+    def _judge_form(self, tree: Expr, right: Verdict) -> Verdict:
+        if self.form == "any" or self.form == find_written_form(tree):
+            return right
+        return partial(HALF, right.read_as, f"form-{self.form}")
+
+    def show(self) -> str:
+        """Return the key as it is printed, and as it can be typed back."""
+        return pretty.format_formula(format_tree(build_complex(self.parts, self.form)))
+
+
+def find_written_form(tree: Expr) -> str:
+    """Whether a number is written ``a + b i`` or by its size and angle; empty if as neither."""
+    if operators_in(tree) & {"exp", "sin", "cos"}:
+        return "polar"
+    return "" if any(map(_works_on_sum, walk_tree(tree))) else "cartesian"
+
+
+def _works_on_sum(node: Expr) -> bool:
+    """Whether a sum with the imaginary unit is still multiplied, raised or divided by."""
+    if not isinstance(node, Call) or node.op not in {"mul", "div", "pow"}:
+        return False
+    looked_at = node.args[1:] if node.op == "div" else node.args
+    return any(
+        isinstance(arg, Call) and arg.op in {"add", "sub"} and bool(names_in(arg) & {*_UNITS})
+        for arg in looked_at
+    )
+
+
+def _is_same(value: ComplexValue, parts: list[str]) -> bool:
+    return all(map(entry_matches, value, parts))
+
+
+def build_complex(parts: list[str], form: str) -> Expr:
+    """A number of a key as a formula of ``i``, in the form asked."""
+    real, imaginary = map(parse_entry, parts)
+    unit = Sym("i")
+    if form != "polar":
+        return tidy_formula(Call("add", (real, Call("mul", (imaginary, unit)))))
+    square = make_number(2)
+    size = Call(
+        "sqrt", (Call("add", (Call("pow", (real, square)), Call("pow", (imaginary, square)))),)
+    )
+    angle = _write_angle(parts, real, imaginary)
+    return tidy_formula(Call("mul", (size, Call("exp", (Call("mul", (unit, angle)),)))))
+
+
+def _write_angle(parts: list[str], real: Expr, imaginary: Expr) -> Expr:
+    """The angle: a multiple of pi where it is an eighth of a turn, else by ``atan2``."""
+    x, y = map(parse_exact, parts)
+    for eighth, right in enumerate(
+        ((x > 0 and y == 0), (x > 0 and _same(x, y)), (x == 0 and y > 0), (y > 0 and _same(-x, y)),
+         (x < 0 and y == 0))
+    ):  # fmt: skip
+        if right:
+            return tidy_formula(
+                Call("div", (Call("mul", (make_number(eighth), Call("pi", ()))), make_number(4)))
+            )
+    return Call("atan2", (imaginary, real))
+
+
+def _same(a: Value, b: Value) -> bool:
+    return values_agree(a, b) is not False
+
+
+def ask(part: PartContext) -> AskedPart[ComplexSpec]:
+    """The number of the solver, and what each mistake makes of it."""
+    traps = {name: _list_parts(form) for name, form in part.misconception_forms().items()}
+    notes = part.misconception_notes(traps) if traps else {}
+    parts = _list_parts(part.answer_form())
+    spec = make_spec(ComplexSpec, part, parts=parts, traps=traps, notes=notes)
+    return AskedPart(spec, mistakes=misconception_specs(spec, "parts"))
+
+
+def _list_parts(form: Expr) -> list[str]:
+    if isinstance(form, Call) and form.op == "complex":
+        return [format_entry(arg) for arg in form.args]
+    return [format_entry(form), "0"]
+
+
+def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
+    """How a complex number is typed, and the form that is asked."""
+    more = (translate(lang, f"ask.form_{spec.form}"),) if spec.form != "any" else ()
+    return (*_HINT(spec, lang), *more)
+
+
+def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
+    """The number as it is written by hand."""
+    from quizgen import typeset
+    from quizgen.question.inlines import TypesetMaths
+
+    tree = build_complex(spec.parts, spec.form)
+    return (TypesetMaths(typeset.lay_out(tree, inline=True), format_tree(tree)),)
+
+
+KIND = AnswerKind(AuthoredComplex, ComplexSpec, ask, input_hints, explain_key)

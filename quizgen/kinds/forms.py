@@ -1,0 +1,76 @@
+"""What kinds share whose key is a form of the solver: its numbers, read and compared one by one."""
+
+from __future__ import annotations
+
+import re
+
+from flint import fmpq
+
+from quizgen.grading.judging.sampled_equality import values_agree
+from quizgen.grading.reading.normalise import normalise_typed
+from quizgen.grading.reading.numbers import ReadNumber, read_number
+from quizgen.grading.reading.source_map import SourceText
+from quizgen.kinds.contract import PartContext
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.notation import format_tree, parse_formula, pretty
+from quizgen.maths.numbers import is_short_decimal
+from quizgen.maths.tree import Call, Expr, Num
+from quizgen.maths.values import Value
+
+_NUMBER = re.compile(r"-?\d+(?:/\d+)?")
+ROUNDED = fmpq(1, 200)
+"""Share of a number that has no short decimal form within which it may be rounded."""
+
+
+def require_form(part: PartContext, form: Expr, *ops: str) -> Call:
+    """A form, if it is of the sort that a kind asks for.
+
+    Raises
+    ------
+    BankError
+        If it is another.
+    """
+    if not isinstance(form, Call) or form.op not in ops:
+        raise part.error(f"{part.answer.get('of')!r} is no {' or '.join(ops)} of the solver")
+    return form
+
+
+def format_entry(expr: Expr) -> str:
+    """A number of a form as a key stores it: a constant formula, exact."""
+    return format_plain(expr)
+
+
+def format_plain(expr: Expr) -> str:
+    """A number of a form as a person types it: ``-1/3``, ``2*sqrt(3)``, ``inf``."""
+    return str(expr.value) if isinstance(expr, Num) else format_tree(expr)
+
+
+def show_entry(text: str) -> str:
+    """A number of a key as it is printed, and as it can be typed back."""
+    plain = format_plain(parse_entry(text))
+    return pretty.format_number(plain) if _NUMBER.fullmatch(plain) else pretty.format_formula(plain)
+
+
+def parse_entry(text: str) -> Expr:
+    """The tree of a number of a key."""
+    return parse_formula(text, symbols=())
+
+
+def read_entry(piece: str | SourceText, decimal: str) -> ReadNumber:
+    """A typed number.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is none.
+    """
+    source = normalise_typed(piece) if isinstance(piece, str) else piece
+    return read_number(source, decimal).main
+
+
+def entry_matches(value: Value, text: str) -> bool:
+    """Whether a value is a number of a key, or that rounded if it has no short decimals."""
+    key = parse_exact(text)
+    if values_agree(value, key) is not False:
+        return True
+    return not is_short_decimal(key) and bool(abs(value - key) <= abs(key) * ROUNDED)

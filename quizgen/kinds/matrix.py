@@ -1,0 +1,177 @@
+"""Kind ``matrix``: ``[1, 2; 3, 4]``, a row on each line, or LaTeX; judged by entry."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
+from quizgen.kinds.asking import hint, make_spec, misconception_specs
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredAnswer,
+    InputControl,
+    PartContext,
+)
+from quizgen.kinds.forms import (
+    entry_matches,
+    format_entry,
+    parse_entry,
+    read_entry,
+    require_form,
+    show_entry,
+)
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.notation import FormulaReadError
+from quizgen.maths.tree import Call, Expr
+from quizgen.maths.values import Value
+
+if TYPE_CHECKING:
+    from quizgen.question.inlines import TextOrInlines
+
+Entries = list[list[str]]
+"""Rows of numbers, each a constant formula."""
+LONGEST = 2000
+"""Characters of a typed matrix."""
+_LATEX = re.compile(r"\\(?:begin|end) ?\{[a-zA-Z]*matrix\}|\\left[(\[]|\\right[)\]]|\$")
+_ROWS = re.compile(r"\]\s*[,;]?\s*\[|\\\\|[;\n]")
+_ENTRIES = re.compile(r"\s*&\s*|,\s+|\t+")
+
+
+class AuthoredMatrix(AuthoredAnswer, kw_only=True, tag="matrix", frozen=True):
+    """A matrix of the solver."""
+
+    of: str
+
+
+class MatrixSpec(WordSpec, kw_only=True, frozen=True):
+    """Matrix: ``entries``, row by row."""
+
+    entries: Entries
+    traps: dict[str, Entries] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check entries, and that all rows are of one length."""
+        for rows in (self.entries, *self.traps.values()):
+            if not rows or len({len(row) for row in rows}) != 1:
+                raise ValueError("entries: rows of one length are needed")
+            for row in rows:
+                for text in row:
+                    parse_exact(text)
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge a typed matrix."""
+        rows, read_as = _read_matrix(typed, options.decimal)
+        if _is_same(rows, self.entries):
+            return correct(read_as)
+        for name, entries in self.traps.items():
+            if _is_same(rows, entries):
+                return wrong(read_as, f"trap:{name}")
+        return _diagnose(self, rows, read_as)
+
+    def show(self) -> str:
+        """Return the key as it is printed, and as it can be typed back."""
+        return f"[{'; '.join(', '.join(map(show_entry, row)) for row in self.entries)}]"
+
+
+def build_matrix(entries: Entries) -> Expr:
+    """Rows of a key as a tree."""
+    return Call("matrix", tuple(Call("row", tuple(map(parse_entry, row))) for row in entries))
+
+
+def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
+    """Rows of values, and the echo.
+
+    Raises
+    ------
+    FormulaReadError
+        If rows differ in length, or an entry is no number.
+    """
+    if len(typed) > LONGEST:
+        raise FormulaReadError("too-long", 1, str(LONGEST))
+    text = _LATEX.sub("", typed).strip()
+    while text[:1] in {"[", "("} and text[-1:] in {"]", ")"}:
+        text = text[1:-1].strip()
+    rows = [
+        [read_entry(piece, decimal) for piece in _split_row(row.strip(" [](),"), decimal)]
+        for row in _ROWS.split(text)
+        if row.strip(" [](),")
+    ]
+    if not rows or len({len(row) for row in rows}) != 1:
+        raise FormulaReadError("matrix-expected", 1, typed.strip()[:60])
+    echo = "; ".join(", ".join(number.read_as for number in row) for row in rows)
+    return [[number.value for number in row] for row in rows], f"[{echo}]"
+
+
+def _split_row(row: str, decimal: str) -> list[str]:
+    """Cut a row at ``&``, at commas before a blank, else at blanks and separating commas."""
+    if _ENTRIES.search(row):
+        return _ENTRIES.split(row)
+    if "," in row and (decimal != "comma" or " " not in row):
+        return row.split(",")
+    return row.split()
+
+
+def _is_same(rows: list[list[Value]], entries: Entries) -> bool:
+    return len(rows) == len(entries) and all(map(_is_same_row, rows, entries))
+
+
+def _is_same_row(row: list[Value], key: list[str]) -> bool:
+    return len(row) == len(key) and all(map(entry_matches, row, key))
+
+
+def _diagnose(spec: MatrixSpec, rows: list[list[Value]], read_as: str) -> Verdict:
+    """What is wrong: the size, rows and columns exchanged, one row, or single entries."""
+    turned = [list(column) for column in zip(*rows, strict=True)]
+    if _is_same(turned, spec.entries):
+        return wrong(read_as, "transposed")
+    height, width = len(spec.entries), len(spec.entries[0])
+    if (len(rows), len(rows[0])) != (height, width):
+        return wrong(read_as, "matrix-size", rows=len(rows), columns=len(rows[0]))
+    right = [
+        list(map(entry_matches, row, key)) for row, key in zip(rows, spec.entries, strict=True)
+    ]
+    count = sum(map(sum, right))
+    off = [index + 1 for index, row in enumerate(right) if not all(row)]
+    if not count:
+        return wrong(read_as)
+    note = "matrix-row" if len(off) == 1 and height > 1 else "matrix-entries"
+    credit = Fraction(count, height * width)
+    return verdict_by_share(credit, read_as, note, line=off[0], right=count, of=height * width)
+
+
+def ask(part: PartContext) -> AskedPart[MatrixSpec]:
+    """The matrix of the solver, and what each mistake makes of it."""
+    wrong_forms = part.misconception_forms()
+    traps = {name: _list_entries(part, form) for name, form in wrong_forms.items()}
+    notes = part.misconception_notes(traps) if traps else {}
+    entries = _list_entries(part, part.answer_form())
+    spec = make_spec(MatrixSpec, part, entries=entries, traps=traps, notes=notes)
+    control = InputControl("lines", lines=len(entries))
+    return AskedPart(spec, control, mistakes=misconception_specs(spec, "entries"))
+
+
+def _list_entries(part: PartContext, form: Expr) -> Entries:
+    matrix = require_form(part, form, "matrix", "vector")
+    if matrix.op == "vector":
+        return [[format_entry(arg)] for arg in matrix.args]
+    rows = [row.args for row in matrix.args if isinstance(row, Call)]
+    return [[format_entry(arg) for arg in row] for row in rows]
+
+
+def explain_key(spec: MatrixSpec, _lang: str) -> TextOrInlines:
+    """The matrix as it is written by hand."""
+    from quizgen import typeset
+    from quizgen.question.inlines import TypesetMaths
+
+    tree = build_matrix(spec.entries)
+    return (TypesetMaths(typeset.lay_out(tree, inline=True), spec.show()),)
+
+
+KIND = AnswerKind(AuthoredMatrix, MatrixSpec, ask, hint("ask.matrix"), explain_key)

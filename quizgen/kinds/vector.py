@@ -1,0 +1,138 @@
+"""Kind ``vector``: the components in order; ``up_to = "scale"`` takes any multiple but 0."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Literal
+
+import msgspec
+
+from quizgen.grading.judging.sampled_equality import values_agree
+from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.lists import read_list
+from quizgen.grading.spec import WordSpec
+from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
+from quizgen.kinds.asking import hint, make_spec, misconception_specs
+from quizgen.kinds.contract import (
+    AnswerKind,
+    AskedPart,
+    AuthoredAnswer,
+    InputControl,
+    PartContext,
+)
+from quizgen.kinds.forms import (
+    entry_matches,
+    format_entry,
+    parse_entry,
+    read_entry,
+    require_form,
+    show_entry,
+)
+from quizgen.locale import translate
+from quizgen.maths.constants import parse_exact
+from quizgen.maths.tree import Call, Expr
+from quizgen.maths.values import Value
+
+if TYPE_CHECKING:
+    from quizgen.question.inlines import TextOrInlines
+
+_HINT = hint("ask.vector")
+
+
+class AuthoredVector(AuthoredAnswer, kw_only=True, tag="vector", frozen=True):
+    """A vector of the solver."""
+
+    of: str
+    up_to: Literal["", "scale"] = ""
+
+
+class ColumnSpec(WordSpec, kw_only=True, frozen=True):
+    """Vector: ``components`` in order; ``up_to`` = scale for any multiple."""
+
+    components: list[str]
+    up_to: Literal["", "scale"] = ""
+    traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
+
+    def validate(self) -> None:
+        """Check the components."""
+        for components in (self.components, *self.traps.values()):
+            for text in components:
+                parse_exact(text)
+
+    def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
+        """Judge a typed vector."""
+        plain = typed.replace("\\\\", ";").replace("&", ";")
+        pieces, _ = read_list(plain, len(self.components), options.decimal)
+        numbers = [read_entry(piece, options.decimal) for piece in pieces]
+        values = [number.value for number in numbers]
+        read_as = f"({'; '.join(number.read_as for number in numbers)})"
+        if self._is_right(values, self.components):
+            return correct(read_as)
+        for name, components in self.traps.items():
+            if self._is_right(values, components):
+                return wrong(read_as, f"trap:{name}")
+        if self.up_to or not values:
+            return wrong(read_as)
+        if all(map(entry_matches, [-value for value in values], self.components)):
+            return wrong(read_as, "sign")
+        right = sum(map(entry_matches, values, self.components))
+        credit, count = Fraction(right, len(values)), len(values)
+        return verdict_by_share(credit, read_as, "matrix-entries", right=right, of=count)
+
+    def _is_right(self, values: list[Value], components: list[str]) -> bool:
+        if self.up_to == "scale":
+            return _are_parallel(values, list(map(parse_exact, components)))
+        return all(map(entry_matches, values, components))
+
+    def show(self) -> str:
+        """Return the key as it is printed, and as it can be typed back."""
+        return f"({'; '.join(map(show_entry, self.components))})"
+
+
+def build_vector(components: list[str]) -> Expr:
+    """Components of a key as a tree."""
+    return Call("vector", tuple(map(parse_entry, components)))
+
+
+def _are_parallel(a: list[Value], b: list[Value]) -> bool:
+    if all(value == 0 for value in a):
+        return False
+    return all(
+        values_agree(a[i] * b[j], a[j] * b[i]) is not False for i in range(len(a)) for j in range(i)
+    )
+
+
+def ask(part: PartContext) -> AskedPart[ColumnSpec]:
+    """The vector of the solver, and what each mistake makes of it."""
+    traps = {name: _list_components(part, f) for name, f in part.misconception_forms().items()}
+    notes = part.misconception_notes(traps) if traps else {}
+    components = _list_components(part, part.answer_form())
+    spec = make_spec(ColumnSpec, part, components=components, traps=traps, notes=notes)
+    return AskedPart(spec, InputControl("line"), mistakes=misconception_specs(spec, "components"))
+
+
+def _list_components(part: PartContext, form: Expr) -> list[str]:
+    vector = require_form(part, form, "vector", "matrix")
+    args = vector.args
+    if vector.op == "matrix":
+        (row,) = args
+        args = row.args if isinstance(row, Call) else ()
+    return [format_entry(arg) for arg in args]
+
+
+def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:
+    """How a vector is typed, and whether any multiple counts."""
+    more = (translate(lang, "ask.up_to_scale"),) if spec.up_to else ()
+    return (*_HINT(spec, lang), *more)
+
+
+def explain_key(spec: ColumnSpec, _lang: str) -> TextOrInlines:
+    """The vector as it is written by hand."""
+    from quizgen import typeset
+    from quizgen.question.inlines import TypesetMaths
+
+    tree = build_vector(spec.components)
+    return (TypesetMaths(typeset.lay_out(tree, inline=True), spec.show()),)
+
+
+KIND = AnswerKind(AuthoredVector, ColumnSpec, ask, input_hints, explain_key)

@@ -1,0 +1,195 @@
+"""From any SymPy expression of a solver to what its step is: a number, a formula, a form.
+
+SymPy works here once, when a solver is compiled, and evaluates what a solver left unevaluated:
+derivatives, integrals, limits, determinants, operations of sets. A *form* is what is no single
+real number: a formula over free names, a complex number, a matrix, a set, an equation. It becomes a
+tree, too, whose outermost operators are those of ``FORMS``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import sympy
+from sympy.core.function import AppliedUndef
+from sympy.core.sympify import _sympify as _make_strict  # takes no text
+from sympy.matrices.expressions.matexpr import MatrixExpr
+
+from quizgen.core.errors import BankError
+from quizgen.maths.from_sympy import from_sympy
+from quizgen.maths.tree import Call, Expr, Num, make_number
+
+_COMPLEX = (sympy.re, sympy.im, sympy.conjugate, sympy.arg)
+_EVALUATED = (sympy.Derivative, sympy.Integral, sympy.Limit, sympy.Subs)
+
+
+class FormResolver:
+    """The steps of one model, each seen with the forms before it in place.
+
+    Parameters
+    ----------
+    free : collection of str
+        Names that no draw gives: the variables of formulas.
+    """
+
+    def __init__(self, free: tuple[str, ...]) -> None:
+        self.free = frozenset(free)
+        self.forms: dict[str, sympy.Basic] = {}
+
+    def resolve(self, expression: sympy.Basic) -> tuple[Expr, bool]:
+        """The tree of an expression, and whether it is a form.
+
+        Raises
+        ------
+        BankError
+            If SymPy cannot bring it to one.
+        """
+        with sympy.evaluate(True):
+            try:
+                written = _make_strict(expression)
+                whole = self._put_forms_in(written)
+                return self._convert(whole)
+            except BankError:
+                raise
+            except (AttributeError, TypeError, ValueError, NotImplementedError) as error:
+                what = f"SymPy cannot work {expression} out: {type(error).__name__}: {error}"
+                raise BankError(f"{what} (compute it before `with evaluate(False)`)") from error
+
+    def remember(self, name: str, expression: sympy.Basic) -> None:
+        """Have later steps see a form under its name."""
+        with sympy.evaluate(True):
+            self.forms[name] = self._put_forms_in(_make_strict(expression))
+
+    def _put_forms_in(self, written: sympy.Basic) -> sympy.Basic:
+        if not self.forms or not hasattr(written, "free_symbols"):
+            return written
+        calls = [
+            call
+            for call in getattr(written, "atoms", lambda *_: ())(AppliedUndef)
+            if call.func.__name__ in self.forms
+        ]
+        names = [
+            symbol for symbol in written.free_symbols if getattr(symbol, "name", "") in self.forms
+        ]
+        if not calls and not names:
+            return written
+        place = {call: self._apply_form(call) for call in calls}
+        place |= {symbol: self.forms[symbol.name] for symbol in names}
+        found = written.subs(place)
+        return found.doit() if hasattr(found, "doit") else found
+
+    def _apply_form(self, call: sympy.Basic) -> sympy.Basic:
+        form = self.forms[call.func.__name__]
+        names = sorted((s for s in form.free_symbols if s.name in self.free), key=lambda s: s.name)
+        return form.subs(dict(zip(names, call.args, strict=False)), simultaneous=True)
+
+    def _convert(self, whole: sympy.Basic) -> tuple[Expr, bool]:
+        if isinstance(whole, sympy.MatrixBase | MatrixExpr):
+            return _convert_matrix(whole), True
+        if isinstance(whole, sympy.Set):
+            return _convert_set(whole.doit()), True
+        if isinstance(whole, sympy.Tuple | list | tuple):
+            return Call("vector", tuple(map(from_sympy, whole))), True
+        if isinstance(whole, sympy.Eq):
+            return from_sympy(whole), True
+        if _has_complex(whole):
+            return self._convert_complex(whole)
+        tree = _convert_evaluated(whole)
+        names = {symbol.name for symbol in getattr(whole, "free_symbols", ())}
+        return tree, bool(names & self.free)
+
+    def _convert_complex(self, whole: sympy.Basic) -> tuple[Expr, bool]:
+        """A complex number as its real and imaginary part; a real one as itself."""
+        real = {s: sympy.Dummy(s.name, real=True) for s in whole.free_symbols if s.is_real is None}
+        back = {dummy: symbol for symbol, dummy in real.items()}
+        value = whole.subs(real).doit()
+        value = value.replace(sympy.arg, lambda w: sympy.atan2(sympy.im(w), sympy.re(w))).doit()
+        parts = [sympy.simplify(part).subs(back) for part in value.as_real_imag()]
+        names = {symbol.name for symbol in whole.free_symbols}
+        if parts[1] == 0:
+            return from_sympy(parts[0]), bool(names & self.free)
+        return Call("complex", tuple(map(from_sympy, parts))), True
+
+
+def _has_complex(whole: sympy.Basic) -> bool:
+    return bool(hasattr(whole, "has") and whole.has(sympy.I, *_COMPLEX))
+
+
+def _evaluate(whole: sympy.Basic) -> sympy.Basic:
+    """Work derivatives, integrals and limits out; sums stay as they are written."""
+    if not hasattr(whole, "has"):
+        return whole
+    if whole.has(*_EVALUATED, sympy.Determinant, sympy.Trace):
+        whole = whole.doit()
+    if any(_is_infinite(part) for part in whole.atoms(sympy.Sum, sympy.Product)):
+        whole = whole.doit()
+    return whole
+
+
+def _convert_evaluated(whole: sympy.Basic) -> Expr:
+    """The tree of what an expression comes to; an integral without a formula stays one."""
+    try:
+        return from_sympy(_evaluate(whole))
+    except BankError:
+        if not (hasattr(whole, "has") and whole.has(sympy.Integral)):
+            raise
+        return from_sympy(whole)
+
+
+def _is_infinite(part: sympy.Basic) -> bool:
+    return any(not bound.is_finite for limit in part.limits for bound in limit[1:])
+
+
+def _convert_matrix(whole: sympy.Basic) -> Expr:
+    explicit = whole.doit().as_explicit() if isinstance(whole, MatrixExpr) else whole
+    rows = explicit.tolist()
+    if explicit.shape[1] == 1:
+        return Call("vector", tuple(_convert_evaluated(row[0]) for row in rows))
+    return Call(
+        "matrix",
+        tuple(Call("row", tuple(_convert_evaluated(x) for x in row)) for row in rows),
+    )
+
+
+def _convert_set(whole: sympy.Basic) -> Expr:
+    if isinstance(whole, sympy.FiniteSet):
+        return Call("set", tuple(map(from_sympy, whole.args)))
+    pieces = list(_iter_intervals(whole))
+    return Call("union", tuple(pieces))
+
+
+def _iter_intervals(whole: sympy.Basic) -> Iterator[Expr]:
+    if whole is sympy.S.EmptySet:
+        return
+    if whole is sympy.S.Reals:
+        whole = sympy.Interval(-sympy.oo, sympy.oo)
+    if isinstance(whole, sympy.Union):
+        for part in whole.args:
+            yield from _iter_intervals(part)
+    elif isinstance(whole, sympy.Interval):
+        sides = [make_number(int(not side)) for side in (whole.left_open, whole.right_open)]
+        yield Call("interval", (_bound(whole.start), _bound(whole.end), *sides))
+    elif isinstance(whole, sympy.FiniteSet):
+        one: tuple[Num, Num] = (make_number(1), make_number(1))
+        for point in whole.args:
+            yield Call("interval", (from_sympy(point), from_sympy(point), *one))
+    else:
+        raise BankError(f"{whole} is no finite set and no union of intervals")
+
+
+def _bound(value: sympy.Basic) -> Expr:
+    if value.is_infinite:
+        return Call("infinity", ()) if value > 0 else Call("neg", (Call("infinity", ()),))
+    return from_sympy(value)
+
+
+def step_name(symbol: sympy.Basic | str) -> str:
+    """The name that a step defines: of a symbol, a function of free names, a matrix, or a text."""
+    if isinstance(symbol, str):
+        return symbol
+    if isinstance(symbol, AppliedUndef):
+        return str(symbol.func.__name__)
+    name: Mapping[str, str] | str = getattr(symbol, "name", "")
+    if not name or not isinstance(name, str):
+        raise BankError(f"{symbol} is no name for a step")
+    return name

@@ -1,0 +1,229 @@
+"""Formulas with numbers in place, as a person writes them: no ``1*x``, no ``+ -3``, no ``x^1``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from fractions import Fraction
+from math import isqrt
+
+from quizgen.maths.tree import Call, Expr, Num
+
+_ZERO, _ONE = Num(Fraction(0)), Num(Fraction(1))
+LARGEST_EXPONENT = 64
+"""Largest exponent to which a number is raised."""
+LARGEST_RADICAND = 10**12
+"""Largest number under a root from which squares are taken out."""
+
+
+def tidy_formula(expr: Expr) -> Expr:
+    """An equal formula in which numbers are reckoned together and nothing idle is written.
+
+    Products stay products and sums stay sums: what was factored stays so.
+    """
+    if not isinstance(expr, Call):
+        return expr
+    args = tuple(tidy_formula(arg) for arg in expr.args)
+    rule = _RULES.get(expr.op)
+    return Call(expr.op, args) if rule is None else rule(args)
+
+
+def _number(value: Fraction) -> Num:
+    return Num(value)
+
+
+def _is_value(expr: Expr, value: int) -> bool:
+    return isinstance(expr, Num) and expr.value == value
+
+
+def negate_formula(expr: Expr) -> Expr:
+    """The opposite, with the sign where a person writes it."""
+    if isinstance(expr, Num):
+        return Num(-expr.value, expr.decimal)
+    if isinstance(expr, Call) and expr.op == "neg":
+        return expr.args[0]
+    if isinstance(expr, Call) and expr.op in {"mul", "div"} and isinstance(expr.args[0], Num):
+        return tidy_formula(Call(expr.op, (negate_formula(expr.args[0]), *expr.args[1:])))
+    return Call("neg", (expr,))
+
+
+def _tidy_negative(args: tuple[Expr, ...]) -> Expr:
+    return negate_formula(args[0])
+
+
+def _tidy_sum(args: tuple[Expr, ...]) -> Expr:
+    terms: list[Expr] = []
+    total, place = Fraction(0), -1
+    for term in _flatten("add", args):
+        if isinstance(term, Num):
+            total += term.value
+            place = len(terms) if place < 0 else place
+        else:
+            terms.append(term)
+    if total:
+        terms.insert(place, _number(total))
+    if not terms:
+        return _ZERO
+    return _join_terms(terms)
+
+
+def _join_terms(terms: list[Expr]) -> Expr:
+    """A sum from left to right, with a minus where a term is negative."""
+    result, *rest = terms
+    run = False
+    for term in rest:
+        minus, value = _split_minus(term)
+        if minus:
+            result, run = Call("sub", (result, value)), False
+        elif run and isinstance(result, Call):
+            result = Call("add", (*result.args, value))
+        else:
+            result, run = Call("add", (result, value)), True
+    return result
+
+
+def _split_minus(term: Expr) -> tuple[bool, Expr]:
+    """Whether a term is negative at sight, and its opposite if so."""
+    if isinstance(term, Num):
+        return term.value < 0, negate_formula(term) if term.value < 0 else term
+    if not isinstance(term, Call) or term.op not in {"neg", "mul", "div"}:
+        return False, term
+    if term.op == "neg":
+        return True, term.args[0]
+    minus, first = _split_minus(term.args[0])
+    return minus, tidy_formula(Call(term.op, (first, *term.args[1:]))) if minus else term
+
+
+def _tidy_difference(args: tuple[Expr, ...]) -> Expr:
+    first, second = args
+    if isinstance(first, Num) and isinstance(second, Num):
+        return _number(first.value - second.value)
+    if _is_value(second, 0):
+        return first
+    if _is_value(first, 0):
+        return negate_formula(second)
+    if isinstance(second, Num) and second.value < 0:
+        return _tidy_sum((first, negate_formula(second)))
+    minus, value = _split_minus(second)
+    return _tidy_sum((first, value)) if minus else Call("sub", args)
+
+
+def _flatten(op: str, args: Iterable[Expr]) -> Iterable[Expr]:
+    for arg in args:
+        if isinstance(arg, Call) and arg.op == op:
+            yield from _flatten(op, arg.args)
+        else:
+            yield arg
+
+
+def _tidy_product(args: tuple[Expr, ...]) -> Expr:
+    factors: list[Expr] = []
+    number, minus = Fraction(1), False
+    for arg in _flatten("mul", args):
+        factor = arg
+        if isinstance(factor, Call) and factor.op == "neg":
+            minus, factor = not minus, factor.args[0]
+        if isinstance(factor, Num):
+            number *= factor.value
+        else:
+            factors.append(factor)
+    number = -number if minus else number
+    if not number:
+        return _ZERO
+    if not factors:
+        return _number(number)
+    if abs(number) != 1:
+        factors.insert(0, _number(abs(number)))
+    product = factors[0] if len(factors) == 1 else Call("mul", tuple(factors))
+    return product if number > 0 else Call("neg", (product,))
+
+
+def _tidy_quotient(args: tuple[Expr, ...]) -> Expr:
+    top, bottom = args
+    if isinstance(bottom, Num) and bottom.value:
+        if isinstance(top, Num):
+            return _number(top.value / bottom.value)
+        return _divide_by_number(top, bottom.value)
+    if _is_value(top, 0):
+        return _ZERO
+    if isinstance(bottom, Call) and bottom.op == "neg":
+        return negate_formula(Call("div", (top, bottom.args[0])))
+    return Call("div", (top, bottom))
+
+
+def _divide_by_number(top: Expr, bottom: Fraction) -> Expr:
+    """``6*x/4`` becomes ``3*x/2``."""
+    minus = isinstance(top, Call) and top.op == "neg"
+    inner = top.args[0] if minus and isinstance(top, Call) else top
+    first, rest = Fraction(1), tuple[Expr, ...]((inner,))
+    if isinstance(inner, Call) and inner.op == "mul" and isinstance(inner.args[0], Num):
+        first, rest = inner.args[0].value, inner.args[1:]
+    factor = (-first if minus else first) / bottom
+    over = _tidy_product((_number(Fraction(abs(factor.numerator))), *rest))
+    below = factor.denominator
+    quotient = over if below == 1 else Call("div", (over, _number(Fraction(below))))
+    return quotient if factor > 0 else Call("neg", (quotient,))
+
+
+def _tidy_power(args: tuple[Expr, ...]) -> Expr:
+    base, exponent = args
+    if isinstance(exponent, Num):
+        if exponent.value == 1:
+            return base
+        if exponent.value == 0 and not _is_value(base, 0):
+            return _ONE
+        whole = exponent.value.denominator == 1 and abs(exponent.value) <= LARGEST_EXPONENT
+        if whole and isinstance(base, Num) and (base.value or exponent.value > 0):
+            return _number(base.value ** int(exponent.value))
+        if exponent.value == Fraction(1, 2):
+            return _tidy_root((base,))
+        if exponent.value < 0 and not isinstance(base, Num):
+            return Call("div", (_ONE, _tidy_power((base, negate_formula(exponent)))))
+    return Call("pow", args)
+
+
+def _tidy_root(args: tuple[Expr, ...]) -> Expr:
+    """Take squares out: ``sqrt(27/4)`` becomes ``3*sqrt(3)/2``."""
+    (body,) = args
+    if not isinstance(body, Num) or body.value < 0 or body.value.numerator > LARGEST_RADICAND:
+        return Call("sqrt", args)
+    top, bottom = body.value.numerator, body.value.denominator
+    outside, inside = _take_squares_out(top * bottom)
+    factor = Fraction(outside, bottom)
+    if inside == 1:
+        return _number(factor)
+    root = Call("sqrt", (_number(Fraction(inside)),))
+    over = _tidy_product((_number(Fraction(factor.numerator)), root))
+    below = factor.denominator
+    return over if below == 1 else Call("div", (over, _number(Fraction(below))))
+
+
+def _take_squares_out(value: int) -> tuple[int, int]:
+    outside, inside, divisor = 1, value, 2
+    while divisor * divisor <= inside and divisor < 10_000:
+        while inside % (divisor * divisor) == 0:
+            inside, outside = inside // (divisor * divisor), outside * divisor
+        divisor += 1
+    root = isqrt(inside)
+    return (outside * root, 1) if root * root == inside else (outside, inside)
+
+
+def _make_point_rule(op: str, at: int, value: int) -> Callable[[tuple[Expr, ...]], Expr]:
+    def rule(args: tuple[Expr, ...]) -> Expr:
+        return _number(Fraction(value)) if _is_value(args[0], at) else Call(op, args)
+
+    return rule
+
+
+_RULES: dict[str, Callable[[tuple[Expr, ...]], Expr]] = {
+    "neg": _tidy_negative,
+    "add": _tidy_sum,
+    "sub": _tidy_difference,
+    "mul": _tidy_product,
+    "div": _tidy_quotient,
+    "pow": _tidy_power,
+    "sqrt": _tidy_root,
+    "exp": _make_point_rule("exp", 0, 1),
+    "ln": _make_point_rule("ln", 1, 0),
+    "sin": _make_point_rule("sin", 0, 0),
+    "cos": _make_point_rule("cos", 0, 1),
+}
