@@ -190,6 +190,8 @@ _CODES = {
     "QG145": Rule("The module of a figure lacks something.", "write it as docs/figures.md says"),
     "QG146": Rule("A photograph in a figure does not show what is asked.",
                   "draw values that make it larger"),
+    "QG148": Rule("A step cannot be told from zero.",
+                  "keep such draws out, or write the step so that it is exactly 0"),
     "QG150": Rule("A section of the words is unknown.", "rename the section"),
     "QG151": Rule("The words have no title."),
     "QG152": Rule("A line of a list is not ``- name: sentence``.", "write it so"),
@@ -239,8 +241,6 @@ _CODES = {
                   "say it in other words, or name the other template in apart"),
     "QG219": Rule("A quantity is drawn, and nothing uses it.",
                   "show it, ask for it or compute with it, or take it out"),
-    "QG229": Rule("A step cannot be told from zero.",
-                  "keep such draws out, or write the step so that it is exactly 0"),
     # Item writing: whether a question teaches and cannot be guessed.
     "QG301": Rule("The answer hardly varies.",
                   "let other options, statements or pairs be right in turn"),

@@ -255,7 +255,7 @@ def _find_uncertain_steps(one: Variant, report: TemplateReport) -> Iterator[Diag
                     f"step {step.name!r} is 0 or nearly so and cannot be told from it, "
                     f"seed {one.seed} ({drawn})"
                 )
-                yield diagnose("QG229", one.template.file, what, _DRAW)
+                yield diagnose("QG148", one.template.file, what, _DRAW)
                 found = "uncertain"
             met = max(met, found, key=GRADES.index)
         report.certainties[step.name] = met
