@@ -18,6 +18,7 @@ from pathlib import Path
 from types import ModuleType
 
 from quizgen.bank.candidate import Candidate
+from quizgen.bank.drawn_lists import list_table_files
 from quizgen.bank.language_file import read_language_file
 from quizgen.bank.markdown import LanguageFile
 from quizgen.bank.metadata import (
@@ -48,6 +49,8 @@ from quizgen.maths.chain import Chain
 
 SOLVERS, TEMPLATES, FIGURES = "solvers", "templates", "templates/figures"
 """Where the Python of a bank stands."""
+OWN_DATA = "data"
+"""The module beside a template that draws its data, if it has ``[data]``."""
 OWN_FIGURE = "figure"
 """The module beside a template that draws its figure, if ``[figure]`` names no other."""
 LOCALE = "locale"
@@ -249,7 +252,7 @@ class Bank:
         """Return the same bank, its files, figures and solvers to be read again."""
         unload_modules(self._figure_folder)
         for folder in self.template_paths.values():
-            if (folder / f"{OWN_FIGURE}.py").is_file():
+            if any((folder / f"{own}.py").is_file() for own in (OWN_FIGURE, OWN_DATA)):
                 unload_modules(folder)
         return Bank(self.root, trusted=self.trusted)
 
@@ -355,6 +358,17 @@ class Bank:
         if not file.is_file():
             what = f"[figure] has no name, and there is no {file.name} beside it"
             raise _MissingError(what, rule="QG127", place=("figure",))
+        self._require_trust(file)
+        return file
+
+    def _data_of(self, name: str) -> Path | None:
+        """What draws a template's data: the module beside it, if it has ``[data]``."""
+        if not self.rules(name).data:
+            return None
+        file = self.folder_of(name) / f"{OWN_DATA}.py"
+        if not file.is_file():
+            what = f"there is [data], and no {file.name} beside it"
+            raise _MissingError(what, rule="QG127", place=("data",))
         self._require_trust(file)
         return file
 
@@ -477,7 +491,7 @@ class Bank:
         solver = Path(SOLVERS, f"{rules.solver}.py")
         roots = [root for root in (self.root, builtin_root()) if (root / solver).is_file()]
         python = [*(root / solver for root in roots[:1]), self._figure_folder / f"{figure}.py"]
-        python += self._list_own_figure(name)
+        python += self._beside_template(name)
         return [
             self.folder_of(name) / "template.toml",
             *self._list_prose_files(name),
@@ -485,13 +499,13 @@ class Bank:
             *filter(Path.is_file, python),
         ]
 
-    def _list_own_figure(self, name: str) -> list[Path]:
-        """Return the figure in a template's own folder as a list of one, or an empty list.
-
-        A figure that the template names is shared and no part of it.
-        """
-        rule, file = self.rules(name).figure, self.folder_of(name) / f"{OWN_FIGURE}.py"
-        return [file] if rule and not rule.name and file.is_file() else []
+    def _beside_template(self, name: str) -> list[Path]:
+        """What draws figure and data beside a template, and the tables that it reads."""
+        rules, folder = self.rules(name), self.folder_of(name)
+        own = {OWN_FIGURE: rules.figure and not rules.figure.name, OWN_DATA: rules.data}
+        files = [folder / f"{module}.py" for module, used in own.items() if used]
+        files += sorted({folder / table for table in list_table_files(rules)})
+        return [file for file in files if file.is_file()]
 
     def template_languages(self, name: str) -> tuple[str, ...]:
         """Return the languages that a template is written in, without reading them."""
@@ -513,7 +527,7 @@ class Bank:
         folder = self.folder_of(name)
         rules = self.rules(name)
         prose = self._list_prose_files(name)
-        files = [folder / "template.toml", *prose, *self._list_own_figure(name)]
+        files = [folder / "template.toml", *prose, *self._beside_template(name)]
         files += pictures_beside(folder)
         chain, source = self.chain(rules.solver) if rules.solver else (Chain({}, ()), b"")
         texts = {path.stem: read_language_file(path) for path in prose}
@@ -523,10 +537,10 @@ class Bank:
         digest = compute_digest(*(read_bytes(path, BankError) for path in files), source, *words)
         ordered: dict[str, LanguageFile] = {lang: texts[lang] for lang in order}
         quantities = self.quantities.get(rules.solver, QuantityNames())
-        figure = self._find_figure_file(name)
+        figure, data = self._find_figure_file(name), self._data_of(name)
         template = Template(
             name, rules, chain, ordered, digest, folder, self.metadata, quantities, figure,
-            self._solver_file(rules.solver), read_pictures(folder, ordered),
+            self._solver_file(rules.solver), data, read_pictures(folder, ordered),
         )  # fmt: skip
         check_against_chain(template)
         return template

@@ -20,7 +20,7 @@ from quizgen.core.errors import BankError
 from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree
-from quizgen.maths.operators import BINDERS, OperatorSyntax, operators_with_syntax
+from quizgen.maths.operators import BINDERS, OPERATORS, OperatorSyntax, operators_with_syntax
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
 from quizgen.maths.units import UnitRegistry
 
@@ -174,6 +174,8 @@ def _infer_dimension(expr: Expr, known: Mapping[str, Dimension]) -> Dimension | 
         if any(args):
             raise _ClashError(f"{expr.op} needs plain numbers")
         return {}
+    if OPERATORS[expr.op].typed is OperatorSyntax.LIST:
+        return _infer_list_dimension(expr, [_infer_dimension(arg, known) for arg in expr.args])
     return _infer_call_dimension(expr, [_infer_dimension(arg, known) for arg in expr.args])
 
 
@@ -220,6 +222,21 @@ def _infer_call_dimension(call: Call, args: list[Dimension | None]) -> Dimension
             )
         return _RADIANS if call.op in _INVERSE else {}
     return _infer_product_dimension(call, args)
+
+
+def _infer_list_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:
+    """Return the dimension of a figure of lists: that of their values unless it says otherwise."""
+    if call.op in {"len", "corr"}:
+        return {}
+    first, other = args[0], args[-1]
+    if first is None or other is None:
+        return None
+    if call.op in {"var", "pvar"}:
+        return _scale_dimension(first, Fraction(2))
+    if call.op in {"cov", "slope"}:
+        sign = 1 if call.op == "cov" else -1
+        return _multiply_dimensions([other, first], sign)
+    return first
 
 
 def _require_common_dimension(call: Call, args: list[Dimension | None]) -> Dimension | None:

@@ -177,7 +177,11 @@ This holds in every output, also in plain text; ``unbreakable_groups`` in
 """
 _POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
 _EQUALS = re.compile(r"=(?=\s*$)")
-_SLOT = SLOT
+TABLE_MARK = "table:"
+"""Begins a slot that is a table of lists: ``{{ table: x y }}``."""
+_SLOT = re.compile(
+    r"\{\{\s*([A-Za-z_][\w']*(?:\[[0-9]{1,4}\])?|table:(?:\s+[A-Za-z_][\w']*){1,12})\s*\}\}"
+)
 _MATH = re.compile(r"\$([^$\n]+|[^$]*\\[^$]*)\$")
 """Mathematics; LaTeX may go over several lines."""
 _DISPLAY = re.compile(r"\$\$([^$]+)\$\$")
@@ -454,13 +458,13 @@ _HELD = "\ua4d0"
 
 
 def _parse_typed_formula(text: str) -> InlineFormula | LaidOutFormula:
-    if not _SLOT.search(text):
+    if not SLOT.search(text):
         return InlineFormula(parse_formula(text))
     if _HELD in text:
         raise FormulaReadError("bad-character", text.index(_HELD) + 1, _HELD)
-    names = _SLOT.findall(text)
+    names = SLOT.findall(text)
     counts = iter(range(len(names)))
-    expr = parse_formula(_SLOT.sub(lambda _found: f" {_HELD}{next(counts)} ", text))
+    expr = parse_formula(SLOT.sub(lambda _found: f" {_HELD}{next(counts)} ", text))
     places = {f"{_HELD}{count}": Leaf(name) for count, name in enumerate(names)}
     return LaidOutFormula(lay_out(expr, leaves=places, inline=True), text)
 

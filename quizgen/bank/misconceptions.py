@@ -23,7 +23,7 @@ from quizgen.maths.number_systems import compile_expr, float64_system
 from quizgen.maths.numbers import to_float
 from quizgen.maths.tolerance import MARGIN, RULES, Tolerance, parse_tolerance
 from quizgen.maths.tree import Expr, names_in
-from quizgen.maths.values import Values
+from quizgen.maths.values import Values, map_numbers
 
 TIE_MARGIN = 0.02
 """A value closer than this (in units of the asked decimal) to a rounding tie is redrawn."""
@@ -271,7 +271,9 @@ class _Bound:
     def at(self, env: Mapping[str, float], shown: Mapping[str, fmpq]) -> float:
         """Return the bound's value in a variant."""
         known = {
-            name: to_float(shown[name]) if name in shown else env[name] / size
+            name: to_float(shown[name])
+            if name in shown
+            else map_numbers(size.__rtruediv__, env[name])
             for name, size in self.sizes.items()
         }
         return float(self.compiled(known))

@@ -50,6 +50,10 @@ class PoolVariant(Protocol):
         """Return the drawn quantities in the units they are shown in."""
 
     @property
+    def lists(self) -> Mapping[str, tuple[fmpq, ...]]:
+        """Drawn lists in the units they are shown in."""
+
+    @property
     def words(self) -> Mapping[str, str]:
         """Return the drawn phrases, by their name in the language files."""
 
@@ -137,6 +141,10 @@ def count_pool_variants(drawn: PoolVariant) -> int:
 def build_identity(drawn: PoolVariant) -> str:
     """Return the name of a variant: two ask the same if and only if this is the same."""
     numbers = [f"{name}={format_for_key(value)}" for name, value in sorted(drawn.shown.items())]
+    numbers += [
+        f"{name}=[{'; '.join(map(format_for_key, values))}]"
+        for name, values in sorted(drawn.lists.items())
+    ]
     words = [f"{name}={value}" for name, value in sorted(drawn.words.items())]
     return f"{drawn.template.id}({', '.join([*numbers, *words, *_iter_selected_names(drawn)])})"
 

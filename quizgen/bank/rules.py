@@ -19,8 +19,12 @@ class DrawRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """How one quantity is drawn.
 
     Exactly one of ``pick`` (a list), ``range`` (first, last, step), ``words`` (names of phrases
-    in the language files) and ``is`` (a formula over quantities drawn before) is given. With
-    ``by`` (a formula counting from 0) a phrase is not drawn but follows from numbers.
+    in the language files), ``is`` (a formula over quantities drawn before), ``values`` (a list
+    as it stands), ``normal`` (mean, standard deviation), ``sample`` (some of these values, none
+    twice), ``permutation`` (all of them in another order), ``table`` (a column of a file beside
+    the template) and ``of`` (a table of values by key, a list or a file, looked up ``at`` a
+    phrase or a place counted from 1) is given. With ``by`` (a formula counting from 0) a phrase
+    is not drawn but follows from numbers.
     """
 
     unit: str = ""
@@ -30,6 +34,37 @@ class DrawRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     words: tuple[str, ...] = ()
     by: str = ""
     formula: str = msgspec.field(name="is", default="")
+    values: tuple[Scalar, ...] = ()
+    normal: tuple[Scalar, ...] = ()
+    sample: tuple[Scalar, ...] = ()
+    permutation: tuple[Scalar, ...] = ()
+    size: int | str | None = None
+    decimals: int | None = None
+    table: str = ""
+    column: str = ""
+    take: int | None = None
+    of: str | dict[str, Scalar] = ""
+    at: str = ""
+
+
+WAYS = ("pick", "range", "words", "formula", "values", "normal", "sample", "permutation",
+        "table", "of")  # fmt: skip
+"""How a quantity can be drawn: exactly one of them."""
+LISTED = frozenset({"values", "normal", "sample", "permutation", "table"})
+"""Ways that give a list."""
+
+
+def get_draw_way(rule: DrawRule) -> str:
+    """Which way a quantity is drawn in; empty if the rule names none, or several."""
+    ways = [way for way in WAYS if getattr(rule, way)]
+    return ways[0] if len(ways) == 1 else ""
+
+
+class DataRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """A quantity that ``data.py`` gives: its unit, and the decimals it is rounded to."""
+
+    unit: str = ""
+    decimals: int | None = None
 
 
 class KeepRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -84,6 +119,8 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     solver: str = ""
     covers: tuple[str, ...] = ()
     draw: dict[str, DrawRule] = {}
+    data: dict[str, DataRule] = {}
+    files: dict[str, tuple[str, ...]] = {}
     claims: dict[str, bool | str | ClaimRule] = {}
     keep: dict[str, KeepRule] = {}
     where: tuple[str, ...] = ()

@@ -6,12 +6,22 @@ import hashlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache, cached_property, partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import msgspec
 from flint import fmpq
 
+from quizgen.bank.data_file import draw_data
 from quizgen.bank.dimensions import find_unit_errors
+from quizgen.bank.drawn_lists import (
+    ListPlan,
+    LookupPlan,
+    RationalList,
+    is_list_rule,
+    list_rule_formulas,
+    plan_list,
+    plan_lookup,
+)
 from quizgen.bank.misconceptions import PartChecker
 from quizgen.bank.rules import KeepRule, Scalar
 from quizgen.bank.template import Template
@@ -21,7 +31,7 @@ from quizgen.maths.number_systems import CompiledFormula, compile_nested, exact_
 from quizgen.maths.numbers import count_decimals, to_float, to_rational
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import names_in
-from quizgen.maths.values import Value, Values
+from quizgen.maths.values import NumberList, Value, Values, map_numbers
 
 T = TypeVar("T")
 
@@ -37,26 +47,68 @@ def shuffle(key: str, items: Sequence[T]) -> list[T]:
     return [items[i] for i in ranked]
 
 
+class DrawnValues(NamedTuple):
+    """What one try draws, in shown units: numbers, phrases and texts by name, lists."""
+
+    shown: dict[str, fmpq]
+    words: dict[str, str]
+    lists: dict[str, RationalList]
+
+    @property
+    def environment(self) -> Mapping[str, Any]:
+        """Numbers and lists, as formulas take them."""
+        return {**self.shown, **self.lists} if self.lists else self.shown
+
+
+REJECTED_DATA = "data.py: draw(rng) gives None"
+"""Why a try was rejected whose data an author's Python refused."""
+
+
 class _Variable(msgspec.Struct, frozen=True):
-    """One drawn quantity: its candidates, or the formula that derives it (or its phrase)."""
+    """One drawn quantity: its candidates, or the formula that derives it (or its phrase).
+
+    A list has a ``listed`` plan, a value of a table a ``lookup``.
+    """
 
     file: Path
     name: str
     choices: tuple[fmpq, ...]
     words: tuple[str, ...]
     formula: CompiledFormula | None
+    listed: ListPlan | None = None
+    lookup: LookupPlan | None = None
 
-    def derive(self, shown: dict[str, fmpq], words: dict[str, str]) -> None:
-        """Set the quantity in ``shown``, or in ``words`` the phrase that its formula counts from 0.
+    def draw(self, stem: str, attempt: int, drawn: DrawnValues) -> None:
+        """Set the list or the value that is looked up.
 
         Raises
         ------
         BankError
-            If the formula has no value, or one that is no number.
+            If there is none.
         """
-        value = self._compute_value(shown)
-        if isinstance(value, bool):
-            raise self._fault("a condition, where a number is needed")
+        with error_context(self.file):
+            try:
+                if self.listed is not None:
+                    env = drawn.environment
+                    drawn.lists[self.name] = NumberList(self.listed.draw(stem, attempt, env))
+                elif self.lookup is not None:
+                    drawn.shown[self.name] = self.lookup.look_up(drawn.environment, drawn.words)
+            except BankError as error:
+                raise self._fault(str(error)) from error
+            except (MathError, TypeError, ZeroDivisionError, OverflowError) as error:
+                raise self._fault(describe_list_fault(error)) from error
+
+    def derive(
+        self,
+        shown: dict[str, fmpq],
+        words: dict[str, str],
+        lists: Mapping[str, RationalList] | None = None,
+    ) -> None:
+        """Set the quantity, or the phrase at the place that the formula counts from 0."""
+        value = self._compute_value({**shown, **lists} if lists else shown)
+        if isinstance(value, bool | tuple):
+            what = "a list" if isinstance(value, tuple) else "a condition"
+            raise self._fault(f"{what}, where a number is needed")
         if self.words:
             if not isinstance(value, fmpq):
                 raise self._fault("by: the place of a phrase is a rational number")
@@ -64,20 +116,25 @@ class _Variable(msgspec.Struct, frozen=True):
         else:
             shown[self.name] = value
 
-    def _compute_value(self, shown: dict[str, fmpq]) -> Value:
+    def _compute_value(self, env: Mapping[str, Any]) -> Value:
         """Return the value of the formula; 0 where there is none.
 
         Raises ``BankError`` if it has no value here.
         """
         try:
-            return self.formula(shown) if self.formula else fmpq(0)
-        except (MathError, ZeroDivisionError, OverflowError) as error:
-            raise self._fault(str(error)) from error
+            return self.formula(env) if self.formula else fmpq(0)
+        except (MathError, TypeError, ZeroDivisionError, OverflowError) as error:
+            raise self._fault(describe_list_fault(error)) from error
 
     def _fault(self, what: str) -> BankError:
         """Return an error at the quantity's table under ``draw``."""
         said = f"draw.{self.name}: {what}"
         return BankError(said, rule="QG120", file=self.file, place=("draw", self.name))
+
+
+def describe_list_fault(error: Exception) -> str:
+    """What is wrong in a formula; Python's own word for a sum with a list names only types."""
+    return "a list stands where a number is needed" if isinstance(error, TypeError) else str(error)
 
 
 class _Condition(msgspec.Struct, frozen=True):
@@ -112,7 +169,8 @@ class Sampler:
         self._check_order()
         self.variables = [self._build_variable(name) for name in template.rules.draw]
         conditions = list(self._iter_conditions())
-        drawn = {v.name for v in self.variables}
+        drawn = {v.name for v in self.variables} | template.rules.data.keys()
+        self.has_lists = bool(template.rules.data) or any(v.listed for v in self.variables)
         self.early = [c for c in conditions if c.needs <= drawn]
         self.late = [c for c in conditions if not c.needs <= drawn]
         with error_context(template.file):  # a unit of the file may be none, and knows no file
@@ -123,10 +181,13 @@ class Sampler:
 
     def _check_order(self) -> None:
         """Raise ``BankError`` if a formula under ``draw`` uses what is not drawn before it."""
-        known: set[str] = set()
-        for name, rule in self.template.rules.draw.items():
-            source = rule.formula or rule.by
-            unknown = names_in(self.template.parse_formula(source)) - known if source else set()
+        rules = self.template.rules
+        known: set[str] = set(rules.data)
+        for name, rule in rules.draw.items():
+            used = {rule.at} if rule.at in rules.draw and rules.draw[rule.at].words else set()
+            for source in list_rule_formulas(rule, rules):
+                used |= names_in(self.template.parse_formula(source))
+            unknown = used - known
             if unknown:
                 what = f"draw.{name}: uses {sorted(unknown)}, not drawn before it"
                 file, place = self.template.file, ("draw", name)
@@ -147,6 +208,8 @@ class Sampler:
         Raises ``BankError`` if its rule leaves no value.
         """
         rule = self.template.rules.draw[name]
+        if is_list_rule(rule) or rule.of:
+            return self._plan_table_variable(name)
         source = rule.formula or rule.by
         formula = self.compile_formula(source) if source else None
         listed = () if source else list_candidates(rule.pick, rule.range, rule.skip)
@@ -155,6 +218,20 @@ class Sampler:
             what, place = f"draw.{name}: no value is left", ("draw", name)
             raise BankError(what, rule="QG120", file=file, place=place)
         return _Variable(file, name, listed, rule.words, formula)
+
+    def _plan_table_variable(self, name: str) -> _Variable:
+        template = self.template
+        rule, rules = template.rules.draw[name], template.rules
+        try:
+            if rule.of:
+                look = plan_lookup(name, rule, rules, template.path, self.compile_formula)
+                return _Variable(template.file, name, (), (), None, lookup=look)
+            plan = plan_list(name, rule, template.path, self.compile_formula)
+            return _Variable(template.file, name, (), (), None, listed=plan)
+        except BankError as error:
+            error.file = error.file or template.file
+            error.place = error.place or ("draw", name)
+            raise
 
     def _iter_conditions(self) -> Iterator[_Condition]:
         """Yield the conditions under ``where``, then those under ``keep``."""
@@ -166,24 +243,37 @@ class Sampler:
             test = compile_keep_test(rule)
             yield _Condition(f"keep.{name}", _make_test_of_name(name, test), frozenset({name}))
 
-    def propose(self, stem: str, attempt: int) -> tuple[dict[str, fmpq], dict[str, str]]:
-        """Return values and phrases of one try, before any condition.
+    def propose(self, stem: str, attempt: int) -> DrawnValues | None:
+        """Values of one try, before any condition; the precision is stated around it.
 
-        The caller sets the precision. Each follows from its own name and the number of the try, so
-        that a quantity added to a template leaves what is drawn for the others as it was.
+        None if ``data.py`` asks for another try.
         """
-        shown: dict[str, fmpq] = {}
-        words: dict[str, str] = {}
+        drawn = self._start_draw(stem, attempt)
+        if drawn is None:
+            return None
+        shown, words, lists = drawn
         for variable in self.variables:
             if variable.formula is not None:
-                variable.derive(shown, words)
+                variable.derive(shown, words, lists)
+            elif variable.listed or variable.lookup:
+                variable.draw(stem, attempt, drawn)
             elif variable.words:
                 index = pick_index(f"{stem}/{variable.name}/{attempt}", len(variable.words))
                 words[variable.name] = variable.words[index]
             else:
                 index = pick_index(f"{stem}/{variable.name}/{attempt}", len(variable.choices))
                 shown[variable.name] = variable.choices[index]
-        return shown, words
+        return drawn
+
+    def _start_draw(self, stem: str, attempt: int) -> DrawnValues | None:
+        """What ``data.py`` gives, which comes before ``[draw]``; nothing without one."""
+        template = self.template
+        module = template.data_module if template.rules.data else None
+        if module is None or template.data_file is None:
+            return DrawnValues({}, {}, {})
+        key = f"{stem}/data/{attempt}"
+        given = draw_data(module, template.data_file, template.rules.data, key)
+        return DrawnValues(given.numbers, given.texts, given.lists) if given else None
 
     @cached_property
     def base_factors(self) -> dict[str, fmpq]:
@@ -198,9 +288,16 @@ class Sampler:
             step.name: self.template.unit_factor(step.unit) for step in self.template.chain.steps
         }
 
-    def solve(self, shown: Mapping[str, fmpq]) -> dict[str, Value]:
-        """Return every quantity of the chain in base units, from shown values."""
-        return self.template.chain.solve({n: shown[n] * f for n, f in self.base_factors.items()})
+    def solve(
+        self, shown: Mapping[str, fmpq], lists: Mapping[str, RationalList] | None = None
+    ) -> dict[str, Value]:
+        """Run the chain on shown values; lists stand in what it gives, in base units as all."""
+        if not lists:
+            given = {n: shown[n] * f for n, f in self.base_factors.items()}
+            return self.template.chain.solve(given)
+        known: Mapping[str, Any] = {**shown, **lists}
+        given = {n: map_numbers(f.__mul__, known[n]) for n, f in self.base_factors.items()}
+        return self.template.chain.solve(given)
 
     def in_shown_units(self, shown: Mapping[str, fmpq], values: Values) -> dict[str, Value]:
         """Return drawn and solved quantities in the units they are shown in."""
@@ -279,7 +376,11 @@ def sampler_for(template: Template) -> Sampler:
 
 @working_precision()
 def solve_candidate(
-    plan: Sampler, shown: Mapping[str, fmpq], *, lenient: bool = False
+    plan: Sampler,
+    shown: Mapping[str, fmpq],
+    lists: Mapping[str, RationalList] | None = None,
+    *,
+    lenient: bool = False,
 ) -> tuple[dict[str, Value], tuple[tuple[str, ...], ...]] | str:
     """Return values and misconceptions of each part, or the reason to reject the candidate.
 
@@ -287,26 +388,46 @@ def solve_candidate(
     numbers that an author prints are taken as they are.
     """
     try:
+        early: Mapping[str, Any] = {**shown, **lists} if lists else shown
         for condition in () if lenient else plan.early:
-            if not condition.test(shown):
+            if not condition.test(early):
                 return condition.text
-        values = plan.solve(shown)
+        values = plan.solve(shown, lists)
+        if lists:
+            _refuse_list_steps(plan, values)
         if plan.late and not lenient:
             env = plan.in_shown_units(shown, values)
             for condition in plan.late:
-                if not condition.test(env):
+                if not condition.test({**env, **lists} if lists else env):
                     return condition.text
         traps = _usable_traps(plan, shown, values, lenient=lenient)
     except (MathError, ZeroDivisionError, OverflowError) as error:
         return f"no value: {error}"
+    except TypeError as error:
+        if not lists:
+            raise
+        what = f"a formula of this question: {describe_list_fault(error)}"
+        raise BankError(what, rule="QG120", file=plan.template.file) from error
     return traps if isinstance(traps, str) else (values, traps)
+
+
+def _refuse_list_steps(plan: Sampler, values: Values) -> None:
+    for step in plan.template.chain.steps:
+        if isinstance(values[step.name], tuple):
+            what = f"step {step.name!r} is a list, where a number is needed"
+            file = plan.template.solver_file
+            raise BankError(what, rule="QG120", file=file, place=("Step", step.name))
 
 
 def _usable_traps(
     plan: Sampler, shown: Mapping[str, fmpq], values: Values, *, lenient: bool
 ) -> tuple[tuple[str, ...], ...] | str:
-    """Return the usable misconceptions of each part, or the reason to reject the candidate."""
-    approximate = {name: to_float(value) for name, value in values.items()}
+    """The usable traps of each part, or the reason to reject the candidate."""
+    approximate: dict[str, Any] = (
+        {name: map_numbers(to_float, value) for name, value in values.items()}
+        if plan.has_lists
+        else {name: to_float(value) for name, value in values.items()}
+    )
     traps = []
     for part in plan.parts:
         usable = (

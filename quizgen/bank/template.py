@@ -21,7 +21,7 @@ from quizgen.bank.compile_cache import CompileCache
 from quizgen.bank.metadata import BankMetadata
 from quizgen.bank.pictures import PictureFile
 from quizgen.bank.quantities import QuantityNames
-from quizgen.bank.rules import Rules, suggested_minutes
+from quizgen.bank.rules import WAYS, Rules, get_draw_way, suggested_minutes
 from quizgen.bank.solvers import import_module_file
 from quizgen.bank.validation import find_malformed_answers, find_problems
 from quizgen.core.complaints import complaint_of, written_place
@@ -62,8 +62,8 @@ class Template:
     quantities : QuantityNames
         What the letters of its solver mean; only forms made from the chain say so, which is why
         ``digest`` leaves it out.
-    figure_file, solver_file : pathlib.Path, optional
-        What draws its figure, and what its chain was read from.
+    figure_file, solver_file, data_file : pathlib.Path, optional
+        What draws its figure, what its chain was read from, and what draws its data.
     pictures : mapping of str to PictureFile
         The files that its words show, by their names.
     """
@@ -78,6 +78,7 @@ class Template:
     quantities: QuantityNames = field(default=QuantityNames())
     figure_file: Path | None = None
     solver_file: Path | None = None
+    data_file: Path | None = None
     pictures: Mapping[str, PictureFile] = field(default_factory=dict)
 
     def __getstate__(self) -> dict[str, object]:
@@ -105,6 +106,12 @@ class Template:
         file = self.figure_file
         return import_module_file(file.parent, file.stem) if file else None
 
+    @property
+    def data_module(self) -> ModuleType | None:
+        """What draws its data, imported when it is needed; errors as ``figure``."""
+        file = self.data_file
+        return import_module_file(file.parent, file.stem) if file else None
+
     @cached_property
     def file(self) -> Path:
         """Return the path of ``template.toml``."""
@@ -123,7 +130,8 @@ class Template:
     @cached_property
     def units(self) -> dict[str, str]:
         """Return the unit that each quantity is shown in: drawn ones first, then steps."""
-        drawn = {name: rule.unit for name, rule in self.rules.draw.items() if not rule.words}
+        drawn = {name: rule.unit for name, rule in self.rules.data.items()}
+        drawn |= {name: rule.unit for name, rule in self.rules.draw.items() if not rule.words}
         given = dict(self.chain.given)
         steps = {step.name: step.unit for step in self.chain.steps}
         return {**given, **{k: v for k, v in drawn.items() if v or k not in given}, **steps}
@@ -230,9 +238,9 @@ def _check_draws(rules: Rules) -> None:
     for place, code, what in find_problems(rules):
         raise BankError(f"{written_place(place)}: {what}", rule=code, place=place)
     for name, rule in rules.draw.items():
-        ways = [w for w in ("pick", "range", "words", "formula") if getattr(rule, w)]
-        if len(ways) != 1:
-            what = f"draw.{name}: give exactly one of pick, range, words, is"
+        if not get_draw_way(rule):
+            listed = ", ".join(WAYS).replace("formula", "is")
+            what = f"draw.{name}: give exactly one of {listed}"
             raise BankError(what, rule="QG118", place=("draw", name))
 
 
@@ -265,7 +273,7 @@ def _check_units(template: Template) -> None:
 def _check_names(template: Template) -> None:
     """Raise ``BankError`` if the rules name what the solver lacks, or lack what it needs."""
     rules = template.rules
-    missing = set(template.chain.given) - set(rules.draw)
+    missing = set(template.chain.given) - set(rules.draw) - set(rules.data)
     if missing:
         what = f"draw lacks {sorted(missing)}, given in solver {rules.solver!r}"
         raise BankError(what, rule="QG123", place=("draw",))

@@ -6,11 +6,13 @@ what would stop a later stage without saying where. Here each such field is one 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 
 import msgspec
 
+from quizgen.bank.drawn_lists import MOST_DECIMALS, find_list_problems, is_list_rule
 from quizgen.bank.rules import DrawRule, KeepRule, Rules, Source
 from quizgen.core.complaints import complaint_of, written_place
 from quizgen.core.decoding import convert
@@ -30,6 +32,7 @@ from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import parse_written_number
 from quizgen.maths.tolerance import MOST_DIGITS
 
+_FILE = re.compile(r"[A-Za-z0-9_-]{1,60}\.csv")
 LARGEST = 10**100
 """Largest size of an authored number, and of its inverse."""
 
@@ -61,6 +64,7 @@ def find_problems(rules: Rules) -> FieldProblems:
     yield from _check_claims(rules)
     for name, rule in rules.draw.items():
         yield from _prefix_places(("draw", name), _check_draw_rule(rule))
+    yield from _check_data(rules)
     for name, keep in rules.keep.items():
         yield from _prefix_places(("keep", name), _check_keep_rule(keep))
     for name, value in (rules.reference or {}).items():
@@ -102,7 +106,7 @@ def _check_figure_reads(rules: Rules) -> FieldProblems:
     if not rules.figure.quiz:
         yield place, "QG117", "nothing is read in a figure with quiz = false"
     for name in rules.figure.reads:
-        if name not in rules.draw or rules.draw[name].words:
+        if name not in rules.draw or rules.draw[name].words or is_list_rule(rules.draw[name]):
             yield place, "QG117", f"{name!r} is no drawn number (write it under [draw])"
 
 
@@ -143,16 +147,35 @@ def _count_entries(source: Source) -> int:
 
 def _check_draw_rule(rule: DrawRule) -> FieldProblems:
     """Yield what is wrong with one draw rule: too many entries, unreadable numbers, its range."""
-    for field in ("pick", "range", "skip", "words"):
+    yield from (((field,), code, what) for field, code, what in find_list_problems(rule))
+    for field in ("pick", "range", "skip", "words", "values", "sample", "permutation", "of"):
         if len(getattr(rule, field)) > MOST_CHOICES:
             yield (field,), "QG110", f"more than {MOST_CHOICES} entries"
-    fields = ("pick", "range", "skip")
+    fields = ("pick", "range", "skip", "values", "sample", "permutation")
     wrong = [
         one for field in fields for one in _check_numbers_readable((field,), getattr(rule, field))
     ]
     yield from wrong
     if rule.range and not wrong:
         yield from _check_range(*rule.range)
+
+
+def _check_data(rules: Rules) -> FieldProblems:
+    """What ``[data]`` and ``[files]`` say of quantities."""
+    if len(rules.data) > MOST_FORMULAS:
+        yield ("data",), "QG110", f"more than {MOST_FORMULAS} entries"
+    for name, rule in rules.data.items():
+        if name in rules.draw:
+            yield ("data", name), "QG118", f"{name!r} stands under [draw], too"
+        if not 0 <= (rule.decimals or 0) <= MOST_DECIMALS:
+            yield ("data", name, "decimals"), "QG109", f"must be 0 to {MOST_DECIMALS}"
+    for file, names in rules.files.items():
+        if not _FILE.fullmatch(file) or not names:
+            what = f"{file!r} is no file of letters, digits, - and _ that ends in .csv"
+            yield ("files", file), "QG108", what
+        for name in names:
+            if name not in rules.data and name not in rules.draw:
+                yield ("files", file), "QG116", f"{name!r} is not drawn"
 
 
 def _check_range(*span: Scalar) -> FieldProblems:

@@ -15,16 +15,25 @@ from dataclasses import dataclass, field
 import msgspec
 from flint import fmpq
 
+from quizgen.bank.drawn_lists import RationalList, count_common_decimals
 from quizgen.bank.pools import build_identity
 from quizgen.bank.rules import Scalar
-from quizgen.bank.sampler import Sampler, sampler_for, solve_candidate
+from quizgen.bank.sampler import (
+    REJECTED_DATA,
+    DrawnValues,
+    Sampler,
+    describe_list_fault,
+    sampler_for,
+    solve_candidate,
+)
 from quizgen.bank.template import Template
-from quizgen.core.errors import SamplingError
+from quizgen.core.errors import BankError, SamplingError
 from quizgen.core.positions import TEXT, Place
 from quizgen.maths.canonical import CanonicalForm
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import (
+    format_decimal,
     format_exact,
     format_rounded,
     is_readable_exactly,
@@ -37,6 +46,8 @@ from quizgen.maths.values import Value, Values
 
 SHOWN_FIGURES = 6
 """Significant figures of a shown value that has no short exact form."""
+MOST_LIST_DECIMALS = 12
+"""Decimals to which the values of a list are written out."""
 MAX_TRIES = 5000
 """Tries before a template is called impossible."""
 
@@ -72,6 +83,8 @@ class Variant:
         Every quantity of the chain in base units.
     traps : tuple of tuple of str
         Per part, the mistakes that give a wrong and recognisable answer here.
+    lists : mapping of str to tuple of flint.fmpq
+        Drawn lists in the units they are shown in.
     elsewhere : SiblingContent
         What this question must not tell, because others of its paper ask it.
     shown_values : mapping of str to flint.fmpq or flint.arb
@@ -87,6 +100,7 @@ class Variant:
     words: Mapping[str, str]
     values: Values
     traps: tuple[tuple[str, ...], ...] = field(default=())
+    lists: Mapping[str, RationalList] = field(default_factory=dict)
     elsewhere: SiblingContent = field(default_factory=SiblingContent)
     shown_values: Values = field(init=False, repr=False, compare=False)
     _texts: dict[str, str] = field(init=False, repr=False, compare=False, default_factory=dict)
@@ -140,8 +154,27 @@ class Variant:
         """Return the value of a formula of ``template.toml`` over quantities in shown units."""
         if formula not in self._computed:
             with working_precision():
-                self._computed[formula] = self.sampler.compile_formula(formula)(self.shown_values)
+                self._computed[formula] = self._compute_formula(formula)
         return self._computed[formula]
+
+    def _compute_formula(self, formula: str) -> Value:
+        compiled = self.sampler.compile_formula(formula)
+        if not self.lists:
+            return compiled(self.shown_values)
+        try:
+            return compiled({**self.shown_values, **self.lists})
+        except TypeError as error:
+            what = f"formula {formula!r}: {describe_list_fault(error)}"
+            file, place = self.template.file, (TEXT, formula)
+            raise BankError(what, rule="QG120", file=file, place=place) from error
+
+    def format_list(self, name: str) -> tuple[str, ...]:
+        """The numbers of a drawn list as they are shown, all with as many decimals."""
+        values = self.lists[name]
+        count = count_common_decimals(values)
+        if count is not None and count <= MOST_LIST_DECIMALS:
+            return tuple(format_decimal(value, count) for value in values)
+        return tuple(format_exact(v) or format_rounded(v, figures=SHOWN_FIGURES) for v in values)
 
     def form(self, name: str) -> Expr:
         """A form of the solver with the drawn numbers in place, tidied.
@@ -227,17 +260,26 @@ def draw_variant(template: Template, seed: str | int, slot: str | int = "0") -> 
     reasons: Counter[str] = Counter()
     for attempt in range(MAX_TRIES):
         with working_precision():  # its lock is held for one try at a time
-            shown, words = plan.propose(stem, attempt)
-            result = solve_candidate(plan, shown)
-        if not isinstance(result, str):
-            values, traps = result
-            return Variant(template, seed, slot, attempt + 1, shown, words, values, traps)
-        reasons[result] += 1
+            drawn = plan.propose(stem, attempt)
+            result = solve_candidate(plan, drawn.shown, drawn.lists) if drawn else REJECTED_DATA
+        if drawn and not isinstance(result, str):
+            return _build_variant(template, (seed, slot, attempt + 1), drawn, result)
+        reasons[str(result)] += 1
     worst, count = reasons.most_common(1)[0]
     what = f"no admissible draw in {MAX_TRIES} tries; {worst!r} rejected {count} of them"
     raise SamplingError(
         what, rule="QG140", file=template.file, place=_locate_condition(worst, template)
     )
+
+
+def _build_variant(
+    template: Template,
+    drawn_for: tuple[str, str, int],
+    drawn: DrawnValues,
+    solved: tuple[dict[str, Value], tuple[tuple[str, ...], ...]],
+) -> Variant:
+    seed, slot, tries = drawn_for
+    return Variant(template, seed, slot, tries, drawn.shown, drawn.words, *solved, drawn.lists)
 
 
 def _locate_condition(condition: str, template: Template) -> Place:
@@ -271,18 +313,20 @@ def _build_reference_variant(plan: Sampler, given: Mapping[str, Scalar]) -> Vari
     Raises ``SamplingError`` if the chain has no value for them.
     """
     template = plan.template
-    shown, words = plan.propose(f"{template.origin}/reference", 0)
+    drawn = plan.propose(f"{template.origin}/reference", 0)
+    if drawn is None:
+        raise SamplingError(REJECTED_DATA, rule="QG140", file=template.file)
+    shown, words, lists = drawn
     for variable in plan.variables:
         if variable.name in given and variable.words:
             words[variable.name] = str(given[variable.name])
         elif variable.name in given:
             shown[variable.name] = to_rational(str(given[variable.name]))
         elif variable.formula is not None:
-            variable.derive(shown, words)
-    result = solve_candidate(plan, shown, lenient=True)
+            variable.derive(shown, words, lists)
+    result = solve_candidate(plan, shown, lists, lenient=True)
     if isinstance(result, str):
         what = f"reference instance: {result}"
         file, place = template.file, ("reference",)
         raise SamplingError(what, rule="QG140", file=file, place=place)
-    values, traps = result
-    return Variant(template, "reference", "0", 1, shown, words, values, traps)
+    return _build_variant(template, ("reference", "0", 1), drawn, result)

@@ -159,7 +159,7 @@ _CODES = {
                   "write a sign before the version, as in >=0.1, or install one that fits"),
     "QG125": Rule("Two things have one name.", "rename one of them"),
     "QG126": Rule("There is no such solver.", "mend the name, or write the file"),
-    "QG127": Rule("There is no such figure.",
+    "QG127": Rule("There is no such figure, or no ``data.py``.",
                   "use one of those listed, or write templates/figures/NAME.py in the bank"),
     "QG128": Rule("A bank brings Python and is not trusted.",
                   "run it with --trust if you know who wrote it"),
@@ -239,6 +239,8 @@ _CODES = {
                   "name it in formulas of the solver's MODEL"),
     "QG218": Rule("A question tells what another one asks.",
                   "say it in other words, or name the other template in apart"),
+    "QG219": Rule("A quantity is drawn, and nothing uses it.",
+                  "show it, ask for it or compute with it, or take it out"),
     # Item writing: whether a question teaches and cannot be guessed.
     "QG301": Rule("The answer hardly varies.",
                   "let other options, statements or pairs be right in turn"),

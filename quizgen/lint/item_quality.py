@@ -23,6 +23,7 @@ from quizgen.bank.variant import Variant, draw_variant
 from quizgen.kinds import choice, true_false
 from quizgen.kinds.contract import asked_form
 from quizgen.lint.figures import figure_text
+from quizgen.lint.unused_draws import find_unused_draws
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr
 from quizgen.question.interpolation import Interpolator, inlines_to_text
@@ -225,14 +226,21 @@ def _check_claims(template: Template) -> Said:
 
 
 def count_pool(template: Template) -> int:
-    """Return the number of different questions; 0 if there are too many candidates to count."""
+    """Return the number of different questions; 0 if there are too many candidates to count.
+
+    A quantity that nothing uses makes no other question. Lists are never counted.
+    """
     plan, rules = sampler_for(template), template.rules
+    if plan.has_lists or any(v.lookup for v in plan.variables):
+        return 0
+    unused = find_unused_draws(template)
     free = [variable for variable in plan.variables if variable.choices]
+    choices = [v.choices[:1] if v.name in unused else v.choices for v in free]
     pooled = rules.claims or any("take" in part.answer for part in rules.part)
-    if math.prod(len(v.choices) for v in free) > (POOLED if pooled else COUNTED):
+    if math.prod(map(len, choices)) > (POOLED if pooled else COUNTED):
         return 0
     total = 0
-    for values in product(*(variable.choices for variable in free)):
+    for values in product(*choices):
         shown, words = dict(zip((v.name for v in free), values, strict=True)), dict[str, str]()
         with working_precision():
             for variable in plan.variables:

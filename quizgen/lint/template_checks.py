@@ -35,6 +35,7 @@ from quizgen.kinds.grade import grade_answer, show_key
 from quizgen.lint.figures import check_figures
 from quizgen.lint.item_quality import QualityReview
 from quizgen.lint.leaks import QuestionContent, question_content
+from quizgen.lint.unused_draws import find_unused_draws
 from quizgen.locale import FIRST, get_language, localise_numbers
 from quizgen.maths.numbers import to_float
 from quizgen.question.compose import Question, QuestionKey, compose_variant
@@ -155,6 +156,7 @@ def lint_template(
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
+        report.problems += _find_unused_draws(template)
         report.problems += _diagnose_quality_errors(template, lessons)
         report.problems = [one for one in report.problems if one.code not in ignored]
     except QuizgenError as error:
@@ -266,6 +268,14 @@ def _widen_ranges(report: TemplateReport, one: Variant) -> None:
             value = to_float(one.shown_values[name])
             low, high = report.ranges.get(name, (value, value))
             report.ranges[name] = (min(low, value), max(high, value))
+
+
+def _find_unused_draws(template: Template) -> Iterator[Diagnostic]:
+    """Yield what is drawn and used nowhere."""
+    for name in find_unused_draws(template):
+        table = "draw" if name in template.rules.draw else "data"
+        what = f"{table}.{name} is drawn, and nothing uses it"
+        yield diagnose("QG219", template.file, what, (table, name))
 
 
 def _find_constant_answers(template: Template, report: TemplateReport) -> Iterator[Diagnostic]:

@@ -16,6 +16,7 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import BooleanFalse, BooleanTrue
 
 from quizgen.core.errors import BankError
+from quizgen.maths.lists import ListFunction
 from quizgen.maths.operators import OPERATORS
 from quizgen.maths.tree import Call, Expr, Num, Sym
 
@@ -310,4 +311,5 @@ _RULES: dict[type, Callable[[sympy.Basic], Expr]] = {
     sympy.Product: _make_binder_converter("product"),
     sympy.Integral: _make_binder_converter("integral"),
     **dict.fromkeys(REWRITES, _rewrite_function),
+    ListFunction: lambda expression: Call(expression.op, _convert_arguments(expression)),
 }

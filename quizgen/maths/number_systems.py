@@ -249,9 +249,16 @@ def _find_compiler(
         return _compile_piecewise
     if expr.op in BINDERS:
         return _compile_binder
+    if len(expr.args) == 1 and f"list_{expr.op}" in system.ops:
+        return _compile_extreme
     if expr.op in _PERIODIC and system.name in _EXACT and "pi" in operators_in(expr.args[0]):
         return _compile_special_angle
     return None
+
+
+def _compile_extreme(expr: Call, system: NumberSystem) -> CompiledFormula:
+    """Return the least or the largest value of one list, or one number itself, compiled."""
+    return _compile_call(Call(f"list_{expr.op}", expr.args), system)
 
 
 def _make_binary_call(op: str, first: Expr, second: Expr) -> Expr:
@@ -389,19 +396,26 @@ def _looked_up(name: str, sources: tuple[object, ...]) -> OperatorFunction:
 @cache
 def exact_system() -> NumberSystem:
     """Return exact rationals (``flint.fmpq``), and certified balls (``flint.arb``) beyond them."""
+    from flint import fmpq
+
     from quizgen.maths import exact as own
     from quizgen.maths import special
+    from quizgen.maths.list_operators import build_list_functions
     from quizgen.maths.numbers import to_rational
     from quizgen.maths.precision import at_working_precision
 
-    ops = operator_functions("exact", own, operator, special, own.BALLS, **_LOGIC)
+    lists = build_list_functions(own.square_root, fmpq)
+    ops = operator_functions("exact", own, operator, special, own.BALLS, **_LOGIC, **lists)
     return NumberSystem("exact", to_rational, ops, guard=at_working_precision)
 
 
 @cache
 def float64_system() -> NumberSystem:
     """Return Python floats: the fast approximation used by figures."""
+    from quizgen.maths.list_operators import build_list_functions
+
     own: dict[str, OperatorFunction] = {
+        **build_list_functions(math.sqrt, float),
         "sign": lambda a: 0.0 if a == 0 else math.copysign(1.0, a),
         "floor": lambda a: float(math.floor(a)),
         "ceil": lambda a: float(math.ceil(a)),
@@ -465,7 +479,7 @@ def float32_system() -> NumberSystem:
 
     def rounding(name: str, op: OperatorFunction) -> OperatorFunction:
         """Return an operator whose result is rounded, unless it is a condition."""
-        return op if name in CONDITIONS else lambda *args: round_to_float32(op(*args))
+        return op if name in CONDITIONS | {"sort"} else lambda *args: round_to_float32(op(*args))
 
     ops = {name: rounding(name, op) for name, op in float64_system().ops.items()}
     return NumberSystem("float32", lambda q: round_to_float32(float(q)), ops)

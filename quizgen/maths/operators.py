@@ -30,6 +30,7 @@ class OperatorSyntax(Enum):
     RELATION = "a < b"
     WORD = "a and b"
     CONSTANT = "pi"
+    LIST = "mean(x)"
 
 
 class Operator(msgspec.Struct, frozen=True):
@@ -93,6 +94,13 @@ def _make_word_operator(name: str, most: int, python: str, arrays: str, sympy: s
     )  # fmt: skip
 
 
+def _make_list_operator(name: str, count: int = 1, *signs: str) -> Operator:
+    return Operator(
+        name, count, count, OperatorSyntax.LIST, signs or (name,),
+        absent=frozenset(SYSTEMS) - {"exact", "floats"},
+    )  # fmt: skip
+
+
 def _make_special_operator(
     name: str, count: int = 1, *, sympy: str = "", exact: str = ""
 ) -> Operator:
@@ -130,6 +138,9 @@ _ROWS = (
     _make_function_operator("mod", least=2, most=2, exact="remainder", sympy="Mod"),
     _make_function_operator("min", most=MANY, exact="minimum", arrays="minimum", sympy="Min"),
     _make_function_operator("max", most=MANY, exact="maximum", arrays="maximum", sympy="Max"),
+    *map(_make_list_operator, ("mean", "var", "sd", "pvar", "psd", "median", "len", "sort")),
+    *(_make_list_operator(name, 2) for name in ("quantile", "cov", "corr", "slope", "at")),
+    *(_make_list_operator(f"list_{name}", 1, name) for name in ("sum", "min", "max")),
     *map(_make_function_operator, ("sinh", "cosh", "tanh")),
     _make_function_operator("asinh", arrays="arcsinh"),
     _make_function_operator("acosh", arrays="arccosh"),

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, TypeAlias
+from collections.abc import Callable, Mapping
+from typing import Any, NoReturn, TypeAlias
 
 from flint import arb, fmpq
 
@@ -18,3 +18,23 @@ AnyNumber: TypeAlias = Any
 
 They share operators but no static type.
 """
+
+
+class NumberList(tuple[Any, ...]):
+    """A drawn list: numbers of one number system.
+
+    Python would join two tuples for a sum, and order them by their first numbers. No formula means
+    that.
+    """
+
+    __slots__ = ()
+
+    def _refuse(self, _other: object) -> NoReturn:
+        raise TypeError("a list stands where a number is needed")
+
+    __add__ = __mul__ = __rmul__ = __lt__ = __le__ = __gt__ = __ge__ = _refuse
+
+
+def map_numbers(function: Callable[[Any], AnyNumber], value: Any) -> Any:
+    """What a function gives for a number, or for each number of a list."""
+    return NumberList(map(function, value)) if isinstance(value, tuple) else function(value)

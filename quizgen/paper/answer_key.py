@@ -25,6 +25,7 @@ from quizgen.maths.constants import parse_exact
 from quizgen.maths.numbers import parse_written_number
 from quizgen.maths.precision import working_precision
 from quizgen.maths.units import UnitRegistry, build_unit_registry
+from quizgen.maths.values import map_numbers
 from quizgen.paper.code import content_digest
 from quizgen.paper.provenance import BankRecord
 
@@ -37,10 +38,21 @@ UNORDERED = frozenset({"notes", "traps"})
 
 
 class KeyGiven(msgspec.Struct):
-    """A drawn number in base units, and the unit it is shown in."""
+    """A drawn number, or a list of them, in base units, and the unit it is shown in."""
 
-    value: str
+    value: str | list[str]
     unit: str = ""
+
+    def parse_value(self) -> Any:
+        """The number, or the list as a tuple, exactly.
+
+        Raises
+        ------
+        FormulaError
+            If it cannot be read.
+        """
+        value = self.value if isinstance(self.value, str) else tuple(self.value)
+        return map_numbers(parse_exact, value)
 
 
 class KeyChain(msgspec.Struct, omit_defaults=True):
@@ -69,7 +81,7 @@ class KeyChain(msgspec.Struct, omit_defaults=True):
         """
         units = tuple((name, given.unit) for name, given in self.given.items())
         chain = _build_chain(units, tuple(map(tuple, self.steps)))
-        values = {name: parse_exact(given.value) for name, given in self.given.items()}
+        values = {name: given.parse_value() for name, given in self.given.items()}
         return QuestionContext(chain, values, earlier)
 
 

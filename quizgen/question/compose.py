@@ -24,6 +24,7 @@ from quizgen.kinds import KINDS
 from quizgen.kinds.contract import InputControl
 from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import format_for_key
+from quizgen.question.data_files import build_file_paragraphs
 from quizgen.question.figure import draw_question_figure
 from quizgen.question.html import blocks_to_html, inlines_to_html
 from quizgen.question.inlines import join_inlines, to_inlines
@@ -228,7 +229,7 @@ def _build_question_and_key(
         topic=template.rules.topic,
         title=template.texts[lang].title,
         minutes=Fraction(template.minutes),
-        stem=localise(lang, asking.stem),
+        stem=localise(lang, (*asking.stem, *build_file_paragraphs(drawn, lang, number))),
         parts=localise(lang, tuple(_build_part(part, lang, number) for part in asking.parts)),
         figure=draw_question_figure(drawn, lang, quiz=True) if figures else None,
     )
@@ -259,6 +260,14 @@ def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
     return QuestionPart(asked.label, asked.points, asked.body, field)
 
 
+def _format_given_for_key(drawn: Variant, name: str) -> str | list[str]:
+    """A given quantity in base units, of a list each value."""
+    factor = drawn.template.unit_factor(drawn.template.units.get(name, ""))
+    if name in drawn.lists:
+        return [format_for_key(value * factor) for value in drawn.lists[name]]
+    return format_for_key(drawn.shown[name] * factor)
+
+
 def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     """Return the chain with its numbers as plain JSON, for grading without SymPy."""
     chain = drawn.template.chain
@@ -271,9 +280,7 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
         **({"checked": checked} if checked else {}),
         "given": {
             name: {
-                "value": format_for_key(
-                    drawn.shown[name] * drawn.template.unit_factor(units.get(name, ""))
-                ),
+                "value": _format_given_for_key(drawn, name),
                 "unit": units.get(name, ""),
             }
             for name in chain.given

@@ -66,4 +66,7 @@ def _evaluate_parameter(drawn: Variant, source: Source) -> Any:
         return [_evaluate_parameter(drawn, one) for one in source]
     if not isinstance(source, str):
         return source
-    return drawn.words.get(source) or to_float(drawn.evaluate(source))
+    if source in drawn.words:
+        return drawn.words[source]
+    value: Any = drawn.evaluate(source)
+    return [*map(to_float, value)] if isinstance(value, tuple) else to_float(value)

@@ -15,6 +15,7 @@ from markupsafe import Markup
 from quizgen import typeset
 from quizgen.bank import markdown
 from quizgen.bank.pictures import PictureFile
+from quizgen.question.data_files import DataFileLink
 from quizgen.question.inlines import PlacedPicture, TypesetMaths
 from quizgen.question.interpolation import NBSP, unbreakable_groups
 
@@ -113,6 +114,12 @@ def _render_maths(part: TypesetMaths, lang: str, way: HtmlDialect) -> str:
 def _render_code(part: markdown.InlineCode, _lang: str, _way: HtmlDialect) -> str:
     """Return program text in a sentence."""
     return f"<code>{_escape_html(part.text)}</code>"
+
+
+@_render_piece.register
+def _render_data_file(part: DataFileLink, _lang: str, way: HtmlDialect) -> str:
+    saved = f' download="{_escape_html(part.text)}"' if way.ours else ""
+    return f'<a href="{part.address}"{saved}><code>{_escape_html(part.text)}</code></a>'
 
 
 @_render_piece.register

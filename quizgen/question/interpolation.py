@@ -9,16 +9,19 @@ from functools import lru_cache
 
 from quizgen import typeset
 from quizgen.bank.markdown import (
+    TABLE_MARK,
     Block,
     ConditionalSentence,
     Emphasis,
     Inline,
     InlineFormula,
     LaidOutFormula,
+    Paragraph,
     PictureLink,
     PlainText,
     RoundedMarker,
     Slot,
+    TableBlock,
     Unfilled,
     fill_blocks,
     fill_inlines,
@@ -30,7 +33,7 @@ from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
 from quizgen.kinds.contract import VALUE_OPTION, LabelledName, asked_form
 from quizgen.maths.notation import format_tree, pretty
-from quizgen.maths.numbers import format_exact, format_rounded
+from quizgen.maths.numbers import MINUS, format_exact, format_rounded
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Values
@@ -38,6 +41,7 @@ from quizgen.question.inlines import (
     PlacedPicture,
     TypesetLayout,
     TypesetMaths,
+    name_inline,
     to_inlines,
     typeset_layout,
 )
@@ -45,6 +49,8 @@ from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names, make
 from quizgen.typeset.nodes import MathRow, Node, Phrase
 
 NBSP = "\u00a0"
+LIST_SEPARATOR = "; "
+"""Between the numbers of a list: a comma would be a decimal sign in some languages."""
 SHORT = 16
 """Characters up to which a formula is held together with what stands beside it."""
 _TAIL = re.compile(r"[^ \n]*(?: [=≈<>≤≥≠] [^ \n]*)?")
@@ -80,7 +86,37 @@ class Interpolator:
         BankError
             If a slot names nothing that may stand there.
         """
+        if self.drawn.lists:
+            parts = tuple(map(self._build_data_table, parts))
         return fill_blocks(parts, self._fill_value, self._fill_program)
+
+    def _build_data_table(self, block: Block) -> Block:
+        """A paragraph that is ``{{ table: x y }}`` alone, as the table of these lists."""
+        match block:
+            case Paragraph((Slot(text),)) if text.startswith(TABLE_MARK):
+                names = text.removeprefix(TABLE_MARK).split()
+            case _:
+                return block
+        for name in names:
+            self._require_list(name, text)
+        columns = [self.drawn.format_list(name) for name in names]
+        if len({len(column) for column in columns}) != 1:
+            raise self._format_problem("the lists differ in length", "QG158", TEXT, text)
+        rows = tuple(
+            tuple(to_inlines(pretty.format_number(cell)) for cell in row)
+            for row in zip(*columns, strict=True)
+        )
+        return TableBlock(tuple(self._name_column(name) for name in names), rows)
+
+    def _name_column(self, name: str) -> tuple[Inline, ...]:
+        """The head of a column: the list's letter, and its unit behind a slash."""
+        unit = format_unit(self.drawn.template.units.get(name, ""))
+        return (name_inline(name), *to_inlines(f"{NBSP}/{NBSP}{unit}" if unit else ""))
+
+    def _require_list(self, name: str, blank: str) -> None:
+        if name not in self.drawn.lists:
+            what = f"{{{{ {blank} }}}}: {name} is not a drawn list"
+            raise self._format_problem(what, "QG158", TEXT, f"{{{{ {blank} }}}}")
 
     def section(self, name: str) -> tuple[Block, ...]:
         """Return a section of the language file, filled; empty if there is none."""
@@ -172,19 +208,23 @@ class Interpolator:
         drawn = self.drawn
         if name in self.own:
             return self.sentence(*self.own[name])
+        if name in drawn.lists or name.startswith(TABLE_MARK) or name.endswith("]"):
+            return self._fill_list_slot(name)
         if name in drawn.words:
-            return self.sentence("words", drawn.words[name])
+            own = name in drawn.template.rules.data  # a text of data.py stands for itself
+            text = drawn.words[name]
+            return to_inlines(text) if own else self.sentence("words", text)
         if not self.hidden and ("words", name) in self.text.cases:
             return self.sentence("words", name)
         if (formula := self._find_formula(name)) is not None:
             return (_inline_maths(formula),)
-        if name not in self.known:
-            what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
-            raise self._format_problem(what, "QG158", TEXT, blank)
         return self._fill_number(name)
 
     def _fill_number(self, name: str) -> tuple[Inline, ...]:
         """Return a quantity with its unit; ≈ goes before a rounded value."""
+        if name not in self.known:
+            what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
+            raise self._format_problem(what, "QG158", TEXT, blank)
         if not self.drawn.is_rounded(name):
             return to_inlines(format_quantity(self.drawn, name))
         rounded = format_rounded(self.known[name])
@@ -192,6 +232,25 @@ class Interpolator:
             RoundedMarker(),
             *to_inlines(join_unit(rounded, self.drawn.template.units.get(name, ""))),
         )
+
+    def _fill_list_slot(self, name: str) -> tuple[Inline, ...]:
+        """A list with its unit once, or one of its values."""
+        drawn, (listed, _, place) = self.drawn, name.partition("[")
+        if name.startswith(TABLE_MARK):
+            what = "stands alone in a paragraph, in a question that draws lists"
+            blank = f"{{{{ {name} }}}}"
+            raise self._format_problem(f"{blank} {what}", "QG158", TEXT, blank)
+        self._require_list(listed, name)
+        texts, unit = drawn.format_list(listed), drawn.template.units.get(listed, "")
+        if not place:
+            numbers = LIST_SEPARATOR.join(map(pretty.format_number, texts))
+            shown = format_unit(unit)
+            return to_inlines(f"{numbers}{NBSP}{shown}" if shown else numbers)
+        index = int(place.rstrip("]"))
+        if not 1 <= index <= len(texts):
+            what = f"{{{{ {name} }}}}: the list has {len(texts)} values, and the first is 1"
+            raise self._format_problem(what, "QG158", TEXT, f"{{{{ {name} }}}}")
+        return to_inlines(join_unit(texts[index - 1], unit))
 
     def _find_formula(self, name: str) -> Expr | None:
         """Return the formula that a step stands for, with the drawn numbers in it, if it is one.
@@ -293,6 +352,13 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
 
     def value(name: str) -> str:
         """Return a value as a program writes it; raise ``BankError`` if it is not exact."""
+        listed, _, place = name.partition("[")
+        if listed in drawn.lists:
+            texts = [text.replace(MINUS, "-") for text in drawn.format_list(listed)]
+            if not place:
+                return ", ".join(texts)
+            if 1 <= int(place.rstrip("]")) <= len(texts):
+                return texts[int(place.rstrip("]")) - 1]
         written = format_exact(known[name], minus="-") if name in known else None
         if written is None:
             what = f"{{{{ {name} }}}} cannot stand in a program"

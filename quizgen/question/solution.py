@@ -24,6 +24,7 @@ from quizgen.maths.chain import ChainStep
 from quizgen.maths.number_systems import NumberSystem, compile_expr, float32_system, float64_system
 from quizgen.maths.numbers import format_rounded, to_fraction
 from quizgen.maths.units import get_unit
+from quizgen.maths.values import map_numbers
 from quizgen.question.inlines import TextOrInlines, TypesetMaths, to_inlines
 from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, join_unit
 from quizgen.question.worked_steps import (
@@ -269,7 +270,10 @@ def _iter_number_systems(drawn: Variant, name: str) -> Iterator[tuple[str, str]]
 def _compute_with_rounding(drawn: Variant, name: str, shown: str, numbers: NumberSystem) -> str:
     """Return a quantity as floats give it, or a dash where they give nothing."""
     chain = drawn.template.chain
-    env = {n: numbers.constant(to_fraction(drawn.values[n])) for n in chain.given}
+    env: dict[str, Any] = {
+        n: map_numbers(lambda value: numbers.constant(to_fraction(value)), drawn.values[n])
+        for n in chain.given
+    }
     try:
         for step in chain.steps:
             env[step.name] = compile_expr(step.expr, numbers)(env)

@@ -24,6 +24,7 @@ from quizgen.maths.units import format_unit
 from quizgen.question.entry_prose import typeset_slot
 from quizgen.question.inlines import TypesetMaths, name_inline
 from quizgen.question.interpolation import format_quantity, join_unit
+from quizgen.question.list_steps import write_out_lists
 
 FORMULA, NUMBERS, RESULT = "formula", "numbers", "result"
 
@@ -96,6 +97,8 @@ def join_sides(name: str, sides: Sequence[WorkedSide]) -> TypesetMaths:
 
 def _substitute_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
     """Return the formula with numbers in place; equal unless one of them is shown rounded."""
+    if names_in(expr) & drawn.lists.keys():
+        return _with_list_values(drawn, expr)
     quantities = sorted(names_in(expr))
     sign = "≈" if any(drawn.is_rounded(name) for name in quantities) else "="
     node = typeset.lay_out(expr, leaves={name: value_node(drawn, name) for name in quantities})
@@ -107,6 +110,17 @@ def _substitute_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
         format_tree(expr, {name: value_typed(drawn, name) for name in quantities}),
         NUMBERS,
     )
+
+
+def _with_list_values(drawn: Variant, expr: Expr) -> WorkedSide:
+    """The formula with sums over lists written out, and other lists as they stand."""
+    written = write_out_lists(expr, drawn)
+    scalars = names_in(written.expr) - written.texts.keys()
+    rounded = written.rounded or any(drawn.is_rounded(name) for name in scalars)
+    nodes = {name: value_node(drawn, name) for name in scalars} | written.nodes
+    typed = {name: value_typed(drawn, name) for name in scalars} | written.texts
+    node = typeset.lay_out(written.expr, leaves=nodes)
+    return WorkedSide("≈" if rounded else "=", node, format_tree(written.expr, typed), NUMBERS)
 
 
 def value_node(drawn: Variant, name: str) -> typeset.Node:

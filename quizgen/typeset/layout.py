@@ -11,7 +11,7 @@ from fractions import Fraction
 from msgspec.structs import replace
 
 from quizgen.core.errors import RenderError
-from quizgen.maths.operators import Operator, OperatorSyntax, operators_with_syntax
+from quizgen.maths.operators import MANY, Operator, OperatorSyntax, operators_with_syntax
 from quizgen.maths.tree import Call, Expr, Num, Sym
 from quizgen.typeset.builders import decimal, negative, number
 from quizgen.typeset.names import lay_out_name
@@ -512,6 +512,17 @@ def _lay_out_cases(run: _Layout, args: tuple[Expr, ...]) -> Node:
     return Cases((*rows, (run.lay(args[-1]), None)))
 
 
+def _lay_out_mean(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    nodes = tuple(map(run.lay, args))
+    letter = len(args) == 1 and isinstance(args[0], Sym)
+    return Accent("bar", nodes[0]) if letter else Func(Word("mean"), nodes)
+
+
+def _lay_out_item(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    values, place = args
+    return Scripts(add_brackets(run.lay(values), ATOM), run.small(place))
+
+
 def _lay_out_pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
     """Return the letter π."""
     if args:
@@ -577,6 +588,12 @@ _RULES: dict[str, LayoutRule] = {
     **{
         row.name: _make_function_rule(row) for row in operators_with_syntax(OperatorSyntax.FUNCTION)
     },
+    **{
+        row.name: _make_function_rule(replace(row, name=row.signs[0], most=MANY))
+        for row in operators_with_syntax(OperatorSyntax.LIST)
+    },
+    "mean": _lay_out_mean,
+    "at": _lay_out_item,
     "add": _lay_out_sum,
     "sub": _lay_out_difference,
     "neg": _lay_out_negative,

@@ -14,6 +14,7 @@ from quizgen.maths.chain import Chain, ChainStep, CompiledSteps
 from quizgen.maths.number_systems import compile_expr, float64_system
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
 from quizgen.maths.units import get_unit
+from quizgen.maths.values import map_numbers
 
 PREFIXES = (-6, -3, -2, -1, 1, 2, 3, 6)
 MOST_CHAINS = 256
@@ -130,7 +131,7 @@ class SlipSearch(msgspec.Struct, dict=True):
 
         The results for the last numbers are stored, since a class shares a paper.
         """
-        env = {name: float(number) for name, number in solved.items()}
+        env = {name: map_numbers(float, number) for name, number in solved.items()}
         last = self._last.get(target)
         if last is not None and last[0] == env:
             return last[1]

@@ -12,6 +12,7 @@ the same grammar.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from quizgen.maths.notation.lexer import (
@@ -29,6 +30,8 @@ from quizgen.maths.tree import Call, Expr
 LONGEST = 4000
 """Most characters in an author's formula."""
 
+_INDEXED = re.compile(r"([^\W\d]\w*)\[([^\[\]]*)\]")
+
 DEEPEST = 100
 """Most levels of nesting in a formula."""
 
@@ -43,6 +46,10 @@ def parse_formula(text: str, *, symbols: Iterable[str] | None = None) -> Expr:
     symbols : iterable of str, optional
         The names that may occur; without it any name may.
 
+    Notes
+    -----
+    ``x[3]`` is the third value of a list, the same as ``at(x, 3)``.
+
     Raises
     ------
     FormulaReadError
@@ -50,6 +57,7 @@ def parse_formula(text: str, *, symbols: Iterable[str] | None = None) -> Expr:
     """
     if len(text) > LONGEST:
         raise FormulaReadError("too-long", LONGEST + 1)
+    text = _INDEXED.sub(r"at(\1, \2)", text)
     pieces = tokenize(text, None if symbols is None else frozenset(symbols))
     doubtful = find_ambiguous_division(pieces)
     if doubtful is not None:

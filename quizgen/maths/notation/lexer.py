@@ -14,6 +14,7 @@ from quizgen.maths.notation.names import (
     CONSTANTS,
     FUNCTIONS,
     KEYWORDS,
+    LIST_FUNCTIONS,
     fold_name,
     spellings,
     split_product,
@@ -207,7 +208,8 @@ def _split_name_tokens(
         return [Token(word.upper(), word, word, column)]
     if word in CONSTANTS:
         return [Token("CONSTANT", CONSTANTS[word], word, column)]
-    if word in FUNCTIONS and match.string[match.end() :].lstrip().startswith("("):
+    known = FUNCTIONS if loose else FUNCTIONS | LIST_FUNCTIONS
+    if word in known and match.string[match.end() :].lstrip().startswith("("):
         return [Token("FUNCTION", word, word, column)]
     if symbols is None:
         return [Token("NAME", word, word, column)]

@@ -12,6 +12,11 @@ FUNCTIONS = {
 }
 """Function name to the smallest and largest number of arguments."""
 
+LIST_FUNCTIONS = {
+    sign: row for row in operators_with_syntax(OperatorSyntax.LIST) for sign in row.signs
+}
+"""Functions of a list, which authors type and students do not, to what they are."""
+
 CONSTANTS = {
     sign: row.name for row in operators_with_syntax(OperatorSyntax.CONSTANT) for sign in row.signs
 }

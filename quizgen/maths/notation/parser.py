@@ -30,7 +30,7 @@ from typing import Any
 import msgspec
 
 from quizgen.maths.notation.lexer import FormulaReadError, Token
-from quizgen.maths.notation.names import FUNCTIONS
+from quizgen.maths.notation.names import FUNCTIONS, LIST_FUNCTIONS
 from quizgen.maths.operators import OperatorSyntax, operators_with_syntax
 from quizgen.maths.tree import Call, Expr, Sym
 
@@ -85,6 +85,9 @@ _CLOSING = {
     "FUNCTION": frozenset({"COMMA", "RPAR"}),
 }
 """What opened a bracket, to the tokens that end a part of it."""
+
+_FOLDED = frozenset({"min", "max"})
+"""Functions of one list or of many numbers: what they are given is only known when they run."""
 
 _SIGNS = {row.token: row for row in operators_with_syntax(OperatorSyntax.SIGN)}
 
@@ -258,7 +261,10 @@ def _build_bracketed(begun: _Begun, following: str) -> Expr:
         return begun.operands[0]
     piece, count = begun.signs[0], len(begun.operands)
     name = str(piece.value)
-    least, most = FUNCTIONS[name]
+    listed = LIST_FUNCTIONS.get(name)
+    if listed and listed.least == count and name not in _FOLDED:
+        return Call(listed.name, tuple(begun.operands))
+    least, most = FUNCTIONS.get(name, (0, 0))
     odd = name == "piecewise" and count % 2 == 0
     if (odd or not least <= count <= most) and following != "NOT":  # that is the first slip
         raise FormulaReadError("argument-count", piece.column, piece.text)

@@ -16,6 +16,7 @@ EITHER, BOTH, TRUTH, RELATION, SUM, PRODUCT, POWER, ATOM = range(8)
 Leaves = Mapping[str, str]
 """Name of a quantity to what is written in its place."""
 
+_LISTS = {row.name: row.signs[0] for row in operators_with_syntax(OperatorSyntax.LIST)}
 _RELATIONS = {row.name: row.signs[0] for row in operators_with_syntax(OperatorSyntax.RELATION)}
 
 
@@ -50,11 +51,9 @@ def _format_with_level(expr: Expr, leaves: Leaves) -> tuple[str, int]:
         return _format_number_node(expr), ATOM
     if isinstance(expr, Sym):
         return leaves.get(expr.name) or _format_symbol_name(expr.name), ATOM
-    if expr.op in FUNCTIONS:
-        return (
-            f"{expr.op}({', '.join(_format_with_level(arg, leaves)[0] for arg in expr.args)})",
-            ATOM,
-        )
+    if expr.op in FUNCTIONS or expr.op in _LISTS:
+        args = ", ".join(_format_with_level(arg, leaves)[0] for arg in expr.args)
+        return f"{_LISTS.get(expr.op, expr.op)}({args})", ATOM
     if expr.op in _RELATIONS and len(expr.args) == 2:
         return f" {_RELATIONS[expr.op]} ".join(
             _format_at_level(a, SUM, leaves) for a in expr.args

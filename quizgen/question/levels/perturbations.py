@@ -202,7 +202,8 @@ def _find_dependent_quantities(drawn: Variant, given: str) -> frozenset[str]:
 def _is_changeable(drawn: Variant, given: str) -> bool:
     """Return whether the task states a quantity that may change: named, not fixed, not zero."""
     named = has_name(drawn, given) and given in stated_quantities(drawn)
-    return named and given not in drawn.template.quantities.fixed and drawn.shown[given] != 0
+    fixed = given in drawn.template.quantities.fixed
+    return named and not fixed and drawn.shown.get(given, 0) != 0
 
 
 def _scale_given(drawn: Variant, given: str, scale: Fraction) -> Variant | None:
@@ -213,7 +214,7 @@ def _scale_given(drawn: Variant, given: str, scale: Fraction) -> Variant | None:
     shown = {**drawn.shown, given: value}
     try:
         with working_precision():
-            values = drawn.sampler.solve(shown)
+            values = drawn.sampler.solve(shown, drawn.lists)
         changed = replace(drawn, shown=shown, values=values, traps=((),) * len(drawn.traps))
         return changed if _is_admissible(changed) else None
     except (MathError, ZeroDivisionError, OverflowError):
@@ -222,7 +223,9 @@ def _scale_given(drawn: Variant, given: str, scale: Fraction) -> Variant | None:
 
 def _is_drawable_value(drawn: Variant, given: str, value: Fraction) -> bool:
     """Return whether a value lies within those that are drawn, and is an integer if all are."""
-    rule = drawn.template.rules.draw[given]
+    rule = drawn.template.rules.draw.get(given)
+    if rule is None:  # what an author's Python gives has no range that is known
+        return False
     was = to_fraction(drawn.shown[given])
     listed = list_candidates(rule.pick, rule.range, rule.skip)
     if listed and not min(listed) <= to_rational(value) <= max(listed):

@@ -1,0 +1,61 @@
+"""Files of drawn data that a learner downloads: ``[files]`` of a template."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterator
+from itertools import zip_longest
+
+from quizgen.bank.markdown import InlineCode, Paragraph
+from quizgen.bank.variant import Variant
+from quizgen.core.errors import BankError
+from quizgen.maths.numbers import MINUS
+from quizgen.question.inlines import translate_inlines
+
+
+class DataFileLink(InlineCode, frozen=True):
+    """The name of a data file; pages link it to its content, other outputs print the name."""
+
+    content: bytes = b""
+
+    @property
+    def address(self) -> str:
+        """The file as an address that needs no server."""
+        return f"data:text/csv;base64,{base64.b64encode(self.content).decode()}"
+
+
+def iter_data_files(drawn: Variant, number: str) -> Iterator[tuple[str, bytes]]:
+    """The data files of a question, each with its content: CSV with the quantities as heads.
+
+    Parameters
+    ----------
+    drawn : Variant
+    number : str
+        Of the question: the name of a file begins with it, so that a paper has each name once.
+
+    Raises
+    ------
+    BankError
+        If a column is not a drawn list.
+    """
+    units = drawn.template.units
+    for name, columns in drawn.template.rules.files.items():
+        for column in columns:
+            if column not in drawn.lists:
+                what = f"files: {column!r} is not a drawn list"
+                file, place = drawn.template.file, ("files", name)
+                raise BankError(what, rule="QG116", file=file, place=place)
+        heads = [f"{c} / {units[c]}" if units.get(c) else c for c in columns]
+        cells = [[text.replace(MINUS, "-") for text in drawn.format_list(c)] for c in columns]
+        rows = zip_longest(*cells, fillvalue="")
+        # Letters, units and numbers alone: a minus sign must not be guarded from spreadsheets.
+        lines = (",".join(row) for row in (heads, *rows))
+        yield f"{number}-{name}", "".join(f"{line}\n" for line in lines).encode()
+
+
+def build_file_paragraphs(drawn: Variant, lang: str, number: str) -> tuple[Paragraph, ...]:
+    """A sentence for each data file of a question that says what it is called."""
+    return tuple(
+        Paragraph(translate_inlines(lang, "data.file", file=(DataFileLink(name, content),)))
+        for name, content in iter_data_files(drawn, number)
+    )
