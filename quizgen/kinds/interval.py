@@ -132,7 +132,8 @@ _CHAIN = re.compile(
 )
 
 
-_JOINED = re.compile(r"\s*(?:∪|\\cup\b|\b(?:or|oder|union|U)\b|বা|∨)\s*")
+# Without the blanks around it: those would be tried from each of many blanks in a row.
+_JOINED = re.compile(r"∪|\\cup\b|\b(?:or|oder|union|U)\b|বা|∨")
 _EMPTY = frozenset({"{}", "∅", "{ }", "empty", "leer"})
 EMPTY = "{}"
 """How a union of no intervals is written."""
@@ -149,7 +150,7 @@ def read_union(typed: str, decimal: str) -> tuple[list[IntervalValue], str]:
     if typed.strip() in _EMPTY:
         return [], EMPTY
     inside = re.sub(r"^\s*(?:L|S|D)\s*=\s*", "", typed)
-    read = [read_interval(piece, decimal) for piece in _JOINED.split(inside)]
+    read = [read_interval(piece, decimal) for piece in _JOINED.split(inside.strip())]
     read.sort(key=lambda pair: (pair[0].low is not None, pair[0].low or 0))
     return [interval for interval, _ in read], " ∪ ".join(echo for _, echo in read)
 

@@ -80,6 +80,10 @@ class MatrixSpec(WordSpec, kw_only=True, frozen=True):
         return f"[{'; '.join(', '.join(map(show_entry, row)) for row in self.entries)}]"
 
 
+_NAMED = re.compile(r"^\s*[^\W\d_]\w{0,9}'*\s*=\s*(?=[\[(\\])")
+"""A name in front of a matrix: ``A = [1, 2; 3, 4]``."""
+
+
 def build_matrix(entries: Entries) -> Expr:
     """Rows of a key as a tree."""
     return Call("matrix", tuple(Call("row", tuple(map(parse_entry, row))) for row in entries))
@@ -95,18 +99,34 @@ def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
     """
     if len(typed) > LONGEST:
         raise FormulaReadError("too-long", 1, str(LONGEST))
-    text = _LATEX.sub("", typed).strip()
+    text = _LATEX.sub("", _NAMED.sub("", typed)).strip()
     while text[:1] in {"[", "("} and text[-1:] in {"]", ")"}:
         text = text[1:-1].strip()
     rows = [
-        [read_entry(piece, decimal) for piece in _split_row(row.strip(" [](),"), decimal)]
-        for row in _ROWS.split(text)
-        if row.strip(" [](),")
+        [read_entry(piece, decimal) for piece in _split_row(row, decimal)]
+        for row in map(_strip_row, _ROWS.split(text))
+        if row
     ]
     if not rows or len({len(row) for row in rows}) != 1:
         raise FormulaReadError("matrix-expected", 1, typed.strip()[:60])
     echo = "; ".join(", ".join(number.read_as for number in row) for row in rows)
     return [[number.value for number in row] for row in rows], f"[{echo}]"
+
+
+def _strip_row(row: str) -> str:
+    """Return a row without its own brackets, of which one may have gone with the rows around it.
+
+    Brackets of an entry stay: ``0, sqrt(2)``.
+    """
+    row = row.strip(" [],")
+    opened = row.count("(") - row.count(")")
+    if opened > 0:
+        row = row.removeprefix("(")
+    elif opened < 0:
+        row = row.removesuffix(")")
+    elif row[:1] == "(" and row[-1:] == ")" and "(" not in row[1:]:
+        row = row[1:-1]
+    return row.strip(" ,")
 
 
 def _split_row(row: str, decimal: str) -> list[str]:
