@@ -29,6 +29,7 @@ from values import toml
 from quizgen import camera
 from quizgen.classes import generation
 from quizgen.cli.main import main
+from quizgen.core import cache
 from quizgen.figures.svg import encode_png
 from quizgen.kinds.grade import show_key
 from quizgen.store import Store
@@ -266,7 +267,7 @@ class RunResult:
 def run_command(arguments: Iterable[str], folder: Path, typed: bytes = b"") -> RunResult:
     """Return what a command comes to, run in a folder that also holds settings and data.
 
-    It runs in a fork of this process: nothing of it is left in this one, its memory and time are
+    Its cache is beside the folder. It runs in a fork of this process: nothing of it is left in this one, its memory and time are
     its own, and what this process has imported need not be loaded again.
     """
     files = [folder / f".{name}" for name in ("typed", "out", "err", "loaded")]
@@ -294,7 +295,13 @@ def _become_command(arguments: list[str], folder: Path, files: list[Path]) -> No
         for number, file in enumerate(files[:3]):
             os.dup2(os.open(file, os.O_RDONLY if number == 0 else os.O_WRONLY), number)
         sys.stdin, sys.stdout, sys.stderr = (open(n, "rw"[n > 0], encoding="utf-8") for n in range(3))  # fmt: skip  # noqa: SIM115
-        os.environ |= {"XDG_CONFIG_HOME": f"{folder}/config", "XDG_DATA_HOME": f"{folder}/data"}
+        own = {
+            "CONFIG": folder / "config",
+            "DATA": folder / "data",
+            "CACHE": folder.parent / "cache",
+        }
+        os.environ |= {f"XDG_{name}_HOME": str(place) for name, place in own.items()}
+        cache.user_cache_folder.cache_clear()
         os.chdir(folder)
         resource.setrlimit(resource.RLIMIT_CPU, (HANGS, HANGS + 5))
         resource.setrlimit(resource.RLIMIT_AS, (BIGGEST, BIGGEST))
@@ -529,7 +536,7 @@ class Workshop:
     def copy(self, command: FileCommand) -> Iterator[Path]:
         """Give a copy of a command's base, for a ``with`` block."""
         base = self.base(command.base)
-        folder = Path(tempfile.mkdtemp(prefix="hostile-"))
+        folder = Path(tempfile.mkdtemp(prefix="hostile-", dir=self.folder))
         try:
             shutil.copytree(base, folder, dirs_exist_ok=True)
             yield folder
@@ -600,9 +607,9 @@ def find_failures(
             yield f"is no sentence: {wrong[0][:200]}"
 
 
-def spread_mutants(count: int) -> Iterator[tuple[FileCommand, int]]:
+def spread_mutants(count: int, first: int = 0) -> Iterator[tuple[FileCommand, int]]:
     """Yield commands and numbers, each command as often as its share says and at least once."""
     whole = sum(one.share for one in COMMANDS)
     for command in COMMANDS:
         for number in range(max(1, round(count * command.share / whole))):
-            yield command, number
+            yield command, first + number

@@ -18,7 +18,16 @@ Damage = Callable[[bytes, random.Random], bytes]
 BINARY = {".png", ".pdf", ".zip", ".sqlite3"}
 NUMBERS = ("0", "-1", "1.5", "9" * 5000, "1" + "0" * 30, "1e400", "-1e-400", "nan", "inf", "1/0", "৩", "১e৯")  # fmt: skip
 TEXTS = [str(one) for one in NAUGHTY if isinstance(one, str)]
-ENCODINGS = ("utf-16", "utf-16-le", "utf-16-be", "utf-32", "latin-1", "cp1252", "cp500", "utf-8-sig")
+ENCODINGS = (
+    "utf-16",
+    "utf-16-le",
+    "utf-16-be",
+    "utf-32",
+    "latin-1",
+    "cp1252",
+    "cp500",
+    "utf-8-sig",
+)
 PUT_IN = ("\0", "\ufeff", "\r", "\x1b[2J", "\u202e", "\u2028", "[" * DEEP, "{" * DEEP, '"', "'''")  # fmt: skip
 
 
