@@ -102,7 +102,8 @@ COMMANDS = [
                 "check {}/qti.zip.keys.jsonl {}/reports.zip"),
     FileCommand("class make", "class", ("roster.csv", "short.toml"),
                 MAKE.replace("/class", "/made"), share=3),
-    FileCommand("class make again", "class", (*CLASS, "class/forms/*", "roster.csv"), MAKE, share=3),  # fmt: skip
+    FileCommand("class make again", "class", (*CLASS, "class/forms/*", "roster.csv"),
+                MAKE, share=3),
     FileCommand("class make --one-file", "class", ("class/papers/*.pdf",), f"{MAKE} --one-file",
                 share=2),
     FileCommand("class code", "class", CLASS, "class code {}/class CODE", share=2),
@@ -174,12 +175,22 @@ templates = ["blur-and-light-factors"]
 KINDS = """
 [title]
 en = "A question with each kind of answer"
-""" + "".join(f'[[slot]]\ntemplates = ["{name}"]\n' for name in (
-    "rgb-to-hsv", "add-noise-to-uint8-order", "gaussian-2d-formula-and-shapes",
-    "mixing-kind-and-primaries", "opencv-image-in-matplotlib", "salt-and-pepper-thresholds",
-    "draw-distortion-to-scale", "diameter-stops-and-exposure-time", "blur-and-light-factors",
-    "hsv-nonlinearity-counterexample", "exposure-equivalence",
-))  # fmt: skip
+""" + "".join(
+    f'[[slot]]\ntemplates = ["{name}"]\n'
+    for name in (
+        "rgb-to-hsv",
+        "add-noise-to-uint8-order",
+        "gaussian-2d-formula-and-shapes",
+        "mixing-kind-and-primaries",
+        "opencv-image-in-matplotlib",
+        "salt-and-pepper-thresholds",
+        "draw-distortion-to-scale",
+        "diameter-stops-and-exposure-time",
+        "blur-and-light-factors",
+        "hsv-nonlinearity-counterexample",
+        "exposure-equivalence",
+    )
+)
 CURRICULUM = """
 beyond = ["X"]
 [groups]
@@ -294,7 +305,8 @@ def _become_command(arguments: list[str], folder: Path, files: list[Path]) -> No
     try:
         for number, file in enumerate(files[:3]):
             os.dup2(os.open(file, os.O_RDONLY if number == 0 else os.O_WRONLY), number)
-        sys.stdin, sys.stdout, sys.stderr = (open(n, "rw"[n > 0], encoding="utf-8") for n in range(3))  # fmt: skip  # noqa: SIM115
+        streams = (os.fdopen(n, "rw"[n > 0], encoding="utf-8") for n in range(3))
+        sys.stdin, sys.stdout, sys.stderr = streams
         own = {
             "CONFIG": folder / "config",
             "DATA": folder / "data",
@@ -401,12 +413,13 @@ def make_bank(folder: Path) -> None:
     sound(f"exam {BANK} --seed 1 --format html --out {{}}/exam", folder)
     form = as_form(json.loads((folder / "exam/key.json").read_text("utf-8")), "1")
     write(folder, {"exam/answers.toml": as_toml(form)})
-    place = "sqlite:///{}/learning.sqlite3".format(folder)
+    place = f"sqlite:///{folder}/learning.sqlite3"
     done = run_command(
         [*f"practice --bank {folder}/bank --trust --count 2 --seed x --database {place}".split()],
         folder, b"42\n!\n1\nquit\n",
     )  # fmt: skip
-    assert done.code == 0 and [*folder.glob("config/quizgen/practice/*.json")], done
+    assert done.code == 0, done
+    assert [*folder.glob("config/quizgen/practice/*.json")], done
     store = Store(place)
     store.sittings.begin(store.learner().id, "mock-1-en-0a1b2c", None, pauses=True)
     store.close()
@@ -447,7 +460,7 @@ def make_class(folder: Path) -> None:
     """Make a class of three that was marked, with decisions, rulings and a scale."""
     roster = "id;name;lang;extra\n101;Ada;en;25%\n102;রহিমা;bn;\n103;Cem;en;10\n"
     write(folder, {"short.toml": SHORT, "roster.csv": roster})
-    with mock.patch.object(generation, "new_secret", lambda: "5" * 32):
+    with mock.patch.object(generation, "new_secret", return_value="5" * 32):
         sound(MAKE, folder)
     lines = map(json.loads, (folder / "class/keys.jsonl").read_text("utf-8").splitlines())
     forms = [as_form({**one["key"], "code": one["code"]}, one["id"]) for one in lines]
