@@ -17,6 +17,7 @@ from quizgen.classes.class_folder import KEYS, ClassFolder, PrintedHead, origina
 from quizgen.classes.grading import item_name_from_parts
 from quizgen.core.decoding import json_decoder
 from quizgen.core.errors import ClassError
+from quizgen.grading.echo import safe_echo
 from quizgen.paper.answer_key import AnswerKey
 
 
@@ -92,19 +93,31 @@ class KeyIndex:
         self.places: dict[str, tuple[PrintedHead, int]] = folder.places()
 
     def key(self, student: str) -> AnswerKey:
-        """Return the answer key of a student's paper."""
-        return read_key_at(self.path, self.places[student][1])
+        """Return the answer key of a student's paper.
+
+        Raises
+        ------
+        ClassError
+            If there is none, or it cannot be read; it names the file.
+        """
+        return read_key_at(self.path, self._find_line(student))
 
     def outline(self, student: str) -> PaperOutline:
         """Return what a student's paper asks, without decoding all of its key."""
         try:
-            found = _SHORT(_read_line_at(self.path, self.places[student][1])).key
+            found = _SHORT(_read_line_at(self.path, self._find_line(student))).key
         except msgspec.DecodeError as error:
             raise ClassError(f"{self.path}: {student}: {error}") from None
         return PaperOutline(
             {question.template: question.identity for question in found.questions},
             {item: options for question in found.questions for item, options in question.items()},
         )
+
+    def _find_line(self, student: str) -> int:
+        """Return where a student's line begins; ``ClassError`` if a damaged file has lost it."""
+        if student not in self.places:
+            raise ClassError(f"{self.path}: has no key of {safe_echo(student)}, who was marked")
+        return self.places[student][1]
 
     def items(self) -> set[str]:
         """Return the item names of all papers; stops as soon as every template has been seen."""

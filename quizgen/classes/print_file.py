@@ -8,7 +8,7 @@ from contextlib import ExitStack
 
 from quizgen.classes.class_folder import PAPERS, ClassFolder
 from quizgen.classes.roster import RosterStudent
-from quizgen.core.errors import require_extra
+from quizgen.core.errors import ClassError, require_extra
 from quizgen.core.files import PRIVATE, write_all
 
 PRINT = "print.pdf"
@@ -24,6 +24,8 @@ def write_print_file(folder: ClassFolder, students: Sequence[RosterStudent]) -> 
     ------
     MissingExtraError
         If pikepdf is not installed.
+    ClassError
+        If a paper is damaged; it names the file.
     """
     require_extra("print", "one file for the printer")
     import pikepdf
@@ -32,11 +34,25 @@ def write_print_file(folder: ClassFolder, students: Sequence[RosterStudent]) -> 
     with ExitStack() as opened:
         whole = opened.enter_context(pikepdf.new())
         for one in students:
-            source = (folder.path / PAPERS / f"{one.file}.pdf").read_bytes()
-            paper = opened.enter_context(pikepdf.open(io.BytesIO(source)))
-            whole.pages.extend(paper.pages)
-            if len(whole.pages) % 2:
-                _, _, width, height = whole.pages[-1].mediabox
-                whole.add_blank_page(page_size=(float(width), float(height)))
+            file = folder.path / PAPERS / f"{one.file}.pdf"
+            source = file.read_bytes()
+            try:
+                paper = opened.enter_context(pikepdf.open(io.BytesIO(source)))
+                whole.pages.extend(paper.pages)
+                if len(whole.pages) % 2:
+                    _, _, width, height = whole.pages[-1].mediabox
+                    whole.add_blank_page(page_size=(float(width), float(height)))
+            except (
+                pikepdf.PdfError,
+                pikepdf.PasswordError,
+                RuntimeError,
+                ValueError,
+                TypeError,
+                KeyError,
+                AttributeError,
+            ) as error:  # what is missing or of another type in a damaged page
+                raise ClassError(
+                    f"{file}: is damaged ({error}); delete it and run quizgen class make again"
+                ) from None
         whole.save(out, deterministic_id=True)
     write_all(folder.path, {PRINT: out.getvalue()}, PRIVATE)

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple, Unpack
 import click
 
 from quizgen.cli.options import BankOptions, LanguageParam, bank_options
+from quizgen.cli.terminal import print_message
 from quizgen.core.errors import KeyFileError
-from quizgen.core.untrusted import escape_control_characters
+from quizgen.core.untrusted import error_context
 from quizgen.grading.echo import safe_echo
 from quizgen.lms import MANIFEST_SUFFIX
 from quizgen.locale import FIRST, list_languages
@@ -127,9 +128,7 @@ def _iter_graded_forms(
         try:
             yield _grade_form(key, path, lang, settle=settle)
         except KeyFileError as error:
-            click.echo(
-                f"quizgen: {escape_control_characters(' '.join(str(error).split()))}", err=True
-            )
+            print_message(str(error))
 
 
 def _print_results(
@@ -231,9 +230,10 @@ def check_responses(
         compare_banks(manifest.banks, banks)
     lost: list[str] = []
     given = read_attempts(files, manifest.found, lost.append)
-    found = list(grade_attempts(manifest, given, lang, settle=not flags["no_settle"]))
+    with error_context(path, KeyFileError):
+        found = list(grade_attempts(manifest, given, lang, settle=not flags["no_settle"]))
     for line in (*lost, *_iter_ungraded_messages(found)):
-        click.echo(f"quizgen: {escape_control_characters(' '.join(line.split()))}", err=True)
+        print_message(line)
     there = [one for one in found if one.attempt.responses]
     if there:
         _print_attempts(there, lang or FIRST, flags)

@@ -20,7 +20,7 @@ from quizgen.cli.options import (
     open_bank,
     worthwhile_processes,
 )
-from quizgen.cli.terminal import ProgressLine, print_table, was_interrupted
+from quizgen.cli.terminal import ProgressLine, print_table, shorten_message, was_interrupted
 from quizgen.core.errors import QuizgenError
 from quizgen.core.executor import map_ordered, open_executor
 from quizgen.core.untrusted import escape_control_characters
@@ -121,7 +121,7 @@ def _lint_bank(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
     else:
         print_table(HEAD, rows)
         for problem in broken:
-            click.echo(escape_control_characters(str(problem)), err=True)
+            click.echo(shorten_message(str(problem)), err=True)
         _advise_on_words(bank)
     return int(bool(broken))
 

@@ -13,7 +13,7 @@ from typing import NoReturn
 
 import click
 
-from quizgen.cli.terminal import InterruptHandler, colour_choice, was_interrupted
+from quizgen.cli.terminal import InterruptHandler, colour_choice, print_message, was_interrupted
 from quizgen.core.errors import QuizgenError
 from quizgen.core.untrusted import escape_control_characters
 
@@ -124,25 +124,20 @@ def _run_command(arguments: list[str] | None) -> int:
         error.show(shown)
         click.echo(escape_control_characters(shown.getvalue()), nl=False, err=True)
     except QuizgenError as error:
-        _print_message(str(error))
+        print_message(str(error))
     except BrokenPipeError:
         sys.stderr.close()
     except OSError as error:
-        _print_message(f"{error.filename or 'file'}: {error.strerror or error}")
+        print_message(f"{error.filename or 'file'}: {error.strerror or error}")
     else:
         return status if isinstance(status, int) else 0
     return WRONG
 
 
-def _print_message(message: str) -> None:
-    """Print a message in one line on the error stream."""
-    click.echo(f"quizgen: {escape_control_characters(' '.join(message.split()))}", err=True)
-
-
 def _stop_at_once() -> NoReturn:
     """Print that it was interrupted and end the process: extensions may hang in finalisers."""
     with contextlib.suppress(OSError, ValueError):
-        _print_message("interrupted")
+        print_message("interrupted")
         sys.stdout.flush()
         sys.stderr.flush()
     os._exit(INTERRUPTED)

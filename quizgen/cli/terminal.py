@@ -25,6 +25,8 @@ NARROWEST = 20
 """Columns that text is laid out for at least."""
 PATIENCE = 1.0
 """Seconds before progress is shown."""
+LONGEST_MESSAGE = 1500
+"""Characters of a message: what a damaged file holds may be longer than any screen."""
 
 
 def terminal_width() -> int:
@@ -95,6 +97,19 @@ def print_sentence(text: str) -> None:
     """Print a sentence; on a terminal it is broken between words."""
     for line in wrap_lines(escape_control_characters(text), _get_wrap_width()):
         click.echo(line)
+
+
+def print_message(message: str) -> None:
+    """Print a message in one line on the error stream."""
+    click.echo(f"quizgen: {shorten_message(' '.join(message.split()))}", err=True)
+
+
+def shorten_message(message: str) -> str:
+    """Return a message without control characters; what is too long loses its middle."""
+    shown = escape_control_characters(message)
+    if len(shown) <= LONGEST_MESSAGE:
+        return shown
+    return f"{shown[: LONGEST_MESSAGE - 200]} ... {shown[-200:]}"
 
 
 class ProgressLine:

@@ -23,8 +23,9 @@ from quizgen.classes.class_folder import (
 )
 from quizgen.classes.pseudonyms import new_secret, student_code
 from quizgen.classes.roster import RosterStudent, clean_cell
-from quizgen.core.errors import ClassError
+from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
+from quizgen.core.untrusted import error_context
 from quizgen.lms import MANIFEST_SUFFIX
 from quizgen.lms.attempts import QuizAttempt, ReportLoss
 from quizgen.lms.grading import SortedResponses, sort_responses
@@ -74,7 +75,10 @@ def import_quiz(
     """
     known, name = read_manifest(keys), keys.name.removesuffix(MANIFEST_SUFFIX)
     people = _last_attempts(read_attempts(reports, known.found, tell), tell)
-    papers = [*_make_papers(people, known, tell)]
+    with error_context(keys, KeyFileError):
+        papers = [*_make_papers(people, known, tell)]
+    if folder.is_new and not papers:
+        raise ClassError(f"{keys}: nobody has responded to a question of these keys")
     if folder.is_new:
         _begin_class(folder, name, [student for student, _ in people], papers)
     elif folder.settings.digest:
@@ -167,8 +171,6 @@ def _begin_class(
 
     No papers can be generated for it, so its settings have no digest and no templates.
     """
-    if not papers:
-        raise ClassError("nobody has responded to a question of these keys")
     own = folder.path.resolve().name
     lang = papers[0].lang
     settings = ClassSettings(own, new_secret(), name, (), lang=lang, digest="", templates=())

@@ -7,6 +7,7 @@ parts. Field names are those of the file.
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
@@ -31,6 +32,9 @@ LARGEST_MANIFEST = 200_000_000
 _LETTERS = "23456789abcdefghjkmnpqrstuvwxyz"
 # A token as it stands in the text of a question.
 TOKEN_PATTERN = rf"\[([{_LETTERS}]{{4}}-[{_LETTERS}]{{4}})\]"
+
+_LETTER = re.compile(r"[\w-]{1,20}")
+_PLACE = re.compile(r"\d{1,4}|-")
 
 # What an interaction is, in an export and in its manifest.
 InteractionKind = Literal["number", "words", "truth", "one", "many", "pairs", "order", "written"]
@@ -59,6 +63,15 @@ class ResponseField(msgspec.Struct, frozen=True, omit_defaults=True):
     options: dict[str, list[str]] = {}
     targets: dict[str, list[str]] = {}
     name: str = ""
+
+    def __post_init__(self) -> None:
+        """Raise ``ValueError`` for what no export writes, and no response could be read by."""
+        if self.kind in {"one", "many", "pairs", "order"} and not any(self.options.values()):
+            raise ValueError("a field to choose in has no options")
+        if not all(map(_LETTER.fullmatch, (*self.options, *self.targets))):
+            raise ValueError("the letter of an option or a target is no letter or number")
+        if self.kind == "order" and not all(map(_PLACE.fullmatch, self.targets)):
+            raise ValueError("the place of a step is no number")
 
 
 class ManifestQuestion(msgspec.Struct, frozen=True):
@@ -90,6 +103,12 @@ class ManifestItem(msgspec.Struct, dict=True):
     question: msgspec.Raw
     shapes: dict[str, ResponseShape]
     entries: list[ManifestQuestion]
+
+    def __post_init__(self) -> None:
+        """Raise ``ValueError`` for a field of a part that is not described."""
+        parts = {field.part for question in self.entries for field in question.asks}
+        if not parts <= self.shapes.keys():
+            raise ValueError("a field belongs to no part")
 
     @cached_property
     def key(self) -> KeyQuestion:

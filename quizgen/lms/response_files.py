@@ -242,8 +242,8 @@ def _response_column(named: Sequence[tuple[str, str]], question: int) -> int:
         If there is none, or it holds right answers.
     """
     title, number = named[question]
-    name, other = named[question + 1] if question + 1 < len(named) else ("", "")
-    if other != number or _RIGHT_ANSWER.search(name):
+    follows = named[question + 1 : question + 2]
+    if not any(other == number and not _RIGHT_ANSWER.search(name) for name, other in follows):
         raise KeyFileError(
             f"no responses behind the column '{safe_echo(title)}"
             f" {safe_echo(number)}'; tick 'response' above "

@@ -140,6 +140,12 @@ def test_a_file_of_a_hundred_megabytes(tmp_path):
     assert f"larger than {LARGEST_REPORT // 10**6} MB" in refused(path)
 
 
+def test_the_last_column_has_no_responses_behind_it(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("Name,Question\nAda,What is it? [abcd-2345]\n", "utf-8")
+    assert "no responses behind the column 'Question" in refused(path)
+
+
 def test_an_archive_of_reports(tmp_path):
     path = tmp_path / "all.zip"
     with zipfile.ZipFile(path, "w") as archive:
@@ -151,6 +157,26 @@ def test_an_archive_of_reports(tmp_path):
     assert [line.split(":")[0] for line in lost] == [f"{path}/bad.csv"]
     assert [one.id for one in found] == ["78", "1815", "0042", "77", "77"]
     assert found[0].where == f"{path}/group/responses.csv: line 2"
+
+
+@pytest.mark.parametrize(
+    ("field", "told"),
+    [
+        ({"kind": "one"}, "has no options"),
+        ({"kind": "many", "options": {"A": []}}, "has no options"),
+        ({"kind": "pairs", "options": {"A B": ["x"]}}, "is no letter or number"),
+        ({"kind": "order", "options": {"A": ["x"]}, "targets": {"first": ["1"]}}, "is no number"),
+        ({"kind": "number", "part": "2"}, "belongs to no part"),
+    ],
+)
+def test_keys_by_which_no_response_could_be_read(tmp_path, field, told):
+    entry = {"mark": "abcd-2345", "id": "a", "asks": [{"part": "1", **field}]}
+    item = {"id": "a", "slot": "a", "lang": "en", "question": {}, "shapes": {"1": {"form": "one"}},
+            "entries": [entry]}  # fmt: skip
+    path = tmp_path / "x.keys.jsonl"
+    path.write_text(f'{{"format":"{MANIFEST_FORMAT}"}}\n{json.dumps(item)}\n', "utf-8")
+    with pytest.raises(KeyFileError, match=f"x.keys.jsonl: line 2: .*{told}"):
+        read_manifest(path)
 
 
 @pytest.mark.parametrize(

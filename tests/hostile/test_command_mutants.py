@@ -1,0 +1,56 @@
+"""Every command that takes a file says in a sentence what is wrong with a damaged one."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import click
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from command_mutants import BASES, COMMANDS, LARGEST, LONGEST, Workshop, spread_mutants
+
+from quizgen.cli.classes import class_
+from quizgen.cli.main import COMMANDS as ALL
+
+FEW, MANY = 60, int(os.environ.get("QUIZGEN_MUTANTS", "300"))
+NO_FILE = {"doctor", "schema", "tradeoff"}
+"""Commands that read no file of a user."""
+
+pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning")  # a fork beside threads
+
+
+@pytest.fixture(scope="session")
+def workshop(tmp_path_factory):
+    return Workshop(tmp_path_factory.mktemp("workshop"))
+
+
+def try_mutants(workshop, base, count, first=0):
+    """Mutants of the commands of one base, which takes the files as they are."""
+    spread = spread_mutants(count, first)
+    return [workshop.try_mutant(one, number) for one, number in spread if one.base == base]
+
+
+@pytest.mark.parametrize("base", BASES)
+def test_a_command_says_in_a_sentence_what_is_wrong_with_a_damaged_file(workshop, base):
+    assert [one for one in try_mutants(workshop, base, FEW) if one.failures] == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("base", BASES)
+def test_many_damaged_files_take_neither_long_nor_much(workshop, base):
+    tried = try_mutants(workshop, base, MANY, first=1000)
+    assert [one for one in tried if one.failures] == []
+    assert max(one.result.seconds for one in tried) <= LONGEST
+    assert max(one.result.megabytes for one in tried) <= LARGEST
+
+
+def test_every_command_that_takes_a_file_is_tried():
+    tried = {one.arguments.split()[0] for one in COMMANDS}
+    assert tried == {*ALL} - NO_FILE
+    assert isinstance(class_, click.Group)
+    of_a_class = {one.arguments.split()[1] for one in COMMANDS if one.base in {"class", "quiz"}}
+    assert {*class_.commands} <= of_a_class
