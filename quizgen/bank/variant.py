@@ -218,7 +218,8 @@ class Variant:
         found = []
         for name in part.of:
             plain = self.template.unit_factor(part.unit_of(self.template, name)) == 1
-            known = isinstance(self.values[name], fmpq) or not plain
+            exact = all(isinstance(self.values[given], fmpq) for given in chain.given)
+            known = isinstance(self.values[name], fmpq) or not (plain and exact)
             with working_precision():
                 found.append("" if known else format_tree(chain.bind_form(Sym(name), self.values)))
         return tuple(found)

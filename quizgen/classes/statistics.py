@@ -63,7 +63,7 @@ def feldt_interval(
     """
     first, second = students - 1, (students - 1) * (items - 1)
     tail = (1 - confidence) / 2
-    ends = (f_quantile(share, first, second) for share in (1 - tail, tail))
+    ends = (f_distribution_quantile(share, first, second) for share in (1 - tail, tail))
     lower, upper = (1 - (1 - value) * end for end in ends)
     return lower, upper
 
@@ -144,7 +144,7 @@ def f_tail(value: float, first: int, second: int) -> float:
     return float(share.beta_lower(arb(second) / 2, arb(first) / 2, regularized=1).mid())
 
 
-def f_quantile(share: float, first: int, second: int) -> float:
+def f_distribution_quantile(share: float, first: int, second: int) -> float:
     """Return the quantile of the F distribution at ``share`` (0 to 1)."""
     low, high = 0.0, 1.0
     while f_tail(high, first, second) > 1 - share:

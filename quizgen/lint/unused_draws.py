@@ -41,9 +41,9 @@ def _iter_used_names(template: Template) -> Iterator[str]:
     rules, chain = template.rules, template.chain
     for names in chain.operands.values():
         yield from names
-    for wrong in chain.traps.values():
-        for step in wrong:
-            yield from names_in(step.expr)
+    wrong = (*chain.traps.values(), *chain.form_traps.values(), chain.forms)
+    for step in (step for steps in wrong for step in steps):
+        yield from names_in(step.expr)
     for value in (rules.part, rules.where, rules.claims, rules.figure, rules.files):
         yield from _iter_names(value)
     yield from rules.keep

@@ -8,7 +8,7 @@ tree, too, whose outermost operators are those of ``FORMS``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import sympy
 from sympy.core.function import AppliedUndef
@@ -94,9 +94,8 @@ class FormResolver:
             return from_sympy(whole), True
         if _has_complex(whole):
             return self._convert_complex(whole)
-        tree = _convert_evaluated(whole)
-        names = {symbol.name for symbol in getattr(whole, "free_symbols", ())}
-        return tree, bool(names & self.free)
+        free = [s for s in getattr(whole, "free_symbols", ()) if s.name in self.free]
+        return _convert_evaluated(whole, free), bool(free)
 
     def _convert_complex(self, whole: sympy.Basic) -> tuple[Expr, bool]:
         """A complex number as its real and imaginary part; a real one as itself."""
@@ -126,10 +125,25 @@ def _evaluate(whole: sympy.Basic) -> sympy.Basic:
     return whole
 
 
-def _convert_evaluated(whole: sympy.Basic) -> Expr:
-    """The tree of what an expression comes to; an integral without a formula stays one."""
+def _order_powers(whole: sympy.Basic, free: Sequence[sympy.Symbol]) -> sympy.Basic:
+    """Return a polynomial from its highest power down, as it is written by hand.
+
+    SymPy keeps the terms of a sum in an order of its own, often the other way round. A sum that
+    an author wrote in another order, under ``evaluate(False)``, stays as it is.
+    """
+    is_sum = bool(free) and isinstance(whole, sympy.Add) and whole.is_polynomial(*free)
+    if not is_sum or whole.args != sympy.Add(*whole.args).args:
+        return whole
+    terms = sorted(
+        whole.as_ordered_terms(), key=lambda term: -sympy.Poly(term, *free).total_degree()
+    )
+    return sympy.Add(*terms, evaluate=False)
+
+
+def _convert_evaluated(whole: sympy.Basic, free: Sequence[sympy.Symbol] = ()) -> Expr:
+    """Return the tree of what an expression comes to; an integral without a formula stays one."""
     try:
-        return from_sympy(_evaluate(whole))
+        return from_sympy(_order_powers(_evaluate(whole), free))
     except BankError:
         if not (hasattr(whole, "has") and whole.has(sympy.Integral)):
             raise

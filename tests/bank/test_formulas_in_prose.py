@@ -181,9 +181,10 @@ def test_a_name_that_nobody_draws_is_refused(tmp_path):
         compose_variant(draw_variant(template, 1), "en")
 
 
-def test_a_value_that_is_a_formula_is_laid_out(bank):
+def test_a_value_that_is_a_formula_is_laid_out(bank, monkeypatch):
     filler = Interpolator(draw_variant(bank.template("formulas"), 1), "en")
-    filler.known = {**filler.known, "df": parse_formula("-2*x + 1")}
+    forms = {"df": parse_formula("-2*x + 1")}
+    monkeypatch.setattr(filler, "_find_formula", forms.get)
     sentence = r"$f'(x) = {{ df }}$, $y - {{ df }}$, $x {{ df }}$, {{ df }} and ${{ df }}^2$"
     (block,) = filler.blocks(parse_blocks(sentence))
     text = "".join(piece.text for piece in block.children)

@@ -65,7 +65,7 @@ def test_what_says_something_else_is_another_group(one, other):
 
 
 def test_case_and_signs_matter_in_what_is_no_sentence():
-    assert len(groups(numbers=["5 MW?", "5 mW?", "5  mW?"])) == 2
+    assert len(groups(numbers=["5 or 6 MW", "5 or 6 mW", "5 or 6  mW"])) == 2
 
 
 def test_key_points_are_a_suggestion_and_are_shown_where_they_stand():

@@ -69,7 +69,7 @@ def test_every_command_that_takes_a_bank_takes_trust_and_several():
     alone = {"new template", "new language"}  # write into one bank
     assert {name for name, several in taking.items() if not several} == alone
     assert taking.keys() - alone == {
-        "exam", "check", "practice", "class make", "cards", "sheet", "export", "serve",
+        "exam", "check", "mark", "practice", "class make", "cards", "sheet", "export", "serve",
         "templates", "preview", "banks", "lint",
     }  # fmt: skip
 

@@ -17,7 +17,7 @@ import traceback
 import zipfile
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from importlib import import_module
 from pathlib import Path
 from typing import NoReturn
@@ -626,3 +626,16 @@ def spread_mutants(count: int, first: int = 0) -> Iterator[tuple[FileCommand, in
     for command in COMMANDS:
         for number in range(max(1, round(count * command.share / whole))):
             yield command, first + number
+
+
+@lru_cache(maxsize=1)
+def _open_workshop(folder: Path) -> Workshop:
+    """Return the one workshop of this process."""
+    return Workshop(folder)
+
+
+def try_mutants_of_base(folder: Path, base: str, count: int, first: int) -> list[Mutant]:
+    """Return what became of the mutants of one base, among so many of all."""
+    workshop = _open_workshop(folder)
+    spread = spread_mutants(count, first)
+    return [workshop.try_mutant(one, number) for one, number in spread if one.base == base]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import click
@@ -11,7 +13,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from command_mutants import BASES, COMMANDS, LARGEST, LONGEST, Workshop, spread_mutants
+from command_mutants import BASES, COMMANDS, LARGEST, LONGEST, try_mutants_of_base
 
 from quizgen.cli.classes import class_
 from quizgen.cli.main import COMMANDS as ALL
@@ -25,13 +27,16 @@ pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning")  # a fork 
 
 @pytest.fixture(scope="session")
 def workshop(tmp_path_factory):
-    return Workshop(tmp_path_factory.mktemp("workshop"))
+    """A process of its own: commands run in forks, which Typst survives in no process that has
+    made a PDF, as this one may have."""
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as fresh:
+        yield fresh, tmp_path_factory.mktemp("workshop")
 
 
 def try_mutants(workshop, base, count, first=0):
     """Mutants of the commands of one base, which takes the files as they are."""
-    spread = spread_mutants(count, first)
-    return [workshop.try_mutant(one, number) for one, number in spread if one.base == base]
+    fresh, folder = workshop
+    return fresh.submit(try_mutants_of_base, folder, base, count, first).result()
 
 
 @pytest.mark.parametrize("base", BASES)

@@ -22,7 +22,8 @@ def template(folder, rules, prose=WORDS + REASONS):
     home = folder / "templates" / "light" / "one"
     home.mkdir(parents=True)
     (home / "template.toml").write_text(HEAD + rules, "utf-8")
-    (home / "en.md").write_text(f"# T\nstem\n{prose}", "utf-8")
+    shown = " {{ n }}" if "\nn = " in rules else ""  # what nothing uses makes no other question
+    (home / "en.md").write_text(f"# T\nstem{shown}\n{prose}", "utf-8")
     return Bank(folder).template("one")
 
 

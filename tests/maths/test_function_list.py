@@ -8,7 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 
-from functions import build_page  # noqa: E402 - tools are no package
+from list_functions import build_page  # noqa: E402 - tools are no package
 
 
 def test_the_page_of_functions_is_made_from_the_table():

@@ -95,6 +95,14 @@ def width(table, key):
     return Fraction(0) if table.get("exact") else None
 
 
+def printed(table, key):
+    """The key as it is printed: rounded half away from zero where decimals are asked."""
+    if "decimals" not in table:
+        return key
+    scale = 10 ** table["decimals"]
+    return Fraction(int(abs(key) * scale + Fraction(1, 2)), scale) * (1 if key >= 0 else -1)
+
+
 def typed(value, table):
     unit = table["unit"] if table["kind"] == "quantity" else ""
     percent = "%" if table.get("percent") else ""
@@ -111,6 +119,8 @@ def test_the_bound_counts_and_beyond_it_does_not(parts):
             continue
         step = max(reach, abs(key), Fraction(1)) / 10**9
         for sign in (1, -1):
-            on, beyond = key + sign * reach, key + sign * (reach + step)
+            # what is printed is right within the same bound, too
+            centre = max((key, printed(table, key)), key=lambda value: sign * value)
+            on, beyond = key + sign * reach, centre + sign * (reach + step)
             assert grade_answer(table, typed(on, table)).verdict == "correct", (table, on)
             assert grade_answer(table, typed(beyond, table)).verdict != "correct", (table, beyond)

@@ -9,7 +9,7 @@ from sympy import evaluate, symbols
 from quizgen.maths.model import Model, Step
 
 m, n, k = symbols("m n k", integer=True)
-E, D, O = symbols("E D O", integer=True)  # noqa: E741 - the letters of the question
+E, D, O = symbols("E D O", integer=True)
 
 with evaluate(False):
     MODEL = Model(

@@ -51,7 +51,8 @@ def judge_readings(
     if readings.doubt.native and (places_asked == 3 or verdict.credit):
         return verdict
     other = judge(readings.other)
-    if whole:
+    traps = [one.note.startswith("trap:") for one in (verdict, other)]
+    if whole and (other.credit or traps == [False, True]):
         return other
     return choose_reading(
         verdict, other, readings.doubt, (readings.main.read_as, readings.other.read_as)

@@ -31,7 +31,7 @@ import msgspec
 
 from quizgen.maths.notation.lexer import FormulaReadError, Token
 from quizgen.maths.notation.names import FUNCTIONS, LIST_FUNCTIONS
-from quizgen.maths.operators import OperatorSyntax, operators_with_syntax
+from quizgen.maths.operators import BINDERS, OperatorSyntax, operators_with_syntax
 from quizgen.maths.tree import Call, Expr, Sym
 
 BRACKET, EITHER, BOTH, NEGATED, RELATION, SUM, SIGNED, PRODUCT = range(8)
@@ -268,6 +268,8 @@ def _build_bracketed(begun: _Begun, following: str) -> Expr:
     odd = name == "piecewise" and count % 2 == 0
     if (odd or not least <= count <= most) and following != "NOT":  # that is the first slip
         raise FormulaReadError("argument-count", piece.column, piece.text)
+    if name in BINDERS and not isinstance(begun.operands[0], Sym):
+        raise FormulaReadError("unexpected", piece.column, piece.text, ["NAME"])
     return Call(name, tuple(begun.operands))
 
 

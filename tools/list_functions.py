@@ -30,9 +30,9 @@ SPELLINGS = {
 
 HEAD = """# What a step may use
 
-This page is made from the table of operators (`quizgen/maths/operators.py`) by `uv run python
-tools/functions.py`. A step of a solver is any SymPy expression that comes to these; what is typed
-by students and in `template.toml` is read by the same names.
+This page is made from the table of operators (`quizgen/maths/operators.py`) by
+`uv run python tools/list_functions.py`. A step of a solver is any SymPy expression that comes to
+these; what is typed by students and in `template.toml` is read by the same names.
 
 Values are *exact* where they are rational, also at the angles whose sine, cosine or tangent is
 rational (`cos(pi/2)` is 0). Others are a *ball*: an interval that is proved to hold the value. An
