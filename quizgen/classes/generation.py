@@ -24,6 +24,7 @@ from quizgen.bank.variant import Variant
 from quizgen.classes.class_folder import (
     FORMS,
     PAPERS,
+    SETTINGS,
     SOLUTIONS,
     ClassFolder,
     ClassSettings,
@@ -36,6 +37,7 @@ from quizgen.classes.roster import RosterStudent, seat_neighbours
 from quizgen.core.errors import ClassError
 from quizgen.core.executor import map_unordered
 from quizgen.core.files import PRIVATE, write_all
+from quizgen.core.untrusted import error_context
 from quizgen.paper.answer_form import has_answers, write_blank_form
 from quizgen.paper.answer_key import make_answer_key
 from quizgen.paper.blueprint import Blueprint
@@ -197,8 +199,10 @@ def _check_bank_unchanged(folder: ClassFolder, blueprint: Blueprint) -> None:
     Papers made from both states could not be compared, and their keys would differ.
     """
     settings = folder.settings
-    bank = open_class_bank(settings)
-    if _compute_class_digest(bank, blueprint, settings.templates) != settings.digest:
+    with error_context(folder.path / SETTINGS):
+        bank = open_class_bank(settings)
+        digest = _compute_class_digest(bank, blueprint, settings.templates)
+    if digest != settings.digest:
         code = next((head.code for head in folder.heads().values()), "")
         told = (
             describe_differences(folder.find_by_code(code).key.banks, bank.members) if code else ""

@@ -106,7 +106,8 @@ def _check_items(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
     named = {one.item for one in rulings}
     unknown = named - keys.items() if named else ()
     if unknown:
-        raise ClassError(f"{FILE}: item {min(unknown)!r} is in no paper of this class")
+        file = keys.folder.path / FILE
+        raise ClassError(f"{file}: item {min(unknown)!r} is in no paper of this class")
 
 
 def _iter_jobs(

@@ -75,7 +75,7 @@ class Database:
             try:
                 with self.writing() as connection:
                     upgrade(connection)
-            except (SQLAlchemyError, OSError) as error:
+            except (SQLAlchemyError, OSError, UnicodeError) as error:  # the names of damaged tables
                 raise StoreError(
                     f"{_format_url_safely(url)}: {_format_database_error(error)}"
                 ) from error
@@ -217,7 +217,7 @@ def back_up(address: str, file: Path) -> None:
         with fresh.open("rb+") as written:
             os.fsync(written.fileno())
         fresh.replace(file)
-    except (sqlite3.Error, OSError) as error:
+    except (sqlite3.Error, OSError, UnicodeError) as error:
         fresh.unlink(missing_ok=True)
         raise StoreError(f"{file}: {error}") from error
 
