@@ -535,11 +535,11 @@ def _lay_out_pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 def _lay_out_matrix(run: _Layout, args: tuple[Expr, ...]) -> Node:
     rows = [row.args for row in args if isinstance(row, Call)]
-    return Fenced("()", Matrix(tuple(tuple(map(run.lay, row)) for row in rows)))
+    return Matrix(tuple(tuple(map(run.lay, row)) for row in rows))
 
 
 def _lay_out_vector(run: _Layout, args: tuple[Expr, ...]) -> Node:
-    return Fenced("()", Matrix(tuple((run.lay(arg),) for arg in args)))
+    return Matrix(tuple((run.lay(arg),) for arg in args))
 
 
 def _list_items(run: _Layout, args: tuple[Expr, ...], sign: str = ";") -> Node:

@@ -336,3 +336,11 @@ def test_sums_and_their_kin_are_written_with_their_signs(tree, text, speech):
     node = lay_out(tree)
     assert to_text(node) == text
     assert speech is None or to_speech(node) == speech
+
+
+def test_a_matrix_has_one_pair_of_brackets():
+    row = Call("row", (make_number(1), make_number(2)))
+    node = lay_out(Call("matrix", (row, row)))
+    assert to_latex(node) == r"\begin{pmatrix} 1 & 2 \\ 1 & 2 \end{pmatrix}"
+    assert to_mathml(node).count('form="prefix"') == 1
+    assert to_speech(node).count("bracket") == 0
