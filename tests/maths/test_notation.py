@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from quizgen.maths.notation import FUNCTIONS, FormulaReadError, format_tree, parse_formula
+from quizgen.maths.operators import BINDERS
 from quizgen.maths.tree import Call, Num, Sym
 
 a, b, c = Sym("a"), Sym("b"), Sym("c")
@@ -166,7 +167,10 @@ def _calls(inner):
             ),
         )
         for name, (low, high) in FUNCTIONS.items()
+        if name not in BINDERS
     ]
+    bound = st.tuples(st.builds(Sym, NAMES), inner, inner, inner)  # a sum begins with a name
+    named += [st.builds(Call, st.just(name), bound) for name in sorted(BINDERS)]
     return st.one_of(
         st.builds(Call, st.sampled_from(["add", "mul", "and", "or"]), several),
         st.builds(
