@@ -19,6 +19,7 @@ from quizgen.grading.reading.answer_reader import (
     list_readings,
     prove_groups,
 )
+from quizgen.grading.reading.normalise import LONGEST_PROSE
 from quizgen.grading.spec import AnySpec, WordSpec
 from quizgen.grading.verdict import WRONG, Verdict, ambiguous, attach_message, unreadable
 from quizgen.maths.notation import FormulaReadError
@@ -59,6 +60,8 @@ def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
 
 
 def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
+    if len(typed) > LONGEST_PROSE:  # no answer is so long: nothing is searched for one in it
+        return _judge_text(spec, typed, options)
     form = spec.written_as
     verdict = _judge_text(spec, _prepare(typed, form), options)
     if verdict.verdict == WRONG and form in MEASURED and has_second_meaning(typed):

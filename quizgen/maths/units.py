@@ -156,6 +156,7 @@ _BASE = {
     "K": "uµμmk",
     "mol": "nuµμmk",
     "lm": "mk",
+    "eV": "mkMG",
     "rad": "uµμm",
     "px": "kMG",
     "bit": _LARGE,
@@ -177,7 +178,8 @@ _BASE = {
     "CHF": "",
 }
 """Units of a kind of their own: those of SI, and what is counted. Nobody can add 3 °C to 3 K or
-3 € to 3 $ without knowing a zero or a rate, so these are kinds as well."""
+3 € to 3 $ without knowing a zero or a rate, so these are kinds as well, and the electronvolt, whose
+joules are too small for tolerances that were chosen for whole numbers of them."""
 
 _DERIVED = {
     # unit: (its size, the units it is made of, prefixes that are in use with it)
@@ -186,7 +188,6 @@ _DERIVED = {
     "Pa": ("1", "N/m^2", f"{_ALL}h"),
     "bar": ("100000", "Pa", "m"),
     "J": ("1", "N*m", _ALL),
-    "eV": ("1.602176634e-19", "J", "mkMG"),
     "W": ("1", "J/s", _ALL),
     "Wh": ("3600", "J", "mkMGT"),
     "C": ("1", "A*s", _SMALL),
@@ -233,8 +234,7 @@ _DERIVED = {
     "BDT": ("1", "৳", ""),
 }
 """Units that are others times a number, each over those above it: the factors of the SI brochure
-(9th edition, tables 4 and 8; the electronvolt is exact since 2019), of the international yard and
-pound, and of IEC 80000-13."""
+(9th edition, tables 4 and 8), of the international yard and pound, and of IEC 80000-13."""
 
 _KILOGRAM = Fraction(1, 1000)
 """The gram in base units: SI is coherent with the kilogram (1 W is 1 kg·m²/s³)."""
