@@ -354,21 +354,26 @@ class Bank:
         rule = self.rules(name).figure
         if rule is None or rule.name:
             return self.figure_file(rule.name) if rule else None
-        file = self.folder_of(name) / f"{OWN_FIGURE}.py"
-        if not file.is_file():
-            what = f"[figure] has no name, and there is no {file.name} beside it"
-            raise _MissingError(what, rule="QG127", place=("figure",))
-        self._require_trust(file)
-        return file
+        return self._find_module_beside(name, OWN_FIGURE, "[figure] has no name", "figure")
 
-    def _data_of(self, name: str) -> Path | None:
-        """What draws a template's data: the module beside it, if it has ``[data]``."""
+    def _find_data_file(self, name: str) -> Path | None:
+        """Return the module that draws a template's data; None if it has no ``[data]``."""
         if not self.rules(name).data:
             return None
-        file = self.folder_of(name) / f"{OWN_DATA}.py"
+        return self._find_module_beside(name, OWN_DATA, "there is [data]", "data")
+
+    def _find_module_beside(self, name: str, stem: str, because: str, table: str) -> Path:
+        """Return the module of a name in a template's folder, which its rules call for.
+
+        Raises
+        ------
+        BankError
+            At the table of its rules, if it is not there or the bank is not trusted.
+        """
+        file = self.folder_of(name) / f"{stem}.py"
         if not file.is_file():
-            what = f"there is [data], and no {file.name} beside it"
-            raise _MissingError(what, rule="QG127", place=("data",))
+            what = f"{because}, and there is no {file.name} beside it"
+            raise _MissingError(what, rule="QG127", place=(table,))
         self._require_trust(file)
         return file
 
@@ -537,7 +542,7 @@ class Bank:
         digest = compute_digest(*(read_bytes(path, BankError) for path in files), source, *words)
         ordered: dict[str, LanguageFile] = {lang: texts[lang] for lang in order}
         quantities = self.quantities.get(rules.solver, QuantityNames())
-        figure, data = self._find_figure_file(name), self._data_of(name)
+        figure, data = self._find_figure_file(name), self._find_data_file(name)
         template = Template(
             name, rules, chain, ordered, digest, folder, self.metadata, quantities, figure,
             self._solver_file(rules.solver), data, read_pictures(folder, ordered),

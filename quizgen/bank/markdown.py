@@ -76,7 +76,7 @@ class TypesetFormula(Protocol):
     """What stands in the place of a formula or a ``PictureLink`` once filled."""
 
     @property
-    def typed(self) -> str:
+    def typed_text(self) -> str:
         """Return the formula as a learner would type it."""
 
     @property

@@ -13,7 +13,7 @@ from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
-from quizgen.kinds.forms import entry_matches, format_entry, parse_entry
+from quizgen.kinds.forms import entry_matches, format_plain, parse_entry, typeset_key
 from quizgen.locale import translate
 from quizgen.maths.complex_values import ComplexValue, evaluate_complex
 from quizgen.maths.constants import parse_exact
@@ -146,8 +146,8 @@ def ask(part: PartContext) -> AskedPart[ComplexSpec]:
 
 def _list_parts(form: Expr) -> list[str]:
     if isinstance(form, Call) and form.op == "complex":
-        return [format_entry(arg) for arg in form.args]
-    return [format_entry(form), "0"]
+        return [format_plain(arg) for arg in form.args]
+    return [format_plain(form), "0"]
 
 
 def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
@@ -158,11 +158,7 @@ def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
 
 def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
     """The number as it is written by hand."""
-    from quizgen import typeset
-    from quizgen.question.inlines import TypesetMaths
-
-    tree = build_complex(spec.parts, spec.form)
-    return (TypesetMaths(typeset.lay_out(tree, inline=True), format_tree(tree)),)
+    return typeset_key(build_complex(spec.parts, spec.form))
 
 
 KIND = AnswerKind(AuthoredComplex, ComplexSpec, ask, input_hints, explain_key)

@@ -15,7 +15,7 @@ from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous, correct, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
-from quizgen.kinds.forms import require_form
+from quizgen.kinds.forms import require_form, typeset_key
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.tree import Call, Expr, names_in
 
@@ -99,11 +99,7 @@ def ask(part: PartContext) -> AskedPart[EquationSpec]:
 
 def explain_key(spec: EquationSpec, _lang: str) -> TextOrInlines:
     """The equation as it is written by hand."""
-    from quizgen import typeset
-    from quizgen.question.inlines import TypesetMaths
-
-    tree = parse_authored(spec.value, tuple(spec.symbols))
-    return (TypesetMaths(typeset.lay_out(tree, inline=True), format_tree(tree)),)
+    return typeset_key(parse_authored(spec.value, tuple(spec.symbols)))
 
 
 KIND = AnswerKind(AuthoredEquation, EquationSpec, ask, hint("ask.equation"), explain_key)

@@ -36,6 +36,7 @@ from quizgen.kinds.contract import (
     PartContext,
     SymbolDomain,
 )
+from quizgen.kinds.forms import typeset_key
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import format_tree, pretty
@@ -252,11 +253,7 @@ def ask(part: PartContext) -> AskedPart[ExpressionSpec]:
 
 def explain_key(spec: ExpressionSpec, _lang: str) -> TextOrInlines:
     """Return the formula as it is written by hand."""
-    from quizgen import typeset
-    from quizgen.question.inlines import TypesetMaths
-
-    formula = parse_authored(spec.value, tuple(spec.symbols))
-    return (TypesetMaths(typeset.lay_out(formula, inline=True), format_tree(formula)),)
+    return typeset_key(parse_authored(spec.value, tuple(spec.symbols)))
 
 
 HOW_TO_TYPE = hint("ask.expression", example=EXAMPLE)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
@@ -17,7 +18,12 @@ from quizgen.maths.numbers import is_short_decimal
 from quizgen.maths.tree import Call, Expr, Num
 from quizgen.maths.values import Value
 
+if TYPE_CHECKING:
+    from quizgen.question.inlines import TextOrInlines
+
 _NUMBER = re.compile(r"-?\d+(?:/\d+)?")
+_FORM_WORDS = {"eq": "equation"}
+"""Operator to its name, where that is not the word for it."""
 ROUNDED = fmpq(1, 200)
 """Share of a number that has no short decimal form within which it may be rounded."""
 
@@ -31,13 +37,20 @@ def require_form(part: PartContext, form: Expr, *ops: str) -> Call:
         If it is another.
     """
     if not isinstance(form, Call) or form.op not in ops:
-        raise part.error(f"{part.answer.get('of')!r} is no {' or '.join(ops)} of the solver")
+        wanted = " or ".join(_FORM_WORDS.get(op, op) for op in ops)
+        raise part.error(f"{part.answer.get('of')!r} is no {wanted} of the solver")
     return form
 
 
-def format_entry(expr: Expr) -> str:
-    """A number of a form as a key stores it: a constant formula, exact."""
-    return format_plain(expr)
+def typeset_key(tree: Expr, typed_text: str = "") -> TextOrInlines:
+    """Return a formula of a key as it is written by hand.
+
+    ``typed_text`` is how it would be typed, where that is not the formula itself.
+    """
+    from quizgen import typeset
+    from quizgen.question.inlines import TypesetMaths
+
+    return (TypesetMaths(typeset.lay_out(tree, inline=True), typed_text or format_tree(tree)),)
 
 
 def format_plain(expr: Expr) -> str:

@@ -21,11 +21,12 @@ from quizgen.kinds.contract import (
 )
 from quizgen.kinds.forms import (
     entry_matches,
-    format_entry,
+    format_plain,
     parse_entry,
     read_entry,
     require_form,
     show_entry,
+    typeset_key,
 )
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError
@@ -180,18 +181,14 @@ def ask(part: PartContext) -> AskedPart[MatrixSpec]:
 def _list_entries(part: PartContext, form: Expr) -> Entries:
     matrix = require_form(part, form, "matrix", "vector")
     if matrix.op == "vector":
-        return [[format_entry(arg)] for arg in matrix.args]
+        return [[format_plain(arg)] for arg in matrix.args]
     rows = [row.args for row in matrix.args if isinstance(row, Call)]
-    return [[format_entry(arg) for arg in row] for row in rows]
+    return [[format_plain(arg) for arg in row] for row in rows]
 
 
 def explain_key(spec: MatrixSpec, _lang: str) -> TextOrInlines:
     """The matrix as it is written by hand."""
-    from quizgen import typeset
-    from quizgen.question.inlines import TypesetMaths
-
-    tree = build_matrix(spec.entries)
-    return (TypesetMaths(typeset.lay_out(tree, inline=True), spec.show()),)
+    return typeset_key(build_matrix(spec.entries), spec.show())
 
 
 KIND = AnswerKind(AuthoredMatrix, MatrixSpec, ask, hint("ask.matrix"), explain_key)

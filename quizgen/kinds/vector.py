@@ -22,11 +22,12 @@ from quizgen.kinds.contract import (
 )
 from quizgen.kinds.forms import (
     entry_matches,
-    format_entry,
+    format_plain,
     parse_entry,
     read_entry,
     require_form,
     show_entry,
+    typeset_key,
 )
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
@@ -117,7 +118,7 @@ def _list_components(part: PartContext, form: Expr) -> list[str]:
     if vector.op == "matrix":
         (row,) = args
         args = row.args if isinstance(row, Call) else ()
-    return [format_entry(arg) for arg in args]
+    return [format_plain(arg) for arg in args]
 
 
 def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:
@@ -128,11 +129,7 @@ def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:
 
 def explain_key(spec: ColumnSpec, _lang: str) -> TextOrInlines:
     """The vector as it is written by hand."""
-    from quizgen import typeset
-    from quizgen.question.inlines import TypesetMaths
-
-    tree = build_vector(spec.components)
-    return (TypesetMaths(typeset.lay_out(tree, inline=True), spec.show()),)
+    return typeset_key(build_vector(spec.components), spec.show())
 
 
 KIND = AnswerKind(AuthoredVector, ColumnSpec, ask, input_hints, explain_key)

@@ -255,7 +255,7 @@ def _iter_printed_formulas(parts: Iterable[Block | Inline]) -> Iterator[Expr]:
     """Yield the formulas in blocks: typeset ones, those in code and in programs."""
     for part in parts:
         if isinstance(part, TypesetMaths):
-            yield from _parse_if_formula(part.typed)
+            yield from _parse_if_formula(part.typed_text)
         elif isinstance(part, InlineCode):
             yield from _parse_if_formula(part.text)
         elif isinstance(part, CodeBlock):

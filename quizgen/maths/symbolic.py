@@ -51,7 +51,7 @@ class FormResolver:
                 return self._convert(whole)
             except BankError:
                 raise
-            except (AttributeError, TypeError, ValueError, NotImplementedError) as error:
+            except (AttributeError, TypeError, ValueError, RuntimeError) as error:
                 what = f"SymPy cannot work {expression} out: {type(error).__name__}: {error}"
                 raise BankError(f"{what} (compute it before `with evaluate(False)`)") from error
 

@@ -93,7 +93,7 @@ def typeset_side(text: str, inside: Inside) -> TypesetMaths:
         node = typeset.lay_out(expr, leaves={name: made.node for name, made in leaves.items()})
     except (FormulaError, RenderError) as error:
         raise BankError(f"{text!r}: {error}", rule="QG155") from error
-    typed = _NAME.sub(lambda m: leaves[m[0]].typed if m[0] in leaves else m[0], text)
+    typed = _NAME.sub(lambda m: leaves[m[0]].typed_text if m[0] in leaves else m[0], text)
     return TypesetMaths(node, typed)
 
 
@@ -169,7 +169,9 @@ def _typeset_relation(text: str, inside: Inside) -> TypesetMaths:
     if not signs:
         return parts[0]
     node = typeset.relation_chain(signs, [part.node for part in parts])
-    return TypesetMaths(node, " ".join(_interleave_signs([part.typed for part in parts], signs)))
+    return TypesetMaths(
+        node, " ".join(_interleave_signs([part.typed_text for part in parts], signs))
+    )
 
 
 def _interleave_signs(parts: list[str], signs: list[str]) -> Iterator[str]:
@@ -193,8 +195,10 @@ def _typeset_integral(table: Piece, inside: Inside) -> TypesetMaths:
     sign = LargeOperator("∫", *[bound.node for bound in bounds])
     factors = body.node.items if isinstance(body.node, MathRow) else (body.node,)
     small = MathRow((OperatorSign(" "), Ident("d"), typeset.lay_out_name(over)))
-    ends = f"[{bounds[0].typed}, {bounds[1].typed}] " if bounds else ""
-    return TypesetMaths(MathRow((sign, *factors, small), PRODUCT), f"∫ {ends}{body.typed} d{over}")
+    ends = f"[{bounds[0].typed_text}, {bounds[1].typed_text}] " if bounds else ""
+    return TypesetMaths(
+        MathRow((sign, *factors, small), PRODUCT), f"∫ {ends}{body.typed_text} d{over}"
+    )
 
 
 def _typeset_application(table: Piece, inside: Inside) -> TypesetMaths:
@@ -202,13 +206,13 @@ def _typeset_application(table: Piece, inside: Inside) -> TypesetMaths:
     parts = [_typeset_relation(text, inside) for text in _require_texts(table, "to")]
     head = _require_symbol(table, "apply")
     node = Func(_typeset_letter({"letter": head}, inside).node, tuple(part.node for part in parts))
-    return TypesetMaths(node, f"{head}({', '.join(part.typed for part in parts)})")
+    return TypesetMaths(node, f"{head}({', '.join(part.typed_text for part in parts)})")
 
 
 def _typeset_tuple(table: Piece, inside: Inside) -> TypesetMaths:
     """Return formulas in parentheses: a point."""
     parts = [_typeset_relation(text, inside) for text in _require_texts(table, "tuple")]
-    typed = ", ".join(part.typed for part in parts)
+    typed = ", ".join(part.typed_text for part in parts)
     return TypesetMaths(typeset.fence([part.node for part in parts]), f"({typed})")
 
 
@@ -221,7 +225,7 @@ def _typeset_interval(table: Piece, inside: Inside) -> TypesetMaths:
     ends = _require_text(table, "ends")
     if ends not in _ENDS:
         raise RenderError(f"ends {ends!r} (allowed: {', '.join(_ENDS)})")
-    typed = f"{ends[0]}{', '.join(part.typed for part in parts)}{ends[1]}"
+    typed = f"{ends[0]}{', '.join(part.typed_text for part in parts)}{ends[1]}"
     return TypesetMaths(typeset.fence([part.node for part in parts], ends), typed)
 
 
@@ -245,7 +249,9 @@ def _typeset_quadratic_form(table: Piece, inside: Inside) -> TypesetMaths:
     inverse = Scripts(matrix.node, None, typeset.negative(Digits("1")))
     turned = typeset.lay_out_power(held, OperatorSign("ᵀ"))
     node = MathRow((turned, OperatorSign(""), inverse, OperatorSign(""), held), PRODUCT)
-    return TypesetMaths(node, f"({vector.typed})^T {matrix.typed}^-1 ({vector.typed})")
+    return TypesetMaths(
+        node, f"({vector.typed_text})^T {matrix.typed_text}^-1 ({vector.typed_text})"
+    )
 
 
 def _typeset_accent(table: Piece, inside: Inside) -> TypesetMaths:

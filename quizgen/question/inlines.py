@@ -21,13 +21,13 @@ class TypesetMaths(msgspec.Struct, frozen=True):
     """A formula ready for printing: its layout, how it would be typed, and in which language."""
 
     node: typeset.Node
-    typed: str
+    typed_text: str
     lang: str = FIRST
 
     @property
     def text(self) -> str:
         """Return it in plain text for people; a comma in numbers separates none."""
-        text = pretty.format_formula(self.typed)
+        text = pretty.format_formula(self.typed_text)
         if localise_numbers(self.lang, text) != text:
             text = text.replace(", ", "; ")
         return localise_numbers(self.lang, text)
@@ -64,7 +64,7 @@ class PlacedPicture(msgspec.Struct, frozen=True):
         return f"[{self.alt}]"
 
     @property
-    def typed(self) -> str:
+    def typed_text(self) -> str:
         """Return the same as ``text``: nobody types a picture."""
         return self.text
 

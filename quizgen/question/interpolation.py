@@ -286,7 +286,7 @@ def unbreakable_groups(parts: Iterable[Inline]) -> Iterator[tuple[Inline, ...]]:
         if not isinstance(group[0], TypesetMaths):
             yield (group[0],)
             continue
-        while isinstance(last := group[-1], TypesetMaths) and len(last.typed) <= SHORT:
+        while isinstance(last := group[-1], TypesetMaths) and len(last.typed_text) <= SHORT:
             tail = _take_formula_tail(rest)
             if not tail:
                 break
@@ -404,7 +404,7 @@ def inlines_as_typed(parts: Iterable[Inline]) -> str:
     return "".join(
         inlines_as_typed(part.children)
         if isinstance(part, Emphasis)
-        else part.typed
+        else part.typed_text
         if isinstance(part, TypesetMaths)
         else _get_plain_text(part)
         for part in parts

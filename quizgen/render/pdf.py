@@ -332,7 +332,7 @@ class _TypstPaper:
             typst_equation(lines[0].maths, self.main, block=True),
             typst_literal(lines[0].formula),
         )
-        shown = f"#fitted[{maths}]" if len(lines[0].maths.typed) > SURE_TO_FIT else maths
+        shown = f"#fitted[{maths}]" if len(lines[0].maths.typed_text) > SURE_TO_FIT else maths
         return f"#step([{shown}], [{why}], {cite})"
 
     def _typeset_answer(self, part: PartSolution, lang: str) -> str:

@@ -37,7 +37,7 @@ def test_units_questions_and_section_are_told(bank):
     (line,) = (
         line for line in lines(compose_sheet(bank, "both", ["projection"])) if line.id == "F05"
     )
-    told = [part.text if isinstance(part, PlainText) else part.typed for part in line.units]
+    told = [part.text if isinstance(part, PlainText) else part.typed_text for part in line.units]
     assert "".join(told).replace("\u00a0", " ") == "p_x, p_y, p_z [m]; f, p'_x, p'_y [mm]"
     assert line.section == "4.1"
     english, bangla = (dict(said.questions) for said in line.said)

@@ -96,4 +96,4 @@ def test_a_wrong_formula_is_wrong_in_every_unit(drawn):
                 for unit in UNITS_ALONE
                 if near(value * unit, right) or near(value, right * unit)
             ]
-            assert not alike, (way.shown.typed, stage.formula.name)
+            assert not alike, (way.shown.typed_text, stage.formula.name)

@@ -52,7 +52,7 @@ def _iter_cloze_holes(entry: FormulaEntry) -> Iterator[ClozeHole]:
 def _typeset_visible_sides(parts: list[TypesetMaths], signs: list[str]) -> TypesetMaths:
     """Return the sides before the hidden one, with the sign after each, as one formula."""
     node = typeset.relation_chain(signs, [*(part.node for part in parts), MathRow(())])
-    typed = " ".join(f"{part.typed} {sign}" for part, sign in zip(parts, signs, strict=True))
+    typed = " ".join(f"{part.typed_text} {sign}" for part, sign in zip(parts, signs, strict=True))
     return TypesetMaths(node, typed)
 
 
@@ -61,5 +61,5 @@ def _typeset_hidden_sides(parts: list[TypesetMaths], signs: list[str]) -> Typese
     if not signs:
         return parts[0]
     pairs = zip(signs, parts[1:], strict=True)
-    typed = " ".join([parts[0].typed, *(f"{sign} {part.typed}" for sign, part in pairs)])
+    typed = " ".join([parts[0].typed_text, *(f"{sign} {part.typed_text}" for sign, part in pairs)])
     return TypesetMaths(typeset.relation_chain(signs, [part.node for part in parts]), typed)

@@ -137,6 +137,8 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) 
     """
     if form == "verbatim" or len(typed) > LONGEST_PROSE:
         return
+    if form == "values":  # before a label such as "value" is taken for a word that leads on
+        yield from separate_labelled_values(typed, list(names))
     plain = drop_decoration(typed, form)
     if plain != typed:
         yield plain

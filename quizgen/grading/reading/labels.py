@@ -62,8 +62,6 @@ def _same_labels() -> tuple[frozenset[str], ...]:
 
 
 _SHORTENED = re.compile(r"([^\W_]+)('*)(?:_(.+))?")
-_BEFORE_NUMBER = re.compile(rf"((?:[^\W\d_]|[{SIGNS}])+'*(?:_[^\W_]+'*)*) ?(?=[-+]?[\d.(])")
-_AFTER_NUMBER = re.compile(rf"(?P<value>.*[\d)%]) ?[(]?(?P<name>(?:[^\W\d_]|[{SIGNS}])+)[)]?")
 
 
 def find_name(typed: str, names: list[str]) -> str:
@@ -105,35 +103,6 @@ def _find_unique(found: Iterable[str]) -> str:
     return several.pop() if len(several) == 1 else ""
 
 
-def split_named_items(items: list[SourceText], names: list[str]) -> list[tuple[str, SourceText]]:
-    """Return each item as the name that it carries, '' for none, and its value.
-
-    Besides ``u = 420`` a name may stand before or after the value without a sign (``R 25``,
-    ``25 red``), provided that all items do so and all names are meant: a word after a number is
-    a unit otherwise.
-    """
-    pairs = [split_name(item) for item in items]
-    if any(name for name, _ in pairs):
-        return pairs
-    for split in (_split_name_before, _split_name_after):
-        loose = [split(item) for item in items]
-        if {find_name(name, names) for name, _ in loose} == set(names):
-            return loose
-    return pairs
-
-
-def _split_name_before(item: SourceText) -> tuple[str, SourceText]:
-    """Return the name and the value of ``R 25``; the name is empty if there is none."""
-    match = _BEFORE_NUMBER.match(item.text)
-    return (match[1], item.slice(match.end())) if match else ("", item)
-
-
-def _split_name_after(item: SourceText) -> tuple[str, SourceText]:
-    """Return the name and the value of ``25 red``; the name is empty if there is none."""
-    match = _AFTER_NUMBER.fullmatch(item.text)
-    return (match["name"], item.slice(0, match.end("value"))) if match else ("", item)
-
-
 def place_by_name(items: list[SourceText], names: list[str]) -> dict[str, SourceText] | None:
     """Return each value under the declared name it carries; None if no item carries a name.
 
@@ -142,7 +111,7 @@ def place_by_name(items: list[SourceText], names: list[str]) -> dict[str, Source
     FormulaReadError
         If a name is not asked for, or used twice.
     """
-    pairs = split_named_items(items, names)
+    pairs = [split_name(item) for item in items]
     if not any(name for name, _ in pairs):
         return None
     placed: dict[str, SourceText] = {}

@@ -212,7 +212,7 @@ def wrong_options(
 ) -> tuple[FormulaOption, ...]:
     """Return formulas of a step's misconceptions with another value, each once, shuffled."""
     right = right_option(drawn, step, known)
-    found = {right.shown.typed: right}
+    found = {right.shown.typed_text: right}
     for trap, expr in _iter_step_misconceptions(drawn, step):
         value, taken = evaluate_formula(drawn, expr), applicable_branch(drawn, expr)
         if (
@@ -224,7 +224,7 @@ def wrong_options(
         if leaks_answer(drawn, step.name, taken):
             continue
         shown = step_formula(drawn, step, taken, known)
-        found.setdefault(shown.typed, FormulaOption(trap, shown, value))
+        found.setdefault(shown.typed_text, FormulaOption(trap, shown, value))
     ways = [way for way in found.values() if way.trap]
     return tuple(shuffle(f"{level_seed(drawn)}/{step.name}/ways", ways))
 
