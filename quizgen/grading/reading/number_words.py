@@ -42,19 +42,29 @@ def _number_word_pattern() -> re.Pattern[str]:
     return re.compile(rf"^(?:{listed})(?![\w\u0980-\u09ff])", re.IGNORECASE)
 
 
-_LARGE = (
-    ("crores?|কোটি", 10**7),
-    ("millions?|millionen|mio|মিলিয়ন", 10**6),
-    ("lakhs?|lacs?|লাখ|লক্ষ", 10**5),
-    ("thousand|tausend|হাজার", 10**3),
-    ("hundred|hundert|শ|শত", 100),
-)
 _NUMBER = r"(\d+(?:\.\d+)?)"
-_SUMMAND = re.compile(
-    rf"{_NUMBER} ?(?:{'|'.join(f'({words})' for words, _ in _LARGE)})(?![\w\u0980-\u09ff])"
-    r"(?: (?:and|und|ও) | |$)",
-    re.IGNORECASE,
-)
+
+
+@cache
+def _list_multiples() -> dict[str, int]:
+    """Return the words that multiply the number before them, in small letters: lakh, thousand."""
+    rows = [
+        row.split(" ", 1)
+        for lang in list_languages()
+        for row in load_words(lang, "answers")["numbers"]["multiples"]
+    ]
+    return {word.lower(): int(size) for size, word in rows}
+
+
+@cache
+def _summand_pattern() -> re.Pattern[str]:
+    """Return the pattern of ``10 lakh`` and what leads on to the next summand."""
+    words = "|".join(map(re.escape, sorted(_list_multiples(), key=len, reverse=True)))
+    return re.compile(
+        rf"{_NUMBER} ?({words})(?![\w\u0980-\u09ff])(?: (?:and|und|ও) | |$)", re.IGNORECASE
+    )
+
+
 _REST = re.compile(r"\d{1,3}(?=$| )")
 _PIECE = re.compile(rf"{_NUMBER} ?((?:[^\W\d]|[\u0980-\u09ff])+)(?:,? (?:and|und|ও|এবং) |,? |$)")
 
@@ -71,11 +81,11 @@ def add_large_words(text: str) -> str:
     """``1 crore 10 lakh 59 thousand 200`` as one number; the text itself if it is no such sum."""
     found, position, last = Fraction(0), 0, 10**9
     count = 0
-    while (match := _SUMMAND.match(text, position)) is not None:
-        place = next(n for n in range(len(_LARGE)) if match[n + 2])
-        if _LARGE[place][1] >= last:
+    while (match := _summand_pattern().match(text, position)) is not None:
+        size = _list_multiples()[match[2].lower()]
+        if size >= last:
             return text
-        last = _LARGE[place][1]
+        last = size
         found += Fraction(match[1]) * last
         position, count = match.end(), count + 1
     rest = _REST.match(text, position) if count else None
