@@ -27,6 +27,8 @@ from quizgen.paper.answer_key import AnswerKey, answer_key_digest, parse_answer_
 
 SETTINGS, ROSTER, KEYS = "class.toml", "roster.csv", "keys.jsonl"
 PAPERS, SOLUTIONS, FORMS, ANSWERS = "papers", "solutions", "forms", "answers"
+DATA = "data"
+"""Files with drawn data, in a folder for each student whose questions name some."""
 
 
 class ClassSettings(msgspec.Struct, frozen=True):

@@ -22,6 +22,7 @@ from quizgen.bank.combined import bank_sources, open_banks
 from quizgen.bank.sampler import pick_index
 from quizgen.bank.variant import Variant
 from quizgen.classes.class_folder import (
+    DATA,
     FORMS,
     PAPERS,
     SETTINGS,
@@ -348,9 +349,11 @@ def _make_student_files(
         neighbours,
         former=former,
     )
+    files = dict(zip(_list_student_files(one), [*sheets, write_blank_form(paper)], strict=True))
+    files |= {f"{DATA}/{one.file}/{name}": data for name, data in paper.data_files.items()}
     return GeneratedPaper(
         one.id,
-        dict(zip(_list_student_files(one), [*sheets, write_blank_form(paper)], strict=True)),
+        files,
         format_record(head, make_answer_key(paper)),
         paper.points,
         paper.minutes,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import secrets
 from collections.abc import Callable, Collection, Iterator
 from functools import partial
-from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Unpack
 
@@ -179,13 +178,10 @@ def _build_paper_files(
     """
     from quizgen.paper.answer_form import write_blank_form
     from quizgen.paper.answer_key import write_answer_key
-    from quizgen.question.data_files import iter_data_files
 
-    pages = dict(_iter_rendered_files(paper, formats, tell))
-    files = (iter_data_files(item.keys[0].draw, item.number) for item in paper.items)
     return {
-        **pages,
-        **dict(chain.from_iterable(files)),
+        **dict(_iter_rendered_files(paper, formats, tell)),
+        **paper.data_files,
         form: write_blank_form(paper, Path(form).suffix[1:]),
         KEY: write_answer_key(paper),
     }

@@ -35,6 +35,7 @@ from quizgen.paper.provenance import BankRecord, record_banks
 from quizgen.paper.selection import count_papers, select_templates, slot_levels, slot_points
 from quizgen.paper.variants import draw_variants, with_siblings
 from quizgen.question.compose import Question, QuestionKey, compose_variant, draw_instance
+from quizgen.question.data_files import iter_data_files
 from quizgen.question.inlines import PlacedPicture
 from quizgen.question.levels import effective_level
 
@@ -98,6 +99,15 @@ class Paper(msgspec.Struct, frozen=True):
     def points(self) -> Fraction:
         """Return the marks of all questions."""
         return sum((item.points for item in self.items), Fraction(0))
+
+    @property
+    def data_files(self) -> dict[str, bytes]:
+        """Return the files with drawn data that its questions name, by those names."""
+        return {
+            name: content
+            for item in self.items
+            for name, content in iter_data_files(item.keys[0].draw, item.number)
+        }
 
     @property
     def cited_formula(self) -> str:

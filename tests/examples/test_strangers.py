@@ -124,6 +124,14 @@ def test_all_of_them_make_a_paper_and_an_export(tmp_path):
         made = run(root_group, ["exam", *bank, "--topic", topic, "--seed", "3", "--out", str(out)])
         assert made.exit_code == 0, made.output
         assert {"exam.html", "exam.pdf", "key.json"} <= {path.name for path in out.iterdir()}
+    roster, folder = tmp_path / "roster.csv", tmp_path / "class"
+    roster.write_text("id,name\n1815,Ada\n42,Ben\n", "utf-8")
+    made = run(root_group, ["class", "make", str(roster), *bank, "--blueprint", "statistics.11",
+                            "--out", str(folder), "--jobs", "1"])  # fmt: skip
+    assert made.exit_code == 0, made.output
+    first, second = sorted(path.read_text("utf-8") for path in folder.glob("data/*/*-sample.csv"))
+    assert first.splitlines()[0] == second.splitlines()[0] == "x / g"
+    assert first != second, "each student has numbers of their own"
     for form in ("moodle", "qti3"):
         done = run(root_group, ["export", form, *bank, "--topic", "statistics", "--seed", "3",
                                 "--out", str(tmp_path / form)])  # fmt: skip
