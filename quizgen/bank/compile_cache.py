@@ -66,6 +66,7 @@ class CompileCache(Generic[T]):
         return thing
 
     def _compute_key(self, sources: tuple[bytes, ...]) -> str:
+        """Return the name that a result is stored under: a digest of the code and its sources."""
         return compute_digest(_compute_code_digest(*self.packages), *sources)
 
 

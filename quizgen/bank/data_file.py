@@ -75,6 +75,10 @@ def draw_data(
 
 
 def _convert_data(given: object, rules: Mapping[str, DataRule]) -> DrawnData:
+    """Return what ``draw(rng)`` gave as exact values, sorted into numbers, lists and texts.
+
+    Raises ``BankError`` if it is no dict, or if its names are not those that ``[data]`` lists.
+    """
     if not isinstance(given, Mapping):
         raise BankError("draw(rng) gives no dict", rule="QG133")
     found = DrawnData({}, {}, {})
@@ -108,6 +112,11 @@ def _to_plain(value: Any) -> Any:
 
 
 def _add_value(found: DrawnData, name: str, value: Any, rule: DataRule) -> None:
+    """Add one value of ``draw(rng)``, exact, to the numbers, the lists or the texts.
+
+    A text that reads as a number is one. Raises ``BankError`` for a list or a text that is too
+    long.
+    """
     if isinstance(value, list | tuple):
         if not 1 <= len(value) <= MOST_VALUES:
             what = f"{name}: a list of {len(value)} values (allowed: 1 to {MOST_VALUES})"
@@ -122,6 +131,7 @@ def _add_value(found: DrawnData, name: str, value: Any, rule: DataRule) -> None:
 
 
 def _is_number(text: str) -> bool:
+    """Return whether a text reads as a rational number."""
     try:
         to_rational(text)
     except ValueError:

@@ -84,6 +84,10 @@ def read_table_file(folder: Path, name: str) -> TableFile:
 
 
 def _parse_csv_columns(text: str, file: Path) -> dict[str, Any]:
+    """Return the columns of a CSV table by the names in its first row.
+
+    Raises ``BankError`` if it is empty, or if a row has more or fewer cells than the first.
+    """
     rows = [cells for _, cells in parse_csv(text, file, BankError) if any(cells)]
     if not rows:
         raise BankError("the table is empty", rule="QG110", file=file)
@@ -94,6 +98,11 @@ def _parse_csv_columns(text: str, file: Path) -> dict[str, Any]:
 
 
 def _parse_json(text: str, file: Path) -> dict[str, Any]:
+    """Return the columns of a JSON table by name, whichever of three shapes it has.
+
+    These are columns by name, a list of rows, and one value for each key, which becomes the columns
+    ``key`` and ``value``. Raises ``BankError`` for anything else.
+    """
     found = parse_json(text, file, BankError)
     if isinstance(found, list) and found and all(isinstance(row, dict) for row in found):
         found = {name: [row.get(name, "") for row in found] for name in found[0]}
@@ -161,6 +170,10 @@ class ListPlan(msgspec.Struct, frozen=True):
         return tuple(self.pool[place] for place in order[:count])
 
     def _count(self, env: Mapping[str, Any]) -> int:
+        """Return how many values the list has, a number or a formula of values drawn before.
+
+        Raises ``BankError`` unless that is a whole number from 1 to ``MOST_VALUES``.
+        """
         size = self.rule.size
         value = fmpq(size) if isinstance(size, int) else self.formulas[str(size)](env)
         if not isinstance(value, fmpq) or value.q != 1 or not 1 <= value <= MOST_VALUES:
@@ -202,6 +215,7 @@ def plan_list(
 
 
 def _parse_cell(cell: Scalar) -> fmpq:
+    """Return the number in a cell, exactly; ``BankError`` if it is none."""
     try:
         return to_rational(str(cell))
     except FormulaError as error:
@@ -237,6 +251,10 @@ class LookupPlan(msgspec.Struct, frozen=True):
         return self.table[key]
 
     def _pick_from_list(self, key: str, env: Mapping[str, Any]) -> fmpq:
+        """Return the value at a place of a drawn list, the first of which is 1.
+
+        Raises ``BankError`` if there is no such place.
+        """
         listed = env[str(self.rule.of)]
         if not isinstance(listed, tuple) or not key.isdecimal() or not 1 <= int(key) <= len(listed):
             what = f"{self.rule.of} has no place {key} (the first is 1)"

@@ -257,6 +257,7 @@ def _hold_bars(source: str) -> str:
 
 
 def _release_bars(text: str) -> str:
+    """Return the text of a cell with the bars of its formulas put back."""
     return text.replace(_BAR, "|")
 
 
@@ -458,6 +459,10 @@ _HELD = "\ua4d0"
 
 
 def _parse_typed_formula(text: str) -> InlineFormula | LaidOutFormula:
+    """Return a formula that an author typed, laid out if it has slots for drawn values.
+
+    A slot is read as a name and then becomes a place in the layout. Raises ``FormulaReadError``.
+    """
     if not SLOT.search(text):
         return InlineFormula(parse_formula(text))
     if _HELD in text:

@@ -220,6 +220,10 @@ class Sampler:
         return _Variable(file, name, listed, rule.words, formula)
 
     def _plan_table_variable(self, name: str) -> _Variable:
+        """Return how a variable is drawn that is a list or is looked up in a table.
+
+        A ``BankError`` gets the file and the place in it, which the tables do not know.
+        """
         template = self.template
         rule, rules = template.rules.draw[name], template.rules
         try:
@@ -412,6 +416,7 @@ def solve_candidate(
 
 
 def _refuse_list_steps(plan: Sampler, values: Values) -> None:
+    """Raise ``BankError`` if a step of the solution is a list: an answer is one number."""
     for step in plan.template.chain.steps:
         if isinstance(values[step.name], tuple):
             what = f"step {step.name!r} is a list, where a number is needed"

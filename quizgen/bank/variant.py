@@ -158,6 +158,10 @@ class Variant:
         return self._computed[formula]
 
     def _compute_formula(self, formula: str) -> Value:
+        """Return the value of a formula of shown values and drawn lists.
+
+        Raises ``BankError`` if a list stands where a number is needed, or the other way round.
+        """
         compiled = self.sampler.compile_formula(formula)
         if not self.lists:
             return compiled(self.shown_values)
@@ -279,6 +283,7 @@ def _build_variant(
     drawn: DrawnValues,
     solved: tuple[dict[str, Value], tuple[tuple[str, ...], ...]],
 ) -> Variant:
+    """Return the variant of a template for (seed, slot, tries), from what was drawn and solved."""
     seed, slot, tries = drawn_for
     return Variant(template, seed, slot, tries, drawn.shown, drawn.words, *solved, drawn.lists)
 

@@ -35,6 +35,10 @@ def _parse_papers_ahead(
 
 
 def _parse_one_ahead(text: str) -> tuple[str, int]:
+    """Return a blueprint and how many papers of it to make ahead, from ``mock=300``.
+
+    Raises ``click.BadParameter`` if it is not written so, or if the number is out of bounds.
+    """
     name, _, number = text.rpartition("=")
     if not name or not re.fullmatch("[0-9]{1,4}", number, re.ASCII):
         raise click.BadParameter(f"{text!r} is not like mock=300")

@@ -60,6 +60,11 @@ def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
 
 
 def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
+    """Return the verdict on an answer as it was typed; only then as it may have been meant.
+
+    An undecided answer is read once more without the words around it; if that fails too, the
+    learner is asked what was meant.
+    """
     if len(typed) > LONGEST_PROSE:  # no answer is so long: nothing is searched for one in it
         return _judge_text(spec, typed, options)
     form = spec.written_as
@@ -105,6 +110,10 @@ def _prepare(typed: str, form: AnswerForm) -> str:
 
 
 def _judge_text(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
+    """Return the verdict of a specification on a text; a fault in its notation is one, too.
+
+    A right answer that is denied ("not 5") is ambiguous.
+    """
     try:
         verdict = spec.judge(typed, options)
     except FormulaReadError as error:

@@ -79,6 +79,7 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
 
 
 def _split_authored(text: str, symbols: tuple[str, ...]) -> tuple[Expr, ...]:
+    """Return left and right side of an equation in a bank; ``ValueError`` if it is none."""
     tree = parse_authored(text, symbols)
     if not isinstance(tree, Call) or tree.op != "eq":
         raise ValueError(f"{text!r} is no equation")

@@ -139,10 +139,12 @@ def _split_row(row: str, decimal: str) -> list[str]:
 
 
 def _is_same(rows: list[list[Value]], entries: Entries) -> bool:
+    """Return whether a matrix has the shape and the entries of a key."""
     return len(rows) == len(entries) and all(map(_is_same_row, rows, entries))
 
 
 def _is_same_row(row: list[Value], key: list[str]) -> bool:
+    """Return whether a row has the length and the entries of a key's row."""
     return len(row) == len(key) and all(map(entry_matches, row, key))
 
 
@@ -178,6 +180,7 @@ def ask(part: PartContext) -> AskedPart[MatrixSpec]:
 
 
 def _list_entries(part: PartContext, form: Expr) -> Entries:
+    """Return the entries of a form by row, as text; a vector is one column."""
     matrix = require_form(part, form, "matrix", "vector")
     if matrix.op == "vector":
         return [[format_entry(arg)] for arg in matrix.args]

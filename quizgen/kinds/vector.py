@@ -80,6 +80,7 @@ class ColumnSpec(WordSpec, kw_only=True, frozen=True):
         return verdict_by_share(credit, read_as, "matrix-entries", right=right, of=count)
 
     def _is_right(self, values: list[Value], components: list[str]) -> bool:
+        """Return whether a vector is the key, or a multiple of it if ``up_to`` is "scale"."""
         if self.up_to == "scale":
             return _are_parallel(values, list(map(parse_exact, components)))
         return all(map(entry_matches, values, components))
@@ -95,6 +96,7 @@ def build_vector(components: list[str]) -> Expr:
 
 
 def _are_parallel(a: list[Value], b: list[Value]) -> bool:
+    """Return whether two vectors are multiples of each other; the zero vector is of none."""
     if all(value == 0 for value in a):
         return False
     return all(
@@ -112,6 +114,7 @@ def ask(part: PartContext) -> AskedPart[ColumnSpec]:
 
 
 def _list_components(part: PartContext, form: Expr) -> list[str]:
+    """Return the components of a form as text; a matrix of one row is a vector, too."""
     vector = require_form(part, form, "vector", "matrix")
     args = vector.args
     if vector.op == "matrix":

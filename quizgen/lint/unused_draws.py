@@ -66,6 +66,7 @@ def _iter_names(value: object) -> Iterator[str]:
 
 
 def _iter_prose_names(text: LanguageFile) -> Iterator[str]:
+    """Yield every name in the slots, sentences and conditions of a language file."""
     for section in (text.stem, *text.sections.values()):
         for slot in slot_names(section):
             yield from _NAME.findall(slot)

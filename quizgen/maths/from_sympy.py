@@ -232,6 +232,7 @@ def _make_binder_converter(op: str) -> Callable[[sympy.Basic], Expr]:
     """Sums, products and integrals with finite bounds, the innermost first."""
 
     def rule(expression: sympy.Basic) -> Expr:
+        """Return a sum, product or integral as nested calls, a call for each limit."""
         body = from_sympy(expression.function)
         for limit in expression.limits:
             if len(limit) != 3 or any(bound.is_infinite for bound in limit[1:]):
@@ -268,6 +269,10 @@ REWRITES: dict[type, type] = {
 
 
 def _rewrite_function(expression: sympy.Basic) -> Expr:
+    """Return the formula of a function by way of others, as ``REWRITES`` lists them.
+
+    Raises ``BankError`` if SymPy cannot rewrite it.
+    """
     other = expression.rewrite(REWRITES[type(expression)])
     if type(other) is type(expression):
         raise BankError(f"no formula for {expression}")

@@ -17,6 +17,7 @@ from quizgen.maths.values import AnyNumber, NumberList
 
 
 def _require_list(values: AnyNumber, least: int = 1) -> NumberList:
+    """Return a list of at least so many values; ``MathError`` if it is none."""
     if not isinstance(values, NumberList):
         raise MathError("a number stands where a list is needed")
     if len(values) < least:
@@ -25,6 +26,7 @@ def _require_list(values: AnyNumber, least: int = 1) -> NumberList:
 
 
 def _require_pairs(first: AnyNumber, second: AnyNumber) -> tuple[NumberList, NumberList]:
+    """Return two lists of the same length, at least 2; ``MathError`` otherwise."""
     one, other = _require_list(first, 2), _require_list(second, 2)
     if len(one) != len(other):
         raise MathError(f"lists of {len(one)} and of {len(other)} values cannot be paired")
@@ -108,22 +110,25 @@ def pick_value(values: AnyNumber, place: AnyNumber) -> AnyNumber:
         If there is no such place.
     """
     listed = _require_list(values)
-    if isinstance(place, tuple) or place != (index := int(float(_as_float(place)))):
+    if isinstance(place, tuple) or place != (index := int(float(_convert_to_float(place)))):
         raise MathError("a place in a list is a whole number")
     if not 1 <= index <= len(listed):
         raise MathError(f"no place {index} in a list of {len(listed)} values (the first is 1)")
     return listed[index - 1]
 
 
-def _as_float(value: AnyNumber) -> float:
+def _convert_to_float(value: AnyNumber) -> float:
+    """Return a value as the nearest float, from any number system."""
     return int(value.p) / int(value.q) if isinstance(value, fmpq) else float(value)
 
 
 def _pick_least(values: AnyNumber) -> AnyNumber:
+    """Return the least value of a list; a number is its own minimum."""
     return min(_require_list(values)) if isinstance(values, tuple) else values
 
 
 def _pick_largest(values: AnyNumber) -> AnyNumber:
+    """Return the largest value of a list; a number is its own maximum."""
     return max(_require_list(values)) if isinstance(values, tuple) else values
 
 
@@ -141,6 +146,7 @@ def build_list_functions(
     """
 
     def correlate(first: AnyNumber, second: AnyNumber) -> AnyNumber:
+        """Return Pearson's correlation coefficient of two lists, -1 to 1."""
         one, other = _require_pairs(first, second)
         spread = _sum_products(one, one) * _sum_products(other, other)
         return _sum_products(one, other) / square_root(spread)

@@ -110,6 +110,7 @@ def _compile_binder(expr: Call, system: NumberSystem) -> CompiledFormula:
     combine, start = system.ops["add" if expr.op == "sum" else "mul"], Fraction(expr.op != "sum")
 
     def run(env: Environment) -> AnyNumber:
+        """Return the sum or product; ``MathError`` if it has ``LARGEST_SUM`` terms or more."""
         first, last = _read_bound(low(env)), _read_bound(high(env))
         if last - first >= LARGEST_SUM:
             raise MathError(f"more than {LARGEST_SUM} terms")
@@ -122,6 +123,7 @@ def _compile_binder(expr: Call, system: NumberSystem) -> CompiledFormula:
 
 
 def _read_bound(value: AnyNumber) -> int:
+    """Return the bound of a sum as an integer; ``MathError`` if it is no whole number."""
     if value != int(value):
         raise MathError("a sum runs over whole numbers")
     return int(value)
@@ -135,6 +137,7 @@ def _compile_integral(expr: Call, name: str, system: NumberSystem) -> CompiledFo
     body = compile_nested(expr.args[3], system)
 
     def run(env: Environment) -> AnyNumber:
+        """Return the integral, computed numerically."""
         low, high = (bound(env) for bound in bounds)
         return integrate(lambda x: body({**env, name: x}), low, high, system)
 
@@ -154,6 +157,7 @@ def _compile_special_angle(expr: Call, system: NumberSystem) -> CompiledFormula:
     usual = _compile_call(expr, system)
 
     def run(env: Environment) -> AnyNumber:
+        """Return the exact value where there is one, else that of the usual operator."""
         try:
             whole, times = angle(_AsPairs(env))
         except (TypeError, KeyError, ZeroDivisionError):
@@ -217,16 +221,19 @@ def _pi_multiples() -> NumberSystem:
     from quizgen.maths.numbers import to_rational
 
     def times(a: AnyNumber, b: AnyNumber) -> AnyNumber:
+        """Return the product of two pairs; ``TypeError`` if it has the square of pi."""
         if a[1] and b[1]:
             raise TypeError
         return a[0] * b[0], a[0] * b[1] + a[1] * b[0]
 
     def over(a: AnyNumber, b: AnyNumber) -> AnyNumber:
+        """Return the quotient by a rational number; ``TypeError`` for any other divisor."""
         if b[1] or not b[0]:
             raise TypeError
         return a[0] / b[0], a[1] / b[0]
 
     def refuse(*_args: AnyNumber) -> AnyNumber:
+        """Raise ``TypeError``: the result is no rational combination of 1 and pi."""
         raise TypeError
 
     own: dict[str, OperatorFunction] = {
@@ -453,6 +460,7 @@ def _approximate(name: str) -> OperatorFunction:
     """
 
     def apply(*args: float) -> float:
+        """Return the float nearest to the exact result for floats taken as exact rationals."""
         from flint import fmpq
 
         from quizgen.maths.numbers import to_float

@@ -95,6 +95,7 @@ def _make_word_operator(name: str, most: int, python: str, arrays: str, sympy: s
 
 
 def _make_list_operator(name: str, count: int = 1, *signs: str) -> Operator:
+    """Return an operator on lists; only exact numbers and floats have such operators."""
     return Operator(
         name, count, count, OperatorSyntax.LIST, signs or (name,),
         absent=frozenset(SYSTEMS) - {"exact", "floats"},

@@ -114,6 +114,7 @@ class Interpolator:
         return (name_inline(name), *to_inlines(f"{NBSP}/{NBSP}{unit}" if unit else ""))
 
     def _require_list(self, name: str, blank: str) -> None:
+        """Raise the problem QG158 if a blank names a list that is not drawn."""
         if name not in self.drawn.lists:
             what = f"{{{{ {blank} }}}}: {name} is not a drawn list"
             raise self._format_problem(what, "QG158", TEXT, f"{{{{ {blank} }}}}")
@@ -184,9 +185,9 @@ class Interpolator:
             return self._fill_slot(part.name)
         if isinstance(part, InlineFormula):
             return (_inline_maths(part.expr),)
-        names = _names_in_layout(part)
+        names = _list_names_in_layout(part)
         if not names:
-            return (_inline_layout(part),)
+            return (_typeset_inline_layout(part),)
         return (typeset_layout(fill_leaves(part.node, {n: self._fill_leaf(n) for n in names})),)
 
     def _fill_leaf(self, name: str) -> LeafValue:
@@ -316,12 +317,14 @@ def _inline_maths(expr: Expr) -> TypesetMaths:
 
 
 @lru_cache(maxsize=4096)
-def _inline_layout(part: LaidOutFormula) -> TypesetLayout:
+def _typeset_inline_layout(part: LaidOutFormula) -> TypesetLayout:
+    """Return a formula's layout as it stands in a line, cached: sentences are filled often."""
     return typeset_layout(part.node)
 
 
 @lru_cache(maxsize=4096)
-def _names_in_layout(part: LaidOutFormula) -> frozenset[str]:
+def _list_names_in_layout(part: LaidOutFormula) -> frozenset[str]:
+    """Return the names of the values that a formula has places for, cached."""
     return list_leaf_names(part.node)
 
 

@@ -194,6 +194,10 @@ def lay_out_latex(source: str) -> Node:
 
 
 def _check_depth(source: str) -> None:
+    """Raise ``LatexError`` if groups are nested too deeply, or if there are too many commands.
+
+    The converter and this module recurse, so an author's slip must not exhaust the stack.
+    """
     depth = 0
     for at, sign in enumerate(source):
         depth += (sign == "{") - (sign == "}")
@@ -228,12 +232,19 @@ def _find_column(at: int, starts: Sequence[tuple[int, int]]) -> int:
 
 @cache
 def _make_converter() -> LatexToMathML:
+    """Return the converter from LaTeX to MathML, made once."""
     from math_core import LatexToMathML
 
     return LatexToMathML(fancy_error=False)
 
 
 def _parse_mathml(held: str, starts: Sequence[tuple[int, int]]) -> ET.Element:
+    """Return the MathML of a formula whose slots are held by stand-ins.
+
+    What the converter would refuse vaguely, or take in a way of its own, is refused here first,
+    with
+    advice. ``starts`` leads from a place to the column of the source. Raises ``LatexError``.
+    """
     from math_core import LatexError as ConverterError
 
     for found in _ENVIRONMENT.finditer(held):
@@ -270,6 +281,7 @@ def _explain_converter(held: str, message: str, starts: Sequence[tuple[int, int]
 
 
 def _locate_refusal(source: str, error: _RefusalError) -> LatexError:
+    """Return a refusal as an error at the first command in the source that may be meant."""
     places = [source.find(f"\\{command}") for command in error.commands]
     at = min((place for place in places if place >= 0), default=0)
     found = _COMMAND.match(source, at) if error.commands else None
@@ -391,7 +403,7 @@ class _Reader:
 
     def fence(self, children: list[ET.Element]) -> Node:
         r"""What ``\left`` and ``\right`` or an environment hold."""
-        left, right = (_fence_sign(children[end]) for end in (0, -1))
+        left, right = (_find_fence_sign(children[end]) for end in (0, -1))
         body = children[1:-1]
         if len(body) == 1 and body[0].tag == "mtable":
             rows = self.table(body[0])
@@ -538,7 +550,8 @@ def _is_paired(element: ET.Element) -> bool:
     return element.tag == "mo" and single and element.get("stretchy") is None
 
 
-def _fence_sign(element: ET.Element) -> str:
+def _find_fence_sign(element: ET.Element) -> str:
+    """Return the sign of a stretching bracket, "." for none; refuse one no output can read."""
     sign = (element.text or "").replace(_ABSENT, ".")
     if sign not in FENCES:
         raise _RefusalError(f"the bracket {sign!r} cannot be said in every output", "left", "right")
@@ -551,10 +564,12 @@ def _find_operator(element: ET.Element) -> str:
 
 
 def _is_brace(element: ET.Element) -> bool:
+    """Return whether an element is a curly brace above or below something."""
     return element.tag in {"mover", "munder"} and (element[-1].text or "") in {"⏞", "⏟"}
 
 
 def _takes_limits(piece: _Piece) -> TypeGuard[FunctionName]:
+    """Return whether a piece is a function such as lim, with its condition set below it."""
     return isinstance(piece, FunctionName) and piece.text in _TAKES_LIMITS
 
 
@@ -591,6 +606,10 @@ def _read_name(text: str, *, upright: bool) -> Node:
 
 
 def _read_letter(text: str, *, upright: bool) -> Node:
+    """Return the letter that a styled sign of Unicode stands for, with its style.
+
+    Raises a refusal for a letter that some output has no word or no glyph for.
+    """
     if text in LETTERLIKE:
         return Ident(text)
     plain, shape = normalize("NFKC", text), unicode_name(text, "")
@@ -629,6 +648,7 @@ def _join_signs(pieces: list[_Piece]) -> list[_Piece]:
 
 
 def _is_long_arrow(piece: _Piece) -> bool:
+    """Return whether a piece is one of the double arrows between statements."""
     return isinstance(piece, OperatorSign) and piece.name in {"⟹", "⟸", "⟺"}
 
 
@@ -678,6 +698,10 @@ class _RowBuilder:
             self.take_bar(piece, index)
 
     def take_bar(self, piece: _Bracket, index: int) -> None:
+        """Decide what a single bar is, by the bars and the pieces around it.
+
+        It closes an open one, opens one, ends what is evaluated (with an index), or separates.
+        """
         top = self.frames[-1]
         if top.items and top.opening == piece.sign and not _waits(top.items):
             self.close(piece)
@@ -746,16 +770,19 @@ def _join_double_bars(pieces: list[_Piece]) -> list[_Piece]:
 
 
 def _is_double_bar(pieces: list[_Piece], at: int) -> bool:
+    """Return whether two bars stand at a place, without indices between them."""
     plain = _Bracket("|")
     following = pieces[at + 1]
     return pieces[at] == plain and isinstance(following, _Bracket) and following.sign == "|"
 
 
 def _is_node(piece: _Piece) -> TypeGuard[Node]:
+    """Return whether a piece is a node, not a bracket that waits to be paired."""
     return not isinstance(piece, _Bracket)
 
 
 def _is_relation(item: Node) -> bool:
+    """Return whether a node is a sign of relation, as = or <."""
     return isinstance(item, OperatorSign) and item.name in _RELATIONS
 
 
@@ -781,6 +808,7 @@ def _make_row(items: list[Node], *, root: bool = False) -> Node:
 
 
 def _check_decimal_comma(items: list[Node], *, root: bool) -> None:
+    """Raise a refusal for a comma right between digits in the row of the whole formula."""
     digits = [isinstance(item, Digits) for item in items]
     for at, item in enumerate(items[1:-1], 1) if root else ():
         if item == OperatorSign(",") and digits[at - 1] and digits[at + 1]:

@@ -74,6 +74,7 @@ def list_leaf_names(node: Node) -> frozenset[str]:
 
 
 def _iter_names(part: Any) -> Iterator[str]:
+    """Yield the names of the leaves in a part of a layout, in order."""
     if isinstance(part, Leaf):
         yield part.name
     elif isinstance(part, Struct):
@@ -181,7 +182,7 @@ class _Filling:
     def append(self, items: list[Node], item: Node, before: Node | None) -> None:
         """Put what is no leaf behind what a row has so far."""
         filled = self.fill(item)
-        if filled != item and _last(items) in _SIGNS:
+        if filled != item and _find_last(items) in _SIGNS:
             flipped = _take_minus(filled)
             if flipped is not None:
                 filled = flipped
@@ -194,13 +195,13 @@ class _Filling:
         """Put a value behind what a row has so far."""
         value = self.get(leaf)
         node = value.node
-        before = _last(items)
+        before = _find_last(items)
         if value.is_rounded and before == OperatorSign("="):
             items[-1] = OperatorSign("≈")
         if before in _SIGNS and (flipped := _take_minus(node)) is not None:
             node = flipped
             _turn_sign(items)
-        sign = _last(items)
+        sign = _find_last(items)
         factor = _is_factor(sign, following)
         if factor and _is_unit_factor(node, following) and not _is_multiplied(sign):
             items += _keep_sign(node)
@@ -220,7 +221,8 @@ class _Filling:
 _DROPPED = Phrase("\0")
 
 
-def _last(items: list[Node]) -> Node | None:
+def _find_last(items: list[Node]) -> Node | None:
+    """Return the last node of a row that is no gap; None if there is none."""
     return next((item for item in reversed(items) if not isinstance(item, Gap)), None)
 
 
@@ -262,12 +264,14 @@ def _is_factor(before: Node | None, following: Node | None) -> bool:
 
 
 def _is_multiplied(before: Node | None) -> bool:
+    """Return whether what follows is multiplied by the node before it, with or without a sign."""
     return _is_operand(before) or (
         isinstance(before, OperatorSign) and before.name in _MULTIPLYING | {"¬"}
     )
 
 
 def _is_operand(node: Node | None) -> bool:
+    """Return whether a node is a value, not a sign, a phrase or a gap."""
     return node is not None and not isinstance(node, OperatorSign | Phrase | Gap)
 
 
@@ -281,6 +285,7 @@ def _is_unit_factor(node: Node, following: Node | None) -> bool:
 
 
 def _keep_sign(node: Node) -> list[Node]:
+    """Return the minus sign that a node begins with, in a list; an empty list for none."""
     return [] if _take_minus(node) is None else [_NEG]
 
 
@@ -307,6 +312,7 @@ def _fits(node: Node, before: Node | None, *, factor: bool) -> bool:
 
 
 def _starts_with_minus(node: Node) -> bool:
+    """Return whether the first sign of a node is a minus."""
     while isinstance(node, MathRow) and node.items:
         node = node.items[0]
     return node == _NEG
@@ -332,7 +338,7 @@ def _ends_in_unit(node: Node) -> bool:
 
 def _touches_value(items: list[Node], node: Node, before: Node | None) -> bool:
     """Whether what comes right behind a value would be read as part of it."""
-    last = _last(items)
+    last = _find_last(items)
     if not isinstance(before, Leaf) or last is None or not _is_operand(last) or last is _DROPPED:
         return False
     product = isinstance(last, MathRow) and last.level == PRODUCT

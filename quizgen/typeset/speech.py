@@ -145,16 +145,19 @@ def _say_ident(node: n.Ident, lang: str) -> str:
 
 @_say_node.register
 def _say_phrase_of_author(node: n.Phrase, _lang: str) -> str:
+    """Return a phrase as the author wrote it."""
     return node.text.strip()
 
 
 @_say_node.register
 def _say_gap(node: n.Gap, _lang: str) -> str:
+    """Return a pause for a wide gap; narrow ones are silent."""
     return "," if node.width in {"quad", "qquad"} else ""
 
 
 @_say_node.register
 def _say_function_name(node: n.FunctionName, lang: str) -> str:
+    """Return how the name of a function is read out."""
     return _say_function_head(n.Word(node.text), lang)
 
 
@@ -246,6 +249,7 @@ def _say_row(node: n.MathRow, lang: str) -> str:
 
 
 def _is_silent_gap(item: n.Node) -> bool:
+    """Return whether a node is a gap too narrow for a pause."""
     return isinstance(item, n.Gap) and item.width not in {"quad", "qquad"}
 
 
@@ -454,6 +458,7 @@ def _say_under(node: n.Under, lang: str) -> str:
 
 @_say_node.register
 def _say_over(node: n.Over, lang: str) -> str:
+    """Return a sign and what stands above it in words; "!" above "=" reads "must equal"."""
     short = load_speech_words(lang).short
     if node == n.Over(n.OperatorSign("="), n.OperatorSign("!")):
         return short["must equal"]
@@ -462,6 +467,7 @@ def _say_over(node: n.Over, lang: str) -> str:
 
 @_say_node.register
 def _say_brace(node: n.Brace, lang: str) -> str:
+    """Return a body in words and, if its brace has one, the note."""
     said = _say_node(node.body, lang)
     if node.note is None:
         return said
@@ -470,11 +476,13 @@ def _say_brace(node: n.Brace, lang: str) -> str:
 
 @_say_node.register
 def _say_display(node: n.Display, lang: str) -> str:
+    """Return a body in words; its size is not read out."""
     return _say_node(node.body, lang)
 
 
 @_say_node.register
 def _say_binomial(node: n.Binomial, lang: str) -> str:
+    """Return a binomial coefficient in words."""
     return _say_phrase(lang, "binomial", (node.top, node.bottom))
 
 

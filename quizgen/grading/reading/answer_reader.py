@@ -85,6 +85,11 @@ class _AroundWords(NamedTuple):
 
 @cache
 def _load_around_words() -> _AroundWords:
+    """Return the words that may stand around an answer, of all languages, as patterns.
+
+    All languages at once, as learners mix them. Longer words come first, or a shorter one would
+    match the start of a longer one.
+    """
     found: dict[str, list[str]] = {}
     for lang in list_languages():
         for name, words in load_words(lang, "answers")["around"].items():
@@ -188,6 +193,11 @@ def drop_markup(typed: str) -> str:
 
 
 def _drop_once(text: str, form: AnswerForm) -> str:
+    """Return an answer without one layer of quotes, list marks, and words around it.
+
+    The caller repeats it until nothing changes. An exclamation mark at the end of a formula is a
+    factorial and remains.
+    """
     text = text.strip(_QUOTES + " ")
     text = _PAIRED.sub(r"\2", text)
     if form != "option":
@@ -230,6 +240,10 @@ def separate_labelled_values(text: str, names: list[str]) -> Iterator[str]:
 def _write_assigned(
     pairs: list[tuple[str, str]], names: list[str], count: int = 0
 ) -> Iterator[str]:
+    """Yield the pairs as ``name = value; ...`` if each name occurs once with one value.
+
+    ``count`` is how many pieces the answer has, so that none of them is passed over.
+    """
     meant = [find_name(label, names) for label, _ in pairs]
     values = [_JOINED.sub("", value).strip(" ,;") for _, value in pairs]
     once = all(meant) and len(set(meant)) == len(pairs) >= max(count, _FEWEST)

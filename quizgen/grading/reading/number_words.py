@@ -36,7 +36,8 @@ def list_number_words() -> dict[str, int]:
 
 
 @cache
-def _number_word_pattern() -> re.Pattern[str]:
+def _compile_number_word_pattern() -> re.Pattern[str]:
+    """Return the pattern of a number word at the start of a text, of any language."""
     longest_first = sorted(list_number_words(), key=len, reverse=True)
     listed = "|".join(map(re.escape, longest_first))
     return re.compile(rf"^(?:{listed})(?![\w\u0980-\u09ff])", re.IGNORECASE)
@@ -61,7 +62,7 @@ _PIECE = re.compile(rf"{_NUMBER} ?((?:[^\W\d]|[\u0980-\u09ff])+)(?:,? (?:and|und
 
 def replace_number_word(text: str) -> str:
     """``ten bits`` as ``10 bits``; the text itself if it begins with no word for a number."""
-    match = _number_word_pattern().match(text)
+    match = _compile_number_word_pattern().match(text)
     if match is None:
         return text
     return f"{list_number_words()[match[0].lower()]}{text[match.end() :]}"
