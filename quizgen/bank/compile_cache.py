@@ -49,7 +49,7 @@ class CompileCache(Generic[T]):
         self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
 
     def get(self, *sources: bytes) -> T | None:
-        """What sources came to, if it is kept."""
+        """Return what sources came to, if it is stored."""
         found = read_cached(self.kind, self._compute_key(sources))
         if found is None:
             return None

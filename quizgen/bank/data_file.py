@@ -41,7 +41,7 @@ class DrawnData(msgspec.Struct, frozen=True):
 def draw_data(
     module: ModuleType, file: Path, rules: Mapping[str, DataRule], key: str
 ) -> DrawnData | None:
-    """What ``data.py`` draws; None if it asks for another try.
+    """Return what ``data.py`` draws; None if it asks for another try.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def _iter_flat(given: Mapping[Any, Any]) -> Iterator[tuple[str, Any]]:
 
 
 def _to_plain(value: Any) -> Any:
-    """NumPy's arrays and numbers as Python's own."""
+    """Return NumPy's arrays and numbers as Python's own."""
     return value.tolist() if hasattr(value, "tolist") else value
 
 
@@ -140,7 +140,7 @@ def _is_number(text: str) -> bool:
 
 
 def _convert_number(name: str, value: Any, rule: DataRule) -> fmpq:
-    """The exact rational that is shown."""
+    """Return the exact rational that is shown."""
     if isinstance(value, bool) or not isinstance(value, numbers.Number | str | Decimal):
         raise BankError(f"{name}: {value!r} is no number", rule="QG133")
     try:

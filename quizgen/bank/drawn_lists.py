@@ -39,7 +39,7 @@ class TableFile(msgspec.Struct, frozen=True):
         return len(next(iter(self.columns.values()), ()))
 
     def get_column(self, name: str) -> tuple[str, ...]:
-        """A column.
+        """Return a column.
 
         Raises
         ------
@@ -58,7 +58,7 @@ def is_table_file(name: str) -> bool:
 
 
 def list_table_files(rules: Rules) -> Iterator[str]:
-    """Names of the files that ``[draw]`` reads."""
+    """Yield the names of the files that ``[draw]`` reads."""
     for rule in rules.draw.values():
         for name in (rule.table, rule.of):
             if isinstance(name, str) and is_table_file(name):
@@ -66,7 +66,7 @@ def list_table_files(rules: Rules) -> Iterator[str]:
 
 
 def read_table_file(folder: Path, name: str) -> TableFile:
-    """A table beside a template: CSV with a head row, or JSON, columns by name or a list of rows.
+    """Return a template's table: CSV with a head row, or JSON, by columns or by rows.
 
     Raises
     ------
@@ -117,7 +117,7 @@ def _parse_json(text: str, file: Path) -> dict[str, Any]:
 
 
 def round_float(value: float | fmpq, decimals: int) -> fmpq:
-    """A float rounded to decimals, half away from zero, as the exact rational that it then is."""
+    """Return a float rounded to decimals, half away from zero, as the exact rational it then is."""
     exact = to_fraction(value) if isinstance(value, fmpq) else Fraction(value)
     scale = 10**decimals
     whole = (abs(exact) * scale + Fraction(1, 2)).__floor__()
@@ -125,7 +125,7 @@ def round_float(value: float | fmpq, decimals: int) -> fmpq:
 
 
 def list_rule_formulas(rule: DrawRule, rules: Rules) -> list[str]:
-    """The formulas that a rule is made of, over quantities drawn before."""
+    """Return the formulas that a rule is made of, over quantities drawn before."""
     found = [rule.formula or rule.by, *map(str, rule.normal)]
     found += [rule.size] if isinstance(rule.size, str) else []
     by_phrase = rule.at in rules.draw and bool(rules.draw[rule.at].words)
@@ -144,7 +144,7 @@ class ListPlan(msgspec.Struct, frozen=True):
     formulas: dict[str, CompiledFormula]
 
     def draw(self, stem: str, attempt: int, env: Mapping[str, Any]) -> RationalList:
-        """The values of one try.
+        """Return the values of one try.
 
         Raises
         ------
@@ -181,7 +181,7 @@ class ListPlan(msgspec.Struct, frozen=True):
         return int(value.p)
 
     def _take_rows(self, stem: str, attempt: int) -> RationalList:
-        """Rows of a file, the same for each of its columns that takes as many, in their order."""
+        """Return rows of a file, the same for each of its columns that takes as many, in order."""
         take = self.rule.take
         if take is None or take >= len(self.pool):
             return self.pool
@@ -195,7 +195,7 @@ class ListPlan(msgspec.Struct, frozen=True):
 def plan_list(
     name: str, rule: DrawRule, folder: Path, compile_formula: Callable[[str], CompiledFormula]
 ) -> ListPlan:
-    """How the list of a rule is drawn; its file is read once.
+    """Return how the list of a rule is drawn; its file is read once.
 
     Raises
     ------
@@ -230,7 +230,7 @@ class LookupPlan(msgspec.Struct, frozen=True):
     place: CompiledFormula | None
 
     def look_up(self, env: Mapping[str, Any], words: Mapping[str, str]) -> fmpq:
-        """The value.
+        """Return the value.
 
         Raises
         ------
@@ -267,7 +267,7 @@ def plan_lookup(
     name: str, rule: DrawRule, rules: Rules, folder: Path,
     compile_formula: Callable[[str], CompiledFormula],
 ) -> LookupPlan:  # fmt: skip
-    """How a rule's value is looked up; its file is read once.
+    """Return how a rule's value is looked up; its file is read once.
 
     Raises
     ------
@@ -291,7 +291,7 @@ def plan_lookup(
 
 
 def find_list_problems(rule: DrawRule) -> Iterator[tuple[str, str, str]]:
-    """Fields of a rule that do not fit each other: the field, a code, and what is wrong."""
+    """Yield fields of a rule that do not fit each other: field, code, and what is wrong."""
     way = get_draw_way(rule)
     if way == "normal":
         if len(rule.normal) != len(("mean", "spread")):
@@ -316,6 +316,6 @@ def is_list_rule(rule: DrawRule) -> bool:
 
 
 def count_common_decimals(values: RationalList) -> int | None:
-    """Decimals that show every value of a list exactly; None if one has no short form."""
+    """Return how many decimals show every value exactly; None if one has no short form."""
     counts = [count_decimals(value) for value in values]
     return None if None in counts else max((c for c in counts if c is not None), default=0)

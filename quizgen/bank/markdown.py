@@ -250,7 +250,7 @@ def parse_blocks(source: str, line: int = 0) -> tuple[Block, ...]:
 
 
 def _hold_bars(source: str) -> str:
-    """The source with other characters for bars inside formulas, which end no cell of a table."""
+    """Return the source with stand-ins for bars inside formulas, which end no cell of a table."""
     if "|" not in source or "$" not in source:
         return source
     return _IN_CELL.sub(lambda found: found[0].replace("|", _BAR), source)
@@ -445,7 +445,7 @@ def _parse_prose_formula(text: str) -> InlineFormula | LaidOutFormula:
 
 
 def _set_large(formula: InlineFormula | LaidOutFormula) -> LaidOutFormula:
-    """A formula between two dollar signs each is as large as one in a line of its own."""
+    """Return a formula between two dollar signs each, as large as one in a line of its own."""
     if isinstance(formula, InlineFormula):
         return LaidOutFormula(Display(lay_out(formula.expr)), format_tree(formula.expr))
     return LaidOutFormula(Display(formula.node), formula.source)

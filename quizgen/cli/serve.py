@@ -30,7 +30,7 @@ MOST_AHEAD = 5000
 def _parse_papers_ahead(
     _context: click.Context, _option: click.Parameter, given: tuple[str, ...]
 ) -> tuple[tuple[str, int], ...]:
-    """Blueprints or topics, and how many papers of each; which there are, the bank says."""
+    """Return blueprints or topics, and how many papers of each; the bank says which there are."""
     return tuple(map(_parse_one_ahead, given))
 
 

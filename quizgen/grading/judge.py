@@ -79,7 +79,7 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
 
 
 def _judge_plainer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict | None:
-    """The verdict on the answer without what stands around it; none if that does not help."""
+    """Return the verdict on the answer without what stands around it; None if that is no help."""
     for text in list_plainer_texts(typed, spec.written_as, spec.value_names()):
         plainer = _judge_text(spec, text, options)
         if plainer.verdict == WRONG and is_cut_short(typed):
@@ -101,7 +101,7 @@ def _ask_what_is_meant(form: AnswerForm, typed: str, verdict: Verdict) -> Verdic
 
 
 def _prepare(typed: str, form: AnswerForm) -> str:
-    """The text that is judged first: without what would make a wrong answer of a right one."""
+    """Return the text that is judged first: without what would make a right answer a wrong one."""
     if form == "values":
         return prove_groups(typed)
     if form == "word":

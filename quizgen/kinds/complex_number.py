@@ -107,7 +107,7 @@ def _is_same(value: ComplexValue, parts: list[str]) -> bool:
 
 
 def build_complex(parts: list[str], form: str) -> Expr:
-    """A number of a key as a formula of ``i``, in the form asked."""
+    """Return a number of a key as a formula of ``i``, in the form asked."""
     real, imaginary = map(parse_entry, parts)
     unit = Sym("i")
     if form != "polar":
@@ -121,7 +121,7 @@ def build_complex(parts: list[str], form: str) -> Expr:
 
 
 def _write_angle(parts: list[str], real: Expr, imaginary: Expr) -> Expr:
-    """The angle: a multiple of pi where it is an eighth of a turn, else by ``atan2``."""
+    """Return the angle: a multiple of pi where it is an eighth of a turn, else by ``atan2``."""
     x, y = map(parse_exact, parts)
     for eighth, right in enumerate(
         ((x > 0 and y == 0), (x > 0 and _agree(x, y)), (x == 0 and y > 0),
@@ -140,7 +140,7 @@ def _agree(a: Value, b: Value) -> bool:
 
 
 def ask(part: PartContext) -> AskedPart[ComplexSpec]:
-    """The number of the solver, and what each mistake makes of it."""
+    """Return the number of the solver, and what each mistake makes of it."""
     traps = {name: _list_parts(form) for name, form in part.misconception_forms().items()}
     notes = part.misconception_notes(traps) if traps else {}
     parts = _list_parts(part.answer_form())
@@ -156,7 +156,7 @@ def _list_parts(form: Expr) -> list[str]:
 
 
 def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
-    """How a complex number is typed, and the form that is asked."""
+    """Return how a complex number is typed, and the form that is asked."""
     more = (translate(lang, f"ask.form_{spec.form}"),) if spec.form != "any" else ()
     return (*_HINT(spec, lang), *more)
 

@@ -42,7 +42,7 @@ class AuthoredInterval(AuthoredMeasured, kw_only=True, tag="interval", frozen=Tr
     traps: dict[str, str] = msgspec.field(default_factory=dict)
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """There is an interval, and one alone."""
+        """Yield a problem unless there is an interval, and one alone."""
         yield from super().find_problems()
         if bool(self.of) == bool(self.value):
             yield (("of",) if self.of else ()), "QG112", "give either value or of"

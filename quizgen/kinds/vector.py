@@ -91,7 +91,7 @@ class ColumnSpec(WordSpec, kw_only=True, frozen=True):
 
 
 def build_vector(components: list[str]) -> Expr:
-    """Components of a key as a tree."""
+    """Return components of a key as a tree."""
     return Call("vector", tuple(map(parse_entry, components)))
 
 
@@ -105,7 +105,7 @@ def _are_parallel(a: list[Value], b: list[Value]) -> bool:
 
 
 def ask(part: PartContext) -> AskedPart[ColumnSpec]:
-    """The vector of the solver, and what each mistake makes of it."""
+    """Return the vector of the solver, and what each mistake makes of it."""
     traps = {name: _list_components(part, f) for name, f in part.misconception_forms().items()}
     notes = part.misconception_notes(traps) if traps else {}
     components = _list_components(part, part.answer_form())
@@ -124,7 +124,7 @@ def _list_components(part: PartContext, form: Expr) -> list[str]:
 
 
 def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:
-    """How a vector is typed, and whether any multiple counts."""
+    """Return how a vector is typed, and whether any multiple counts."""
     more = (translate(lang, "ask.up_to_scale"),) if spec.up_to else ()
     return (*_HINT(spec, lang), *more)
 

@@ -15,7 +15,7 @@ _NAME = re.compile(r"[^\W\d]\w*'*")
 
 
 def find_unused_draws(template: Template) -> list[str]:
-    """Names of what is drawn and then neither shown, asked, computed with nor tested.
+    """Return names of what is drawn and then neither shown, asked, computed with nor tested.
 
     Whatever has the name in it counts as a use, so that none is reported wrongly.
     """

@@ -25,7 +25,7 @@ LARGEST_POWER = 200
 
 
 def evaluate_complex(tree: Expr, units: frozenset[str]) -> ComplexValue:
-    """The parts of a formula in which some names stand for the imaginary unit.
+    """Return the parts of a formula in which some names stand for the imaginary unit.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def evaluate_complex(tree: Expr, units: frozenset[str]) -> ComplexValue:
 
 @cache
 def complex_system() -> NumberSystem:
-    """Pairs of exact numbers; functions of a real number are those of the exact system."""
+    """Return the system of pairs of exact numbers; real functions are the exact system's."""
     real = bounded_exact_system().ops
 
     def apply_real(name: str) -> AnyNumber:

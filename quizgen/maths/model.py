@@ -134,7 +134,7 @@ def _group_misconceptions(
 
 
 def _convert_step(step: Step, resolver: FormResolver) -> tuple[ChainStep, bool]:
-    """A step without SymPy, and whether it is a form."""
+    """Return a step without SymPy, and whether it is a form."""
     name = _name_step(step)
     try:
         tree, is_form = resolver.resolve(step.expr)

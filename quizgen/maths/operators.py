@@ -105,7 +105,7 @@ def _make_list_operator(name: str, count: int = 1, *signs: str) -> Operator:
 def _make_special_operator(
     name: str, count: int = 1, *, sympy: str = "", exact: str = ""
 ) -> Operator:
-    """Floats and arrays take the value of the ball: the standard library lacks the function."""
+    """Return an operator whose floats take the value of the ball: no library has it."""
     called = {"sympy": sympy or name, "exact": exact or name}
     return Operator(name, count, count, called=called)
 

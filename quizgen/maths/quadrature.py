@@ -20,7 +20,7 @@ AGREED = 25
 def integrate(
     function: Callable[[AnyNumber], AnyNumber], low: AnyNumber, high: AnyNumber, system: Any
 ) -> AnyNumber:
-    """An integral between finite bounds; in balls, one that holds both computations.
+    """Return an integral between finite bounds; in balls, one that holds both computations.
 
     Raises
     ------

@@ -42,22 +42,22 @@ def _convert_to_integer(a: Value) -> int | None:
 
 
 def sinh(a: Value) -> Value:
-    """Hyperbolic sine; 0 for 0."""
+    """Return the hyperbolic sine; 0 for 0."""
     return fmpq(0) if a == 0 else _require_value(_to_ball(a).sinh())
 
 
 def cosh(a: Value) -> Value:
-    """Hyperbolic cosine; 1 for 0."""
+    """Return the hyperbolic cosine; 1 for 0."""
     return fmpq(1) if a == 0 else _require_value(_to_ball(a).cosh())
 
 
 def tanh(a: Value) -> Value:
-    """Hyperbolic tangent; 0 for 0."""
+    """Return the hyperbolic tangent; 0 for 0."""
     return fmpq(0) if a == 0 else _require_value(_to_ball(a).tanh())
 
 
 def factorial(a: Value) -> Value:
-    """Factorial: a whole number for a whole number, else the gamma function of one more."""
+    """Return the factorial: whole for a whole number, else the gamma function of one more."""
     n = _convert_to_integer(a)
     if n is not None and n < 0:
         raise MathError("factorial of a negative whole number")
@@ -67,13 +67,13 @@ def factorial(a: Value) -> Value:
 
 
 def gamma(a: Value) -> Value:
-    """Gamma function; a whole number for a whole number."""
+    """Return the gamma function; a whole number for a whole number."""
     n = _convert_to_integer(a)
     return _require_value(_to_ball(a).gamma()) if n is None or n <= 0 else factorial(fmpq(n - 1))
 
 
 def binomial(n: Value, k: Value) -> Value:
-    """Binomial coefficient; a rational where ``k`` is a whole number."""
+    """Return the binomial coefficient; a rational where ``k`` is a whole number."""
     chosen = _convert_to_integer(k)
     if chosen is None:
         top, below = _to_ball(n) + 1, _to_ball(k) + 1
@@ -87,7 +87,7 @@ def binomial(n: Value, k: Value) -> Value:
 
 
 def beta(a: Value, b: Value) -> Value:
-    """Beta function; a rational for two positive whole numbers."""
+    """Return the beta function; a rational for two positive whole numbers."""
     m, n = _convert_to_integer(a), _convert_to_integer(b)
     if m is not None and n is not None and 0 < m < LARGEST_FACTORIAL > n > 0:
         return gamma(a) * gamma(b) / gamma(a + b)
@@ -96,22 +96,22 @@ def beta(a: Value, b: Value) -> Value:
 
 
 def erfinv(a: Value) -> Value:
-    """Inverse of the error function; 0 for 0."""
+    """Return the inverse of the error function; 0 for 0."""
     return fmpq(0) if a == 0 else _require_value(_to_ball(a).erfinv())
 
 
 def lambertw(a: Value) -> Value:
-    """Lambert's W, its principal branch; 0 for 0."""
+    """Return Lambert's W, its principal branch; 0 for 0."""
     return fmpq(0) if a == 0 else _require_value(_to_ball(a).lambertw())
 
 
 def lowergamma(s: Value, x: Value) -> arb:
-    """Lower incomplete gamma function."""
+    """Return the lower incomplete gamma function."""
     return _require_value(_to_ball(x).gamma_lower(_to_ball(s)))
 
 
 def uppergamma(s: Value, x: Value) -> arb:
-    """Upper incomplete gamma function."""
+    """Return the upper incomplete gamma function."""
     return _require_value(_to_ball(x).gamma_upper(_to_ball(s)))
 
 
@@ -186,7 +186,7 @@ def _compute_regularized_beta(x: arb, a: arb, b: arb) -> arb:
 
 
 def normal_quantile(p: Value) -> Value:
-    """Where the standard normal distribution reaches the share ``p``."""
+    """Return where the standard normal distribution reaches the share ``p``."""
     _require_share(p)
     if p == fmpq(1, 2):
         return fmpq(0)
@@ -194,7 +194,7 @@ def normal_quantile(p: Value) -> Value:
 
 
 def t_quantile(p: Value, n: Value) -> Value:
-    """Where Student's distribution with ``n`` degrees of freedom reaches the share ``p``."""
+    """Return where Student's distribution with ``n`` degrees of freedom reaches the share ``p``."""
     _require_share(p)
     _require_degrees(n)
     if p == fmpq(1, 2):
@@ -203,14 +203,14 @@ def t_quantile(p: Value, n: Value) -> Value:
 
 
 def chi2_quantile(p: Value, n: Value) -> Value:
-    """Where the chi-squared distribution reaches the share ``p``."""
+    """Return where the chi-squared distribution reaches the share ``p``."""
     _require_share(p)
     _require_degrees(n)
     return _find_quantile("chi2", p, (n,), ctx.prec)
 
 
 def f_quantile(p: Value, m: Value, n: Value) -> Value:
-    """Where the F distribution reaches the share ``p``."""
+    """Return where the F distribution reaches the share ``p``."""
     _require_share(p)
     _require_degrees(m)
     _require_degrees(n)
@@ -248,7 +248,7 @@ def _find_exact_quantile(name: str, parts: tuple[tuple[int, int], ...], precisio
 
 
 def _solve_quantile(name: str, p: Value, degrees: tuple[Value, ...]) -> arb:
-    """A root of the distribution function, and the proof that it lies in the ball returned."""
+    """Return a root of the distribution function, in a ball that is proved to hold it."""
     function, signed = _DISTRIBUTIONS[name]
 
     def share(x: arb) -> arb:
@@ -287,7 +287,7 @@ def _bisect(share: Callable[[float], Any], p: float, *, signed: bool) -> float:
 
 
 def _sharpen(share: Callable[[arb], arb], p: arb, root: arb) -> arb:
-    """Secants from two points that are near: each step adds half as many digits again."""
+    """Return a root by secants from two near points: each adds half as many digits again."""
     before = root * (1 + arb(2) ** -30)
     off, off_before = (share(root) - p).mid(), (share(before) - p).mid()
     for _ in range(_NEWTON_STEPS):

@@ -37,7 +37,7 @@ class FormResolver:
         self.forms: dict[str, sympy.Basic] = {}
 
     def resolve(self, expression: sympy.Basic) -> tuple[Expr, bool]:
-        """The tree of an expression, and whether it is a form.
+        """Return the tree of an expression, and whether it is a form.
 
         Raises
         ------
@@ -104,7 +104,7 @@ class FormResolver:
         return _convert_evaluated(whole, free), bool(free)
 
     def _convert_complex(self, whole: sympy.Basic) -> tuple[Expr, bool]:
-        """A complex number as its real and imaginary part; a real one as itself."""
+        """Return a complex number as its real and imaginary part; a real one as itself."""
         real = {s: sympy.Dummy(s.name, real=True) for s in whole.free_symbols if s.is_real is None}
         back = {dummy: symbol for symbol, dummy in real.items()}
         value = whole.subs(real).doit()
@@ -213,7 +213,7 @@ def _convert_bound(value: sympy.Basic) -> Expr:
 
 
 def step_name(symbol: sympy.Basic | str) -> str:
-    """The name that a step defines: of a symbol, a function of free names, a matrix, or a text."""
+    """Return the name that a step defines: of a symbol, a function, a matrix, or a text."""
     if isinstance(symbol, str):
         return symbol
     if isinstance(symbol, AppliedUndef):

@@ -16,7 +16,7 @@ LARGEST_RADICAND = 10**12
 
 
 def tidy_formula(expr: Expr) -> Expr:
-    """An equal formula in which numbers are reckoned together and nothing idle is written.
+    """Return an equal formula with its numbers reckoned together and nothing idle in it.
 
     Products stay products and sums stay sums: what was factored stays so.
     """
@@ -38,7 +38,7 @@ def _is_value(expr: Expr, value: int) -> bool:
 
 
 def negate_formula(expr: Expr) -> Expr:
-    """The opposite, with the sign where a person writes it."""
+    """Return the opposite, with the sign where a person writes it."""
     if isinstance(expr, Num):
         return Num(-expr.value, expr.decimal)
     if isinstance(expr, Call) and expr.op == "neg":
@@ -71,7 +71,7 @@ def _tidy_sum(args: tuple[Expr, ...]) -> Expr:
 
 
 def _join_terms(terms: list[Expr]) -> Expr:
-    """A sum from left to right, with a minus where a term is negative."""
+    """Return a sum from left to right, with a minus where a term is negative."""
     result, *rest = terms
     run = False
     for term in rest:
@@ -159,7 +159,7 @@ def _tidy_quotient(args: tuple[Expr, ...]) -> Expr:
 
 
 def _divide_by_number(top: Expr, bottom: Fraction) -> Expr:
-    """``6*x/4`` becomes ``3*x/2``."""
+    """Return a formula over a number: ``6*x/4`` becomes ``3*x/2``."""
     minus = isinstance(top, Call) and top.op == "neg"
     inner = top.args[0] if minus and isinstance(top, Call) else top
     first, rest = Fraction(1), tuple[Expr, ...]((inner,))

@@ -37,5 +37,5 @@ class NumberList(tuple[Any, ...]):
 
 
 def map_numbers(function: Callable[[Any], AnyNumber], value: Any) -> Any:
-    """What a function gives for a number, or for each number of a list."""
+    """Return what a function gives for a number, or for each number of a list."""
     return NumberList(map(function, value)) if isinstance(value, tuple) else function(value)

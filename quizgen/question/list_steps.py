@@ -34,7 +34,7 @@ class WrittenLists(msgspec.Struct):
 
 
 def write_out_lists(expr: Expr, drawn: Variant) -> WrittenLists:
-    """A step's formula with the values of its lists in place.
+    """Return a step's formula with the values of its lists in place.
 
     Sums, means and variances become sums of their terms; any other function keeps its name
     before the values, ordered where it orders them.
@@ -63,7 +63,7 @@ def _write_out(expr: Expr, drawn: Variant, written: WrittenLists) -> Expr:
 
 
 def _put_value(text: str, written: WrittenLists) -> Sym:
-    """A leaf that is one value of a list; only the result has the unit, or all would say it."""
+    """Return a leaf that is one value of a list; only the result has a unit, not each value."""
     return _put_leaf(written, typeset.number(text), text)
 
 
@@ -80,20 +80,20 @@ def _put_leaf(written: WrittenLists, node: typeset.Node, text: str) -> Sym:
 
 
 def _put_list(name: str, drawn: Variant, written: WrittenLists) -> Sym:
-    """A leaf that is the whole list."""
+    """Return a leaf that is the whole list."""
     texts = _shorten(drawn.format_list(name))
     items = [Word(text) if text == _GAP else typeset.number(text) for text in texts]
     return _put_leaf(written, typeset.fence(items), "; ".join(texts))
 
 
 def _shorten(texts: tuple[str, ...]) -> tuple[str, ...]:
-    """The values that are written of a list: the first ones, a gap and the last if it is long."""
+    """Return the values that are written of a list: if it is long the first, a gap and the last."""
     most = 2 * MOST_WRITTEN
     return texts if len(texts) <= most else (*texts[:MOST_WRITTEN], _GAP, texts[-1])
 
 
 def _put_values(name: str, drawn: Variant, written: WrittenLists, ordered: bool) -> list[Sym]:
-    """A leaf for each value, smallest first if ``ordered``."""
+    """Return a leaf for each value, smallest first if ``ordered``."""
     texts = drawn.format_list(name)
     if ordered:
         values = drawn.lists[name]
@@ -105,7 +105,7 @@ def _put_values(name: str, drawn: Variant, written: WrittenLists, ordered: bool)
 
 
 def _choose_terms(name: str, drawn: Variant, written: WrittenLists) -> list[Expr]:
-    """A leaf for each value, or for the first two, a gap and the last."""
+    """Return a leaf for each value, or for the first two, a gap and the last."""
     texts = drawn.format_list(name)
     if len(texts) <= MOST_WRITTEN:
         return [_put_value(text, written) for text in texts]

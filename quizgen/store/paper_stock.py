@@ -35,7 +35,7 @@ class PaperStock:
         self.database, self.clock = database, clock
 
     def count_papers(self, blueprint: str, version: str) -> int:
-        """How many papers of a blueprint there are.
+        """Return how many papers of a blueprint there are.
 
         Parameters
         ----------
@@ -155,7 +155,7 @@ def _began_since(connection: Connection, learner: int, blueprint: str, since: fl
 def _find_paper(
     connection: Connection, blueprint: str, version: str
 ) -> Row[Any, Any, Any, Any] | None:
-    """A paper that no other server is about to give away: PostgreSQL has several writers."""
+    """Return a paper no other server is about to give away: PostgreSQL has several writers."""
     query = select(STOCK.c.paper, STOCK.c.minutes, STOCK.c.pauses, PAPER.c.code).join(
         PAPER, PAPER.c.id == STOCK.c.paper
     )

@@ -208,7 +208,7 @@ def _check_depth(source: str) -> None:
 
 
 def _hold_slots(source: str) -> tuple[str, tuple[str, ...], list[tuple[int, int]]]:
-    """The source with a character for each slot, their names, and where shortened text began."""
+    """Return the source with a sign for each slot, their names, and where text got shorter."""
     names: list[str] = []
     starts: list[tuple[int, int]] = []
     held, last = "", 0
@@ -225,7 +225,7 @@ def _hold_slots(source: str) -> tuple[str, tuple[str, ...], list[tuple[int, int]
 
 
 def _find_column(at: int, starts: Sequence[tuple[int, int]]) -> int:
-    """Column in the source, from 1, of a place in the held text."""
+    """Return the column in the source, from 1, of a place in the held text."""
     shift = max((ours - held for held, ours in starts if held <= at), default=0)
     return at + shift + 1
 
@@ -267,7 +267,7 @@ def _parse_mathml(held: str, starts: Sequence[tuple[int, int]]) -> ET.Element:
 
 
 def _explain_converter(held: str, message: str, starts: Sequence[tuple[int, int]]) -> LatexError:
-    """What is wrong in an author's words; the column counts bytes there, characters here."""
+    """Return what is wrong in an author's words; columns count bytes there, characters here."""
     found = _AT.match(message)
     at = len(held.encode()[: int(found[1])].decode(errors="ignore")) if found else 0
     what = found[2] if found else message
@@ -296,27 +296,27 @@ class _Reader:
         self.names = names
 
     def read(self, root: ET.Element) -> Node:
-        """The whole formula."""
+        """Return the whole formula."""
         return self.row(list(root), root=True)
 
     def row(self, elements: Sequence[ET.Element], opening: str = "", *, root: bool = False) -> Node:
-        """Elements side by side as one node."""
+        """Return elements next to each other as one node."""
         pieces = self.pieces(elements)
         return _RowBuilder(pieces, opening, root=root).build()
 
     def node(self, element: ET.Element) -> Node:
-        """One element as a node."""
+        """Return one element as a node."""
         return self.row([element])
 
     def pieces(self, elements: Iterable[ET.Element]) -> list[_Piece]:
-        """What elements hold, side by side."""
+        """Return what elements hold, one after the other."""
         found: list[_Piece] = []
         for element in elements:
             found += self.convert(element)
         return _join_signs(found)
 
     def convert(self, element: ET.Element) -> Sequence[_Piece]:
-        """One element as pieces of a row."""
+        """Return one element as pieces of a row."""
         rule = _RULES.get(element.tag)
         if rule is None or element.get("style", "").startswith(("color", "background")):
             what, commands = _REFUSED.get(element.tag, ("it cannot be said in every output", ()))
@@ -326,7 +326,7 @@ class _Reader:
     # Leaves
 
     def identifier(self, element: ET.Element) -> Sequence[_Piece]:
-        """Letters: a quantity, an upright name, a slot, or a sign that stands like a letter."""
+        """Return letters: a quantity, an upright name, a slot, or a sign used like a letter."""
         text = (element.text or "").replace("\ufe00", "").replace("\ufe01", "")
         found: list[_Piece] = []
         for part in re.split("([\ue000-\uf8ff])", text):
@@ -337,14 +337,14 @@ class _Reader:
         return found
 
     def number(self, element: ET.Element) -> Sequence[_Piece]:
-        """Digits, grouped as everywhere; zeros in front are kept."""
+        """Return digits, grouped as everywhere; zeros in front remain."""
         text = element.text or ""
         if not _NUMBER.fullmatch(text):
             raise _RefusalError(f"{text!r} is no number")
         return [Digits(text if text.startswith("0") else pretty.group_digits(text))]
 
     def operator(self, element: ET.Element) -> Sequence[_Piece]:
-        """A sign, a bracket, or a large operator."""
+        """Return a sign, a bracket, or a large operator."""
         text = element.text or ""
         text = _SAME_SIGN.get(text, text)
         if text in LARGE:
@@ -363,7 +363,7 @@ class _Reader:
         return [OperatorSign(text)]
 
     def text(self, element: ET.Element) -> Sequence[_Piece]:
-        """Words; a blank that must not break is a gap."""
+        """Return words; a blank that must not break is a gap."""
         if len(element):
             raise _RefusalError(
                 "sets words in another shape; there are \\text and \\mathrm", "textbf", "textit",
@@ -382,7 +382,7 @@ class _Reader:
         return found
 
     def space(self, element: ET.Element) -> Sequence[_Piece]:
-        """A blank of the nearest width there is; one that moves things together is left out."""
+        """Return a blank of the nearest width; one that moves things together is left out."""
         found = _WIDTH.fullmatch(element.get("width", ""))
         if found is None or float(found[1]) <= 0:
             return []
@@ -392,7 +392,7 @@ class _Reader:
     # What holds other things
 
     def group(self, element: ET.Element) -> Sequence[_Piece]:
-        """A group in braces, or brackets that LaTeX has paired."""
+        """Return a group in braces, or brackets that LaTeX has paired."""
         children = list(element)
         if len(children) > 1 and _is_paired(children[0]) and _is_paired(children[-1]):
             return [self.fence(children)]
@@ -402,7 +402,7 @@ class _Reader:
         return inner
 
     def fence(self, children: list[ET.Element]) -> Node:
-        r"""What ``\left`` and ``\right`` or an environment hold."""
+        r"""Return what ``\left`` and ``\right`` or an environment hold."""
         left, right = (_find_fence_sign(children[end]) for end in (0, -1))
         body = children[1:-1]
         if len(body) == 1 and body[0].tag == "mtable":
@@ -414,25 +414,25 @@ class _Reader:
         return Fenced(left + right, self.row(body, left))
 
     def fraction(self, element: ET.Element) -> Sequence[_Piece]:
-        """A fraction, large where it was asked to be."""
+        """Return a fraction, large where it was asked to be."""
         made = Frac(self.node(element[0]), self.node(element[1]))
         return [Display(made) if element.get("displaystyle") == "true" else made]
 
     def root(self, element: ET.Element) -> Sequence[_Piece]:
-        """A root with its index, or a square root."""
+        """Return a root with its index, or a square root."""
         if element.tag == "msqrt":
             return [Root(self.row(list(element)))]
         return [Root(self.node(element[0]), self.node(element[1]))]
 
     def scripts(self, element: ET.Element) -> Sequence[_Piece]:
-        """A base with what stands below and above it on its right."""
+        """Return a base with what stands below and above it on its right."""
         base, *rest = element
         sub = self.node(rest[0]) if element.tag != "msup" else None
         sup = self.node(rest[-1]) if element.tag != "msub" else None
         return self.attach(base, sub, sup)
 
     def attach(self, base: ET.Element, sub: Node | None, sup: Node | None) -> Sequence[_Piece]:
-        """Scripts of what stands in front; bounds of a sum, limits of a limit."""
+        """Return scripts of what stands in front; bounds of a sum, limits of a limit."""
         primes, sup = _take_primes(sup)
         before = self.pieces([base])
         if sup == OperatorSign("∘") and sub is None:
@@ -452,7 +452,7 @@ class _Reader:
         return [Scripts(made, sub, sup, primes)]
 
     def above(self, element: ET.Element) -> Sequence[_Piece]:
-        """An accent, a brace, bounds of a large operator, or a node above."""
+        """Return an accent, a brace, bounds of a large operator, or a node above."""
         base, mark = element[0], element[-1]
         sign = (mark.text or "") if mark.tag == "mo" else ""
         if element.tag == "mover" and sign == "⏞":
@@ -466,7 +466,7 @@ class _Reader:
         return [Over(self.node(base), self.arrow_note(mark))]
 
     def below(self, element: ET.Element) -> Sequence[_Piece]:
-        """An underline, a brace, bounds of a large operator, or a node below."""
+        """Return an underline, a brace, bounds of a large operator, or a node below."""
         base, mark = element[0], element[-1]
         if (mark.text or "") == "⏟":
             return [Brace(self.node(base))]
@@ -477,33 +477,33 @@ class _Reader:
         return [Under(self.node(base), self.arrow_note(mark))]
 
     def between(self, element: ET.Element) -> Sequence[_Piece]:
-        """Both bounds of a large operator, or a node below and one above."""
+        """Return both bounds of a large operator, or a node below and one above."""
         base, low, high = element
         if _find_operator(base) in LARGE:
             return self.attach(base, self.node(low), self.node(high))
         return [Over(Under(self.node(base), self.arrow_note(low)), self.arrow_note(high))]
 
     def arrow_note(self, element: ET.Element) -> Node:
-        """What stands above or below; at an arrow it is wrapped, so that the arrow is wide."""
+        """Return what stands above or below; at an arrow it is wrapped, to make the arrow wide."""
         if element.tag in {"mover", "munder"} and element[-1].tag == "mspace":
             return self.row([one for one in element[0] if one.tag != "mspace"])
         return self.node(element)
 
     def standing_table(self, element: ET.Element) -> Sequence[_Piece]:
-        """Lines below each other, or a matrix without brackets."""
+        """Return lines below each other, or a matrix without brackets."""
         rows = self.table(element)
         if element.get("displaystyle") == "true":
             return [AlignedRows(rows)]
         return [Matrix(rows, "")]
 
     def table(self, element: ET.Element) -> tuple[tuple[Node, ...], ...]:
-        """The cells of a table."""
+        """Return the cells of a table."""
         if any("border" in cell.get("style", "") for cell in element.iter("mtd")):
             raise _RefusalError("draws lines, which cannot be said in every output", "begin{array}")
         return tuple(tuple(self.row(list(cell)) for cell in row) for row in element)
 
     def inside(self, element: ET.Element) -> Sequence[_Piece]:
-        """What a wrapper holds."""
+        """Return what a wrapper holds."""
         return self.pieces(list(element))
 
 
@@ -559,7 +559,7 @@ def _find_fence_sign(element: ET.Element) -> str:
 
 
 def _find_operator(element: ET.Element) -> str:
-    """The sign of an operator; empty for anything else."""
+    """Return the sign of an operator; empty for anything else."""
     return (element.text or "") if element.tag == "mo" else ""
 
 
@@ -574,7 +574,7 @@ def _takes_limits(piece: _Piece) -> TypeGuard[FunctionName]:
 
 
 def _take_primes(sup: Node | None) -> tuple[int, Node | None]:
-    """Primes at the beginning of a superscript, and what is left of it."""
+    """Return the primes at the beginning of a superscript, and what is left of it."""
     items = list(sup.items) if isinstance(sup, MathRow) else [sup] if sup else []
     count = 0
     while items and items[0] == OperatorSign("′"):
@@ -586,7 +586,7 @@ def _take_primes(sup: Node | None) -> tuple[int, Node | None]:
 
 
 def _read_name(text: str, *, upright: bool) -> Node:
-    """One letter in its alphabet, a letter-like sign, or an upright word."""
+    """Return one letter in its alphabet, a letter-like sign, or an upright word."""
     text = _SAME_SIGN.get(text, text)
     if text in _SIGNS:
         return OperatorSign("colon" if text == ":" else text)
@@ -625,7 +625,7 @@ def _read_letter(text: str, *, upright: bool) -> Node:
 
 
 def _join_signs(pieces: list[_Piece]) -> list[_Piece]:
-    """Signs that LaTeX sets as several: three points, a colon with an equals sign."""
+    """Return signs that LaTeX sets as several as one: three points, a colon with an equals sign."""
     found: list[_Piece] = []
     dots, equals = (OperatorSign("."), OperatorSign("·")), OperatorSign("=")
     for piece in pieces:
@@ -676,7 +676,7 @@ class _RowBuilder:
         self.frames = [_Frame(opening, [])]
 
     def build(self) -> Node:
-        """The row as one node."""
+        """Return the row as one node."""
         for index, piece in enumerate(self.pieces):
             if isinstance(piece, _Bracket):
                 self.take(piece, index)
@@ -720,7 +720,7 @@ class _RowBuilder:
         items[begin:] = [Scripts(Fenced(f".{piece.sign}", body), piece.sub, piece.sup)]
 
     def count_bars(self, index: int) -> int:
-        """Bars from a place on to the end of the brackets around it."""
+        """Return the number of bars from a place to the end of the brackets around it."""
         depth = count = 0
         for piece in self.pieces[index:]:
             if isinstance(piece, _Bracket):
@@ -731,7 +731,7 @@ class _RowBuilder:
         return count
 
     def separator(self) -> OperatorSign:
-        """What a bar between two things says."""
+        """Return what a bar between two things says."""
         inside = next((one.opening for one in reversed(self.frames) if one.opening), "")
         if inside == "{":
             return OperatorSign("such that")
@@ -755,7 +755,7 @@ class _RowBuilder:
 
 
 def _join_double_bars(pieces: list[_Piece]) -> list[_Piece]:
-    """Bars in pairs, where a pair can open and another one close, as bars of a norm."""
+    """Return bars in pairs as bars of a norm, where a pair can open and another one close."""
     found = list(pieces)
     at = 0
     while at + 1 < len(found):
@@ -795,7 +795,7 @@ def _waits(items: list[Node]) -> bool:
 
 
 def _make_row(items: list[Node], *, root: bool = False) -> Node:
-    """One node of a row whose brackets are paired."""
+    """Return one node of a row whose brackets are paired."""
     _check_decimal_comma(items, root=root)
     if len(items) > 1 and OperatorSign("ᵀ") in items:
         raise _RefusalError("stands raised alone, as in A^\\top", "top")
@@ -824,7 +824,7 @@ _PREFIXES: dict[Node, OperatorSign] = {
 
 
 def _find_signs(items: list[Node]) -> list[Node]:
-    """Minus signs that are no differences, colons that are no ratios, a remainder."""
+    """Return minus signs that are no differences, colons that are no ratios, a remainder."""
     found: list[Node] = []
     for at, item in enumerate(items):
         after = items[at + 1] if at + 1 < len(items) else None
@@ -846,7 +846,7 @@ def _find_signs(items: list[Node]) -> list[Node]:
 
 
 def _apply_functions(items: list[Node]) -> list[Node]:
-    """Functions with the brackets behind them as one node."""
+    """Return functions with the brackets after them as one node."""
     found: list[Node] = []
     for item in items:
         applied = bool(found) and found[-1] == OperatorSign("apply")
@@ -891,21 +891,21 @@ def _is_called(node: Node | None, *, applied: bool) -> bool:
 
 
 def _as_head(node: Node) -> Node:
-    """A function's name as the head of what it is applied to."""
+    """Return a function's name as the head of what it is applied to."""
     if isinstance(node, Scripts):
         return replace(node, base=_as_head(node.base))
     return Word(node.text) if isinstance(node, FunctionName) else node
 
 
 def _as_function(node: Node) -> Node:
-    """A word in front of an argument as a function's name."""
+    """Return a word in front of an argument as a function's name."""
     if isinstance(node, Scripts):
         return replace(node, base=_as_function(node.base))
     return FunctionName(node.text) if isinstance(node, Word) else node
 
 
 def _split_arguments(body: Node) -> tuple[Node, ...]:
-    """Arguments between commas."""
+    """Return arguments between commas."""
     if not isinstance(body, MathRow) or OperatorSign(",") not in body.items:
         return (body,)
     parts: list[list[Node]] = [[]]
@@ -918,7 +918,7 @@ def _split_arguments(body: Node) -> tuple[Node, ...]:
 
 
 def _find_level(items: Sequence[Node]) -> int:
-    """How strongly a row holds together: as its weakest sign."""
+    """Return how strongly a row holds together: as its weakest sign."""
     signs = {item.name for item in items if isinstance(item, OperatorSign)}
     if signs & _RELATIONS or any(isinstance(item, Phrase) for item in items):
         return RELATION
@@ -945,7 +945,7 @@ _SPELLED = {
 
 
 def _spell_word(found: re.Match[str]) -> str:
-    """A name of several letters is an upright word; one with a command of its own stays."""
+    """Return a name of several letters as an upright word; one with its own command stays."""
     return found[0] if _WORD.fullmatch(found[0]) else f"\\mathrm{{{found[0]}}}"
 
 

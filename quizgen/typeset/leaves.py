@@ -112,7 +112,7 @@ class _Filling:
         self.values = values
 
     def fill(self, node: Node) -> Node:
-        """A node with its leaves filled, itself in a place where nothing needs brackets."""
+        """Return a node with its leaves filled, itself in a place where nothing needs brackets."""
         if isinstance(node, Leaf):
             return self.get(node).node
         if isinstance(node, MathRow):
@@ -124,14 +124,14 @@ class _Filling:
         return self.rebuild(node)
 
     def get(self, leaf: Leaf) -> LeafValue:
-        """The value of a leaf."""
+        """Return the value of a leaf."""
         found = self.values.get(leaf.name)
         if found is None:
             raise RenderError(f"there is no value for {leaf.name!r}")
         return found
 
     def rebuild(self, node: Node) -> Node:
-        """The same node with its parts filled."""
+        """Return the same node with its parts filled."""
         changed = {
             name: self.fill_part(part)
             for name in node.__struct_fields__
@@ -140,13 +140,13 @@ class _Filling:
         return replace(node, **changed) if changed else node
 
     def fill_part(self, part: Any) -> Any:
-        """A part of a node: a node, rows of nodes, or nothing."""
+        """Return a part of a node: a node, rows of nodes, or nothing."""
         if isinstance(part, tuple):
             return tuple(self.fill_part(one) for one in part)
         return self.fill(cast("Node", part)) if isinstance(part, Struct) else part
 
     def fill_scripts(self, node: Scripts) -> Node:
-        """What has an index or a power is one thing, or stands in brackets."""
+        """Return a node with scripts; its base is one thing, or stands in brackets."""
         base = self.fill(node.base)
         if isinstance(node.base, Leaf) and (base.level < ATOM or isinstance(base, Scripts)):
             base = Fenced("()", base)
@@ -154,7 +154,7 @@ class _Filling:
         return replace(node, base=base, sub=sub, sup=sup and _allow_slash(sup))
 
     def fill_fraction(self, node: Frac) -> Node:
-        """A fraction; before and behind a slash values need what a bar would say."""
+        """Return a fraction; on a slash, values need the brackets that a bar would spare."""
         top, bottom = self.fill(node.top), self.fill(node.bottom)
         if node.inline and isinstance(node.top, Leaf) and top.level < NEGATIVE:
             top = Fenced("()", top)
@@ -163,7 +163,7 @@ class _Filling:
         return replace(node, top=top, bottom=bottom)
 
     def fill_row(self, row: MathRow) -> Node:
-        """A row, whose leaves see what stands beside them."""
+        """Return a row, whose leaves see what stands next to them."""
         items: list[Node] = []
         for at, item in enumerate(row.items):
             before = row.items[at - 1] if at else None
@@ -236,7 +236,7 @@ def _turn_sign(items: list[Node]) -> None:
 
 
 def _take_minus(node: Node) -> Node | None:
-    """A node without the minus sign that it begins with; None if it begins with none."""
+    """Return a node without the minus sign that it begins with; None if it begins with none."""
     if not isinstance(node, MathRow) or node.level != NEGATIVE or not node.items:
         return None
     first, *rest = node.items
@@ -290,7 +290,7 @@ def _keep_sign(node: Node) -> list[Node]:
 
 
 def _needed_level(before: Node | None, following: Node | None, *, factor: bool) -> int:
-    """How strongly a value must hold together to stand without brackets."""
+    """Return how strongly a value must hold together to stand without brackets."""
     if isinstance(following, OperatorSign) and following.name in _BEHIND:
         return ATOM
     if factor:
@@ -346,7 +346,7 @@ def _touches_value(items: list[Node], node: Node, before: Node | None) -> bool:
 
 
 def _allow_slash(node: Node) -> Node:
-    """A fraction of numbers in an exponent is set on one line."""
+    """Return a fraction of numbers in an exponent as one on a single line."""
     if isinstance(node, Frac) and isinstance(node.top, Digits):
         return replace(node, inline=True)
     return node

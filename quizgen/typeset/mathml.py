@@ -447,7 +447,7 @@ def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
 
 
 def _format_aligned_cells(node: n.AlignedRows, row: tuple[n.Node, ...], lang: str) -> Iterator[str]:
-    """Cells to the left after a brace; else alternately to the right and left, or alone centred."""
+    """Yield cells set left after a brace; else right and left in turn, or alone centred."""
     for place, cell in enumerate(row):
         body = _format_inside(cell, lang)
         if node.brace:

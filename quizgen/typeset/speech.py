@@ -254,7 +254,7 @@ def _is_silent_gap(item: n.Node) -> bool:
 
 
 def _find_two_bounds(items: tuple[n.Node, ...]) -> tuple[int, ...]:
-    """The signs of 0 ≤ x < 1, which is read as two statements about x."""
+    """Return the signs of 0 ≤ x < 1, which is read as two statements about x."""
     relations = [place for place, item in enumerate(items) if item in _RELATING]
     both = len(relations) == 2 and all(items[place] in _BOUNDS for place in relations)
     return tuple(relations) if both else ()
@@ -333,7 +333,7 @@ def _is_long_index(sub: n.Node) -> bool:
 
 
 def _say_indices_before(node: n.Scripts, lang: str) -> str:
-    """Indices of what comes after them, as of an isotope."""
+    """Return indices of what comes after them, as of an isotope."""
     short = load_speech_words(lang).short
     both = (("upper index", node.sup), ("lower index", node.sub))
     return ", ".join([short[key].format(_say_node(one, lang)) for key, one in both if one]) + ","
@@ -422,7 +422,7 @@ def _say_function_head(node: n.Node, lang: str) -> str:
 
 
 def _say_scripted_head(node: n.Scripts, lang: str) -> str:
-    """A function's name with its base or power: ``log`` with 2, ``sin`` squared, an inverse."""
+    """Return a function's name with base or power: ``log`` with 2, ``sin`` squared, inverse."""
     words = load_speech_words(lang)
     if node.sup == _MINUS_ONE:
         return words.powers["inverse"].format(_say_function_head(replace(node, sup=None), lang))
@@ -513,7 +513,7 @@ def _say_matrix(node: n.Matrix, lang: str) -> str:
 
 @_say_node.register
 def _say_aligned_rows(node: n.AlignedRows, lang: str) -> str:
-    """Lines one after the other; what stands behind a brace, with a comma before each condition."""
+    """Return lines one after the other; after a brace, a comma before each condition."""
     between = ", " if node.brace else " "
     rows = [between.join([_say_node(cell, lang) for cell in row]) for row in node.rows]
     return "; ".join(rows)

@@ -20,7 +20,7 @@ def has_form(tree: Expr, form: str) -> bool:
 
 
 def _iter_factors(tree: Expr) -> Iterator[Expr]:
-    """Factors of a product, whatever their powers."""
+    """Yield the factors of a product, whatever their powers."""
     if isinstance(tree, Call) and tree.op in {"mul", "div", "neg"}:
         for arg in tree.args:
             yield from _iter_factors(arg)

@@ -124,7 +124,7 @@ _LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
 
 
 def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) -> Iterator[str]:
-    """What may have been meant by an answer that was not read, plainest change first.
+    """Yield what may have been meant by an answer that was not read, plainest change first.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) 
 
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
-    """The one number among words; a quantity needs its unit if words follow."""
+    """Yield the one number among words; a quantity needs its unit if words follow."""
     text = _NAMED.sub("", text)
     found, around = scan_numbers(text)
     if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
@@ -168,7 +168,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
 
 
 def drop_decoration(typed: str, form: AnswerForm) -> str:
-    """The answer without characters, marks and words around it that cannot matter."""
+    """Return the answer without characters, marks and words around it that cannot matter."""
     text = drop_markup(_INVISIBLE.sub("", typed)).strip()
     text = drop_bullets(text) if not _DASH.match(text) or "\n" in text else text
     if form == "values":
@@ -181,12 +181,12 @@ def drop_decoration(typed: str, form: AnswerForm) -> str:
 
 
 def drop_bullets(typed: str) -> str:
-    """The answer without bullets at the beginning of its lines."""
+    """Return the answer without bullets at the beginning of its lines."""
     return _BULLET.sub("", typed)
 
 
 def drop_markup(typed: str) -> str:
-    """The answer without marks of Markdown and emoji."""
+    """Return the answer without marks of Markdown and emoji."""
     text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed))
     code = _CODE.fullmatch(text) if "`" in text else None
     return code[1] if code else text
@@ -210,7 +210,7 @@ def _drop_once(text: str, form: AnswerForm) -> str:
 
 
 def _write_words_as_numbers(text: str) -> str:
-    """``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
+    """Return ``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
     for name in ("digits", "blanks"):
         text = SourceText.of(text).substitute(*REWRITES[name]).text
     signed = _SIGNED.sub("", text)
@@ -223,7 +223,7 @@ def _write_words_as_numbers(text: str) -> str:
 
 
 def separate_labelled_values(text: str, names: list[str]) -> Iterator[str]:
-    """``G111 R171`` and ``6.25 mm before, 50 mm after`` as ``G = 111; R = 171``, if it is so.
+    """Yield ``G = 111; R = 171`` for ``G111 R171``, if its labels are those of the values.
 
     Every label must mean a name of its own, and every value must be one number.
     """
@@ -252,7 +252,7 @@ def _write_assigned(
 
 
 def prove_groups(typed: str) -> str:
-    """Without marks of groups, where one number proves what they are: ``64,000; 1,152,000``."""
+    """Return it without marks of groups, where one number proves them: ``64,000; 1,152,000``."""
     proof = _GROUPED.search(typed)
     if proof is None:
         return typed
@@ -262,7 +262,7 @@ def prove_groups(typed: str) -> str:
 
 
 def scan_numbers(text: str) -> tuple[list[str], list[str]]:
-    """The numbers in a text, each with its unit, and the pieces of text around them."""
+    """Return the numbers in a text, each with its unit, and the pieces of text around them."""
     found: list[str] = []
     around, last = [], 0
     for match in _FOUND.finditer(text):
@@ -276,7 +276,7 @@ def scan_numbers(text: str) -> tuple[list[str], list[str]]:
 
 
 def list_readings(typed: str) -> list[str]:
-    """The numbers that an answer names, if there are several to choose from; else none."""
+    """Return the numbers that an answer names, if there are several to choose from; else none."""
     found, around = scan_numbers(_write_words_as_numbers(drop_decoration(typed, "number")))
     named = list(dict.fromkeys(found))
     if not 1 < len(named) <= _MOST_READINGS or any(map(str.isdigit, " ".join(around))):
@@ -286,7 +286,7 @@ def list_readings(typed: str) -> list[str]:
 
 
 def _find_unit(text: str, start: int) -> tuple[str, int]:
-    """The unit behind a number and where it ends; an empty one if there is none."""
+    """Return the unit after a number and where it ends; an empty one if there is none."""
     tokens = list(re.finditer(r" ?[^\s,;:!?()]+", text[start:]))[:_LONGEST_UNIT]
     for count in range(len(tokens), 0, -1):
         end = start + tokens[count - 1].end()

@@ -14,7 +14,7 @@ from quizgen.maths.numbers import to_fraction
 
 @cache
 def list_number_words() -> dict[str, int]:
-    """The words for whole numbers in every language, in small letters, to the number.
+    """Return the words for whole numbers in every language, in small letters, to the number.
 
     Bangla ``নয়`` is nine and *not*: it counts only where nothing else stands before it.
     """
@@ -61,7 +61,7 @@ _PIECE = re.compile(rf"{_NUMBER} ?((?:[^\W\d]|[\u0980-\u09ff])+)(?:,? (?:and|und
 
 
 def replace_number_word(text: str) -> str:
-    """``ten bits`` as ``10 bits``; the text itself if it begins with no word for a number."""
+    """Return ``ten bits`` as ``10 bits``; the text itself if it begins with no number word."""
     match = _compile_number_word_pattern().match(text)
     if match is None:
         return text
@@ -69,7 +69,7 @@ def replace_number_word(text: str) -> str:
 
 
 def add_large_words(text: str) -> str:
-    """``1 crore 10 lakh 59 thousand 200`` as one number; the text itself if it is no such sum."""
+    """Return ``1 crore 10 lakh 59 thousand`` as one number; the text itself if no such sum."""
     found, position, last = Fraction(0), 0, 10**9
     count = 0
     while (match := _SUMMAND.match(text, position)) is not None:
@@ -88,7 +88,7 @@ def add_large_words(text: str) -> str:
 
 
 def add_mixed_units(text: str) -> str:
-    """``27 min 26 s`` in the last of its units; the text itself if it is no such sum.
+    """Return ``27 min 26 s`` in the last of its units; the text itself if no such sum.
 
     Each unit must be smaller than the one before it, and each value but the first less than one
     of the unit before.
