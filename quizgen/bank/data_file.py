@@ -1,6 +1,6 @@
 """Data that an author's ``data.py`` draws: numbers, lists, tables and text, made exact.
 
-The file stands beside the template and runs only in a trusted bank, as solvers do.
+The file stands next to the template and runs only in a trusted bank, as solvers do.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ ListDraw: TypeAlias = Callable[[str, int, Mapping[str, Any]], RationalList]
 
 
 class TableFile(msgspec.Struct, frozen=True):
-    """A table beside a template: its columns by name, as text."""
+    """A table next to a template: its columns by name, as text."""
 
     name: str
     columns: dict[str, tuple[str, ...]]

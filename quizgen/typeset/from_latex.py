@@ -119,7 +119,7 @@ _WIDTH = re.compile(r"(-?[\d.]+)(?:em|rem)")
 
 
 class LatexError(FormulaError):
-    """LaTeX that cannot be read, or something in it that cannot be said in every output.
+    """LaTeX that cannot be read, or something in it that not every output can express.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ class LatexError(FormulaError):
 
 
 class _Bracket(Struct, frozen=True):
-    """A bracket that may open or close, with what is raised or lowered behind it."""
+    """A bracket that may open or close, with what is raised or lowered after it."""
 
     sign: str
     sub: Node | None = None
@@ -713,7 +713,7 @@ class _RowBuilder:
             top.items.append(self.separator())
 
     def evaluate(self, piece: _Bracket) -> None:
-        """End what is evaluated: all behind the last relation."""
+        """End what is evaluated: all after the last relation."""
         items = self.frames[-1].items
         begin = max((at + 1 for at, item in enumerate(items) if _is_relation(item)), default=0)
         body = _make_row(items[begin:])
@@ -880,7 +880,7 @@ _INVERSE = MathRow((OperatorSign("neg"), Digits("1")), NEGATIVE)
 
 
 def _is_called(node: Node | None, *, applied: bool) -> bool:
-    """Whether a node with brackets behind it is a function."""
+    """Whether a node with brackets after it is a function."""
     while isinstance(node, Scripts | Accent):
         if isinstance(node, Scripts) and node.sup not in {None, _INVERSE} and not applied:
             return False

@@ -180,7 +180,7 @@ class _Filling:
         return items[0] if len(items) == 1 else MathRow(tuple(items), level)
 
     def append(self, items: list[Node], item: Node, before: Node | None) -> None:
-        """Put what is no leaf behind what a row has so far."""
+        """Put what is no leaf after what a row has so far."""
         filled = self.fill(item)
         if filled != item and _find_last(items) in _SIGNS:
             flipped = _take_minus(filled)
@@ -192,7 +192,7 @@ class _Filling:
         items.append(filled)
 
     def place(self, items: list[Node], leaf: Leaf, following: Node | None) -> None:
-        """Put a value behind what a row has so far."""
+        """Put a value after what a row has so far."""
         value = self.get(leaf)
         node = value.node
         before = _find_last(items)
@@ -254,7 +254,7 @@ def _is_separator(node: Node | None) -> bool:
 
 
 def _is_factor(before: Node | None, following: Node | None) -> bool:
-    """Whether a value is multiplied by what stands beside it."""
+    """Whether a value is multiplied by what stands next to it."""
     return (
         _is_operand(before)
         or _is_operand(following)
@@ -319,7 +319,7 @@ def _starts_with_minus(node: Node) -> bool:
 
 
 def _looks_like_number(node: Node) -> bool:
-    """Whether a value right behind a factor would be read as part of it."""
+    """Whether a value right after a factor would be read as part of it."""
     while isinstance(node, Fenced) and node.kind == "()":
         node = node.body
     if isinstance(node, MathRow) and node.items:
@@ -330,14 +330,14 @@ def _looks_like_number(node: Node) -> bool:
 
 
 def _ends_in_unit(node: Node) -> bool:
-    """Whether a factor right behind a value would be read as part of its unit, or of a fraction."""
+    """Whether a factor right after a value would be read as part of its unit, or of a fraction."""
     while isinstance(node, MathRow) and node.items:
         node = node.items[-1]
     return isinstance(node, NumberWithUnit) or (isinstance(node, Frac) and node.inline)
 
 
 def _touches_value(items: list[Node], node: Node, before: Node | None) -> bool:
-    """Whether what comes right behind a value would be read as part of it."""
+    """Whether what comes right after a value would be read as part of it."""
     last = _find_last(items)
     if not isinstance(before, Leaf) or last is None or not _is_operand(last) or last is _DROPPED:
         return False

@@ -400,7 +400,7 @@ def _format_binomial(node: n.Binomial, lang: str) -> str:
 
 @_format_node.register
 def _format_cases(node: n.Cases, lang: str) -> str:
-    """Return branches behind a brace, the last one with the word for *otherwise*."""
+    """Return branches after a brace, the last one with the word for *otherwise*."""
     rows = []
     for value, condition in node.rows:
         when = f"<mtext>{load_speech_words(lang).printed['otherwise']}</mtext>"

@@ -328,7 +328,7 @@ def _say_scripts(node: n.Scripts, lang: str) -> str:
 
 
 def _is_long_index(sub: n.Node) -> bool:
-    """Whether a listener must be told where a subscript ends."""
+    """Whether a listener must hear where a subscript ends."""
     return isinstance(sub, n.MathRow) and sub.level in {n.SUM, n.RELATION}
 
 
