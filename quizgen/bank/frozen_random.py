@@ -1,7 +1,7 @@
 """Random numbers for data: streams that never change.
 
 ``numpy.random.Generator`` may give other numbers in a later NumPy, ``RandomState`` may not (NEP
-19). So this one does the work of the few methods that an author's ``data.py`` gets and that ``[draw]``
+19). So this one serves the few methods that an author's ``data.py`` gets and that ``[draw]``
 uses, seeded from the SHA-256 of what every other draw is a function of.
 """
 

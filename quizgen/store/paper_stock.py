@@ -110,8 +110,8 @@ class PaperStock:
         def work(connection: Connection) -> ExamRecord | None:
             """Take a paper out of the stock and begin an exam with it, in one transaction.
 
-            None if the learner began one just now, if none is left, or if its number is one they
-            had.
+            None if the learner began one just now, if none is left, or if they have had its
+            numbers.
             """
             if _began_since(connection, learner, blueprint, now - AGAIN):
                 return None

@@ -371,7 +371,7 @@ def _format_environment(name: str, rows: list[str]) -> str:
 
 @_format_node.register
 def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
-    """Return aligned rows, cases after a brace, or centred ones if no row has a cell more."""
+    """Return aligned rows: cases after a brace, centred ones if each is a single cell."""
     rows = [" & ".join([_format_node(cell, lang) for cell in row]) for row in node.rows]
     alone = all(len(row) == 1 for row in node.rows)
     return _format_environment("cases" if node.brace else "gathered" if alone else "aligned", rows)

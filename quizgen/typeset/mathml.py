@@ -199,7 +199,7 @@ def _format_word(node: n.Word | n.FunctionName, _lang: str) -> str:
 
 @_format_node.register
 def _format_phrase(node: n.Phrase, _lang: str) -> str:
-    """Return a phrase of the author as text; its outer blanks do not break."""
+    """Return a phrase of the author as text, with blanks at its ends that stay."""
     # blanks at the ends of an element are dropped
     text = re.sub("^ | $", "\u00a0", node.text)
     return f"<mtext>{escape(text)}</mtext>" if text else "<mrow></mrow>"

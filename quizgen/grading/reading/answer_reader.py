@@ -87,7 +87,7 @@ class _AroundWords(NamedTuple):
 def _load_around_words() -> _AroundWords:
     """Return the words that may stand around an answer, of all languages, as patterns.
 
-    All languages at once, as learners mix them. Longer words come first, or a shorter one would
+    Longer words come first, or a shorter one would
     match the start of a longer one.
     """
     found: dict[str, list[str]] = {}
