@@ -87,8 +87,7 @@ class _AroundWords(NamedTuple):
 def _load_around_words() -> _AroundWords:
     """Return the words that may stand around an answer, of all languages, as patterns.
 
-    Longer words come first, or a shorter one would
-    match the start of a longer one.
+    Longer words come first, or a shorter one would match the start of a longer one.
     """
     found: dict[str, list[str]] = {}
     for lang in list_languages():
