@@ -1,6 +1,6 @@
-"""What a bank's files come to - chains, rules, prose - kept, so that each is worked out once.
+"""What a bank's files come to - chains, rules, prose - stored, so that each is worked out once.
 
-It follows from the files, from quizgen's code between them and what is kept, and from the package
+It follows from the files, from quizgen's code between them and the result, and from the package
 that this code asks. A wheel brings what its own bank comes to (``quizgen/_build_hook.py``).
 """
 
@@ -31,7 +31,7 @@ _UNFIT = msgspec.MsgspecError, ValueError, OverflowError, RecursionError
 
 
 class CompileCache(Generic[T]):
-    """Things of one kind that are kept.
+    """Things of one kind that are stored.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ class CompileCache(Generic[T]):
         self._decoder = msgspec.msgpack.Decoder(shape, dec_hook=lambda kind, text: kind(text))
 
     def get(self, *sources: bytes) -> T | None:
-        """What sources came to, if it is kept."""
+        """Return what sources came to, if it is stored."""
         found = read_cached(self.kind, self._compute_key(sources))
         if found is None:
             return None
@@ -66,12 +66,13 @@ class CompileCache(Generic[T]):
         return thing
 
     def _compute_key(self, sources: tuple[bytes, ...]) -> str:
+        """Return the name that a result is stored under: a digest of the code and its sources."""
         return compute_digest(_compute_code_digest(*self.packages), *sources)
 
 
 @cache
 def _compute_code_digest(*packages: str) -> bytes:
-    """Return the digest of the code that makes of sources what is kept."""
+    """Return the digest of the code that makes of sources what is stored."""
     files = [file for package in packages for file in _list_version_files(package)]
     return compute_digest(_compute_own_digest(), *(file.read_bytes() for file in files)).encode()
 

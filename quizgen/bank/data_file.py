@@ -1,6 +1,6 @@
 """Data that an author's ``data.py`` draws: numbers, lists, tables and text, made exact.
 
-The file stands beside the template and runs only in a trusted bank, as solvers do.
+The file stands next to the template and runs only in a trusted bank, as solvers do.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class DrawnData(msgspec.Struct, frozen=True):
 def draw_data(
     module: ModuleType, file: Path, rules: Mapping[str, DataRule], key: str
 ) -> DrawnData | None:
-    """What ``data.py`` draws; None if it asks for another try.
+    """Return what ``data.py`` draws; None if it asks for another try.
 
     Parameters
     ----------
@@ -75,6 +75,10 @@ def draw_data(
 
 
 def _convert_data(given: object, rules: Mapping[str, DataRule]) -> DrawnData:
+    """Return what ``draw(rng)`` gave as exact values, sorted into numbers, lists and texts.
+
+    Raises ``BankError`` if it is no dict, or if its names are not those that ``[data]`` lists.
+    """
     if not isinstance(given, Mapping):
         raise BankError("draw(rng) gives no dict", rule="QG133")
     found = DrawnData({}, {}, {})
@@ -103,11 +107,16 @@ def _iter_flat(given: Mapping[Any, Any]) -> Iterator[tuple[str, Any]]:
 
 
 def _to_plain(value: Any) -> Any:
-    """NumPy's arrays and numbers as Python's own."""
+    """Return NumPy's arrays and numbers as Python's own."""
     return value.tolist() if hasattr(value, "tolist") else value
 
 
 def _add_value(found: DrawnData, name: str, value: Any, rule: DataRule) -> None:
+    """Add one value of ``draw(rng)``, exact, to the numbers, the lists or the texts.
+
+    A text that reads as a number is one. Raises ``BankError`` for a list or a text that is too
+    long.
+    """
     if isinstance(value, list | tuple):
         if not 1 <= len(value) <= MOST_VALUES:
             what = f"{name}: a list of {len(value)} values (allowed: 1 to {MOST_VALUES})"
@@ -122,6 +131,7 @@ def _add_value(found: DrawnData, name: str, value: Any, rule: DataRule) -> None:
 
 
 def _is_number(text: str) -> bool:
+    """Return whether a text reads as a rational number."""
     try:
         to_rational(text)
     except ValueError:
@@ -130,7 +140,7 @@ def _is_number(text: str) -> bool:
 
 
 def _convert_number(name: str, value: Any, rule: DataRule) -> fmpq:
-    """The exact rational that is shown."""
+    """Return the exact rational that is shown."""
     if isinstance(value, bool) or not isinstance(value, numbers.Number | str | Decimal):
         raise BankError(f"{name}: {value!r} is no number", rule="QG133")
     try:

@@ -193,6 +193,7 @@ def _infer_binder_dimension(call: Call, known: Mapping[str, Dimension]) -> Dimen
 
 
 def _add_dimensions(first: Dimension | None, second: Dimension | None) -> Dimension | None:
+    """Return the dimension of a product of two; one that is not known (None) counts as plain."""
     if first is None or second is None:
         return first if second is None else second
     total = {base: first.get(base, Fraction(0)) + second.get(base, Fraction(0))

@@ -28,7 +28,7 @@ ListDraw: TypeAlias = Callable[[str, int, Mapping[str, Any]], RationalList]
 
 
 class TableFile(msgspec.Struct, frozen=True):
-    """A table beside a template: its columns by name, as text."""
+    """A table next to a template: its columns by name, as text."""
 
     name: str
     columns: dict[str, tuple[str, ...]]
@@ -39,7 +39,7 @@ class TableFile(msgspec.Struct, frozen=True):
         return len(next(iter(self.columns.values()), ()))
 
     def get_column(self, name: str) -> tuple[str, ...]:
-        """A column.
+        """Return a column.
 
         Raises
         ------
@@ -58,7 +58,7 @@ def is_table_file(name: str) -> bool:
 
 
 def list_table_files(rules: Rules) -> Iterator[str]:
-    """Names of the files that ``[draw]`` reads."""
+    """Yield the names of the files that ``[draw]`` reads."""
     for rule in rules.draw.values():
         for name in (rule.table, rule.of):
             if isinstance(name, str) and is_table_file(name):
@@ -66,7 +66,7 @@ def list_table_files(rules: Rules) -> Iterator[str]:
 
 
 def read_table_file(folder: Path, name: str) -> TableFile:
-    """A table beside a template: CSV with a head row, or JSON, columns by name or a list of rows.
+    """Return a template's table: CSV with a head row, or JSON, by columns or by rows.
 
     Raises
     ------
@@ -84,6 +84,10 @@ def read_table_file(folder: Path, name: str) -> TableFile:
 
 
 def _parse_csv_columns(text: str, file: Path) -> dict[str, Any]:
+    """Return the columns of a CSV table by the names in its first row.
+
+    Raises ``BankError`` if it is empty, or if a row has more or fewer cells than the first.
+    """
     rows = [cells for _, cells in parse_csv(text, file, BankError) if any(cells)]
     if not rows:
         raise BankError("the table is empty", rule="QG110", file=file)
@@ -94,6 +98,11 @@ def _parse_csv_columns(text: str, file: Path) -> dict[str, Any]:
 
 
 def _parse_json(text: str, file: Path) -> dict[str, Any]:
+    """Return the columns of a JSON table by name, whichever of three shapes it has.
+
+    These are columns by name, a list of rows, and one value for each key, which becomes the columns
+    ``key`` and ``value``. Raises ``BankError`` for anything else.
+    """
     found = parse_json(text, file, BankError)
     if isinstance(found, list) and found and all(isinstance(row, dict) for row in found):
         found = {name: [row.get(name, "") for row in found] for name in found[0]}
@@ -108,7 +117,7 @@ def _parse_json(text: str, file: Path) -> dict[str, Any]:
 
 
 def round_float(value: float | fmpq, decimals: int) -> fmpq:
-    """A float rounded to decimals, half away from zero, as the exact rational that it then is."""
+    """Return a float rounded to decimals, half away from zero, as the exact rational it then is."""
     exact = to_fraction(value) if isinstance(value, fmpq) else Fraction(value)
     scale = 10**decimals
     whole = (abs(exact) * scale + Fraction(1, 2)).__floor__()
@@ -116,7 +125,7 @@ def round_float(value: float | fmpq, decimals: int) -> fmpq:
 
 
 def list_rule_formulas(rule: DrawRule, rules: Rules) -> list[str]:
-    """The formulas that a rule is made of, over quantities drawn before."""
+    """Return the formulas that a rule is made of, over quantities drawn before."""
     found = [rule.formula or rule.by, *map(str, rule.normal)]
     found += [rule.size] if isinstance(rule.size, str) else []
     by_phrase = rule.at in rules.draw and bool(rules.draw[rule.at].words)
@@ -135,7 +144,7 @@ class ListPlan(msgspec.Struct, frozen=True):
     formulas: dict[str, CompiledFormula]
 
     def draw(self, stem: str, attempt: int, env: Mapping[str, Any]) -> RationalList:
-        """The values of one try.
+        """Return the values of one try.
 
         Raises
         ------
@@ -161,6 +170,10 @@ class ListPlan(msgspec.Struct, frozen=True):
         return tuple(self.pool[place] for place in order[:count])
 
     def _count(self, env: Mapping[str, Any]) -> int:
+        """Return how many values the list has, a number or a formula of values drawn before.
+
+        Raises ``BankError`` unless that is a whole number from 1 to ``MOST_VALUES``.
+        """
         size = self.rule.size
         value = fmpq(size) if isinstance(size, int) else self.formulas[str(size)](env)
         if not isinstance(value, fmpq) or value.q != 1 or not 1 <= value <= MOST_VALUES:
@@ -168,7 +181,7 @@ class ListPlan(msgspec.Struct, frozen=True):
         return int(value.p)
 
     def _take_rows(self, stem: str, attempt: int) -> RationalList:
-        """Rows of a file, the same for each of its columns that takes as many, in their order."""
+        """Return rows of a file, the same for each of its columns that takes as many, in order."""
         take = self.rule.take
         if take is None or take >= len(self.pool):
             return self.pool
@@ -182,7 +195,7 @@ class ListPlan(msgspec.Struct, frozen=True):
 def plan_list(
     name: str, rule: DrawRule, folder: Path, compile_formula: Callable[[str], CompiledFormula]
 ) -> ListPlan:
-    """How the list of a rule is drawn; its file is read once.
+    """Return how the list of a rule is drawn; its file is read once.
 
     Raises
     ------
@@ -202,6 +215,7 @@ def plan_list(
 
 
 def _parse_cell(cell: Scalar) -> fmpq:
+    """Return the number in a cell, exactly; ``BankError`` if it is none."""
     try:
         return to_rational(str(cell))
     except FormulaError as error:
@@ -216,7 +230,7 @@ class LookupPlan(msgspec.Struct, frozen=True):
     place: CompiledFormula | None
 
     def look_up(self, env: Mapping[str, Any], words: Mapping[str, str]) -> fmpq:
-        """The value.
+        """Return the value.
 
         Raises
         ------
@@ -237,6 +251,10 @@ class LookupPlan(msgspec.Struct, frozen=True):
         return self.table[key]
 
     def _pick_from_list(self, key: str, env: Mapping[str, Any]) -> fmpq:
+        """Return the value at a place of a drawn list, the first of which is 1.
+
+        Raises ``BankError`` if there is no such place.
+        """
         listed = env[str(self.rule.of)]
         if not isinstance(listed, tuple) or not key.isdecimal() or not 1 <= int(key) <= len(listed):
             what = f"{self.rule.of} has no place {key} (the first is 1)"
@@ -249,7 +267,7 @@ def plan_lookup(
     name: str, rule: DrawRule, rules: Rules, folder: Path,
     compile_formula: Callable[[str], CompiledFormula],
 ) -> LookupPlan:  # fmt: skip
-    """How a rule's value is looked up; its file is read once.
+    """Return how a rule's value is looked up; its file is read once.
 
     Raises
     ------
@@ -273,7 +291,7 @@ def plan_lookup(
 
 
 def find_list_problems(rule: DrawRule) -> Iterator[tuple[str, str, str]]:
-    """Fields of a rule that do not fit each other: the field, a code, and what is wrong."""
+    """Yield fields of a rule that do not fit each other: field, code, and what is wrong."""
     way = get_draw_way(rule)
     if way == "normal":
         if len(rule.normal) != len(("mean", "spread")):
@@ -298,6 +316,6 @@ def is_list_rule(rule: DrawRule) -> bool:
 
 
 def count_common_decimals(values: RationalList) -> int | None:
-    """Decimals that show every value of a list exactly; None if one has no short form."""
+    """Return how many decimals show every value exactly; None if one has no short form."""
     counts = [count_decimals(value) for value in values]
     return None if None in counts else max((c for c in counts if c is not None), default=0)

@@ -27,7 +27,7 @@ def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
     if first == second:
         return True
     if _is_call(first, "eq") and _is_call(second, "eq"):
-        return _formulas_agree(_difference(first), _difference(second), "factor")
+        return _formulas_agree(_take_difference(first), _take_difference(second), "factor")
     if _is_call(first, "vector") and _is_call(second, "vector") and relation == "scale":
         return _are_parallel(first, second)
     if isinstance(first, Call) and first.op in _STRUCTURES:
@@ -41,15 +41,18 @@ def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
 
 
 def _is_call(expr: Expr, op: str) -> bool:
+    """Return whether a formula is a call of an operator."""
     return isinstance(expr, Call) and expr.op == op
 
 
-def _difference(equation: Expr) -> Expr:
+def _take_difference(equation: Expr) -> Expr:
+    """Return left side minus right side of an equation, and any other formula as it is."""
     return Call("sub", equation.args) if isinstance(equation, Call) else equation
 
 
 def _are_parallel(first: Expr, second: Expr) -> bool:
-    a, b = (_values(arg) for arg in (first, second))
+    """Return whether two vectors are multiples of each other, by their 2x2 minors."""
+    a, b = (_evaluate_components(arg) for arg in (first, second))
     return len(a) == len(b) and all(
         math.isclose(a[i] * b[j], a[j] * b[i], rel_tol=NEAR, abs_tol=1e-12)
         for i in range(len(a))
@@ -57,12 +60,18 @@ def _are_parallel(first: Expr, second: Expr) -> bool:
     )
 
 
-def _values(vector: Expr) -> list[float]:
+def _evaluate_components(vector: Expr) -> list[float]:
+    """Return a vector's components as floats; NaN, which equals nothing, where one has none."""
     found = [_evaluate_at(arg, {}) for arg in (vector.args if isinstance(vector, Call) else ())]
     return [math.nan if value is None else value for value in found]
 
 
 def _formulas_agree(first: Expr, second: Expr, relation: str) -> bool:
+    """Return whether two formulas are related at every point where both have a value.
+
+    ``relation`` is ``"constant"`` or ``"factor"`` if they may differ by one, anything else if they
+    must be equal. False if there is no such point.
+    """
     names = sorted(names_in(first) | names_in(second))
     pairs = []
     for turn in range(len(_POINTS) if names else 1):
@@ -74,6 +83,7 @@ def _formulas_agree(first: Expr, second: Expr, relation: str) -> bool:
 
 
 def _are_related(pairs: Sequence[tuple[float, float]], relation: str) -> bool:
+    """Return whether pairs of values differ by one constant, by one factor, or not at all."""
     if relation == "constant":
         shift = pairs[0][0] - pairs[0][1]
         return all(_is_near(a - b, shift, max(abs(a), abs(b))) for a, b in pairs)
@@ -84,10 +94,12 @@ def _are_related(pairs: Sequence[tuple[float, float]], relation: str) -> bool:
 
 
 def _is_near(a: float, b: float, size: float) -> bool:
+    """Return whether two floats agree, relative to the size of what they were computed from."""
     return abs(a - b) <= NEAR * max(size, 1e-12)
 
 
 def _evaluate_at(expr: Expr, env: dict[str, float]) -> float | None:
+    """Return a formula's value at a point as a float; None if it has no finite one there."""
     if _is_call(expr, "infinity"):
         return math.inf
     try:

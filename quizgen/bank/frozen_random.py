@@ -1,7 +1,7 @@
 """Random numbers for data: streams that never change.
 
 ``numpy.random.Generator`` may give other numbers in a later NumPy, ``RandomState`` may not (NEP
-19). So this one is behind the few methods that an author's ``data.py`` gets and that ``[draw]``
+19). So this one serves the few methods that an author's ``data.py`` gets and that ``[draw]``
 uses, seeded from the SHA-256 of what every other draw is a function of.
 """
 
@@ -36,28 +36,28 @@ class FrozenGenerator:
         self._state = np.random.RandomState(words.astype(np.uint32))
 
     def random(self, size: Size = None) -> Any:
-        """Floats from 0 to below 1."""
+        """Return floats from 0 to below 1."""
         return self._state.random_sample(size)
 
     def uniform(self, low: float = 0.0, high: float = 1.0, size: Size = None) -> Any:
-        """Floats from ``low`` to below ``high``."""
+        """Return floats from ``low`` to below ``high``."""
         return self._state.uniform(low, high, size)
 
     def normal(self, loc: float = 0.0, scale: float = 1.0, size: Size = None) -> Any:
-        """Normally distributed floats with this mean and standard deviation."""
+        """Return normally distributed floats with this mean and standard deviation."""
         return self._state.normal(loc, scale, size)
 
     def integers(self, low: int, high: int | None = None, size: Size = None) -> Any:
-        """Whole numbers from ``low`` to below ``high``; from 0 to below ``low`` without it."""
+        """Return whole numbers from ``low`` to below ``high``, or from 0 to below ``low``."""
         found = self._state.randint(low, high, size, dtype="int64")
         return int(found) if size is None else found
 
     def choice(self, a: Any, size: Size = None, replace: bool = True, p: Any = None) -> Any:
-        """Elements of a list, or whole numbers below ``a``."""
+        """Return elements of a list, or whole numbers below ``a``."""
         return self._state.choice(a, size, replace, p)
 
     def permutation(self, x: Any) -> np.ndarray[Any, Any]:
-        """The elements in another order."""
+        """Return the elements in another order."""
         return self._state.permutation(x)
 
     def shuffle(self, x: Any) -> None:
@@ -65,17 +65,17 @@ class FrozenGenerator:
         self._state.shuffle(x)
 
     def poisson(self, lam: float = 1.0, size: Size = None) -> Any:
-        """Whole numbers of a Poisson distribution."""
+        """Return whole numbers of a Poisson distribution."""
         return self._state.poisson(lam, size)
 
     def binomial(self, n: int, p: float, size: Size = None) -> Any:
-        """Whole numbers of a binomial distribution."""
+        """Return whole numbers of a binomial distribution."""
         return self._state.binomial(n, p, size)
 
     def exponential(self, scale: float = 1.0, size: Size = None) -> Any:
-        """Floats of an exponential distribution with this mean."""
+        """Return floats of an exponential distribution with this mean."""
         return self._state.exponential(scale, size)
 
     def multinomial(self, n: int, pvals: Any, size: Size = None) -> Any:
-        """How often each of several outcomes comes in ``n`` trials."""
+        """Return how often each of several outcomes comes in ``n`` trials."""
         return self._state.multinomial(n, pvals, size)

@@ -250,13 +250,14 @@ def parse_blocks(source: str, line: int = 0) -> tuple[Block, ...]:
 
 
 def _hold_bars(source: str) -> str:
-    """The source with other characters for bars inside formulas, which end no cell of a table."""
+    """Return the source with stand-ins for bars inside formulas, which end no cell of a table."""
     if "|" not in source or "$" not in source:
         return source
     return _IN_CELL.sub(lambda found: found[0].replace("|", _BAR), source)
 
 
 def _release_bars(text: str) -> str:
+    """Return the text of a cell with the bars of its formulas put back."""
     return text.replace(_BAR, "|")
 
 
@@ -444,7 +445,7 @@ def _parse_prose_formula(text: str) -> InlineFormula | LaidOutFormula:
 
 
 def _set_large(formula: InlineFormula | LaidOutFormula) -> LaidOutFormula:
-    """A formula between two dollar signs each is as large as one in a line of its own."""
+    """Return a formula between two dollar signs each, as large as one in a line of its own."""
     if isinstance(formula, InlineFormula):
         return LaidOutFormula(Display(lay_out(formula.expr)), format_tree(formula.expr))
     return LaidOutFormula(Display(formula.node), formula.source)
@@ -458,6 +459,10 @@ _HELD = "\ua4d0"
 
 
 def _parse_typed_formula(text: str) -> InlineFormula | LaidOutFormula:
+    """Return a formula that an author typed, laid out if it has slots for drawn values.
+
+    A slot is read as a name and then becomes a place in the layout. Raises ``FormulaReadError``.
+    """
     if not SLOT.search(text):
         return InlineFormula(parse_formula(text))
     if _HELD in text:

@@ -87,7 +87,7 @@ class PartChecker:
         self.apart = 1.0 if self.one_step else APART
 
     def _plan_form(self, template: Template) -> None:
-        """What the form rests on, and the mistakes that change it."""
+        """Find what the form rests on, and the mistakes that change it."""
         chain, step = template.chain, template.chain.form_by_name[self.form]
         used = names_in(step.expr) - {*chain.free}
         needed = frozenset().union(*(chain.required_steps(name) for name in used), frozenset())
@@ -109,7 +109,7 @@ class PartChecker:
         }
 
     def wrong_forms(self, values: Values) -> dict[str, Expr]:
-        """What each mistake makes of the form, with the numbers of a draw in place."""
+        """Return what each mistake makes of the form, with the numbers of a draw in place."""
         chain, found = self.chain, {}
         for trap in self.traps:
             own = [wrong for wrong in chain.form_traps.get(trap, ()) if wrong.name == self.form]
@@ -123,7 +123,7 @@ class PartChecker:
         return found
 
     def check_form(self, values: Values, *, lenient: bool) -> tuple[str, ...] | str:
-        """Names of the mistakes that give another form, or the reason to redraw."""
+        """Return the names of the mistakes that give another form, or the reason to redraw."""
         key = self.chain.bind_form(self.chain.form_by_name[self.form].expr, values)
         seen = {"the key": key}
         relation = str(self.answer.get("up_to", ""))

@@ -55,7 +55,7 @@ LISTED = frozenset({"values", "normal", "sample", "permutation", "table"})
 
 
 def get_draw_way(rule: DrawRule) -> str:
-    """Which way a quantity is drawn in; empty if the rule names none, or several."""
+    """Return which way a quantity is drawn in; empty if the rule names none, or several."""
     ways = [way for way in WAYS if getattr(rule, way)]
     return ways[0] if len(ways) == 1 else ""
 

@@ -133,7 +133,7 @@ class _Variable(msgspec.Struct, frozen=True):
 
 
 def describe_list_fault(error: Exception) -> str:
-    """What is wrong in a formula; Python's own word for a sum with a list names only types."""
+    """Return what is wrong in a formula; Python's word for a sum with a list names only types."""
     return "a list stands where a number is needed" if isinstance(error, TypeError) else str(error)
 
 
@@ -220,6 +220,10 @@ class Sampler:
         return _Variable(file, name, listed, rule.words, formula)
 
     def _plan_table_variable(self, name: str) -> _Variable:
+        """Return how a variable is drawn that is a list or is looked up in a table.
+
+        A ``BankError`` gets the file and the place in it, which the tables do not know.
+        """
         template = self.template
         rule, rules = template.rules.draw[name], template.rules
         try:
@@ -244,7 +248,7 @@ class Sampler:
             yield _Condition(f"keep.{name}", _make_test_of_name(name, test), frozenset({name}))
 
     def propose(self, stem: str, attempt: int) -> DrawnValues | None:
-        """Values of one try, before any condition; the precision is stated around it.
+        """Return the values of one try, before any condition; the precision is stated around it.
 
         None if ``data.py`` asks for another try.
         """
@@ -266,7 +270,7 @@ class Sampler:
         return drawn
 
     def _start_draw(self, stem: str, attempt: int) -> DrawnValues | None:
-        """What ``data.py`` gives, which comes before ``[draw]``; nothing without one."""
+        """Return what ``data.py`` gives, which comes before ``[draw]``; nothing without one."""
         template = self.template
         module = template.data_module if template.rules.data else None
         if module is None or template.data_file is None:
@@ -412,6 +416,7 @@ def solve_candidate(
 
 
 def _refuse_list_steps(plan: Sampler, values: Values) -> None:
+    """Raise ``BankError`` if a step of the solution is a list: an answer is one number."""
     for step in plan.template.chain.steps:
         if isinstance(values[step.name], tuple):
             what = f"step {step.name!r} is a list, where a number is needed"
@@ -422,7 +427,7 @@ def _refuse_list_steps(plan: Sampler, values: Values) -> None:
 def _usable_traps(
     plan: Sampler, shown: Mapping[str, fmpq], values: Values, *, lenient: bool
 ) -> tuple[tuple[str, ...], ...] | str:
-    """The usable traps of each part, or the reason to reject the candidate."""
+    """Return the usable traps of each part, or the reason to reject the candidate."""
     approximate: dict[str, Any] = (
         {name: map_numbers(to_float, value) for name, value in values.items()}
         if plan.has_lists

@@ -220,7 +220,7 @@ def _stops_evaluation(node: ast.AST) -> bool:
 
 
 def _called_name(node: ast.AST) -> str:
-    """The name of a called function or method; empty if a node calls none."""
+    """Return the name of a called function or method; empty if a node calls none."""
     if not isinstance(node, ast.Call):
         return ""
     called = node.func

@@ -161,7 +161,7 @@ def _check_draw_rule(rule: DrawRule) -> FieldProblems:
 
 
 def _check_data(rules: Rules) -> FieldProblems:
-    """What ``[data]`` and ``[files]`` say of quantities."""
+    """Yield what is wrong in what ``[data]`` and ``[files]`` say of quantities."""
     if len(rules.data) > MOST_FORMULAS:
         yield ("data",), "QG110", f"more than {MOST_FORMULAS} entries"
     for name, rule in rules.data.items():

@@ -158,6 +158,10 @@ class Variant:
         return self._computed[formula]
 
     def _compute_formula(self, formula: str) -> Value:
+        """Return the value of a formula of shown values and drawn lists.
+
+        Raises ``BankError`` if a list stands where a number is needed, or the other way round.
+        """
         compiled = self.sampler.compile_formula(formula)
         if not self.lists:
             return compiled(self.shown_values)
@@ -169,7 +173,7 @@ class Variant:
             raise BankError(what, rule="QG120", file=file, place=place) from error
 
     def format_list(self, name: str) -> tuple[str, ...]:
-        """The numbers of a drawn list as they are shown, all with as many decimals."""
+        """Return the numbers of a drawn list as they are shown, all with as many decimals."""
         values = self.lists[name]
         count = count_common_decimals(values)
         if count is not None and count <= MOST_LIST_DECIMALS:
@@ -177,7 +181,7 @@ class Variant:
         return tuple(format_exact(v) or format_rounded(v, figures=SHOWN_FIGURES) for v in values)
 
     def form(self, name: str) -> Expr:
-        """A form of the solver with the drawn numbers in place, tidied.
+        """Return a form of the solver with the drawn numbers in place, tidied.
 
         Raises
         ------
@@ -210,7 +214,7 @@ class Variant:
         }
 
     def exact_texts(self, index: int) -> tuple[str, ...]:
-        """Each irrational component of a part's answer as a formula; empty where it is none.
+        """Return each irrational component of a part's answer as a formula; empty for none.
 
         A quantity that is asked in another unit than base units has no such formula.
         """
@@ -225,11 +229,11 @@ class Variant:
         return tuple(found)
 
     def form_of_part(self, index: int) -> Expr:
-        """The form that a part asks for, with the drawn numbers in place."""
+        """Return the form that a part asks for, with the drawn numbers in place."""
         return self.form(self.sampler.parts[index].form)
 
     def misconception_forms(self, index: int) -> dict[str, Expr]:
-        """Each usable mistake of a part and the form that it gives."""
+        """Return each usable mistake of a part and the form that it gives."""
         with working_precision():
             found = self.sampler.parts[index].wrong_forms(self.values)
         return {trap: found[trap] for trap in self.traps[index]}
@@ -279,6 +283,7 @@ def _build_variant(
     drawn: DrawnValues,
     solved: tuple[dict[str, Value], tuple[tuple[str, ...], ...]],
 ) -> Variant:
+    """Return the variant of a template for (seed, slot, tries), from what was drawn and solved."""
     seed, slot, tries = drawn_for
     return Variant(template, seed, slot, tries, drawn.shown, drawn.words, *solved, drawn.lists)
 

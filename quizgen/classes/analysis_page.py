@@ -182,6 +182,7 @@ def plot_totals(
     """Return a histogram of the students' points; a red line marks the pass mark."""
 
     def draw(ax: Any) -> None:
+        """Draw the histogram of the totals, with a line at the points that pass."""
         from matplotlib.ticker import MaxNLocator
 
         bars = min(MOST_BARS, max(5, int(np.sqrt(len(totals)) * 2)))
@@ -200,6 +201,7 @@ def plot_items(rows: Sequence[tuple[str, float, float]], lang: str, caption: str
     """
 
     def draw(ax: Any) -> None:
+        """Draw a dot for each question at (difficulty, discrimination), the weak ones in red."""
         ax.axhline(0.0, color="rule", linestyle="-")
         ax.axhline(WEAK, color="grey", linestyle=(0, (4, 2.5)), linewidth=0.8)
         heights = [row[2] for row in rows]
@@ -217,6 +219,7 @@ def plot_effect(effect: VariantEffect, lang: str, caption: str) -> Figure:
     """Return the mean share of the points for each value, with 95 % error bars."""
 
     def draw(ax: Any) -> None:
+        """Draw the share of right answers at each level, with bars of 95 % confidence."""
         places = np.arange(len(effect.levels))
         ax.errorbar(
             places,

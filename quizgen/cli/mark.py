@@ -70,6 +70,7 @@ def mark(
 
 
 def _mark_spec(spec: str, typed: str, options: MarkOptions) -> Verdict:
+    """Return the verdict on an answer to a specification given on the command line."""
     from quizgen.kinds.grade import grade_answer
 
     return grade_answer(
@@ -79,6 +80,7 @@ def _mark_spec(spec: str, typed: str, options: MarkOptions) -> Verdict:
 
 
 def _mark_template(name: str, typed: str, options: MarkOptions) -> Verdict:
+    """Return the verdict on an answer to a part of a template, as drawn for the seed."""
     from quizgen.paper.one_part import mark_part
 
     return mark_part(

@@ -30,11 +30,15 @@ MOST_AHEAD = 5000
 def _parse_papers_ahead(
     _context: click.Context, _option: click.Parameter, given: tuple[str, ...]
 ) -> tuple[tuple[str, int], ...]:
-    """Blueprints or topics, and how many papers of each; which there are, the bank says."""
+    """Return blueprints or topics, and how many papers of each; the bank says which there are."""
     return tuple(map(_parse_one_ahead, given))
 
 
 def _parse_one_ahead(text: str) -> tuple[str, int]:
+    """Return a blueprint and how many papers of it to make ahead, from ``mock=300``.
+
+    Raises ``click.BadParameter`` if it is not written so, or if the number is out of bounds.
+    """
     name, _, number = text.rpartition("=")
     if not name or not re.fullmatch("[0-9]{1,4}", number, re.ASCII):
         raise click.BadParameter(f"{text!r} is not like mock=300")

@@ -60,6 +60,11 @@ def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
 
 
 def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
+    """Return the verdict on an answer as it was typed; only then as it may have been meant.
+
+    An undecided answer is read once more without the words around it; if that fails too, the
+    learner is asked what was meant.
+    """
     if len(typed) > LONGEST_PROSE:  # no answer is so long: nothing is searched for one in it
         return _judge_text(spec, typed, options)
     form = spec.written_as
@@ -74,7 +79,7 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
 
 
 def _judge_plainer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict | None:
-    """The verdict on the answer without what stands around it; none if that does not help."""
+    """Return the verdict on the answer without what stands around it; None if that is no help."""
     for text in list_plainer_texts(typed, spec.written_as, spec.value_names()):
         plainer = _judge_text(spec, text, options)
         if plainer.verdict == WRONG and is_cut_short(typed):
@@ -96,7 +101,7 @@ def _ask_what_is_meant(form: AnswerForm, typed: str, verdict: Verdict) -> Verdic
 
 
 def _prepare(typed: str, form: AnswerForm) -> str:
-    """The text that is judged first: without what would make a wrong answer of a right one."""
+    """Return the text that is judged first: without what would make a right answer a wrong one."""
     if form == "values":
         return prove_groups(typed)
     if form == "word":
@@ -105,6 +110,10 @@ def _prepare(typed: str, form: AnswerForm) -> str:
 
 
 def _judge_text(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
+    """Return the verdict of a specification on a text; a fault in its notation is one, too.
+
+    A right answer that is denied ("not 5") is ambiguous.
+    """
     try:
         verdict = spec.judge(typed, options)
     except FormulaReadError as error:

@@ -54,7 +54,7 @@ class SpecBase:
         return list(self.of.values()) if isinstance(self.of, dict) else self.of
 
     def value_names(self) -> list[str]:
-        """Names that values may be labelled with, in the order of the values."""
+        """Return names that values may be labelled with, in the order of the values."""
         return []
 
     def value_units(self) -> list[str]:

@@ -173,6 +173,7 @@ def as_student_writes(wrong: AnySpec, answer: KeyNumbers) -> AnySpec:
 
 
 def _is_short_text(text: str) -> bool:
+    """Return whether a number, as text, is a decimal with few digits."""
     value = parse_exact(text)
     return is_short_decimal(value)
 

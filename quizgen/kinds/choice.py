@@ -379,7 +379,7 @@ def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
 
 
 def _ask_values(part: PartContext) -> AskedPart[ChoiceSpec]:
-    """The value of a quantity among those that known mistakes give, from the least up.
+    """Return the value of a quantity among those that known mistakes give, from the least up.
 
     A mistake that shows the same number as the key or as another mistake is left out. ``take``
     is the number of options; of more mistakes so many are drawn.

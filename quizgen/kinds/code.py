@@ -98,7 +98,7 @@ def fold_blanks(text: str) -> str:
 
 
 def _drop_surroundings(given: str) -> str:
-    """Without a prompt or ``Output:`` before it, and the full stop of a sentence behind it."""
+    """Return it without a prompt or ``Output:`` in front, and a sentence's full stop."""
     folded = re.sub("[！-～]", lambda m: chr(ord(m[0]) - 0xFEE0), given)
     return fold_blanks(re.sub(r"(?<=[\])}\w'\"]) ?[.!,]$", "", _PROMPT.sub("", folded)))
 

@@ -64,6 +64,7 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
         return wrong(read_as, self._find_slip(value))
 
     def _find_slip(self, value: ComplexValue) -> str:
+        """Return the note on a wrong number that misses the key by one slip; "" for none."""
         real, imaginary = value
         if _is_same((real, -imaginary), self.parts):
             return "conjugate"
@@ -72,6 +73,7 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
         return "sign" if _is_same((-real, -imaginary), self.parts) else ""
 
     def _judge_form(self, tree: Expr, right: Verdict) -> Verdict:
+        """Return the verdict on a right number: half if it is not in the form asked."""
         if self.form == "any" or self.form == find_written_form(tree):
             return right
         return partial(HALF, right.read_as, f"form-{self.form}")
@@ -100,11 +102,12 @@ def _works_on_sum(node: Expr) -> bool:
 
 
 def _is_same(value: ComplexValue, parts: list[str]) -> bool:
+    """Return whether real and imaginary part are those of a key."""
     return all(map(entry_matches, value, parts))
 
 
 def build_complex(parts: list[str], form: str) -> Expr:
-    """A number of a key as a formula of ``i``, in the form asked."""
+    """Return a number of a key as a formula of ``i``, in the form asked."""
     real, imaginary = map(parse_entry, parts)
     unit = Sym("i")
     if form != "polar":
@@ -118,11 +121,11 @@ def build_complex(parts: list[str], form: str) -> Expr:
 
 
 def _write_angle(parts: list[str], real: Expr, imaginary: Expr) -> Expr:
-    """The angle: a multiple of pi where it is an eighth of a turn, else by ``atan2``."""
+    """Return the angle: a multiple of pi where it is an eighth of a turn, else by ``atan2``."""
     x, y = map(parse_exact, parts)
     for eighth, right in enumerate(
-        ((x > 0 and y == 0), (x > 0 and _same(x, y)), (x == 0 and y > 0), (y > 0 and _same(-x, y)),
-         (x < 0 and y == 0))
+        ((x > 0 and y == 0), (x > 0 and _agree(x, y)), (x == 0 and y > 0),
+         (y > 0 and _agree(-x, y)), (x < 0 and y == 0))
     ):  # fmt: skip
         if right:
             return tidy_formula(
@@ -131,12 +134,13 @@ def _write_angle(parts: list[str], real: Expr, imaginary: Expr) -> Expr:
     return Call("atan2", (imaginary, real))
 
 
-def _same(a: Value, b: Value) -> bool:
+def _agree(a: Value, b: Value) -> bool:
+    """Return whether two values agree, or cannot be shown to differ."""
     return values_agree(a, b) is not False
 
 
 def ask(part: PartContext) -> AskedPart[ComplexSpec]:
-    """The number of the solver, and what each mistake makes of it."""
+    """Return the number of the solver, and what each mistake makes of it."""
     traps = {name: _list_parts(form) for name, form in part.misconception_forms().items()}
     notes = part.misconception_notes(traps) if traps else {}
     parts = _list_parts(part.answer_form())
@@ -145,13 +149,14 @@ def ask(part: PartContext) -> AskedPart[ComplexSpec]:
 
 
 def _list_parts(form: Expr) -> list[str]:
+    """Return real and imaginary part of a form as text; a real form has the imaginary part 0."""
     if isinstance(form, Call) and form.op == "complex":
         return [format_plain(arg) for arg in form.args]
     return [format_plain(form), "0"]
 
 
 def input_hints(spec: ComplexSpec, lang: str) -> tuple[TextOrInlines, ...]:
-    """How a complex number is typed, and the form that is asked."""
+    """Return how a complex number is typed, and the form that is asked."""
     more = (translate(lang, f"ask.form_{spec.form}"),) if spec.form != "any" else ()
     return (*_HINT(spec, lang), *more)
 

@@ -140,7 +140,7 @@ FORM_KINDS = frozenset({"expression", "interval", "equation", "complex", "matrix
 
 
 def asked_form(answer: Mapping[str, Any]) -> str:
-    """The form of the solver that an authored answer names; empty if it names none."""
+    """Return the form of the solver that an authored answer names; empty if it names none."""
     of, kind = answer.get("of", ()), answer.get("kind")
     return of if isinstance(of, str) and (kind in FORM_KINDS or kind == "set") else ""
 
@@ -367,13 +367,13 @@ class PartContext(Protocol):
         """Return each usable mistake and the answer it gives, as ``answer_values``."""
 
     def exact_texts(self) -> tuple[str, ...]:
-        """Each irrational component of the answer as a formula; empty where it is none."""
+        """Return each irrational component of the answer as a formula; empty where it is none."""
 
     def answer_form(self) -> Expr:
-        """The form that the answer names, with the drawn numbers in place."""
+        """Return the form that the answer names, with the drawn numbers in place."""
 
     def misconception_forms(self) -> dict[str, Expr]:
-        """Each usable mistake and the form that it gives, as ``answer_form``."""
+        """Return each usable mistake and the form that it gives, as ``answer_form``."""
 
     def count_nouns(self) -> dict[str, Any]:
         """Return the field ``counts`` of a spec: the words for what the answer counts."""
@@ -403,7 +403,7 @@ class PartContext(Protocol):
         """Return whether a language file has words for a gap of this name."""
 
     def format_option(self, value: Value, unit: str) -> str:
-        """A value with its unit as an option shows it: exact if that is short, else 4 figures."""
+        """Return a value with its unit as an option shows it: exact if short, else 4 figures."""
 
     def option_texts(self, names: Iterable[str]) -> list[str]:
         """Return the wording of options in the first language, as it would be typed."""

@@ -38,7 +38,7 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
     traps: dict[str, str] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
-        """The key and the mistakes must be equations."""
+        """Require the key and the mistakes to be equations."""
         for text in (self.value, *self.traps.values()):
             _split_authored(text, tuple(self.symbols))
 
@@ -79,6 +79,7 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
 
 
 def _split_authored(text: str, symbols: tuple[str, ...]) -> tuple[Expr, ...]:
+    """Return left and right side of an equation in a bank; ``ValueError`` if it is none."""
     tree = parse_authored(text, symbols)
     if not isinstance(tree, Call) or tree.op != "eq":
         raise ValueError(f"{text!r} is no equation")
@@ -86,7 +87,7 @@ def _split_authored(text: str, symbols: tuple[str, ...]) -> tuple[Expr, ...]:
 
 
 def ask(part: PartContext) -> AskedPart[EquationSpec]:
-    """The equation of the solver, and what each mistake makes of it."""
+    """Return the equation of the solver, and what each mistake makes of it."""
     forms = {"": part.answer_form(), **part.misconception_forms()}
     texts = {name: format_tree(require_form(part, form, "eq")) for name, form in forms.items()}
     value = texts.pop("")

@@ -65,7 +65,7 @@ class AuthoredExpression(AuthoredAnswer, kw_only=True, tag="expression", frozen=
     up_to: Literal["", "constant", "factor"] = ""
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """There is a formula, and one alone."""
+        """Yield a problem unless there is a formula, and one alone."""
         if bool(self.of) == bool(self.value):
             yield (("of",) if self.of else ()), "QG112", "give either value or of"
         elif self.value and not self.symbols:
@@ -177,7 +177,7 @@ def _is_equal_enough(spec: ExpressionSpec, found: SamplingResult) -> bool:
 
 
 def _judge_form(spec: ExpressionSpec, tree: Expr, right: Verdict) -> Verdict:
-    """Half of the marks for a right formula that has not the form asked."""
+    """Return half of the marks for a right formula that has not the form asked."""
     if has_form(tree, spec.form):
         return right
     return partial(HALF, right.read_as, f"form-{spec.form}")
@@ -260,7 +260,7 @@ HOW_TO_TYPE = hint("ask.expression", example=EXAMPLE)
 
 
 def input_hints(spec: ExpressionSpec, lang: str) -> tuple[TextOrInlines, ...]:
-    """How a formula is typed, and the form that is asked."""
+    """Return how a formula is typed, and the form that is asked."""
     form = f"ask.form_{spec.form}" if spec.form not in {"", "any"} else ""
     free = f"ask.up_to_{spec.up_to}" if spec.up_to else ""
     return (*HOW_TO_TYPE(spec, lang), *(translate(lang, name) for name in (form, free) if name))

@@ -29,7 +29,7 @@ ROUNDED = fmpq(1, 200)
 
 
 def require_form(part: PartContext, form: Expr, *ops: str) -> Call:
-    """A form, if it is of the sort that a kind asks for.
+    """Return a form, if it is of the sort that a kind asks for.
 
     Raises
     ------
@@ -54,23 +54,23 @@ def typeset_key(tree: Expr, typed_text: str = "") -> TextOrInlines:
 
 
 def format_plain(expr: Expr) -> str:
-    """A number of a form as a person types it: ``-1/3``, ``2*sqrt(3)``, ``inf``."""
+    """Return a number of a form as a person types it: ``-1/3``, ``2*sqrt(3)``, ``inf``."""
     return str(expr.value) if isinstance(expr, Num) else format_tree(expr)
 
 
 def show_entry(text: str) -> str:
-    """A number of a key as it is printed, and as it can be typed back."""
+    """Return a number of a key as it is printed, and as it can be typed back."""
     plain = format_plain(parse_entry(text))
     return pretty.format_number(plain) if _NUMBER.fullmatch(plain) else pretty.format_formula(plain)
 
 
 def parse_entry(text: str) -> Expr:
-    """The tree of a number of a key."""
+    """Return the tree of a number of a key."""
     return parse_formula(text, symbols=())
 
 
 def read_entry(piece: str | SourceText, decimal: str) -> ReadNumber:
-    """A typed number.
+    """Return a typed number.
 
     Raises
     ------

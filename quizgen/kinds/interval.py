@@ -42,7 +42,7 @@ class AuthoredInterval(AuthoredMeasured, kw_only=True, tag="interval", frozen=Tr
     traps: dict[str, str] = msgspec.field(default_factory=dict)
 
     def find_problems(self) -> Iterator[FieldProblem]:
-        """There is an interval, and one alone."""
+        """Yield a problem unless there is an interval, and one alone."""
         yield from super().find_problems()
         if bool(self.of) == bool(self.value):
             yield (("of",) if self.of else ()), "QG112", "give either value or of"
@@ -86,6 +86,7 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         return partial(HALF, read_as, "union-brackets") if bounds else wrong(read_as, "bounds")
 
     def _is_same_union(self, pieces: list[IntervalValue], keys: list[IntervalValue]) -> bool:
+        """Return whether a union has the key's pieces, with their bounds and brackets."""
         return len(pieces) == len(keys) and all(
             self._has_same_bounds(piece, key)
             and (piece.closed_low, piece.closed_high) == (key.closed_low, key.closed_high)
@@ -93,11 +94,18 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         )
 
     def _has_same_bounds(self, interval: IntervalValue, key: IntervalValue) -> bool:
-        return _same(self, interval.low, key.low) and _same(self, interval.high, key.high)
+        """Return whether both bounds are the key's, whatever the brackets."""
+        return _is_same_bound(self, interval.low, key.low) and _is_same_bound(
+            self, interval.high, key.high
+        )
 
     def _judge_single(self, interval: IntervalValue, key: IntervalValue, read_as: str) -> Verdict:
-        low = _same(self, interval.low, key.low)
-        high = _same(self, interval.high, key.high)
+        """Return the verdict on one interval: wrong bounds are wrong, brackets cost points.
+
+        One wrong bracket leaves half of the points, two leave a quarter.
+        """
+        low = _is_same_bound(self, interval.low, key.low)
+        high = _is_same_bound(self, interval.high, key.high)
         if not (low and high):
             note = "bound-left" if high else "bound-right" if low else "bounds"
             return wrong(read_as, note)
@@ -260,7 +268,7 @@ def _echo(interval: IntervalValue) -> str:
     )
 
 
-def _same(spec: IntervalSpec, value: Value | None, key: Value | None) -> bool:
+def _is_same_bound(spec: IntervalSpec, value: Value | None, key: Value | None) -> bool:
     """Return whether a bound is the key's, within the tolerance or both infinite."""
     if value is None or key is None:
         return value is None and key is None
@@ -280,6 +288,7 @@ def ask(part: PartContext) -> AskedPart[IntervalSpec]:
 
 
 def _format_union(part: PartContext, form: Expr) -> str:
+    """Return a union, or the points of a finite set, as the text of a key."""
     union = require_form(part, form, "union", "set")
     if union.op == "set":
         return " or ".join(f"[{point}; {point}]" for point in map(format_plain, union.args))
@@ -287,6 +296,7 @@ def _format_union(part: PartContext, form: Expr) -> str:
 
 
 def _format_piece(piece: Expr) -> str:
+    """Return one interval of a union as the text of a key, ``[0; 1[``."""
     if not isinstance(piece, Call):
         raise TypeError(piece)
     low, high, *sides = piece.args

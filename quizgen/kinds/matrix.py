@@ -86,12 +86,12 @@ _NAMED = re.compile(r"^\s*[^\W\d_]\w{0,9}'*\s*=\s*(?=[\[(\\])")
 
 
 def build_matrix(entries: Entries) -> Expr:
-    """Rows of a key as a tree."""
+    """Return rows of a key as a tree."""
     return Call("matrix", tuple(Call("row", tuple(map(parse_entry, row))) for row in entries))
 
 
 def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
-    """Rows of values, and the echo.
+    """Return rows of values, and the echo.
 
     Raises
     ------
@@ -140,15 +140,17 @@ def _split_row(row: str, decimal: str) -> list[str]:
 
 
 def _is_same(rows: list[list[Value]], entries: Entries) -> bool:
+    """Return whether a matrix has the shape and the entries of a key."""
     return len(rows) == len(entries) and all(map(_is_same_row, rows, entries))
 
 
 def _is_same_row(row: list[Value], key: list[str]) -> bool:
+    """Return whether a row has the length and the entries of a key's row."""
     return len(row) == len(key) and all(map(entry_matches, row, key))
 
 
 def _diagnose(spec: MatrixSpec, rows: list[list[Value]], read_as: str) -> Verdict:
-    """What is wrong: the size, rows and columns exchanged, one row, or single entries."""
+    """Return what is wrong: the size, rows and columns exchanged, one row, or single entries."""
     turned = [list(column) for column in zip(*rows, strict=True)]
     if _is_same(turned, spec.entries):
         return wrong(read_as, "transposed")
@@ -168,7 +170,7 @@ def _diagnose(spec: MatrixSpec, rows: list[list[Value]], read_as: str) -> Verdic
 
 
 def ask(part: PartContext) -> AskedPart[MatrixSpec]:
-    """The matrix of the solver, and what each mistake makes of it."""
+    """Return the matrix of the solver, and what each mistake makes of it."""
     wrong_forms = part.misconception_forms()
     traps = {name: _list_entries(part, form) for name, form in wrong_forms.items()}
     notes = part.misconception_notes(traps) if traps else {}
@@ -179,6 +181,7 @@ def ask(part: PartContext) -> AskedPart[MatrixSpec]:
 
 
 def _list_entries(part: PartContext, form: Expr) -> Entries:
+    """Return the entries of a form by row, as text; a vector is one column."""
     matrix = require_form(part, form, "matrix", "vector")
     if matrix.op == "vector":
         return [[format_plain(arg)] for arg in matrix.args]

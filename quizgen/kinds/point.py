@@ -112,7 +112,7 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
         return choose_reading(verdict, other, doubt, (_echo(self, first), _echo(self, second)))
 
     def value_names(self) -> list[str]:
-        """The authored names, else those that the chain has for the coordinates."""
+        """Return the authored names, else those that the chain has for the coordinates."""
         return self.names or list(self.quantities())
 
     def show(self) -> str:

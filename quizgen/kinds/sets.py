@@ -172,7 +172,7 @@ def _covers(spec: SetSpec, numbers: list[ReadNumber], wanted: list[Value]) -> bo
 
 
 def ask(part: PartContext) -> AskedPart[SetSpec]:
-    """The elements, and those that each mistake gives."""
+    """Return the elements, and those that each mistake gives."""
     if not asked_form(part.answer):
         return ask_numeric(SetSpec, part)
     values, letters = _list_elements(part, part.answer_form())
@@ -185,7 +185,7 @@ def ask(part: PartContext) -> AskedPart[SetSpec]:
 
 
 def _list_elements(part: PartContext, form: Expr) -> tuple[list[str], list[str]]:
-    """Numbers and letters of a set of the solver."""
+    """Return numbers and letters of a set of the solver."""
     if isinstance(form, Call) and form == Call("union", ()):
         return [], []
     args = require_form(part, form, "set").args

@@ -127,7 +127,7 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
         )
 
     def value_names(self) -> list[str]:
-        """The labels of the cells."""
+        """Return the labels of the cells."""
         return list(self.values)
 
     def value_units(self) -> list[str]:

@@ -81,6 +81,7 @@ class ColumnSpec(WordSpec, kw_only=True, frozen=True):
         return verdict_by_share(credit, read_as, "matrix-entries", right=right, of=count)
 
     def _is_right(self, values: list[Value], components: list[str]) -> bool:
+        """Return whether a vector is the key, or a multiple of it if ``up_to`` is "scale"."""
         if self.up_to == "scale":
             return _are_parallel(values, list(map(parse_exact, components)))
         return all(map(entry_matches, values, components))
@@ -91,11 +92,12 @@ class ColumnSpec(WordSpec, kw_only=True, frozen=True):
 
 
 def build_vector(components: list[str]) -> Expr:
-    """Components of a key as a tree."""
+    """Return components of a key as a tree."""
     return Call("vector", tuple(map(parse_entry, components)))
 
 
 def _are_parallel(a: list[Value], b: list[Value]) -> bool:
+    """Return whether two vectors are multiples of each other; the zero vector is of none."""
     if all(value == 0 for value in a):
         return False
     return all(
@@ -104,7 +106,7 @@ def _are_parallel(a: list[Value], b: list[Value]) -> bool:
 
 
 def ask(part: PartContext) -> AskedPart[ColumnSpec]:
-    """The vector of the solver, and what each mistake makes of it."""
+    """Return the vector of the solver, and what each mistake makes of it."""
     traps = {name: _list_components(part, f) for name, f in part.misconception_forms().items()}
     notes = part.misconception_notes(traps) if traps else {}
     components = _list_components(part, part.answer_form())
@@ -113,6 +115,7 @@ def ask(part: PartContext) -> AskedPart[ColumnSpec]:
 
 
 def _list_components(part: PartContext, form: Expr) -> list[str]:
+    """Return the components of a form as text; a matrix of one row is a vector, too."""
     vector = require_form(part, form, "vector", "matrix")
     args = vector.args
     if vector.op == "matrix":
@@ -122,7 +125,7 @@ def _list_components(part: PartContext, form: Expr) -> list[str]:
 
 
 def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:
-    """How a vector is typed, and whether any multiple counts."""
+    """Return how a vector is typed, and whether any multiple counts."""
     more = (translate(lang, "ask.up_to_scale"),) if spec.up_to else ()
     return (*_HINT(spec, lang), *more)
 

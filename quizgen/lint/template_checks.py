@@ -240,7 +240,7 @@ def _draw_within_limit(template: Template, seeds: int, report: TemplateReport) -
 
 
 def _find_uncertain_steps(one: Variant, report: TemplateReport) -> Iterator[Diagnostic]:
-    """Steps whose value cannot be told from zero: no digit of them could be printed.
+    """Yield steps whose value cannot be distinguished from zero: no digit can be printed.
 
     A step is looked at in each draw, and reported once.
     """

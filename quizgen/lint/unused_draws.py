@@ -15,7 +15,7 @@ _NAME = re.compile(r"[^\W\d]\w*'*")
 
 
 def find_unused_draws(template: Template) -> list[str]:
-    """Names of what is drawn and then neither shown, asked, computed with nor tested.
+    """Return names of what is drawn and then neither shown, asked, computed with nor tested.
 
     Whatever has the name in it counts as a use, so that none is reported wrongly.
     """
@@ -66,6 +66,7 @@ def _iter_names(value: object) -> Iterator[str]:
 
 
 def _iter_prose_names(text: LanguageFile) -> Iterator[str]:
+    """Yield every name in the slots, sentences and conditions of a language file."""
     for section in (text.stem, *text.sections.values()):
         for slot in slot_names(section):
             yield from _NAME.findall(slot)

@@ -84,7 +84,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
     def bind_form(
         self, expr: Expr, values: Values, wrong: Mapping[str, Expr] | None = None
     ) -> Expr:
-        """A form with the numbers of a draw in place, tidied.
+        """Return a form with the numbers of a draw in place, tidied.
 
         A quantity that is irrational stays the formula that gives it, so that the form is exact.
 
@@ -233,7 +233,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
 
 
 def _write_exactly(name: str, values: Values, steps: Mapping[str, Expr]) -> Expr:
-    """A quantity as a rational, else as the formula that gives it."""
+    """Return a quantity as a rational, else as the formula that gives it."""
     value = values[name]
     if isinstance(value, fmpq):
         return Num(to_fraction(value))

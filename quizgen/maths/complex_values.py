@@ -25,7 +25,7 @@ LARGEST_POWER = 200
 
 
 def evaluate_complex(tree: Expr, units: frozenset[str]) -> ComplexValue:
-    """The parts of a formula in which some names stand for the imaginary unit.
+    """Return the parts of a formula in which some names stand for the imaginary unit.
 
     Raises
     ------
@@ -43,11 +43,14 @@ def evaluate_complex(tree: Expr, units: frozenset[str]) -> ComplexValue:
 
 @cache
 def complex_system() -> NumberSystem:
-    """Pairs of exact numbers; functions of a real number are those of the exact system."""
+    """Return the system of pairs of exact numbers; real functions are the exact system's."""
     real = bounded_exact_system().ops
 
     def apply_real(name: str) -> AnyNumber:
+        """Return a real operator as one of pairs, for arguments that are all real."""
+
         def apply(*args: ComplexValue) -> ComplexValue:
+            """Return its value as a pair; ``MathError`` if an argument is not real."""
             if any(arg[1] != 0 for arg in args):
                 raise MathError("a function of a complex number")
             found = real[name](*(arg[0] for arg in args))
@@ -73,10 +76,12 @@ def complex_system() -> NumberSystem:
 
 
 def _multiply(a: ComplexValue, b: ComplexValue) -> ComplexValue:
+    """Return the product of two complex numbers."""
     return a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]
 
 
 def _divide(a: ComplexValue, b: ComplexValue) -> ComplexValue:
+    """Return the quotient of two complex numbers; ``MathError`` if the divisor is zero."""
     divide = bounded_exact_system().ops["div"]
     size = b[0] * b[0] + b[1] * b[1]
     top = _multiply(a, (b[0], -b[1]))
@@ -84,6 +89,10 @@ def _divide(a: ComplexValue, b: ComplexValue) -> ComplexValue:
 
 
 def _raise(a: ComplexValue, b: ComplexValue) -> ComplexValue:
+    """Return a power: of reals any that is real, of a complex number a whole one.
+
+    Raises ``MathError`` for any other power, and for one above ``LARGEST_POWER``.
+    """
     ops = bounded_exact_system().ops
     if a[1] == 0 and b[1] == 0:
         return ops["pow"](a[0], b[0]), fmpq(0)
@@ -96,12 +105,14 @@ def _raise(a: ComplexValue, b: ComplexValue) -> ComplexValue:
 
 
 def _exponentiate(a: ComplexValue) -> ComplexValue:
+    """Return e to the power of a complex number, by Euler's formula."""
     ops = bounded_exact_system().ops
     size = ops["exp"](a[0])
     return size * ops["cos"](a[1]), size * ops["sin"](a[1])
 
 
 def _take_root(a: ComplexValue) -> ComplexValue:
+    """Return the principal square root of a real number; ``MathError`` if it is not real."""
     ops = bounded_exact_system().ops
     if a[1] == 0 and a[0] < 0:
         return fmpq(0), ops["sqrt"](-a[0])

@@ -229,9 +229,10 @@ def _convert_piecewise(expression: sympy.Basic) -> Expr:
 
 
 def _make_binder_converter(op: str) -> Callable[[sympy.Basic], Expr]:
-    """Sums, products and integrals with finite bounds, the innermost first."""
+    """Return the rule for sums, products and integrals with finite bounds, innermost first."""
 
     def rule(expression: sympy.Basic) -> Expr:
+        """Return a sum, product or integral as nested calls, a call for each limit."""
         body = from_sympy(expression.function)
         for limit in expression.limits:
             if len(limit) != 3 or any(bound.is_infinite for bound in limit[1:]):
@@ -244,7 +245,7 @@ def _make_binder_converter(op: str) -> Callable[[sympy.Basic], Expr]:
 
 
 def _convert_own_function(expression: sympy.Basic) -> Expr:
-    """``Function("t_quantile")(p, n)``: operators that SymPy has no class for."""
+    """Return ``Function("t_quantile")(p, n)`` as a call: an operator that SymPy has not."""
     name = expression.func.__name__
     row = OPERATORS.get(name)
     if row is None or not row.least <= len(expression.args) <= row.most:
@@ -268,6 +269,10 @@ REWRITES: dict[type, type] = {
 
 
 def _rewrite_function(expression: sympy.Basic) -> Expr:
+    """Return the formula of a function by way of others, as ``REWRITES`` lists them.
+
+    Raises ``BankError`` if SymPy cannot rewrite it.
+    """
     other = expression.rewrite(REWRITES[type(expression)])
     if type(other) is type(expression):
         raise BankError(f"no formula for {expression}")

@@ -17,6 +17,7 @@ from quizgen.maths.values import AnyNumber, NumberList
 
 
 def _require_list(values: AnyNumber, least: int = 1) -> NumberList:
+    """Return a list of at least so many values; ``MathError`` if it is none."""
     if not isinstance(values, NumberList):
         raise MathError("a number stands where a list is needed")
     if len(values) < least:
@@ -25,6 +26,7 @@ def _require_list(values: AnyNumber, least: int = 1) -> NumberList:
 
 
 def _require_pairs(first: AnyNumber, second: AnyNumber) -> tuple[NumberList, NumberList]:
+    """Return two lists of the same length, at least 2; ``MathError`` otherwise."""
     one, other = _require_list(first, 2), _require_list(second, 2)
     if len(one) != len(other):
         raise MathError(f"lists of {len(one)} and of {len(other)} values cannot be paired")
@@ -32,48 +34,48 @@ def _require_pairs(first: AnyNumber, second: AnyNumber) -> tuple[NumberList, Num
 
 
 def add_values(values: AnyNumber) -> AnyNumber:
-    """The sum."""
+    """Return the sum."""
     first, *rest = _require_list(values)
     return sum(rest, first)
 
 
 def compute_mean(values: AnyNumber) -> AnyNumber:
-    """The arithmetic mean."""
+    """Return the arithmetic mean."""
     return add_values(values) / len(values)
 
 
 def _sum_products(one: NumberList, other: NumberList) -> AnyNumber:
-    """Sum of the products of what two lists differ from their means."""
+    """Return the sum of the products of what two lists differ from their means."""
     left, right = compute_mean(one), compute_mean(other)
     return add_values(NumberList((a - left) * (b - right) for a, b in zip(one, other, strict=True)))
 
 
 def compute_variance(values: AnyNumber) -> AnyNumber:
-    """The variance of a sample, by n - 1."""
+    """Return the variance of a sample, by n - 1."""
     listed = _require_list(values, 2)
     return _sum_products(listed, listed) / (len(listed) - 1)
 
 
 def compute_population_variance(values: AnyNumber) -> AnyNumber:
-    """The variance of a population, by n."""
+    """Return the variance of a population, by n."""
     listed = _require_list(values)
     return _sum_products(listed, listed) / len(listed)
 
 
 def compute_covariance(first: AnyNumber, second: AnyNumber) -> AnyNumber:
-    """The covariance of a sample of pairs, by n - 1."""
+    """Return the covariance of a sample of pairs, by n - 1."""
     one, other = _require_pairs(first, second)
     return _sum_products(one, other) / (len(one) - 1)
 
 
 def compute_slope(first: AnyNumber, second: AnyNumber) -> AnyNumber:
-    """The slope of the line of least squares, ``second`` over ``first``."""
+    """Return the slope of the line of least squares, ``second`` over ``first``."""
     one, other = _require_pairs(first, second)
     return _sum_products(one, other) / _sum_products(one, one)
 
 
 def compute_quantile(values: AnyNumber, share: AnyNumber) -> AnyNumber:
-    """The quantile of method 7, linear between the ordered values, as R and NumPy by default.
+    """Return the quantile of method 7, linear between ordered values, as R and NumPy have it.
 
     Source: Hyndman and Fan, Sample quantiles in statistical packages, 1996.
     """
@@ -88,19 +90,19 @@ def compute_quantile(values: AnyNumber, share: AnyNumber) -> AnyNumber:
 
 
 def compute_median(values: AnyNumber) -> AnyNumber:
-    """The value in the middle, or the mean of the two there."""
+    """Return the value in the middle, or the mean of the two there."""
     ordered = sort_values(values)
     low, high = ordered[(len(ordered) - 1) // 2], ordered[len(ordered) // 2]
     return (low + high) / 2
 
 
 def sort_values(values: AnyNumber) -> NumberList:
-    """The values, smallest first."""
+    """Return the values, smallest first."""
     return NumberList(sorted(_require_list(values)))
 
 
 def pick_value(values: AnyNumber, place: AnyNumber) -> AnyNumber:
-    """The value at a place, counted from 1.
+    """Return the value at a place, counted from 1.
 
     Raises
     ------
@@ -108,29 +110,32 @@ def pick_value(values: AnyNumber, place: AnyNumber) -> AnyNumber:
         If there is no such place.
     """
     listed = _require_list(values)
-    if isinstance(place, tuple) or place != (index := int(float(_as_float(place)))):
+    if isinstance(place, tuple) or place != (index := int(float(_convert_to_float(place)))):
         raise MathError("a place in a list is a whole number")
     if not 1 <= index <= len(listed):
         raise MathError(f"no place {index} in a list of {len(listed)} values (the first is 1)")
     return listed[index - 1]
 
 
-def _as_float(value: AnyNumber) -> float:
+def _convert_to_float(value: AnyNumber) -> float:
+    """Return a value as the nearest float, from any number system."""
     return int(value.p) / int(value.q) if isinstance(value, fmpq) else float(value)
 
 
 def _pick_least(values: AnyNumber) -> AnyNumber:
+    """Return the least value of a list; a number is its own minimum."""
     return min(_require_list(values)) if isinstance(values, tuple) else values
 
 
 def _pick_largest(values: AnyNumber) -> AnyNumber:
+    """Return the largest value of a list; a number is its own maximum."""
     return max(_require_list(values)) if isinstance(values, tuple) else values
 
 
 def build_list_functions(
     square_root: Callable[[AnyNumber], AnyNumber], number: Callable[[int], AnyNumber]
 ) -> dict[str, Callable[..., AnyNumber]]:
-    """Each operator on lists by its name in the table of operators.
+    """Return each operator on lists by its name in the table of operators.
 
     Parameters
     ----------
@@ -141,6 +146,7 @@ def build_list_functions(
     """
 
     def correlate(first: AnyNumber, second: AnyNumber) -> AnyNumber:
+        """Return Pearson's correlation coefficient of two lists, -1 to 1."""
         one, other = _require_pairs(first, second)
         spread = _sum_products(one, one) * _sum_products(other, other)
         return _sum_products(one, other) / square_root(spread)

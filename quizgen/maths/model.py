@@ -116,6 +116,7 @@ class Model:
 
 
 def _name_step(step: Step) -> str:
+    """Return the name of a step, without loading SymPy before it is needed."""
     from quizgen.maths.symbolic import step_name
 
     return step_name(step.symbol)
@@ -133,7 +134,7 @@ def _group_misconceptions(
 
 
 def _convert_step(step: Step, resolver: FormResolver) -> tuple[ChainStep, bool]:
-    """A step without SymPy, and whether it is a form."""
+    """Return a step without SymPy, and whether it is a form."""
     name = _name_step(step)
     try:
         tree, is_form = resolver.resolve(step.expr)
@@ -145,6 +146,7 @@ def _convert_step(step: Step, resolver: FormResolver) -> tuple[ChainStep, bool]:
 def _check_forms(
     known: set[str], forms: list[ChainStep], traps: Mapping[str, tuple[ChainStep, ...]]
 ) -> None:
+    """Raise ``BankError`` if a form or a trap uses a name that is neither given nor free."""
     for step in (*forms, *(wrong for several in traps.values() for wrong in several)):
         missing = names_in(step.expr) - known
         if missing:

@@ -102,7 +102,7 @@ LARGEST_SUM = 10_000
 
 
 def _compile_binder(expr: Call, system: NumberSystem) -> CompiledFormula:
-    """A sum or product over the whole numbers between two bounds; an integral between them."""
+    """Return a sum or product over the whole numbers between two bounds, or an integral."""
     name = expr.args[0].name if isinstance(expr.args[0], Sym) else ""
     low, high, body = (compile_nested(arg, system) for arg in expr.args[1:])
     if expr.op == "integral":
@@ -110,6 +110,7 @@ def _compile_binder(expr: Call, system: NumberSystem) -> CompiledFormula:
     combine, start = system.ops["add" if expr.op == "sum" else "mul"], Fraction(expr.op != "sum")
 
     def run(env: Environment) -> AnyNumber:
+        """Return the sum or product; ``MathError`` if it has ``LARGEST_SUM`` terms or more."""
         first, last = _read_bound(low(env)), _read_bound(high(env))
         if last - first >= LARGEST_SUM:
             raise MathError(f"more than {LARGEST_SUM} terms")
@@ -122,19 +123,21 @@ def _compile_binder(expr: Call, system: NumberSystem) -> CompiledFormula:
 
 
 def _read_bound(value: AnyNumber) -> int:
+    """Return the bound of a sum as an integer; ``MathError`` if it is no whole number."""
     if value != int(value):
         raise MathError("a sum runs over whole numbers")
     return int(value)
 
 
 def _compile_integral(expr: Call, name: str, system: NumberSystem) -> CompiledFormula:
-    """An integral by mpmath at two precisions that agree, as a ball around what both give."""
+    """Return an integral by mpmath at two precisions that agree, as a ball around both."""
     from quizgen.maths.quadrature import integrate
 
     bounds = [compile_nested(arg, system) for arg in expr.args[1:3]]
     body = compile_nested(expr.args[3], system)
 
     def run(env: Environment) -> AnyNumber:
+        """Return the integral, computed numerically."""
         low, high = (bound(env) for bound in bounds)
         return integrate(lambda x: body({**env, name: x}), low, high, system)
 
@@ -146,7 +149,7 @@ _PERIODIC = frozenset({"sin", "cos", "tan"})
 
 
 def _compile_special_angle(expr: Call, system: NumberSystem) -> CompiledFormula:
-    """A function of an angle that is a rational multiple of pi: exact where its value is rational.
+    """Return a function of an angle that may be a rational multiple of pi, exact if it can be.
 
     By Niven's theorem these are the multiples of 30° for sine and cosine, of 45° for the tangent.
     """
@@ -154,6 +157,7 @@ def _compile_special_angle(expr: Call, system: NumberSystem) -> CompiledFormula:
     usual = _compile_call(expr, system)
 
     def run(env: Environment) -> AnyNumber:
+        """Return the exact value where there is one, else that of the usual operator."""
         try:
             whole, times = angle(_AsPairs(env))
         except (TypeError, KeyError, ZeroDivisionError):
@@ -169,7 +173,7 @@ _COSINES = {0: 2, 1: None, 2: 1, 3: 0, 4: -1, 5: None, 6: -2}
 
 
 def _rational_value(op: str, times: AnyNumber) -> AnyNumber:
-    """Value of sine, cosine or tangent at so many times pi, if it is rational; else None."""
+    """Return sine, cosine or tangent at so many times pi, if it is rational; else None."""
     from flint import fmpq
 
     if op == "tan":
@@ -211,22 +215,25 @@ class _AsPairs(Mapping[str, AnyNumber]):
 
 @cache
 def _pi_multiples() -> NumberSystem:
-    """Pairs of rationals: a number, and how many times pi; what is none of these has no value."""
+    """Return the system of pairs, a number and how many times pi; all else has no value."""
     from flint import fmpq
 
     from quizgen.maths.numbers import to_rational
 
     def times(a: AnyNumber, b: AnyNumber) -> AnyNumber:
+        """Return the product of two pairs; ``TypeError`` if it has the square of pi."""
         if a[1] and b[1]:
             raise TypeError
         return a[0] * b[0], a[0] * b[1] + a[1] * b[0]
 
     def over(a: AnyNumber, b: AnyNumber) -> AnyNumber:
+        """Return the quotient by a rational number; ``TypeError`` for any other divisor."""
         if b[1] or not b[0]:
             raise TypeError
         return a[0] / b[0], a[1] / b[0]
 
     def refuse(*_args: AnyNumber) -> AnyNumber:
+        """Raise ``TypeError``: the result is no rational combination of 1 and pi."""
         raise TypeError
 
     own: dict[str, OperatorFunction] = {
@@ -244,7 +251,7 @@ def _pi_multiples() -> NumberSystem:
 def _find_compiler(
     expr: Call, system: NumberSystem
 ) -> Callable[[Call, NumberSystem], CompiledFormula] | None:
-    """What compiles an operator that does not work on the values of its arguments alone."""
+    """Return what compiles an operator that works on more than its arguments' values."""
     if expr.op == "piecewise":
         return _compile_piecewise
     if expr.op in BINDERS:
@@ -436,7 +443,7 @@ def float64_system() -> NumberSystem:
 
 
 def _list_special_names() -> list[str]:
-    """Operators that neither Python's standard library nor NumPy has."""
+    """Return operators that neither Python's standard library nor NumPy has."""
     return [
         row.name
         for row in OPERATORS.values()
@@ -447,12 +454,13 @@ def _list_special_names() -> list[str]:
 
 
 def _approximate(name: str) -> OperatorFunction:
-    """The float nearest to what an operator gives as a ball.
+    """Return the operator that gives the float nearest to what another gives as a ball.
 
     Raises ``ValueError`` where it has no value, as the standard library does.
     """
 
     def apply(*args: float) -> float:
+        """Return the float nearest to the exact result for floats taken as exact rationals."""
         from flint import fmpq
 
         from quizgen.maths.numbers import to_float

@@ -95,6 +95,7 @@ def _make_word_operator(name: str, most: int, python: str, arrays: str, sympy: s
 
 
 def _make_list_operator(name: str, count: int = 1, *signs: str) -> Operator:
+    """Return an operator on lists; only exact numbers and floats have such operators."""
     return Operator(
         name, count, count, OperatorSyntax.LIST, signs or (name,),
         absent=frozenset(SYSTEMS) - {"exact", "floats"},
@@ -104,7 +105,7 @@ def _make_list_operator(name: str, count: int = 1, *signs: str) -> Operator:
 def _make_special_operator(
     name: str, count: int = 1, *, sympy: str = "", exact: str = ""
 ) -> Operator:
-    """Floats and arrays take the value of the ball: the standard library lacks the function."""
+    """Return an operator whose floats take the value of the ball: no library has it."""
     called = {"sympy": sympy or name, "exact": exact or name}
     return Operator(name, count, count, called=called)
 

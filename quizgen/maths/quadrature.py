@@ -20,7 +20,7 @@ AGREED = 25
 def integrate(
     function: Callable[[AnyNumber], AnyNumber], low: AnyNumber, high: AnyNumber, system: Any
 ) -> AnyNumber:
-    """An integral between finite bounds; in balls, one that holds both computations.
+    """Return an integral between finite bounds; in balls, one that holds both computations.
 
     Raises
     ------
@@ -41,14 +41,20 @@ def integrate(
 def _compute(
     function: Callable[[AnyNumber], AnyNumber], low: AnyNumber, high: AnyNumber, digits: int
 ) -> fmpq:
+    """Return the integral by mpmath's quadrature with so many digits.
+
+    Raises ``MathError`` if the function has no value at a point that is needed.
+    """
     import mpmath
 
     def at(x: Any) -> Any:
-        value = function(fmpq(*_as_ratio(x)))
+        """Return the function's value as mpmath's number, the middle of a ball for one."""
+        value = function(fmpq(*_convert_to_ratio(x)))
         value = value if isinstance(value, fmpq) else value.mid().fmpq()
         return mpmath.mpf(int(value.p)) / int(value.q)
 
     def bound(value: AnyNumber) -> Any:
+        """Return a bound of the integral as mpmath's number."""
         exact = value if isinstance(value, fmpq) else value.mid().fmpq()
         return mpmath.mpf(int(exact.p)) / int(exact.q)
 
@@ -57,10 +63,11 @@ def _compute(
             found = mpmath.quad(at, [bound(low), bound(high)])
         except (MathError, ZeroDivisionError) as error:
             raise MathError(f"the integral has no value: {error}") from error
-        return fmpq(*_as_ratio(found))
+        return fmpq(*_convert_to_ratio(found))
 
 
-def _as_ratio(x: Any) -> tuple[int, int]:
+def _convert_to_ratio(x: Any) -> tuple[int, int]:
+    """Return one of mpmath's numbers exactly, as numerator and denominator."""
     sign, mantissa, exponent, _ = x._mpf_
     top = -int(mantissa) if sign else int(mantissa)
     return (top << exponent, 1) if exponent >= 0 else (top, 1 << -exponent)

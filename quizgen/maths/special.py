@@ -25,37 +25,40 @@ _WIDENINGS = 8
 
 
 def _to_ball(a: Value) -> arb:
+    """Return a value as a ball that encloses it, at the working precision if it was exact."""
     return a if isinstance(a, arb) else arb(a)
 
 
 def _require_value(x: arb) -> arb:
+    """Return a ball; ``MathError`` if it is not finite."""
     if not x.is_finite():
         raise MathError("no finite real value")
     return x
 
 
-def _whole(a: Value) -> int | None:
+def _convert_to_integer(a: Value) -> int | None:
+    """Return a value as an integer; None if it is none, or is not known exactly."""
     return int(a.p) if isinstance(a, fmpq) and a.q == 1 else None
 
 
 def sinh(a: Value) -> Value:
-    """Hyperbolic sine; 0 for 0."""
+    """Return the hyperbolic sine; 0 for 0."""
     return fmpq(0) if a == 0 else _require_value(_to_ball(a).sinh())
 
 
 def cosh(a: Value) -> Value:
-    """Hyperbolic cosine; 1 for 0."""
+    """Return the hyperbolic cosine; 1 for 0."""
     return fmpq(1) if a == 0 else _require_value(_to_ball(a).cosh())
 
 
 def tanh(a: Value) -> Value:
-    """Hyperbolic tangent; 0 for 0."""
+    """Return the hyperbolic tangent; 0 for 0."""
     return fmpq(0) if a == 0 else _require_value(_to_ball(a).tanh())
 
 
 def factorial(a: Value) -> Value:
-    """Factorial: a whole number for a whole number, else the gamma function of one more."""
-    n = _whole(a)
+    """Return the factorial: whole for a whole number, else the gamma function of one more."""
+    n = _convert_to_integer(a)
     if n is not None and n < 0:
         raise MathError("factorial of a negative whole number")
     if n is not None and n <= LARGEST_FACTORIAL:
@@ -64,14 +67,14 @@ def factorial(a: Value) -> Value:
 
 
 def gamma(a: Value) -> Value:
-    """Gamma function; a whole number for a whole number."""
-    n = _whole(a)
+    """Return the gamma function; a whole number for a whole number."""
+    n = _convert_to_integer(a)
     return _require_value(_to_ball(a).gamma()) if n is None or n <= 0 else factorial(fmpq(n - 1))
 
 
 def binomial(n: Value, k: Value) -> Value:
-    """Binomial coefficient; a rational where ``k`` is a whole number."""
-    chosen = _whole(k)
+    """Return the binomial coefficient; a rational where ``k`` is a whole number."""
+    chosen = _convert_to_integer(k)
     if chosen is None:
         top, below = _to_ball(n) + 1, _to_ball(k) + 1
         return _require_value(top.gamma() / below.gamma() / (top - below + 1).gamma())
@@ -84,8 +87,8 @@ def binomial(n: Value, k: Value) -> Value:
 
 
 def beta(a: Value, b: Value) -> Value:
-    """Beta function; a rational for two positive whole numbers."""
-    m, n = _whole(a), _whole(b)
+    """Return the beta function; a rational for two positive whole numbers."""
+    m, n = _convert_to_integer(a), _convert_to_integer(b)
     if m is not None and n is not None and 0 < m < LARGEST_FACTORIAL > n > 0:
         return gamma(a) * gamma(b) / gamma(a + b)
     x, y = _to_ball(a), _to_ball(b)
@@ -93,27 +96,30 @@ def beta(a: Value, b: Value) -> Value:
 
 
 def erfinv(a: Value) -> Value:
-    """Inverse of the error function; 0 for 0."""
+    """Return the inverse of the error function; 0 for 0."""
     return fmpq(0) if a == 0 else _require_value(_to_ball(a).erfinv())
 
 
 def lambertw(a: Value) -> Value:
-    """Lambert's W, its principal branch; 0 for 0."""
+    """Return Lambert's W, its principal branch; 0 for 0."""
     return fmpq(0) if a == 0 else _require_value(_to_ball(a).lambertw())
 
 
 def lowergamma(s: Value, x: Value) -> arb:
-    """Lower incomplete gamma function."""
+    """Return the lower incomplete gamma function."""
     return _require_value(_to_ball(x).gamma_lower(_to_ball(s)))
 
 
 def uppergamma(s: Value, x: Value) -> arb:
-    """Upper incomplete gamma function."""
+    """Return the upper incomplete gamma function."""
     return _require_value(_to_ball(x).gamma_upper(_to_ball(s)))
 
 
 def _make_bessel(method: str) -> Callable[[Value, Value], arb]:
+    """Return a Bessel function (order, x) from the name of FLINT's method."""
+
     def apply(order: Value, x: Value) -> arb:
+        """Return the value of the Bessel function; ``MathError`` if it is not finite."""
         return _require_value(getattr(_to_ball(x), method)(_to_ball(order)))
 
     return apply
@@ -129,6 +135,7 @@ bessel_modified_second_kind = _make_bessel("bessel_k")
 
 
 def _require_degrees(n: Value) -> arb:
+    """Return degrees of freedom as a ball; ``MathError`` if not from 0 to the largest."""
     if not 0 < n <= LARGEST_DEGREES:
         raise MathError("degrees of freedom must be positive")
     return _to_ball(n)
@@ -145,7 +152,7 @@ def t_cdf(t: Value, n: Value) -> Value:
     if t == 0:
         return fmpq(1, 2)
     x = _to_ball(t)
-    tail = _regularized_beta(degrees / (degrees + x * x), degrees / 2, arb(1) / 2) / 2
+    tail = _compute_regularized_beta(degrees / (degrees + x * x), degrees / 2, arb(1) / 2) / 2
     if t > 0:
         return 1 - tail
     if t < 0:
@@ -167,10 +174,11 @@ def f_cdf(x: Value, m: Value, n: Value) -> Value:
     if x <= 0:
         return fmpq(0)
     y = _to_ball(x)
-    return _regularized_beta(top * y / (top * y + below), top / 2, below / 2)
+    return _compute_regularized_beta(top * y / (top * y + below), top / 2, below / 2)
 
 
-def _regularized_beta(x: arb, a: arb, b: arb) -> arb:
+def _compute_regularized_beta(x: arb, a: arb, b: arb) -> arb:
+    """Return the regularized incomplete beta function I_x(a, b)."""
     return _require_value(x.beta_lower(a, b, regularized=True))
 
 
@@ -178,7 +186,7 @@ def _regularized_beta(x: arb, a: arb, b: arb) -> arb:
 
 
 def normal_quantile(p: Value) -> Value:
-    """Where the standard normal distribution reaches the share ``p``."""
+    """Return where the standard normal distribution reaches the share ``p``."""
     _require_share(p)
     if p == fmpq(1, 2):
         return fmpq(0)
@@ -186,7 +194,7 @@ def normal_quantile(p: Value) -> Value:
 
 
 def t_quantile(p: Value, n: Value) -> Value:
-    """Where Student's distribution with ``n`` degrees of freedom reaches the share ``p``."""
+    """Return where Student's distribution with ``n`` degrees of freedom reaches the share ``p``."""
     _require_share(p)
     _require_degrees(n)
     if p == fmpq(1, 2):
@@ -195,14 +203,14 @@ def t_quantile(p: Value, n: Value) -> Value:
 
 
 def chi2_quantile(p: Value, n: Value) -> Value:
-    """Where the chi-squared distribution reaches the share ``p``."""
+    """Return where the chi-squared distribution reaches the share ``p``."""
     _require_share(p)
     _require_degrees(n)
     return _find_quantile("chi2", p, (n,), ctx.prec)
 
 
 def f_quantile(p: Value, m: Value, n: Value) -> Value:
-    """Where the F distribution reaches the share ``p``."""
+    """Return where the F distribution reaches the share ``p``."""
     _require_share(p)
     _require_degrees(m)
     _require_degrees(n)
@@ -210,6 +218,7 @@ def f_quantile(p: Value, m: Value, n: Value) -> Value:
 
 
 def _require_share(p: Value) -> None:
+    """Raise ``MathError`` unless a share lies strictly between 0 and 1."""
     if not 0 < p < 1:
         raise MathError("a quantile needs a share between 0 and 1")
 
@@ -223,6 +232,7 @@ _DISTRIBUTIONS: dict[str, tuple[Callable[..., Value], bool]] = {
 
 
 def _find_quantile(name: str, p: Value, degrees: tuple[Value, ...], precision: int) -> arb:
+    """Return the quantile of a distribution; for rational arguments it is found once."""
     if all(isinstance(value, fmpq) for value in (p, *degrees)):
         parts = [(int(value.p), int(value.q)) for value in (p, *degrees)]
         return _find_exact_quantile(name, tuple(parts), precision)
@@ -231,16 +241,18 @@ def _find_quantile(name: str, p: Value, degrees: tuple[Value, ...], precision: i
 
 @lru_cache(maxsize=4096)
 def _find_exact_quantile(name: str, parts: tuple[tuple[int, int], ...], precision: int) -> arb:
+    """Return the quantile for rational arguments, cached by precision as well."""
     del precision  # the one in force; a part of the key of the cache
     p, *degrees = (fmpq(top, bottom) for top, bottom in parts)
     return _solve_quantile(name, p, tuple(degrees))
 
 
 def _solve_quantile(name: str, p: Value, degrees: tuple[Value, ...]) -> arb:
-    """A root of the distribution function, and the proof that it lies in the ball returned."""
+    """Return a root of the distribution function, in a ball that is proved to hold it."""
     function, signed = _DISTRIBUTIONS[name]
 
     def share(x: arb) -> arb:
+        """Return the share below x, the value of the distribution function."""
         return _to_ball(function(x, *degrees))
 
     guess = arb(_bisect(lambda x: share(arb(x)), float(_to_ball(p)), signed=signed))
@@ -254,6 +266,10 @@ def _solve_quantile(name: str, p: Value, degrees: tuple[Value, ...]) -> arb:
 
 
 def _bisect(share: Callable[[float], Any], p: float, *, signed: bool) -> float:
+    """Return roughly the place where a growing share reaches p, by bisection in floats.
+
+    ``signed`` if it may be negative. The result is where the certified search starts.
+    """
     low, high = (-1.0 if signed else 0.0), 1.0
     while share(high) < p and math.isfinite(high):
         high *= 2
@@ -271,7 +287,7 @@ def _bisect(share: Callable[[float], Any], p: float, *, signed: bool) -> float:
 
 
 def _sharpen(share: Callable[[arb], arb], p: arb, root: arb) -> arb:
-    """Secants from two points that are near: each step adds half as many digits again."""
+    """Return a root by secants from two near points: each adds half as many digits again."""
     before = root * (1 + arb(2) ** -30)
     off, off_before = (share(root) - p).mid(), (share(before) - p).mid()
     for _ in range(_NEWTON_STEPS):

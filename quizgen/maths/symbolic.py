@@ -37,7 +37,7 @@ class FormResolver:
         self.forms: dict[str, sympy.Basic] = {}
 
     def resolve(self, expression: sympy.Basic) -> tuple[Expr, bool]:
-        """The tree of an expression, and whether it is a form.
+        """Return the tree of an expression, and whether it is a form.
 
         Raises
         ------
@@ -61,6 +61,10 @@ class FormResolver:
             self.forms[name] = self._put_forms_in(_make_strict(expression))
 
     def _put_forms_in(self, written: sympy.Basic) -> sympy.Basic:
+        """Return an expression with the forms of earlier steps in place of their names.
+
+        A form that is called, ``f(2)``, is taken at these arguments.
+        """
         if not self.forms or not hasattr(written, "free_symbols"):
             return written
         calls = [
@@ -79,11 +83,13 @@ class FormResolver:
         return found.doit() if hasattr(found, "doit") else found
 
     def _apply_form(self, call: sympy.Basic) -> sympy.Basic:
+        """Return a form at the arguments of a call; its free names are filled by alphabet."""
         form = self.forms[call.func.__name__]
         names = sorted((s for s in form.free_symbols if s.name in self.free), key=lambda s: s.name)
         return form.subs(dict(zip(names, call.args, strict=False)), simultaneous=True)
 
     def _convert(self, whole: sympy.Basic) -> tuple[Expr, bool]:
+        """Return the tree of an expression, and whether it is a form rather than a number."""
         if isinstance(whole, sympy.MatrixBase | MatrixExpr):
             return _convert_matrix(whole), True
         if isinstance(whole, sympy.Set):
@@ -98,7 +104,7 @@ class FormResolver:
         return _convert_evaluated(whole, free), bool(free)
 
     def _convert_complex(self, whole: sympy.Basic) -> tuple[Expr, bool]:
-        """A complex number as its real and imaginary part; a real one as itself."""
+        """Return a complex number as its real and imaginary part; a real one as itself."""
         real = {s: sympy.Dummy(s.name, real=True) for s in whole.free_symbols if s.is_real is None}
         back = {dummy: symbol for symbol, dummy in real.items()}
         value = whole.subs(real).doit()
@@ -111,6 +117,7 @@ class FormResolver:
 
 
 def _has_complex(whole: sympy.Basic) -> bool:
+    """Return whether an expression has the imaginary unit, or a function such as ``re``."""
     return bool(hasattr(whole, "has") and whole.has(sympy.I, *_COMPLEX))
 
 
@@ -151,10 +158,12 @@ def _convert_evaluated(whole: sympy.Basic, free: Sequence[sympy.Symbol] = ()) ->
 
 
 def _is_infinite(part: sympy.Basic) -> bool:
+    """Return whether a sum, a product or an integral has an infinite bound."""
     return any(not bound.is_finite for limit in part.limits for bound in limit[1:])
 
 
 def _convert_matrix(whole: sympy.Basic) -> Expr:
+    """Return a matrix with evaluated entries; one of a single column is a vector."""
     explicit = whole.doit().as_explicit() if isinstance(whole, MatrixExpr) else whole
     rows = explicit.tolist()
     if explicit.shape[1] == 1:
@@ -166,6 +175,7 @@ def _convert_matrix(whole: sympy.Basic) -> Expr:
 
 
 def _convert_set(whole: sympy.Basic) -> Expr:
+    """Return a finite set, or a union of intervals."""
     if isinstance(whole, sympy.FiniteSet):
         return Call("set", tuple(map(from_sympy, whole.args)))
     pieces = list(_iter_intervals(whole))
@@ -173,6 +183,10 @@ def _convert_set(whole: sympy.Basic) -> Expr:
 
 
 def _iter_intervals(whole: sympy.Basic) -> Iterator[Expr]:
+    """Yield the intervals that a set consists of; a single point is a closed one.
+
+    Raises ``BankError`` for any other set.
+    """
     if whole is sympy.S.EmptySet:
         return
     if whole is sympy.S.Reals:
@@ -182,7 +196,7 @@ def _iter_intervals(whole: sympy.Basic) -> Iterator[Expr]:
             yield from _iter_intervals(part)
     elif isinstance(whole, sympy.Interval):
         sides = [make_number(int(not side)) for side in (whole.left_open, whole.right_open)]
-        yield Call("interval", (_bound(whole.start), _bound(whole.end), *sides))
+        yield Call("interval", (_convert_bound(whole.start), _convert_bound(whole.end), *sides))
     elif isinstance(whole, sympy.FiniteSet):
         one: tuple[Num, Num] = (make_number(1), make_number(1))
         for point in whole.args:
@@ -191,14 +205,15 @@ def _iter_intervals(whole: sympy.Basic) -> Iterator[Expr]:
         raise BankError(f"{whole} is no finite set and no union of intervals")
 
 
-def _bound(value: sympy.Basic) -> Expr:
+def _convert_bound(value: sympy.Basic) -> Expr:
+    """Return the bound of an interval, which may be infinite."""
     if value.is_infinite:
         return Call("infinity", ()) if value > 0 else Call("neg", (Call("infinity", ()),))
     return from_sympy(value)
 
 
 def step_name(symbol: sympy.Basic | str) -> str:
-    """The name that a step defines: of a symbol, a function of free names, a matrix, or a text."""
+    """Return the name that a step defines: of a symbol, a function, a matrix, or a text."""
     if isinstance(symbol, str):
         return symbol
     if isinstance(symbol, AppliedUndef):

@@ -16,7 +16,7 @@ LARGEST_RADICAND = 10**12
 
 
 def tidy_formula(expr: Expr) -> Expr:
-    """An equal formula in which numbers are reckoned together and nothing idle is written.
+    """Return an equal formula with its numbers reckoned together and nothing idle in it.
 
     Products stay products and sums stay sums: what was factored stays so.
     """
@@ -27,16 +27,18 @@ def tidy_formula(expr: Expr) -> Expr:
     return Call(expr.op, args) if rule is None else rule(args)
 
 
-def _number(value: Fraction) -> Num:
+def _make_number(value: Fraction) -> Num:
+    """Return a number as a leaf of a formula."""
     return Num(value)
 
 
 def _is_value(expr: Expr, value: int) -> bool:
+    """Return whether a formula is this number."""
     return isinstance(expr, Num) and expr.value == value
 
 
 def negate_formula(expr: Expr) -> Expr:
-    """The opposite, with the sign where a person writes it."""
+    """Return the opposite, with the sign where a person writes it."""
     if isinstance(expr, Num):
         return Num(-expr.value, expr.decimal)
     if isinstance(expr, Call) and expr.op == "neg":
@@ -47,10 +49,12 @@ def negate_formula(expr: Expr) -> Expr:
 
 
 def _tidy_negative(args: tuple[Expr, ...]) -> Expr:
+    """Return the opposite of a formula, without a second minus sign."""
     return negate_formula(args[0])
 
 
 def _tidy_sum(args: tuple[Expr, ...]) -> Expr:
+    """Return a sum with its numbers added up, in the place of the first of them."""
     terms: list[Expr] = []
     total, place = Fraction(0), -1
     for term in _flatten("add", args):
@@ -60,14 +64,14 @@ def _tidy_sum(args: tuple[Expr, ...]) -> Expr:
         else:
             terms.append(term)
     if total:
-        terms.insert(place, _number(total))
+        terms.insert(place, _make_number(total))
     if not terms:
         return _ZERO
     return _join_terms(terms)
 
 
 def _join_terms(terms: list[Expr]) -> Expr:
-    """A sum from left to right, with a minus where a term is negative."""
+    """Return a sum from left to right, with a minus where a term is negative."""
     result, *rest = terms
     run = False
     for term in rest:
@@ -94,9 +98,10 @@ def _split_minus(term: Expr) -> tuple[bool, Expr]:
 
 
 def _tidy_difference(args: tuple[Expr, ...]) -> Expr:
+    """Return a difference without zeros and without a minus sign on the second term."""
     first, second = args
     if isinstance(first, Num) and isinstance(second, Num):
-        return _number(first.value - second.value)
+        return _make_number(first.value - second.value)
     if _is_value(second, 0):
         return first
     if _is_value(first, 0):
@@ -108,6 +113,7 @@ def _tidy_difference(args: tuple[Expr, ...]) -> Expr:
 
 
 def _flatten(op: str, args: Iterable[Expr]) -> Iterable[Expr]:
+    """Yield the arguments of an operator, with those of the same operator within them."""
     for arg in args:
         if isinstance(arg, Call) and arg.op == op:
             yield from _flatten(op, arg.args)
@@ -116,6 +122,7 @@ def _flatten(op: str, args: Iterable[Expr]) -> Iterable[Expr]:
 
 
 def _tidy_product(args: tuple[Expr, ...]) -> Expr:
+    """Return a product with one number in front, and the minus sign in front of that."""
     factors: list[Expr] = []
     number, minus = Fraction(1), False
     for arg in _flatten("mul", args):
@@ -130,18 +137,19 @@ def _tidy_product(args: tuple[Expr, ...]) -> Expr:
     if not number:
         return _ZERO
     if not factors:
-        return _number(number)
+        return _make_number(number)
     if abs(number) != 1:
-        factors.insert(0, _number(abs(number)))
+        factors.insert(0, _make_number(abs(number)))
     product = factors[0] if len(factors) == 1 else Call("mul", tuple(factors))
     return product if number > 0 else Call("neg", (product,))
 
 
 def _tidy_quotient(args: tuple[Expr, ...]) -> Expr:
+    """Return a quotient with numbers divided, and a minus sign in front of all of it."""
     top, bottom = args
     if isinstance(bottom, Num) and bottom.value:
         if isinstance(top, Num):
-            return _number(top.value / bottom.value)
+            return _make_number(top.value / bottom.value)
         return _divide_by_number(top, bottom.value)
     if _is_value(top, 0):
         return _ZERO
@@ -151,20 +159,24 @@ def _tidy_quotient(args: tuple[Expr, ...]) -> Expr:
 
 
 def _divide_by_number(top: Expr, bottom: Fraction) -> Expr:
-    """``6*x/4`` becomes ``3*x/2``."""
+    """Return a formula over a number: ``6*x/4`` becomes ``3*x/2``."""
     minus = isinstance(top, Call) and top.op == "neg"
     inner = top.args[0] if minus and isinstance(top, Call) else top
     first, rest = Fraction(1), tuple[Expr, ...]((inner,))
     if isinstance(inner, Call) and inner.op == "mul" and isinstance(inner.args[0], Num):
         first, rest = inner.args[0].value, inner.args[1:]
     factor = (-first if minus else first) / bottom
-    over = _tidy_product((_number(Fraction(abs(factor.numerator))), *rest))
+    over = _tidy_product((_make_number(Fraction(abs(factor.numerator))), *rest))
     below = factor.denominator
-    quotient = over if below == 1 else Call("div", (over, _number(Fraction(below))))
+    quotient = over if below == 1 else Call("div", (over, _make_number(Fraction(below))))
     return quotient if factor > 0 else Call("neg", (quotient,))
 
 
 def _tidy_power(args: tuple[Expr, ...]) -> Expr:
+    """Return a power without the exponents 0, 1 and 1/2 and without negative ones.
+
+    0^0 and large powers of numbers remain as they are.
+    """
     base, exponent = args
     if isinstance(exponent, Num):
         if exponent.value == 1:
@@ -173,7 +185,7 @@ def _tidy_power(args: tuple[Expr, ...]) -> Expr:
             return _ONE
         whole = exponent.value.denominator == 1 and abs(exponent.value) <= LARGEST_EXPONENT
         if whole and isinstance(base, Num) and (base.value or exponent.value > 0):
-            return _number(base.value ** int(exponent.value))
+            return _make_number(base.value ** int(exponent.value))
         if exponent.value == Fraction(1, 2):
             return _tidy_root((base,))
         if exponent.value < 0 and not isinstance(base, Num):
@@ -190,14 +202,18 @@ def _tidy_root(args: tuple[Expr, ...]) -> Expr:
     outside, inside = _take_squares_out(top * bottom)
     factor = Fraction(outside, bottom)
     if inside == 1:
-        return _number(factor)
-    root = Call("sqrt", (_number(Fraction(inside)),))
-    over = _tidy_product((_number(Fraction(factor.numerator)), root))
+        return _make_number(factor)
+    root = Call("sqrt", (_make_number(Fraction(inside)),))
+    over = _tidy_product((_make_number(Fraction(factor.numerator)), root))
     below = factor.denominator
-    return over if below == 1 else Call("div", (over, _number(Fraction(below))))
+    return over if below == 1 else Call("div", (over, _make_number(Fraction(below))))
 
 
 def _take_squares_out(value: int) -> tuple[int, int]:
+    """Return (a, b) so that the value is a² b, with b as free of squares as is easily found.
+
+    Prime factors below 10,000 are tried, so that a large number costs little.
+    """
     outside, inside, divisor = 1, value, 2
     while divisor * divisor <= inside and divisor < 10_000:
         while inside % (divisor * divisor) == 0:
@@ -208,8 +224,11 @@ def _take_squares_out(value: int) -> tuple[int, int]:
 
 
 def _make_point_rule(op: str, at: int, value: int) -> Callable[[tuple[Expr, ...]], Expr]:
+    """Return the rule that gives an operator's value at one point, as ln(1) = 0."""
+
     def rule(args: tuple[Expr, ...]) -> Expr:
-        return _number(Fraction(value)) if _is_value(args[0], at) else Call(op, args)
+        """Return the value if the argument is that point, else the call as it was."""
+        return _make_number(Fraction(value)) if _is_value(args[0], at) else Call(op, args)
 
     return rule
 

@@ -30,11 +30,12 @@ class NumberList(tuple[Any, ...]):
     __slots__ = ()
 
     def _refuse(self, _other: object) -> NoReturn:
+        """Raise ``TypeError``: a tuple would be joined, repeated or compared as no list may be."""
         raise TypeError("a list stands where a number is needed")
 
     __add__ = __mul__ = __rmul__ = __lt__ = __le__ = __gt__ = __ge__ = _refuse
 
 
 def map_numbers(function: Callable[[Any], AnyNumber], value: Any) -> Any:
-    """What a function gives for a number, or for each number of a list."""
+    """Return what a function gives for a number, or for each number of a list."""
     return NumberList(map(function, value)) if isinstance(value, tuple) else function(value)

@@ -44,7 +44,7 @@ class KeyGiven(msgspec.Struct):
     unit: str = ""
 
     def parse_value(self) -> Any:
-        """The number, or the list as a tuple, exactly.
+        """Return the number, or the list as a tuple, exactly.
 
         Raises
         ------

@@ -188,7 +188,7 @@ class QuestionGrader:
         return _build_part_result(self.question, part, typed, verdict)
 
     def explain_part(self, part: KeyPart, verdict: Verdict, *, reveal: bool = True) -> Verdict:
-        """The verdict on a part with its sentences, for the person who is shown it.
+        """Return the verdict on a part with its sentences, for the person who is shown it.
 
         Without ``reveal`` no reason is said that tells the right answer.
         """

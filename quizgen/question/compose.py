@@ -261,7 +261,7 @@ def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
 
 
 def _format_given_for_key(drawn: Variant, name: str) -> str | list[str]:
-    """A given quantity in base units, of a list each value."""
+    """Return a given quantity in base units, of a list each value."""
     factor = drawn.template.unit_factor(drawn.template.units.get(name, ""))
     if name in drawn.lists:
         return [format_for_key(value * factor) for value in drawn.lists[name]]

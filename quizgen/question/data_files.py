@@ -25,7 +25,7 @@ class DataFileLink(InlineCode, frozen=True):
 
 
 def iter_data_files(drawn: Variant, number: str) -> Iterator[tuple[str, bytes]]:
-    """The data files of a question, each with its content: CSV with the quantities as heads.
+    """Yield the data files of a question, each with its content: CSV, headed by the quantities.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def iter_data_files(drawn: Variant, number: str) -> Iterator[tuple[str, bytes]]:
 
 
 def build_file_paragraphs(drawn: Variant, lang: str, number: str) -> tuple[Paragraph, ...]:
-    """A sentence for each data file of a question that says what it is called."""
+    """Return a sentence for each data file of a question that says what it is called."""
     return tuple(
         Paragraph(translate_inlines(lang, "data.file", file=(DataFileLink(name, content),)))
         for name, content in iter_data_files(drawn, number)

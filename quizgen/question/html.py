@@ -118,6 +118,7 @@ def _render_code(part: markdown.InlineCode, _lang: str, _way: HtmlDialect) -> st
 
 @_render_piece.register
 def _render_data_file(part: DataFileLink, _lang: str, way: HtmlDialect) -> str:
+    """Return a link to a data file, which our own pages have the browser save."""
     saved = f' download="{_escape_html(part.text)}"' if way.ours else ""
     return f'<a href="{part.address}"{saved}><code>{_escape_html(part.text)}</code></a>'
 

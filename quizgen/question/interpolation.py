@@ -91,7 +91,7 @@ class Interpolator:
         return fill_blocks(parts, self._fill_value, self._fill_program)
 
     def _build_data_table(self, block: Block) -> Block:
-        """A paragraph that is ``{{ table: x y }}`` alone, as the table of these lists."""
+        """Return the table of these lists for a paragraph ``{{ table: x y }}`` alone."""
         match block:
             case Paragraph((Slot(text),)) if text.startswith(TABLE_MARK):
                 names = text.removeprefix(TABLE_MARK).split()
@@ -109,11 +109,12 @@ class Interpolator:
         return TableBlock(tuple(self._name_column(name) for name in names), rows)
 
     def _name_column(self, name: str) -> tuple[Inline, ...]:
-        """The head of a column: the list's letter, and its unit behind a slash."""
+        """Return the head of a column: the list's letter, and its unit after a slash."""
         unit = format_unit(self.drawn.template.units.get(name, ""))
         return (name_inline(name), *to_inlines(f"{NBSP}/{NBSP}{unit}" if unit else ""))
 
     def _require_list(self, name: str, blank: str) -> None:
+        """Raise the problem QG158 if a blank names a list that is not drawn."""
         if name not in self.drawn.lists:
             what = f"{{{{ {blank} }}}}: {name} is not a drawn list"
             raise self._format_problem(what, "QG158", TEXT, f"{{{{ {blank} }}}}")
@@ -184,9 +185,9 @@ class Interpolator:
             return self._fill_slot(part.name)
         if isinstance(part, InlineFormula):
             return (_inline_maths(part.expr),)
-        names = _names_in_layout(part)
+        names = _list_names_in_layout(part)
         if not names:
-            return (_inline_layout(part),)
+            return (_typeset_inline_layout(part),)
         return (typeset_layout(fill_leaves(part.node, {n: self._fill_leaf(n) for n in names})),)
 
     def _fill_leaf(self, name: str) -> LeafValue:
@@ -234,7 +235,7 @@ class Interpolator:
         )
 
     def _fill_list_slot(self, name: str) -> tuple[Inline, ...]:
-        """A list with its unit once, or one of its values."""
+        """Return a list with its unit once, or one of its values."""
         drawn, (listed, _, place) = self.drawn, name.partition("[")
         if name.startswith(TABLE_MARK):
             what = "stands alone in a paragraph, in a question that draws lists"
@@ -316,17 +317,19 @@ def _inline_maths(expr: Expr) -> TypesetMaths:
 
 
 @lru_cache(maxsize=4096)
-def _inline_layout(part: LaidOutFormula) -> TypesetLayout:
+def _typeset_inline_layout(part: LaidOutFormula) -> TypesetLayout:
+    """Return a formula's layout as it stands in a line, cached: sentences are filled often."""
     return typeset_layout(part.node)
 
 
 @lru_cache(maxsize=4096)
-def _names_in_layout(part: LaidOutFormula) -> frozenset[str]:
+def _list_names_in_layout(part: LaidOutFormula) -> frozenset[str]:
+    """Return the names of the values that a formula has places for, cached."""
     return list_leaf_names(part.node)
 
 
 def _inlines_to_node(parts: Iterable[Inline]) -> Node:
-    """Pieces of a sentence inside a formula: its formulas as they are, all else as words."""
+    """Return pieces of a sentence inside a formula: formulas as they are, all else as words."""
     nodes = [
         part.node if isinstance(part, TypesetMaths) else Phrase(_get_plain_text(part))
         for part in parts

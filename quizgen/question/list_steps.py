@@ -34,7 +34,7 @@ class WrittenLists(msgspec.Struct):
 
 
 def write_out_lists(expr: Expr, drawn: Variant) -> WrittenLists:
-    """A step's formula with the values of its lists in place.
+    """Return a step's formula with the values of its lists in place.
 
     Sums, means and variances become sums of their terms; any other function keeps its name
     before the values, ordered where it orders them.
@@ -45,6 +45,7 @@ def write_out_lists(expr: Expr, drawn: Variant) -> WrittenLists:
 
 
 def _write_out(expr: Expr, drawn: Variant, written: WrittenLists) -> Expr:
+    """Return a step with the values of its lists in place, such as a sum in full for a mean."""
     if isinstance(expr, Sym) and expr.name in drawn.lists:
         return _put_list(expr.name, drawn, written)
     if not isinstance(expr, Call):
@@ -62,11 +63,15 @@ def _write_out(expr: Expr, drawn: Variant, written: WrittenLists) -> Expr:
 
 
 def _put_value(text: str, written: WrittenLists) -> Sym:
-    """A leaf that is one value of a list; only the result has the unit, or all would say it."""
+    """Return a leaf that is one value of a list; only the result has a unit, not each value."""
     return _put_leaf(written, typeset.number(text), text)
 
 
 def _put_leaf(written: WrittenLists, node: typeset.Node, text: str) -> Sym:
+    """Return a new leaf, having noted how it is typeset and how it is typed.
+
+    Its text has brackets unless it is a plain number or the gap that stands for values left out.
+    """
     name = f"value {len(written.texts)}"
     written.nodes[name] = node
     plain = all(sign.isdigit() or sign in f".{pretty.GAP}" for sign in text)
@@ -75,20 +80,20 @@ def _put_leaf(written: WrittenLists, node: typeset.Node, text: str) -> Sym:
 
 
 def _put_list(name: str, drawn: Variant, written: WrittenLists) -> Sym:
-    """A leaf that is the whole list."""
+    """Return a leaf that is the whole list."""
     texts = _shorten(drawn.format_list(name))
     items = [Word(text) if text == _GAP else typeset.number(text) for text in texts]
     return _put_leaf(written, typeset.fence(items), "; ".join(texts))
 
 
 def _shorten(texts: tuple[str, ...]) -> tuple[str, ...]:
-    """The values that are written of a list: the first ones, a gap and the last if it is long."""
+    """Return the values that are written of a list: if it is long the first, a gap and the last."""
     most = 2 * MOST_WRITTEN
     return texts if len(texts) <= most else (*texts[:MOST_WRITTEN], _GAP, texts[-1])
 
 
 def _put_values(name: str, drawn: Variant, written: WrittenLists, ordered: bool) -> list[Sym]:
-    """A leaf for each value, smallest first if ``ordered``."""
+    """Return a leaf for each value, smallest first if ``ordered``."""
     texts = drawn.format_list(name)
     if ordered:
         values = drawn.lists[name]
@@ -100,7 +105,7 @@ def _put_values(name: str, drawn: Variant, written: WrittenLists, ordered: bool)
 
 
 def _choose_terms(name: str, drawn: Variant, written: WrittenLists) -> list[Expr]:
-    """A leaf for each value, or for the first two, a gap and the last."""
+    """Return a leaf for each value, or for the first two, a gap and the last."""
     texts = drawn.format_list(name)
     if len(texts) <= MOST_WRITTEN:
         return [_put_value(text, written) for text in texts]
@@ -109,20 +114,29 @@ def _choose_terms(name: str, drawn: Variant, written: WrittenLists) -> list[Expr
 
 
 def _write_sum(name: str, drawn: Variant, written: WrittenLists) -> Expr:
+    """Return the sum of a list in full; one value stands alone."""
     terms = _choose_terms(name, drawn, written)
     return Call("add", tuple(terms)) if len(terms) > 1 else terms[0]
 
 
 def _write_mean(name: str, drawn: Variant, written: WrittenLists) -> Expr:
+    """Return the mean of a list: its sum in full over the number of values."""
     return Call("div", (_write_sum(name, drawn, written), _count(name, drawn)))
 
 
 def _count(name: str, drawn: Variant, less: int = 0) -> Num:
+    """Return the number of values in a list, less so many."""
     return Num(Fraction(len(drawn.lists[name]) - less))
 
 
 def _write_variance(less: int) -> Callable[[str, Variant, WrittenLists], Expr]:
+    """Return the rule for a variance that divides by the number of values less so many."""
+
     def rule(name: str, drawn: Variant, written: WrittenLists) -> Expr:
+        """Return the sum of squared deviations from the mean over the number of values.
+
+        Notes if the mean is rounded in it.
+        """
         with working_precision():
             mean: fmpq = compute_mean(drawn.lists[name])
         written.rounded |= not is_short_decimal(mean)
@@ -138,6 +152,7 @@ def _write_variance(less: int) -> Callable[[str, Variant, WrittenLists], Expr]:
 
 
 def _write_root(less: int) -> Callable[[str, Variant, WrittenLists], Expr]:
+    """Return the rule for a standard deviation, the root of a variance."""
     variance = _write_variance(less)
     return lambda name, drawn, written: Call("sqrt", (variance(name, drawn, written),))
 

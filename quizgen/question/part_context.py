@@ -75,12 +75,15 @@ class VariantPart(PartContext):
         return self.drawn.misconception_answers(self.index)
 
     def exact_texts(self) -> tuple[str, ...]:
+        """Return each irrational component of the key as a formula; empty where it is none."""
         return self.drawn.exact_texts(self.index)
 
     def answer_form(self) -> Expr:
+        """Return the form that is asked for, with the drawn numbers in place."""
         return self.drawn.form_of_part(self.index)
 
     def misconception_forms(self) -> dict[str, Expr]:
+        """Return the form that each usable misconception leads to."""
         return self.drawn.misconception_forms(self.index)
 
     def count_nouns(self) -> dict[str, Any]:
@@ -181,6 +184,7 @@ class VariantPart(PartContext):
         return any(text.sentence("gaps", name) for text in self.drawn.template.texts.values())
 
     def format_option(self, value: Value, unit: str) -> str:
+        """Return a choice with its unit: exactly if that is easy to read, else rounded."""
         exactly = format_exact(value) if is_readable_exactly(value) else None
         return join_unit(exactly or format_rounded(value, figures=OPTION_FIGURES), unit)
 

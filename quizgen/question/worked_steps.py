@@ -77,7 +77,7 @@ def step_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
 
 
 def form_sides(drawn: Variant, step: ChainStep) -> tuple[WorkedSide, ...]:
-    """The sides of a form: its formula, and the same with numbers in place, tidied."""
+    """Return the sides of a form: its formula, and the same with numbers in place, tidied."""
     with working_precision():
         expr = select_branch(step.expr, drawn.values, exact_system())
     sides = [WorkedSide("=", typeset.lay_out(expr), format_tree(expr), FORMULA)]
@@ -113,7 +113,7 @@ def _substitute_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
 
 
 def _with_list_values(drawn: Variant, expr: Expr) -> WorkedSide:
-    """The formula with sums over lists written out, and other lists as they stand."""
+    """Return the formula with sums over lists written out, and other lists as they stand."""
     written = write_out_lists(expr, drawn)
     scalars = names_in(written.expr) - written.texts.keys()
     rounded = written.rounded or any(drawn.is_rounded(name) for name in scalars)

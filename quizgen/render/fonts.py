@@ -88,7 +88,7 @@ def maths_uri() -> str:
 
 @cache
 def all_maths_uri() -> str:
-    """Maths font with every sign for a page, as a data address."""
+    """Return the maths font with every sign for a page, as a data address."""
     return _build_font_uri(ALL_MATHS)
 
 

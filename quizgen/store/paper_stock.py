@@ -35,7 +35,7 @@ class PaperStock:
         self.database, self.clock = database, clock
 
     def count_papers(self, blueprint: str, version: str) -> int:
-        """How many papers of a blueprint there are.
+        """Return how many papers of a blueprint there are.
 
         Parameters
         ----------
@@ -43,7 +43,7 @@ class PaperStock:
         version : str
             Digest of all that papers follow from besides their seed.
         """
-        query = select(func.count()).select_from(STOCK).where(*_is_of(blueprint, version))
+        query = select(func.count()).select_from(STOCK).where(*_match_stock(blueprint, version))
         with self.database.reading() as connection:
             return int(connection.execute(query).scalar_one())
 
@@ -108,6 +108,11 @@ class PaperStock:
         now = self.clock.now()
 
         def work(connection: Connection) -> ExamRecord | None:
+            """Take a paper out of the stock and begin an exam with it, in one transaction.
+
+            None if the learner began one just now, if none is left, or if they have had its
+            numbers.
+            """
             if _began_since(connection, learner, blueprint, now - AGAIN):
                 return None
             found = _find_paper(connection, blueprint, version)
@@ -132,11 +137,13 @@ def delete_unused_papers(connection: Connection) -> None:
     connection.execute(delete(PAPER).where(PAPER.c.id.not_in(sat), PAPER.c.id.not_in(waiting)))
 
 
-def _is_of(blueprint: str, version: str) -> tuple[ColumnElement[bool], ...]:
+def _match_stock(blueprint: str, version: str) -> tuple[ColumnElement[bool], ...]:
+    """Return the conditions that select the stock of a blueprint in one version."""
     return STOCK.c.blueprint == blueprint, STOCK.c.version == version
 
 
 def _began_since(connection: Connection, learner: int, blueprint: str, since: float) -> bool:
+    """Return whether a learner began an exam of a blueprint after a time (Unix, s)."""
     query = select(SITTING.c.id).where(
         SITTING.c.learner == learner,
         SITTING.c.begun > since,
@@ -148,9 +155,9 @@ def _began_since(connection: Connection, learner: int, blueprint: str, since: fl
 def _find_paper(
     connection: Connection, blueprint: str, version: str
 ) -> Row[Any, Any, Any, Any] | None:
-    """A paper that no other server is about to give away: PostgreSQL has several writers."""
+    """Return a paper no other server is about to give away: PostgreSQL has several writers."""
     query = select(STOCK.c.paper, STOCK.c.minutes, STOCK.c.pauses, PAPER.c.code).join(
         PAPER, PAPER.c.id == STOCK.c.paper
     )
-    query = query.where(*_is_of(blueprint, version)).limit(1)
+    query = query.where(*_match_stock(blueprint, version)).limit(1)
     return connection.execute(query.with_for_update(of=STOCK, skip_locked=True)).first()

@@ -119,7 +119,7 @@ _WIDTH = re.compile(r"(-?[\d.]+)(?:em|rem)")
 
 
 class LatexError(FormulaError):
-    """LaTeX that cannot be read, or something in it that cannot be said in every output.
+    """LaTeX that cannot be read, or something in it that not every output can express.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ class LatexError(FormulaError):
 
 
 class _Bracket(Struct, frozen=True):
-    """A bracket that may open or close, with what is raised or lowered behind it."""
+    """A bracket that may open or close, with what is raised or lowered after it."""
 
     sign: str
     sub: Node | None = None
@@ -194,6 +194,10 @@ def lay_out_latex(source: str) -> Node:
 
 
 def _check_depth(source: str) -> None:
+    """Raise ``LatexError`` if groups are nested too deeply, or if there are too many commands.
+
+    The converter and this module recurse, so an author's slip must not exhaust the stack.
+    """
     depth = 0
     for at, sign in enumerate(source):
         depth += (sign == "{") - (sign == "}")
@@ -204,7 +208,7 @@ def _check_depth(source: str) -> None:
 
 
 def _hold_slots(source: str) -> tuple[str, tuple[str, ...], list[tuple[int, int]]]:
-    """The source with a character for each slot, their names, and where shortened text began."""
+    """Return the source with a sign for each slot, their names, and where text got shorter."""
     names: list[str] = []
     starts: list[tuple[int, int]] = []
     held, last = "", 0
@@ -221,19 +225,26 @@ def _hold_slots(source: str) -> tuple[str, tuple[str, ...], list[tuple[int, int]
 
 
 def _find_column(at: int, starts: Sequence[tuple[int, int]]) -> int:
-    """Column in the source, from 1, of a place in the held text."""
+    """Return the column in the source, from 1, of a place in the held text."""
     shift = max((ours - held for held, ours in starts if held <= at), default=0)
     return at + shift + 1
 
 
 @cache
 def _make_converter() -> LatexToMathML:
+    """Return the converter from LaTeX to MathML, made once."""
     from math_core import LatexToMathML
 
     return LatexToMathML(fancy_error=False)
 
 
 def _parse_mathml(held: str, starts: Sequence[tuple[int, int]]) -> ET.Element:
+    """Return the MathML of a formula whose slots are held by stand-ins.
+
+    What the converter would refuse vaguely, or take in a way of its own, is refused here first,
+    with
+    advice. ``starts`` leads from a place to the column of the source. Raises ``LatexError``.
+    """
     from math_core import LatexError as ConverterError
 
     for found in _ENVIRONMENT.finditer(held):
@@ -256,7 +267,7 @@ def _parse_mathml(held: str, starts: Sequence[tuple[int, int]]) -> ET.Element:
 
 
 def _explain_converter(held: str, message: str, starts: Sequence[tuple[int, int]]) -> LatexError:
-    """What is wrong in an author's words; the column counts bytes there, characters here."""
+    """Return what is wrong in an author's words; columns count bytes there, characters here."""
     found = _AT.match(message)
     at = len(held.encode()[: int(found[1])].decode(errors="ignore")) if found else 0
     what = found[2] if found else message
@@ -270,6 +281,7 @@ def _explain_converter(held: str, message: str, starts: Sequence[tuple[int, int]
 
 
 def _locate_refusal(source: str, error: _RefusalError) -> LatexError:
+    """Return a refusal as an error at the first command in the source that may be meant."""
     places = [source.find(f"\\{command}") for command in error.commands]
     at = min((place for place in places if place >= 0), default=0)
     found = _COMMAND.match(source, at) if error.commands else None
@@ -284,27 +296,27 @@ class _Reader:
         self.names = names
 
     def read(self, root: ET.Element) -> Node:
-        """The whole formula."""
+        """Return the whole formula."""
         return self.row(list(root), root=True)
 
     def row(self, elements: Sequence[ET.Element], opening: str = "", *, root: bool = False) -> Node:
-        """Elements side by side as one node."""
+        """Return elements next to each other as one node."""
         pieces = self.pieces(elements)
         return _RowBuilder(pieces, opening, root=root).build()
 
     def node(self, element: ET.Element) -> Node:
-        """One element as a node."""
+        """Return one element as a node."""
         return self.row([element])
 
     def pieces(self, elements: Iterable[ET.Element]) -> list[_Piece]:
-        """What elements hold, side by side."""
+        """Return what elements hold, one after the other."""
         found: list[_Piece] = []
         for element in elements:
             found += self.convert(element)
         return _join_signs(found)
 
     def convert(self, element: ET.Element) -> Sequence[_Piece]:
-        """One element as pieces of a row."""
+        """Return one element as pieces of a row."""
         rule = _RULES.get(element.tag)
         if rule is None or element.get("style", "").startswith(("color", "background")):
             what, commands = _REFUSED.get(element.tag, ("it cannot be said in every output", ()))
@@ -314,7 +326,7 @@ class _Reader:
     # Leaves
 
     def identifier(self, element: ET.Element) -> Sequence[_Piece]:
-        """Letters: a quantity, an upright name, a slot, or a sign that stands like a letter."""
+        """Return letters: a quantity, an upright name, a slot, or a sign used like a letter."""
         text = (element.text or "").replace("\ufe00", "").replace("\ufe01", "")
         found: list[_Piece] = []
         for part in re.split("([\ue000-\uf8ff])", text):
@@ -325,14 +337,14 @@ class _Reader:
         return found
 
     def number(self, element: ET.Element) -> Sequence[_Piece]:
-        """Digits, grouped as everywhere; zeros in front are kept."""
+        """Return digits, grouped as everywhere; zeros in front remain."""
         text = element.text or ""
         if not _NUMBER.fullmatch(text):
             raise _RefusalError(f"{text!r} is no number")
         return [Digits(text if text.startswith("0") else pretty.group_digits(text))]
 
     def operator(self, element: ET.Element) -> Sequence[_Piece]:
-        """A sign, a bracket, or a large operator."""
+        """Return a sign, a bracket, or a large operator."""
         text = element.text or ""
         text = _SAME_SIGN.get(text, text)
         if text in LARGE:
@@ -351,7 +363,7 @@ class _Reader:
         return [OperatorSign(text)]
 
     def text(self, element: ET.Element) -> Sequence[_Piece]:
-        """Words; a blank that must not break is a gap."""
+        """Return words; a blank that must not break is a gap."""
         if len(element):
             raise _RefusalError(
                 "sets words in another shape; there are \\text and \\mathrm", "textbf", "textit",
@@ -370,7 +382,7 @@ class _Reader:
         return found
 
     def space(self, element: ET.Element) -> Sequence[_Piece]:
-        """A blank of the nearest width there is; one that moves things together is left out."""
+        """Return a blank of the nearest width; one that moves things together is left out."""
         found = _WIDTH.fullmatch(element.get("width", ""))
         if found is None or float(found[1]) <= 0:
             return []
@@ -380,7 +392,7 @@ class _Reader:
     # What holds other things
 
     def group(self, element: ET.Element) -> Sequence[_Piece]:
-        """A group in braces, or brackets that LaTeX has paired."""
+        """Return a group in braces, or brackets that LaTeX has paired."""
         children = list(element)
         if len(children) > 1 and _is_paired(children[0]) and _is_paired(children[-1]):
             return [self.fence(children)]
@@ -390,8 +402,8 @@ class _Reader:
         return inner
 
     def fence(self, children: list[ET.Element]) -> Node:
-        r"""What ``\left`` and ``\right`` or an environment hold."""
-        left, right = (_fence_sign(children[end]) for end in (0, -1))
+        r"""Return what ``\left`` and ``\right`` or an environment hold."""
+        left, right = (_find_fence_sign(children[end]) for end in (0, -1))
         body = children[1:-1]
         if len(body) == 1 and body[0].tag == "mtable":
             rows = self.table(body[0])
@@ -402,25 +414,25 @@ class _Reader:
         return Fenced(left + right, self.row(body, left))
 
     def fraction(self, element: ET.Element) -> Sequence[_Piece]:
-        """A fraction, large where it was asked to be."""
+        """Return a fraction, large where it was asked to be."""
         made = Frac(self.node(element[0]), self.node(element[1]))
         return [Display(made) if element.get("displaystyle") == "true" else made]
 
     def root(self, element: ET.Element) -> Sequence[_Piece]:
-        """A root with its index, or a square root."""
+        """Return a root with its index, or a square root."""
         if element.tag == "msqrt":
             return [Root(self.row(list(element)))]
         return [Root(self.node(element[0]), self.node(element[1]))]
 
     def scripts(self, element: ET.Element) -> Sequence[_Piece]:
-        """A base with what stands below and above it on its right."""
+        """Return a base with what stands below and above it on its right."""
         base, *rest = element
         sub = self.node(rest[0]) if element.tag != "msup" else None
         sup = self.node(rest[-1]) if element.tag != "msub" else None
         return self.attach(base, sub, sup)
 
     def attach(self, base: ET.Element, sub: Node | None, sup: Node | None) -> Sequence[_Piece]:
-        """Scripts of what stands in front; bounds of a sum, limits of a limit."""
+        """Return scripts of what stands in front; bounds of a sum, limits of a limit."""
         primes, sup = _take_primes(sup)
         before = self.pieces([base])
         if sup == OperatorSign("∘") and sub is None:
@@ -440,7 +452,7 @@ class _Reader:
         return [Scripts(made, sub, sup, primes)]
 
     def above(self, element: ET.Element) -> Sequence[_Piece]:
-        """An accent, a brace, bounds of a large operator, or a node above."""
+        """Return an accent, a brace, bounds of a large operator, or a node above."""
         base, mark = element[0], element[-1]
         sign = (mark.text or "") if mark.tag == "mo" else ""
         if element.tag == "mover" and sign == "⏞":
@@ -454,7 +466,7 @@ class _Reader:
         return [Over(self.node(base), self.arrow_note(mark))]
 
     def below(self, element: ET.Element) -> Sequence[_Piece]:
-        """An underline, a brace, bounds of a large operator, or a node below."""
+        """Return an underline, a brace, bounds of a large operator, or a node below."""
         base, mark = element[0], element[-1]
         if (mark.text or "") == "⏟":
             return [Brace(self.node(base))]
@@ -465,33 +477,33 @@ class _Reader:
         return [Under(self.node(base), self.arrow_note(mark))]
 
     def between(self, element: ET.Element) -> Sequence[_Piece]:
-        """Both bounds of a large operator, or a node below and one above."""
+        """Return both bounds of a large operator, or a node below and one above."""
         base, low, high = element
         if _find_operator(base) in LARGE:
             return self.attach(base, self.node(low), self.node(high))
         return [Over(Under(self.node(base), self.arrow_note(low)), self.arrow_note(high))]
 
     def arrow_note(self, element: ET.Element) -> Node:
-        """What stands above or below; at an arrow it is wrapped, so that the arrow is wide."""
+        """Return what stands above or below; at an arrow it is wrapped, to make the arrow wide."""
         if element.tag in {"mover", "munder"} and element[-1].tag == "mspace":
             return self.row([one for one in element[0] if one.tag != "mspace"])
         return self.node(element)
 
     def standing_table(self, element: ET.Element) -> Sequence[_Piece]:
-        """Lines below each other, or a matrix without brackets."""
+        """Return lines below each other, or a matrix without brackets."""
         rows = self.table(element)
         if element.get("displaystyle") == "true":
             return [AlignedRows(rows)]
         return [Matrix(rows, "")]
 
     def table(self, element: ET.Element) -> tuple[tuple[Node, ...], ...]:
-        """The cells of a table."""
+        """Return the cells of a table."""
         if any("border" in cell.get("style", "") for cell in element.iter("mtd")):
             raise _RefusalError("draws lines, which cannot be said in every output", "begin{array}")
         return tuple(tuple(self.row(list(cell)) for cell in row) for row in element)
 
     def inside(self, element: ET.Element) -> Sequence[_Piece]:
-        """What a wrapper holds."""
+        """Return what a wrapper holds."""
         return self.pieces(list(element))
 
 
@@ -538,7 +550,8 @@ def _is_paired(element: ET.Element) -> bool:
     return element.tag == "mo" and single and element.get("stretchy") is None
 
 
-def _fence_sign(element: ET.Element) -> str:
+def _find_fence_sign(element: ET.Element) -> str:
+    """Return the sign of a stretching bracket, "." for none; refuse one no output can read."""
     sign = (element.text or "").replace(_ABSENT, ".")
     if sign not in FENCES:
         raise _RefusalError(f"the bracket {sign!r} cannot be said in every output", "left", "right")
@@ -546,20 +559,22 @@ def _fence_sign(element: ET.Element) -> str:
 
 
 def _find_operator(element: ET.Element) -> str:
-    """The sign of an operator; empty for anything else."""
+    """Return the sign of an operator; empty for anything else."""
     return (element.text or "") if element.tag == "mo" else ""
 
 
 def _is_brace(element: ET.Element) -> bool:
+    """Return whether an element is a curly brace above or below something."""
     return element.tag in {"mover", "munder"} and (element[-1].text or "") in {"⏞", "⏟"}
 
 
 def _takes_limits(piece: _Piece) -> TypeGuard[FunctionName]:
+    """Return whether a piece is a function such as lim, with its condition set below it."""
     return isinstance(piece, FunctionName) and piece.text in _TAKES_LIMITS
 
 
 def _take_primes(sup: Node | None) -> tuple[int, Node | None]:
-    """Primes at the beginning of a superscript, and what is left of it."""
+    """Return the primes at the beginning of a superscript, and what is left of it."""
     items = list(sup.items) if isinstance(sup, MathRow) else [sup] if sup else []
     count = 0
     while items and items[0] == OperatorSign("′"):
@@ -571,7 +586,7 @@ def _take_primes(sup: Node | None) -> tuple[int, Node | None]:
 
 
 def _read_name(text: str, *, upright: bool) -> Node:
-    """One letter in its alphabet, a letter-like sign, or an upright word."""
+    """Return one letter in its alphabet, a letter-like sign, or an upright word."""
     text = _SAME_SIGN.get(text, text)
     if text in _SIGNS:
         return OperatorSign("colon" if text == ":" else text)
@@ -591,6 +606,10 @@ def _read_name(text: str, *, upright: bool) -> Node:
 
 
 def _read_letter(text: str, *, upright: bool) -> Node:
+    """Return the letter that a styled sign of Unicode stands for, with its style.
+
+    Raises a refusal for a letter that some output has no word or no glyph for.
+    """
     if text in LETTERLIKE:
         return Ident(text)
     plain, shape = normalize("NFKC", text), unicode_name(text, "")
@@ -606,7 +625,7 @@ def _read_letter(text: str, *, upright: bool) -> Node:
 
 
 def _join_signs(pieces: list[_Piece]) -> list[_Piece]:
-    """Signs that LaTeX sets as several: three points, a colon with an equals sign."""
+    """Return signs that LaTeX sets as several as one: three points, a colon with an equals sign."""
     found: list[_Piece] = []
     dots, equals = (OperatorSign("."), OperatorSign("·")), OperatorSign("=")
     for piece in pieces:
@@ -629,6 +648,7 @@ def _join_signs(pieces: list[_Piece]) -> list[_Piece]:
 
 
 def _is_long_arrow(piece: _Piece) -> bool:
+    """Return whether a piece is one of the double arrows between statements."""
     return isinstance(piece, OperatorSign) and piece.name in {"⟹", "⟸", "⟺"}
 
 
@@ -656,7 +676,7 @@ class _RowBuilder:
         self.frames = [_Frame(opening, [])]
 
     def build(self) -> Node:
-        """The row as one node."""
+        """Return the row as one node."""
         for index, piece in enumerate(self.pieces):
             if isinstance(piece, _Bracket):
                 self.take(piece, index)
@@ -678,6 +698,10 @@ class _RowBuilder:
             self.take_bar(piece, index)
 
     def take_bar(self, piece: _Bracket, index: int) -> None:
+        """Decide what a single bar is, by the bars and the pieces around it.
+
+        It closes an open one, opens one, ends what is evaluated (with an index), or separates.
+        """
         top = self.frames[-1]
         if top.items and top.opening == piece.sign and not _waits(top.items):
             self.close(piece)
@@ -689,14 +713,14 @@ class _RowBuilder:
             top.items.append(self.separator())
 
     def evaluate(self, piece: _Bracket) -> None:
-        """End what is evaluated: all behind the last relation."""
+        """End what is evaluated: all after the last relation."""
         items = self.frames[-1].items
         begin = max((at + 1 for at, item in enumerate(items) if _is_relation(item)), default=0)
         body = _make_row(items[begin:])
         items[begin:] = [Scripts(Fenced(f".{piece.sign}", body), piece.sub, piece.sup)]
 
     def count_bars(self, index: int) -> int:
-        """Bars from a place on to the end of the brackets around it."""
+        """Return the number of bars from a place to the end of the brackets around it."""
         depth = count = 0
         for piece in self.pieces[index:]:
             if isinstance(piece, _Bracket):
@@ -707,7 +731,7 @@ class _RowBuilder:
         return count
 
     def separator(self) -> OperatorSign:
-        """What a bar between two things says."""
+        """Return what a bar between two things says."""
         inside = next((one.opening for one in reversed(self.frames) if one.opening), "")
         if inside == "{":
             return OperatorSign("such that")
@@ -731,7 +755,7 @@ class _RowBuilder:
 
 
 def _join_double_bars(pieces: list[_Piece]) -> list[_Piece]:
-    """Bars in pairs, where a pair can open and another one close, as bars of a norm."""
+    """Return bars in pairs as bars of a norm, where a pair can open and another one close."""
     found = list(pieces)
     at = 0
     while at + 1 < len(found):
@@ -746,16 +770,19 @@ def _join_double_bars(pieces: list[_Piece]) -> list[_Piece]:
 
 
 def _is_double_bar(pieces: list[_Piece], at: int) -> bool:
+    """Return whether two bars stand at a place, without indices between them."""
     plain = _Bracket("|")
     following = pieces[at + 1]
     return pieces[at] == plain and isinstance(following, _Bracket) and following.sign == "|"
 
 
 def _is_node(piece: _Piece) -> TypeGuard[Node]:
+    """Return whether a piece is a node, not a bracket that waits to be paired."""
     return not isinstance(piece, _Bracket)
 
 
 def _is_relation(item: Node) -> bool:
+    """Return whether a node is a sign of relation, as = or <."""
     return isinstance(item, OperatorSign) and item.name in _RELATIONS
 
 
@@ -768,7 +795,7 @@ def _waits(items: list[Node]) -> bool:
 
 
 def _make_row(items: list[Node], *, root: bool = False) -> Node:
-    """One node of a row whose brackets are paired."""
+    """Return one node of a row whose brackets are paired."""
     _check_decimal_comma(items, root=root)
     if len(items) > 1 and OperatorSign("ᵀ") in items:
         raise _RefusalError("stands raised alone, as in A^\\top", "top")
@@ -781,6 +808,7 @@ def _make_row(items: list[Node], *, root: bool = False) -> Node:
 
 
 def _check_decimal_comma(items: list[Node], *, root: bool) -> None:
+    """Raise a refusal for a comma right between digits in the row of the whole formula."""
     digits = [isinstance(item, Digits) for item in items]
     for at, item in enumerate(items[1:-1], 1) if root else ():
         if item == OperatorSign(",") and digits[at - 1] and digits[at + 1]:
@@ -796,7 +824,7 @@ _PREFIXES: dict[Node, OperatorSign] = {
 
 
 def _find_signs(items: list[Node]) -> list[Node]:
-    """Minus signs that are no differences, colons that are no ratios, a remainder."""
+    """Return minus signs that are no differences, colons that are no ratios, a remainder."""
     found: list[Node] = []
     for at, item in enumerate(items):
         after = items[at + 1] if at + 1 < len(items) else None
@@ -818,7 +846,7 @@ def _find_signs(items: list[Node]) -> list[Node]:
 
 
 def _apply_functions(items: list[Node]) -> list[Node]:
-    """Functions with the brackets behind them as one node."""
+    """Return functions with the brackets after them as one node."""
     found: list[Node] = []
     for item in items:
         applied = bool(found) and found[-1] == OperatorSign("apply")
@@ -852,7 +880,7 @@ _INVERSE = MathRow((OperatorSign("neg"), Digits("1")), NEGATIVE)
 
 
 def _is_called(node: Node | None, *, applied: bool) -> bool:
-    """Whether a node with brackets behind it is a function."""
+    """Whether a node with brackets after it is a function."""
     while isinstance(node, Scripts | Accent):
         if isinstance(node, Scripts) and node.sup not in {None, _INVERSE} and not applied:
             return False
@@ -863,21 +891,21 @@ def _is_called(node: Node | None, *, applied: bool) -> bool:
 
 
 def _as_head(node: Node) -> Node:
-    """A function's name as the head of what it is applied to."""
+    """Return a function's name as the head of what it is applied to."""
     if isinstance(node, Scripts):
         return replace(node, base=_as_head(node.base))
     return Word(node.text) if isinstance(node, FunctionName) else node
 
 
 def _as_function(node: Node) -> Node:
-    """A word in front of an argument as a function's name."""
+    """Return a word in front of an argument as a function's name."""
     if isinstance(node, Scripts):
         return replace(node, base=_as_function(node.base))
     return FunctionName(node.text) if isinstance(node, Word) else node
 
 
 def _split_arguments(body: Node) -> tuple[Node, ...]:
-    """Arguments between commas."""
+    """Return arguments between commas."""
     if not isinstance(body, MathRow) or OperatorSign(",") not in body.items:
         return (body,)
     parts: list[list[Node]] = [[]]
@@ -890,7 +918,7 @@ def _split_arguments(body: Node) -> tuple[Node, ...]:
 
 
 def _find_level(items: Sequence[Node]) -> int:
-    """How strongly a row holds together: as its weakest sign."""
+    """Return how strongly a row holds together: as its weakest sign."""
     signs = {item.name for item in items if isinstance(item, OperatorSign)}
     if signs & _RELATIONS or any(isinstance(item, Phrase) for item in items):
         return RELATION
@@ -917,7 +945,7 @@ _SPELLED = {
 
 
 def _spell_word(found: re.Match[str]) -> str:
-    """A name of several letters is an upright word; one with a command of its own stays."""
+    """Return a name of several letters as an upright word; one with its own command stays."""
     return found[0] if _WORD.fullmatch(found[0]) else f"\\mathrm{{{found[0]}}}"
 
 

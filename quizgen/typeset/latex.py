@@ -141,6 +141,7 @@ def _format_word(node: n.Word, _lang: str) -> str:
 
 @_format_node.register
 def _format_phrase(node: n.Phrase, _lang: str) -> str:
+    """Return a phrase of the author in text mode, signs that it cannot hold in math mode."""
     parts = _NO_TEXT.split(node.text)  # every other one is a sign that text cannot hold
     written = [
         _AS_SIGN[part] if at % 2 else rf"\text{{{_escape_latex(part)}}}"
@@ -152,11 +153,13 @@ def _format_phrase(node: n.Phrase, _lang: str) -> str:
 
 @_format_node.register
 def _format_function_name(node: n.FunctionName, lang: str) -> str:
+    """Return the name of a function in upright letters."""
     return _format_function_head(n.Word(node.text), lang)
 
 
 @_format_node.register
 def _format_gap(node: n.Gap, _lang: str) -> str:
+    """Return the command of a gap by its width."""
     return _known(_GAPS, node.width, "gap")
 
 
@@ -303,11 +306,13 @@ def _format_under(node: n.Under, lang: str) -> str:
 
 @_format_node.register
 def _format_over(node: n.Over, lang: str) -> str:
+    """Return a sign with another above it."""
     return rf"\overset{{{_format_node(node.above, lang)}}}{{{_format_node(node.base, lang)}}}"
 
 
 @_format_node.register
 def _format_brace(node: n.Brace, lang: str) -> str:
+    """Return a body with a curly brace above or below it and, at the brace, its note."""
     command, mark = (r"\overbrace", "^") if node.upside else (r"\underbrace", "_")
     note = f"{mark}{{{_format_node(node.note, lang)}}}" if node.note else ""
     return f"{command}{{{_format_node(node.body, lang)}}}{note}"
@@ -315,17 +320,19 @@ def _format_brace(node: n.Brace, lang: str) -> str:
 
 @_format_node.register
 def _format_display(node: n.Display, lang: str) -> str:
+    """Return a body as large as in a formula on a line of its own."""
     return rf"{{\displaystyle {_format_node(node.body, lang)}}}"
 
 
 @_format_node.register
 def _format_binomial(node: n.Binomial, lang: str) -> str:
+    """Return a binomial coefficient."""
     return rf"\binom{{{_format_node(node.top, lang)}}}{{{_format_node(node.bottom, lang)}}}"
 
 
 @_format_node.register
 def _format_cases(node: n.Cases, lang: str) -> str:
-    """Return branches behind a brace, the last one with the word for *otherwise*."""
+    """Return branches after a brace, the last one with the word for *otherwise*."""
     rows = []
     for value, condition in node.rows:
         when = r"\text{otherwise}".replace(
@@ -358,11 +365,13 @@ _MATRICES = {
 
 
 def _format_environment(name: str, rows: list[str]) -> str:
+    """Return an environment around its rows."""
     return rf"\begin{{{name}}} " + r" \\ ".join(rows) + rf" \end{{{name}}}"
 
 
 @_format_node.register
 def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
+    """Return aligned rows: cases after a brace, centred ones if each is a single cell."""
     rows = [" & ".join([_format_node(cell, lang) for cell in row]) for row in node.rows]
     alone = all(len(row) == 1 for row in node.rows)
     return _format_environment("cases" if node.brace else "gathered" if alone else "aligned", rows)

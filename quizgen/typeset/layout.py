@@ -390,11 +390,13 @@ def _lay_out_square_root(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_factorial(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a factorial; all but a single thing gets brackets."""
     (arg,) = args
     return MathRow((run.lay_out_bracketed(arg, ATOM), OperatorSign("!")), POWER)
 
 
 def _lay_out_binomial(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a binomial coefficient."""
     top, bottom = args
     return Binomial(run.lay(top), run.lay(bottom))
 
@@ -403,6 +405,7 @@ def _make_series_rule(sign: str) -> LayoutRule:
     """Return the rule of a sum or product: a name, its first and last value, what is combined."""
 
     def rule(run: _Layout, args: tuple[Expr, ...]) -> Node:
+        """Return the layout of a sum or a product with its bounds."""
         name, first, last, body = args
         start = MathRow((run.lay(name), OperatorSign("="), run.small(first)), RELATION)
         operator = LargeOperator(sign, start, run.small(last))
@@ -412,6 +415,7 @@ def _make_series_rule(sign: str) -> LayoutRule:
 
 
 def _lay_out_integral(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a definite integral, closed by its differential."""
     name, first, last, body = args
     sign = LargeOperator("∫", run.small(first), run.small(last))
     over = MathRow((OperatorSign(" "), Ident("d"), run.lay(name)))
@@ -513,12 +517,14 @@ def _lay_out_cases(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_mean(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a mean: a bar above one letter, else the word."""
     nodes = tuple(map(run.lay, args))
     letter = len(args) == 1 and isinstance(args[0], Sym)
     return Accent("bar", nodes[0]) if letter else Func(Word("mean"), nodes)
 
 
 def _lay_out_item(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a value at a place of a list, which is its index."""
     values, place = args
     return Scripts(add_brackets(run.lay(values), ATOM), run.small(place))
 
@@ -534,15 +540,18 @@ def _lay_out_pi(_run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_matrix(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a matrix from its rows."""
     rows = [row.args for row in args if isinstance(row, Call)]
     return Matrix(tuple(tuple(map(run.lay, row)) for row in rows))
 
 
 def _lay_out_vector(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a vector, as a column."""
     return Matrix(tuple((run.lay(arg),) for arg in args))
 
 
 def _list_items(run: _Layout, args: tuple[Expr, ...], sign: str = ";") -> Node:
+    """Return a row of arguments with a sign between them."""
     items: list[Node] = []
     for arg in args:
         items += [OperatorSign(sign), run.lay(arg)] if items else [run.lay(arg)]
@@ -550,10 +559,12 @@ def _list_items(run: _Layout, args: tuple[Expr, ...], sign: str = ";") -> Node:
 
 
 def _lay_out_set(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a finite set."""
     return Fenced("{}", _list_items(run, args))
 
 
 def _lay_out_interval(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of an interval, whose last two arguments say if its ends belong to it."""
     low, high, *sides = args
     left, right = (isinstance(side, Num) and side.value for side in sides)
     fence = f"{'[' if left else '('}{']' if right else ')'}"
@@ -561,6 +572,7 @@ def _lay_out_interval(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_union(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a union: "or" between its parts, empty braces for none."""
     if not args:
         return Fenced("{}", OperatorSign(" "))
     items = [run.lay(args[0])]
@@ -570,6 +582,7 @@ def _lay_out_union(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_complex(run: _Layout, args: tuple[Expr, ...]) -> Node:
+    """Return the layout of a complex number, without a part that is 0 or a factor 1."""
     real, imaginary = args
     unit: Expr = Call("mul", (imaginary, Sym("i")))
     minus, size = split_sign(imaginary)
@@ -581,6 +594,7 @@ def _lay_out_complex(run: _Layout, args: tuple[Expr, ...]) -> Node:
 
 
 def _lay_out_infinity(_run: _Layout, _args: tuple[Expr, ...]) -> Node:
+    """Return the layout of the sign of infinity."""
     return Ident("∞")
 
 

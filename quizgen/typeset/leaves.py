@@ -74,6 +74,7 @@ def list_leaf_names(node: Node) -> frozenset[str]:
 
 
 def _iter_names(part: Any) -> Iterator[str]:
+    """Yield the names of the leaves in a part of a layout, in order."""
     if isinstance(part, Leaf):
         yield part.name
     elif isinstance(part, Struct):
@@ -111,7 +112,7 @@ class _Filling:
         self.values = values
 
     def fill(self, node: Node) -> Node:
-        """A node with its leaves filled, itself in a place where nothing needs brackets."""
+        """Return a node with its leaves filled, itself in a place where nothing needs brackets."""
         if isinstance(node, Leaf):
             return self.get(node).node
         if isinstance(node, MathRow):
@@ -123,14 +124,14 @@ class _Filling:
         return self.rebuild(node)
 
     def get(self, leaf: Leaf) -> LeafValue:
-        """The value of a leaf."""
+        """Return the value of a leaf."""
         found = self.values.get(leaf.name)
         if found is None:
             raise RenderError(f"there is no value for {leaf.name!r}")
         return found
 
     def rebuild(self, node: Node) -> Node:
-        """The same node with its parts filled."""
+        """Return the same node with its parts filled."""
         changed = {
             name: self.fill_part(part)
             for name in node.__struct_fields__
@@ -139,13 +140,13 @@ class _Filling:
         return replace(node, **changed) if changed else node
 
     def fill_part(self, part: Any) -> Any:
-        """A part of a node: a node, rows of nodes, or nothing."""
+        """Return a part of a node: a node, rows of nodes, or nothing."""
         if isinstance(part, tuple):
             return tuple(self.fill_part(one) for one in part)
         return self.fill(cast("Node", part)) if isinstance(part, Struct) else part
 
     def fill_scripts(self, node: Scripts) -> Node:
-        """What has an index or a power is one thing, or stands in brackets."""
+        """Return a node with scripts; its base is one thing, or stands in brackets."""
         base = self.fill(node.base)
         if isinstance(node.base, Leaf) and (base.level < ATOM or isinstance(base, Scripts)):
             base = Fenced("()", base)
@@ -153,7 +154,7 @@ class _Filling:
         return replace(node, base=base, sub=sub, sup=sup and _allow_slash(sup))
 
     def fill_fraction(self, node: Frac) -> Node:
-        """A fraction; before and behind a slash values need what a bar would say."""
+        """Return a fraction; on a slash, values need the brackets that a bar would spare."""
         top, bottom = self.fill(node.top), self.fill(node.bottom)
         if node.inline and isinstance(node.top, Leaf) and top.level < NEGATIVE:
             top = Fenced("()", top)
@@ -162,7 +163,7 @@ class _Filling:
         return replace(node, top=top, bottom=bottom)
 
     def fill_row(self, row: MathRow) -> Node:
-        """A row, whose leaves see what stands beside them."""
+        """Return a row, whose leaves see what stands next to them."""
         items: list[Node] = []
         for at, item in enumerate(row.items):
             before = row.items[at - 1] if at else None
@@ -179,9 +180,9 @@ class _Filling:
         return items[0] if len(items) == 1 else MathRow(tuple(items), level)
 
     def append(self, items: list[Node], item: Node, before: Node | None) -> None:
-        """Put what is no leaf behind what a row has so far."""
+        """Put what is no leaf after what a row has so far."""
         filled = self.fill(item)
-        if filled != item and _last(items) in _SIGNS:
+        if filled != item and _find_last(items) in _SIGNS:
             flipped = _take_minus(filled)
             if flipped is not None:
                 filled = flipped
@@ -191,16 +192,16 @@ class _Filling:
         items.append(filled)
 
     def place(self, items: list[Node], leaf: Leaf, following: Node | None) -> None:
-        """Put a value behind what a row has so far."""
+        """Put a value after what a row has so far."""
         value = self.get(leaf)
         node = value.node
-        before = _last(items)
+        before = _find_last(items)
         if value.is_rounded and before == OperatorSign("="):
             items[-1] = OperatorSign("≈")
         if before in _SIGNS and (flipped := _take_minus(node)) is not None:
             node = flipped
             _turn_sign(items)
-        sign = _last(items)
+        sign = _find_last(items)
         factor = _is_factor(sign, following)
         if factor and _is_unit_factor(node, following) and not _is_multiplied(sign):
             items += _keep_sign(node)
@@ -220,7 +221,8 @@ class _Filling:
 _DROPPED = Phrase("\0")
 
 
-def _last(items: list[Node]) -> Node | None:
+def _find_last(items: list[Node]) -> Node | None:
+    """Return the last node of a row that is no gap; None if there is none."""
     return next((item for item in reversed(items) if not isinstance(item, Gap)), None)
 
 
@@ -234,7 +236,7 @@ def _turn_sign(items: list[Node]) -> None:
 
 
 def _take_minus(node: Node) -> Node | None:
-    """A node without the minus sign that it begins with; None if it begins with none."""
+    """Return a node without the minus sign that it begins with; None if it begins with none."""
     if not isinstance(node, MathRow) or node.level != NEGATIVE or not node.items:
         return None
     first, *rest = node.items
@@ -252,7 +254,7 @@ def _is_separator(node: Node | None) -> bool:
 
 
 def _is_factor(before: Node | None, following: Node | None) -> bool:
-    """Whether a value is multiplied by what stands beside it."""
+    """Whether a value is multiplied by what stands next to it."""
     return (
         _is_operand(before)
         or _is_operand(following)
@@ -262,12 +264,14 @@ def _is_factor(before: Node | None, following: Node | None) -> bool:
 
 
 def _is_multiplied(before: Node | None) -> bool:
+    """Return whether what follows is multiplied by the node before it, with or without a sign."""
     return _is_operand(before) or (
         isinstance(before, OperatorSign) and before.name in _MULTIPLYING | {"¬"}
     )
 
 
 def _is_operand(node: Node | None) -> bool:
+    """Return whether a node is a value, not a sign, a phrase or a gap."""
     return node is not None and not isinstance(node, OperatorSign | Phrase | Gap)
 
 
@@ -281,11 +285,12 @@ def _is_unit_factor(node: Node, following: Node | None) -> bool:
 
 
 def _keep_sign(node: Node) -> list[Node]:
+    """Return the minus sign that a node begins with, in a list; an empty list for none."""
     return [] if _take_minus(node) is None else [_NEG]
 
 
 def _needed_level(before: Node | None, following: Node | None, *, factor: bool) -> int:
-    """How strongly a value must hold together to stand without brackets."""
+    """Return how strongly a value must hold together to stand without brackets."""
     if isinstance(following, OperatorSign) and following.name in _BEHIND:
         return ATOM
     if factor:
@@ -307,13 +312,14 @@ def _fits(node: Node, before: Node | None, *, factor: bool) -> bool:
 
 
 def _starts_with_minus(node: Node) -> bool:
+    """Return whether the first sign of a node is a minus."""
     while isinstance(node, MathRow) and node.items:
         node = node.items[0]
     return node == _NEG
 
 
 def _looks_like_number(node: Node) -> bool:
-    """Whether a value right behind a factor would be read as part of it."""
+    """Whether a value right after a factor would be read as part of it."""
     while isinstance(node, Fenced) and node.kind == "()":
         node = node.body
     if isinstance(node, MathRow) and node.items:
@@ -324,15 +330,15 @@ def _looks_like_number(node: Node) -> bool:
 
 
 def _ends_in_unit(node: Node) -> bool:
-    """Whether a factor right behind a value would be read as part of its unit, or of a fraction."""
+    """Whether a factor right after a value would be read as part of its unit, or of a fraction."""
     while isinstance(node, MathRow) and node.items:
         node = node.items[-1]
     return isinstance(node, NumberWithUnit) or (isinstance(node, Frac) and node.inline)
 
 
 def _touches_value(items: list[Node], node: Node, before: Node | None) -> bool:
-    """Whether what comes right behind a value would be read as part of it."""
-    last = _last(items)
+    """Whether what comes right after a value would be read as part of it."""
+    last = _find_last(items)
     if not isinstance(before, Leaf) or last is None or not _is_operand(last) or last is _DROPPED:
         return False
     product = isinstance(last, MathRow) and last.level == PRODUCT
@@ -340,7 +346,7 @@ def _touches_value(items: list[Node], node: Node, before: Node | None) -> bool:
 
 
 def _allow_slash(node: Node) -> Node:
-    """A fraction of numbers in an exponent is set on one line."""
+    """Return a fraction of numbers in an exponent as one on a single line."""
     if isinstance(node, Frac) and isinstance(node.top, Digits):
         return replace(node, inline=True)
     return node

@@ -199,6 +199,7 @@ def _format_word(node: n.Word | n.FunctionName, _lang: str) -> str:
 
 @_format_node.register
 def _format_phrase(node: n.Phrase, _lang: str) -> str:
+    """Return a phrase of the author as text, with blanks at its ends that stay."""
     # blanks at the ends of an element are dropped
     text = re.sub("^ | $", "\u00a0", node.text)
     return f"<mtext>{escape(text)}</mtext>" if text else "<mrow></mrow>"
@@ -206,6 +207,7 @@ def _format_phrase(node: n.Phrase, _lang: str) -> str:
 
 @_format_node.register
 def _format_gap(node: n.Gap, _lang: str) -> str:
+    """Return a gap, in em."""
     return f'<mspace width="{_known(GAPS, node.width, "gap"):.2f}em"/>'
 
 
@@ -369,11 +371,13 @@ def _format_under(node: n.Under, lang: str) -> str:
 
 @_format_node.register
 def _format_over(node: n.Over, lang: str) -> str:
+    """Return a sign with another above it."""
     return f"<mover>{_format_node(node.base, lang)}{_format_node(node.above, lang)}</mover>"
 
 
 @_format_node.register
 def _format_brace(node: n.Brace, lang: str) -> str:
+    """Return a body with a curly brace above or below it and, at the brace, its note."""
     body, note = (part and _format_node(part, lang) for part in (node.body, node.note))
     tag, mark = ("mover", "⏞") if node.upside else ("munder", "⏟")
     braced = f'<{tag}>{body}<mo stretchy="true">{mark}</mo></{tag}>'
@@ -382,11 +386,13 @@ def _format_brace(node: n.Brace, lang: str) -> str:
 
 @_format_node.register
 def _format_display(node: n.Display, lang: str) -> str:
+    """Return a body as large as in a formula on a line of its own."""
     return f'<mstyle displaystyle="true">{_format_inside(node.body, lang)}</mstyle>'
 
 
 @_format_node.register
 def _format_binomial(node: n.Binomial, lang: str) -> str:
+    """Return a binomial coefficient: a fraction without its line, in brackets."""
     top, bottom = _format_node(node.top, lang), _format_node(node.bottom, lang)
     body = f'<mfrac linethickness="0">{top}{bottom}</mfrac>'
     return f"<mrow>{_format_brackets('()', body)}</mrow>"
@@ -394,7 +400,7 @@ def _format_binomial(node: n.Binomial, lang: str) -> str:
 
 @_format_node.register
 def _format_cases(node: n.Cases, lang: str) -> str:
-    """Return branches behind a brace, the last one with the word for *otherwise*."""
+    """Return branches after a brace, the last one with the word for *otherwise*."""
     rows = []
     for value, condition in node.rows:
         when = f"<mtext>{load_speech_words(lang).printed['otherwise']}</mtext>"
@@ -430,6 +436,7 @@ def _format_matrix(node: n.Matrix, lang: str) -> str:
 
 @_format_node.register
 def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
+    """Return aligned rows as a table, with a brace in front if they are cases."""
     rows = [
         "<mtr>" + "".join(_format_aligned_cells(node, row, lang)) + "</mtr>" for row in node.rows
     ]
@@ -440,7 +447,7 @@ def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
 
 
 def _format_aligned_cells(node: n.AlignedRows, row: tuple[n.Node, ...], lang: str) -> Iterator[str]:
-    """Cells to the left after a brace; else alternately to the right and left, or alone centred."""
+    """Yield cells set left after a brace; else right and left in turn, or alone centred."""
     for place, cell in enumerate(row):
         body = _format_inside(cell, lang)
         if node.brace:

@@ -186,7 +186,7 @@ def iter_names_written(part: object) -> Iterator[str]:
 
 
 def _spell_name(node: Node) -> str:
-    """A name as solvers spell it; empty if a node is no name."""
+    """Return a name as solvers spell it; empty if a node is no name."""
     match node:
         case Ident(text):
             return _ASCII.get(text, text)

@@ -3,7 +3,7 @@
 Every node has a ``level``, the strength with which it holds together; a weaker node inside a
 stronger place gets brackets. Nodes carry no language: words such as *otherwise* are keys. They are
 structs because every command loads them: a dataclass takes ten times as long to define. Their tags
-let the formulas of a template's words be kept in the cache as they are laid out.
+let the formulas of a template's words stay in the cache as they are laid out.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Phrase(Struct, frozen=True, tag=True):
 
 
 class FunctionName(Struct, frozen=True, tag=True):
-    """An upright function name without brackets behind it, as in ``sin x``."""
+    """An upright function name without brackets after it, as in ``sin x``."""
 
     text: str
     level: ClassVar[int] = ATOM

@@ -172,7 +172,7 @@ _OTHER_SIGNS = "⏞⏟∣°%!?≔"
 
 
 def _iter_styled_letters() -> Iterator[str]:
-    """Letters and digits in every alphabet that has them."""
+    """Yield letters and digits in every alphabet that has them."""
     for style, letter in product(ALPHABETS, _IN_ALPHABETS):
         if has_styled_letter(letter, style):
             yield find_styled_letter(letter, style)

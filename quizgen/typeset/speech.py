@@ -145,16 +145,19 @@ def _say_ident(node: n.Ident, lang: str) -> str:
 
 @_say_node.register
 def _say_phrase_of_author(node: n.Phrase, _lang: str) -> str:
+    """Return a phrase as the author wrote it."""
     return node.text.strip()
 
 
 @_say_node.register
 def _say_gap(node: n.Gap, _lang: str) -> str:
+    """Return a pause for a wide gap; narrow ones are silent."""
     return "," if node.width in {"quad", "qquad"} else ""
 
 
 @_say_node.register
 def _say_function_name(node: n.FunctionName, lang: str) -> str:
+    """Return how the name of a function is read out."""
     return _say_function_head(n.Word(node.text), lang)
 
 
@@ -246,11 +249,12 @@ def _say_row(node: n.MathRow, lang: str) -> str:
 
 
 def _is_silent_gap(item: n.Node) -> bool:
+    """Return whether a node is a gap too narrow for a pause."""
     return isinstance(item, n.Gap) and item.width not in {"quad", "qquad"}
 
 
 def _find_two_bounds(items: tuple[n.Node, ...]) -> tuple[int, ...]:
-    """The signs of 0 ≤ x < 1, which is read as two statements about x."""
+    """Return the signs of 0 ≤ x < 1, which is read as two statements about x."""
     relations = [place for place, item in enumerate(items) if item in _RELATING]
     both = len(relations) == 2 and all(items[place] in _BOUNDS for place in relations)
     return tuple(relations) if both else ()
@@ -324,12 +328,12 @@ def _say_scripts(node: n.Scripts, lang: str) -> str:
 
 
 def _is_long_index(sub: n.Node) -> bool:
-    """Whether a listener must be told where a subscript ends."""
+    """Whether a listener must hear where a subscript ends."""
     return isinstance(sub, n.MathRow) and sub.level in {n.SUM, n.RELATION}
 
 
 def _say_indices_before(node: n.Scripts, lang: str) -> str:
-    """Indices of what comes after them, as of an isotope."""
+    """Return indices of what comes after them, as of an isotope."""
     short = load_speech_words(lang).short
     both = (("upper index", node.sup), ("lower index", node.sub))
     return ", ".join([short[key].format(_say_node(one, lang)) for key, one in both if one]) + ","
@@ -418,7 +422,7 @@ def _say_function_head(node: n.Node, lang: str) -> str:
 
 
 def _say_scripted_head(node: n.Scripts, lang: str) -> str:
-    """A function's name with its base or power: ``log`` with 2, ``sin`` squared, an inverse."""
+    """Return a function's name with base or power: ``log`` with 2, ``sin`` squared, inverse."""
     words = load_speech_words(lang)
     if node.sup == _MINUS_ONE:
         return words.powers["inverse"].format(_say_function_head(replace(node, sup=None), lang))
@@ -454,6 +458,7 @@ def _say_under(node: n.Under, lang: str) -> str:
 
 @_say_node.register
 def _say_over(node: n.Over, lang: str) -> str:
+    """Return a sign and what stands above it in words; "!" above "=" reads "must equal"."""
     short = load_speech_words(lang).short
     if node == n.Over(n.OperatorSign("="), n.OperatorSign("!")):
         return short["must equal"]
@@ -462,6 +467,7 @@ def _say_over(node: n.Over, lang: str) -> str:
 
 @_say_node.register
 def _say_brace(node: n.Brace, lang: str) -> str:
+    """Return a body in words and, if its brace has one, the note."""
     said = _say_node(node.body, lang)
     if node.note is None:
         return said
@@ -470,11 +476,13 @@ def _say_brace(node: n.Brace, lang: str) -> str:
 
 @_say_node.register
 def _say_display(node: n.Display, lang: str) -> str:
+    """Return a body in words; its size is not read out."""
     return _say_node(node.body, lang)
 
 
 @_say_node.register
 def _say_binomial(node: n.Binomial, lang: str) -> str:
+    """Return a binomial coefficient in words."""
     return _say_phrase(lang, "binomial", (node.top, node.bottom))
 
 
@@ -505,7 +513,7 @@ def _say_matrix(node: n.Matrix, lang: str) -> str:
 
 @_say_node.register
 def _say_aligned_rows(node: n.AlignedRows, lang: str) -> str:
-    """Lines one after the other; what stands behind a brace, with a comma before each condition."""
+    """Return lines one after the other; after a brace, a comma before each condition."""
     between = ", " if node.brace else " "
     rows = [between.join([_say_node(cell, lang) for cell in row]) for row in node.rows]
     return "; ".join(rows)

@@ -137,16 +137,19 @@ def _format_word(node: n.Word, _lang: str) -> str:
 
 @_format_node.register
 def _format_phrase(node: n.Phrase, _lang: str) -> str:
+    """Return a phrase of the author as a string."""
     return typst_string(node.text)
 
 
 @_format_node.register
 def _format_function_name(node: n.FunctionName, lang: str) -> str:
+    """Return the name of a function in upright letters."""
     return _format_function_head(n.Word(node.text), lang)
 
 
 @_format_node.register
 def _format_gap(node: n.Gap, _lang: str) -> str:
+    """Return a gap, in em."""
     return f"#h({_known(GAPS, node.width, 'gap'):.2f}em)"
 
 
@@ -286,28 +289,32 @@ def _format_under(node: n.Under, lang: str) -> str:
 
 @_format_node.register
 def _format_over(node: n.Over, lang: str) -> str:
+    """Return a sign with another above it."""
     return f"attach({_format_node(node.base, lang)}, t: {_format_node(node.above, lang)})"
 
 
 @_format_node.register
 def _format_brace(node: n.Brace, lang: str) -> str:
+    """Return a body with a curly brace above or below it and, at the brace, its note."""
     note = f", {_format_node(node.note, lang)}" if node.note else ""
     return f"{'over' if node.upside else 'under'}brace({_format_node(node.body, lang)}{note})"
 
 
 @_format_node.register
 def _format_display(node: n.Display, lang: str) -> str:
+    """Return a body as large as in a formula on a line of its own."""
     return f"display({_format_node(node.body, lang)})"
 
 
 @_format_node.register
 def _format_binomial(node: n.Binomial, lang: str) -> str:
+    """Return a binomial coefficient."""
     return f"binom({_format_node(node.top, lang)}, {_format_node(node.bottom, lang)})"
 
 
 @_format_node.register
 def _format_cases(node: n.Cases, lang: str) -> str:
-    """Return branches behind a brace, the last one with the word for *otherwise*."""
+    """Return branches after a brace, the last one with the word for *otherwise*."""
     rows = []
     for value, condition in node.rows:
         when = typst_string(load_speech_words(lang).printed["otherwise"])
@@ -340,6 +347,7 @@ _DELIMITERS = {
 
 @_format_node.register
 def _format_aligned_rows(node: n.AlignedRows, lang: str) -> str:
+    """Return aligned rows, after a brace if they are cases."""
     cells = [[_format_node(cell, lang) for cell in row] for row in node.rows]
     if node.brace:
         return "display(cases(" + ", ".join([" quad & ".join(row) for row in cells]) + "))"

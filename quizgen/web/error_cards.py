@@ -152,7 +152,7 @@ class FinishedExam(msgspec.Struct, frozen=True):
 def pack_error_cards(
     bank: Bank, lang: str, sat: tuple[FinishedExam, ...], practised: tuple[PracticedQuestion, ...]
 ) -> bytes:
-    """Cards of what went wrong, as a package for Anki; nothing if nothing did.
+    """Return cards of what went wrong, as a package for Anki; nothing if nothing did.
 
     Parameters
     ----------

@@ -143,7 +143,7 @@ async def start_exam(request: Request) -> Response:
 async def _begin_from_stock(
     site: ServerState, learner: int, wanted: MakePaper, form: FormData
 ) -> ExamRecord | None:
-    """An exam of a blueprint, where a paper was made ahead; a code asks for its own paper."""
+    """Return an exam with a paper made ahead; a code asks for its own paper, so None."""
     if wanted.code:
         return None
     return await site.papers_ahead.begin_exam(

@@ -64,7 +64,7 @@ class PapersAhead:
     async def begin_exam(
         self, learner: int, blueprint: str, *, has_clock: bool, pauses: bool
     ) -> ExamRecord | None:
-        """An exam begun with a paper of the stock; None if it has none for the learner.
+        """Return an exam begun with a paper of the stock; None if it has none for the learner.
 
         Parameters
         ----------
@@ -149,6 +149,6 @@ def compute_stock_version(bank: Bank) -> str:
 
 
 def _list_bank_files(root: Path) -> list[Path]:
-    """What stands in a bank, without what Python leaves there."""
+    """Return what stands in a bank, without what Python leaves there."""
     found = (file for kind in ("templates", "solvers") for file in (root / kind).rglob("*"))
     return sorted(file for file in found if file.is_file() and file.suffix != ".pyc")

@@ -56,7 +56,7 @@ class NumberDiagnosis(msgspec.Struct, frozen=True):
         return partial(Fraction(1), self.number.read_as, CARRIED)
 
     def operators(self) -> frozenset[str]:
-        """Functions and constants that stand in the steps towards the quantity."""
+        """Return functions and constants that stand in the steps towards the quantity."""
         chain = self.context.chain
         steps = chain.required_steps(self.target) & chain.by_name.keys()
         return frozenset().union(*(operators_in(chain.by_name[name].expr) for name in steps))

@@ -284,7 +284,7 @@ def _judge_coarse_rounding(
 def _ask_for_more_digits(
     spec: Tolerance, figures: int, place: Value, read_as: str
 ) -> Verdict | None:
-    """Half for a rounding that is coarser than what was asked; none if it is not."""
+    """Return half for a rounding coarser than what was asked; None if it is not."""
     if spec.decimals is not None:
         note = "decimals-asked" if spec.decimals else "rounded-far"
         coarser = place * 10**spec.decimals > 1
@@ -300,7 +300,7 @@ LEAST_FIGURES = 2
 
 
 def _count_right_figures(number: ReadNumber, value: Value, key: Value) -> int:
-    """Most figures, of those that the spelling can mean, to which the key is rounded."""
+    """Return the most figures the spelling can mean to which the key is rounded."""
     least, most = number.figures
     leading = decimal_exponent(number.value)
     scale = abs(value / number.value)

@@ -20,7 +20,7 @@ def has_form(tree: Expr, form: str) -> bool:
 
 
 def _iter_factors(tree: Expr) -> Iterator[Expr]:
-    """Factors of a product, whatever their powers."""
+    """Yield the factors of a product, whatever their powers."""
     if isinstance(tree, Call) and tree.op in {"mul", "div", "neg"}:
         for arg in tree.args:
             yield from _iter_factors(arg)
@@ -58,10 +58,15 @@ def _multiplies_sums(node: Expr) -> bool:
 
 
 def _is_sum(node: Expr) -> bool:
+    """Return whether a formula is a sum or a difference."""
     return isinstance(node, Call) and node.op in _SUMS
 
 
 def _is_in_lowest_terms(tree: Expr) -> bool:
+    """Return whether numerator and denominator have no common factor.
+
+    A formula that is no quotient of polynomials has nothing to cancel, so it passes.
+    """
     if not is_rational(tree):
         return True
     try:

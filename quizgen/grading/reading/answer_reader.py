@@ -85,6 +85,10 @@ class _AroundWords(NamedTuple):
 
 @cache
 def _load_around_words() -> _AroundWords:
+    """Return the words that may stand around an answer, of all languages, as patterns.
+
+    Longer words come first, or a shorter one would match the start of a longer one.
+    """
     found: dict[str, list[str]] = {}
     for lang in list_languages():
         for name, words in load_words(lang, "answers")["around"].items():
@@ -119,7 +123,7 @@ _LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
 
 
 def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) -> Iterator[str]:
-    """What may have been meant by an answer that was not read, plainest change first.
+    """Yield what may have been meant by an answer that was not read, plainest change first.
 
     Parameters
     ----------
@@ -153,7 +157,7 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) 
 
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
-    """The one number among words; a quantity needs its unit if words follow."""
+    """Yield the one number among words; a quantity needs its unit if words follow."""
     text = _NAMED.sub("", text)
     found, around = scan_numbers(text)
     if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
@@ -165,7 +169,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
 
 
 def drop_decoration(typed: str, form: AnswerForm) -> str:
-    """The answer without characters, marks and words around it that cannot matter."""
+    """Return the answer without characters, marks and words around it that cannot matter."""
     text = drop_markup(_INVISIBLE.sub("", typed)).strip()
     text = drop_bullets(text) if not _DASH.match(text) or "\n" in text else text
     if form == "values":
@@ -178,18 +182,23 @@ def drop_decoration(typed: str, form: AnswerForm) -> str:
 
 
 def drop_bullets(typed: str) -> str:
-    """The answer without bullets at the beginning of its lines."""
+    """Return the answer without bullets at the beginning of its lines."""
     return _BULLET.sub("", typed)
 
 
 def drop_markup(typed: str) -> str:
-    """The answer without marks of Markdown and emoji."""
+    """Return the answer without marks of Markdown and emoji."""
     text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed))
     code = _CODE.fullmatch(text) if "`" in text else None
     return code[1] if code else text
 
 
 def _drop_once(text: str, form: AnswerForm) -> str:
+    """Return an answer without one layer of quotes, list marks, and words around it.
+
+    The caller repeats it until nothing changes. An exclamation mark at the end of a formula is a
+    factorial and remains.
+    """
     text = text.strip(_QUOTES + " ")
     text = _PAIRED.sub(r"\2", text)
     if form != "option":
@@ -202,7 +211,7 @@ def _drop_once(text: str, form: AnswerForm) -> str:
 
 
 def _write_words_as_numbers(text: str) -> str:
-    """``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
+    """Return ``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
     for name in ("digits", "blanks"):
         text = SourceText.of(text).substitute(*REWRITES[name]).text
     signed = _SIGNED.sub("", text)
@@ -215,7 +224,7 @@ def _write_words_as_numbers(text: str) -> str:
 
 
 def separate_labelled_values(text: str, names: list[str]) -> Iterator[str]:
-    """``G111 R171`` and ``6.25 mm before, 50 mm after`` as ``G = 111; R = 171``, if it is so.
+    """Yield ``G = 111; R = 171`` for ``G111 R171``, if its labels are those of the values.
 
     Every label must mean a name of its own, and every value must be one number.
     """
@@ -232,6 +241,10 @@ def separate_labelled_values(text: str, names: list[str]) -> Iterator[str]:
 def _write_assigned(
     pairs: list[tuple[str, str]], names: list[str], count: int = 0
 ) -> Iterator[str]:
+    """Yield the pairs as ``name = value; ...`` if each name occurs once with one value.
+
+    ``count`` is how many pieces the answer has, so that none of them is passed over.
+    """
     meant = [find_name(label, names) for label, _ in pairs]
     values = [_JOINED.sub("", value).strip(" ,;") for _, value in pairs]
     once = all(meant) and len(set(meant)) == len(pairs) >= max(count, _FEWEST)
@@ -240,7 +253,7 @@ def _write_assigned(
 
 
 def prove_groups(typed: str) -> str:
-    """Without marks of groups, where one number proves what they are: ``64,000; 1,152,000``."""
+    """Return it without marks of groups, where one number proves them: ``64,000; 1,152,000``."""
     proof = _GROUPED.search(typed)
     if proof is None:
         return typed
@@ -250,7 +263,7 @@ def prove_groups(typed: str) -> str:
 
 
 def scan_numbers(text: str) -> tuple[list[str], list[str]]:
-    """The numbers in a text, each with its unit, and the pieces of text around them."""
+    """Return the numbers in a text, each with its unit, and the pieces of text around them."""
     found: list[str] = []
     around, last = [], 0
     for match in _FOUND.finditer(text):
@@ -264,7 +277,7 @@ def scan_numbers(text: str) -> tuple[list[str], list[str]]:
 
 
 def list_readings(typed: str) -> list[str]:
-    """The numbers that an answer names, if there are several to choose from; else none."""
+    """Return the numbers that an answer names, if there are several to choose from; else none."""
     found, around = scan_numbers(_write_words_as_numbers(drop_decoration(typed, "number")))
     named = list(dict.fromkeys(found))
     if not 1 < len(named) <= _MOST_READINGS or any(map(str.isdigit, " ".join(around))):
@@ -274,7 +287,7 @@ def list_readings(typed: str) -> list[str]:
 
 
 def _find_unit(text: str, start: int) -> tuple[str, int]:
-    """The unit behind a number and where it ends; an empty one if there is none."""
+    """Return the unit after a number and where it ends; an empty one if there is none."""
     tokens = list(re.finditer(r" ?[^\s,;:!?()]+", text[start:]))[:_LONGEST_UNIT]
     for count in range(len(tokens), 0, -1):
         end = start + tokens[count - 1].end()

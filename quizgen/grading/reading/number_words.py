@@ -14,7 +14,7 @@ from quizgen.maths.numbers import to_fraction
 
 @cache
 def list_number_words() -> dict[str, int]:
-    """The words for whole numbers in every language, in small letters, to the number.
+    """Return the words for whole numbers in every language, in small letters, to the number.
 
     Bangla ``নয়`` is nine and *not*: it counts only where nothing else stands before it.
     """
@@ -36,7 +36,8 @@ def list_number_words() -> dict[str, int]:
 
 
 @cache
-def _number_word_pattern() -> re.Pattern[str]:
+def _compile_number_word_pattern() -> re.Pattern[str]:
+    """Return the pattern of a number word at the start of a text, of any language."""
     longest_first = sorted(list_number_words(), key=len, reverse=True)
     listed = "|".join(map(re.escape, longest_first))
     return re.compile(rf"^(?:{listed})(?![\w\u0980-\u09ff])", re.IGNORECASE)
@@ -70,15 +71,15 @@ _PIECE = re.compile(rf"{_NUMBER} ?((?:[^\W\d]|[\u0980-\u09ff])+)(?:,? (?:and|und
 
 
 def replace_number_word(text: str) -> str:
-    """``ten bits`` as ``10 bits``; the text itself if it begins with no word for a number."""
-    match = _number_word_pattern().match(text)
+    """Return ``ten bits`` as ``10 bits``; the text itself if it begins with no number word."""
+    match = _compile_number_word_pattern().match(text)
     if match is None:
         return text
     return f"{list_number_words()[match[0].lower()]}{text[match.end() :]}"
 
 
 def add_large_words(text: str) -> str:
-    """``1 crore 10 lakh 59 thousand 200`` as one number; the text itself if it is no such sum."""
+    """Return ``1 crore 10 lakh 59 thousand`` as one number; the text itself if no such sum."""
     found, position, last = Fraction(0), 0, 10**9
     count = 0
     while (match := _summand_pattern().match(text, position)) is not None:
@@ -97,7 +98,7 @@ def add_large_words(text: str) -> str:
 
 
 def add_mixed_units(text: str) -> str:
-    """``27 min 26 s`` in the last of its units; the text itself if it is no such sum.
+    """Return ``27 min 26 s`` in the last of its units; the text itself if no such sum.
 
     Each unit must be smaller than the one before it, and each value but the first less than one
     of the unit before.

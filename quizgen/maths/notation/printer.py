@@ -151,6 +151,7 @@ def _format_power(expr: Call, leaves: Leaves) -> tuple[str, int]:
 
 
 def _format_items(expr: Call, leaves: Leaves, separator: str) -> str:
+    """Return the arguments of a call one after the other; numbers need no brackets here."""
     return separator.join(
         str(arg.value) if isinstance(arg, Num) else _format_with_level(arg, leaves)[0]
         for arg in expr.args
@@ -158,6 +159,7 @@ def _format_items(expr: Call, leaves: Leaves, separator: str) -> str:
 
 
 def _format_interval(expr: Call, leaves: Leaves) -> tuple[str, int]:
+    """Return an interval as text and how strongly it holds together."""
     low, high, *sides = expr.args
     left, right = (isinstance(side, Num) and side.value != 0 for side in sides)
     bounds = _format_items(Call("", (low, high)), leaves, "; ")
@@ -165,6 +167,7 @@ def _format_interval(expr: Call, leaves: Leaves) -> tuple[str, int]:
 
 
 def _format_complex(expr: Call, leaves: Leaves) -> tuple[str, int]:
+    """Return a complex number, ``a + b*i``, and how strongly it holds together."""
     real, imaginary = (_format_at_level(part, PRODUCT, leaves) for part in expr.args)
     return f"{real} + {imaginary}*i", SUM
 
