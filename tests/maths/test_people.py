@@ -80,6 +80,7 @@ def test_a_name(symbol, person):
         ("sqrt(x) + log2(y) + log10(z) + pi", "√(x) + log₂(y) + log₁₀(z) + π"),
         ("atan2(y, x) <= 1e-5 and x != 0", "atan2(y, x) ≤ 1·10⁻⁵ and x ≠ 0"),
         ("u = f*X = (50 mm)*(30 m) ≈ 1.5 m²", "u = f·X = (50 mm)·(30 m) ≈ 1.5 m²"),
+        ("1/gamma + beta*gamma(x)", "1/γ + β·gamma(x)"),
         ("abs((-0.5))", "abs(−0.5)"),
     ],
 )

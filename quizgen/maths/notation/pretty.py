@@ -105,7 +105,9 @@ LETTERS = {word: letter for letter, word in GREEK.items() if letter not in "µ�
 _ACCENTS = {"bar": "\u0304", "hat": "\u0302", "tilde": "\u0303"}
 _SIGNS = {"plus": "+", "minus": "-"}
 _BASE = re.compile(r"(?P<stem>[^\W\d_]+)(?P<digits>\d*)(?P<primes>['′]*)")
-_KEPT = frozenset({*FUNCTIONS, *KEYWORDS})
+# gamma and beta are functions before a bracket alone: elsewhere they are letters.
+_GREEK_FUNCTIONS = sorted(FUNCTIONS.keys() & set(GREEK.values()))
+_KEPT = frozenset({*FUNCTIONS, *KEYWORDS}) - {*_GREEK_FUNCTIONS}
 
 
 @lru_cache(maxsize=4096)
@@ -160,6 +162,7 @@ _FORMULA = re.compile(
     r"`(?P<quoted>[^`]+)`"
     r"|(?P<log>log(?:2|10)(?=\())"
     r"|(?P<root>(?<![^\W_])sqrt(?=\())"
+    rf"|(?P<function>(?<![^\W_])(?:{'|'.join(_GREEK_FUNCTIONS)})(?=\())"
     r"|(?P<pi>(?<![^\W_])pi(?![\w']))"
     r"|(?P<name>[^\W\d_][^\W_]*['′]*(?:_[^\W_]+['′]*)*)"
     r"|\^(?:(?P<exponent>\d+)(?![\d.])|\{(?P<literal>-?\d+)/1\}|\((?P<inside>-\d+)\))"
@@ -210,6 +213,7 @@ _WRITERS: dict[str, Callable[[str], str]] = {
     "quoted": format_name,
     "pi": lambda _text: "π",
     "root": lambda _text: "√",
+    "function": str,
     "log": lambda text: "log" + text[3:].translate(TO_BELOW),
     "exponent": _to_superscript,
     "literal": _to_superscript,
