@@ -10,7 +10,12 @@ from flint import fmpq
 
 from quizgen.grading.diagnosis.carry_forward import CARRIED, diagnosis_for
 from quizgen.grading.diagnosis.numeric_slips import agrees_within_half_percent, find_common_slip
-from quizgen.grading.judging.numeric import NumberTarget, choose_reading, judge_value
+from quizgen.grading.judging.numeric import (
+    NumberTarget,
+    are_groups_meant,
+    choose_reading,
+    judge_value,
+)
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.count_nouns import check_count_nouns, count_noun_unit, drop_count_noun
@@ -105,7 +110,8 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
         twofold = [i for i, (a, b) in enumerate(zip(first, second, strict=True)) if a != b]
         if doubt.native and all(_right(verdict, place) for place in twofold):
             return verdict
-        if (self.counts or self.unit in COUNTED) and all(map(is_whole_number, self.keys())):
+        whole = (self.counts or self.unit in COUNTED) and all(map(is_whole_number, self.keys()))
+        if whole and are_groups_meant(verdict, other):
             return other
         if not (doubt.group_wins or any(_right(other, place) for place in twofold)):
             return verdict

@@ -51,12 +51,21 @@ def judge_readings(
     if readings.doubt.native and (places_asked == 3 or verdict.credit):
         return verdict
     other = judge(readings.other)
-    traps = [one.note.startswith("trap:") for one in (verdict, other)]
-    if whole and (other.credit or traps == [False, True]):
+    if whole and are_groups_meant(verdict, other):
         return other
     return choose_reading(
         verdict, other, readings.doubt, (readings.main.read_as, readings.other.read_as)
     )
+
+
+def are_groups_meant(decimal: Verdict, groups: Verdict) -> bool:
+    """Whether a number of things that have no fractions was typed with thousands groups.
+
+    Only where that reading says more: it earns something, or is a known mistake and the decimal
+    one is none. ``2.667`` for 24 pixels is a mistake and not 2667.
+    """
+    traps = [one.note.startswith("trap:") for one in (decimal, groups)]
+    return bool(groups.credit) or traps == [False, True]
 
 
 def best_verdict(verdicts: Iterable[Verdict]) -> Verdict:
