@@ -55,7 +55,7 @@ def drawn(given, steps, stem="Stem", *, words="", said=None):
 
 def typed(one, name):
     line = typeset_step(one, one.template.chain.by_name[name])
-    return line.typed.replace(BLANK, " "), typeset.to_latex(line.node)
+    return line.typed_text.replace(BLANK, " "), typeset.to_latex(line.node)
 
 
 LENS = {"f": ("mm", "50"), "X": ("m", "30"), "Z": ("m", "600")}
