@@ -58,6 +58,10 @@ class PartState(msgspec.Struct):
         How it went, once it is done.
     wrong, note : str
         The last answer that was not right, and which mistake it was.
+    credit : float
+        Share of the points that the first try was worth, 0 to 1.
+    helped : bool
+        Whether a hint came before that try.
     """
 
     typed: str = ""
@@ -66,6 +70,8 @@ class PartState(msgspec.Struct):
     outcome: PartOutcome | None = None
     wrong: str = ""
     note: str = ""
+    credit: float = 0.0
+    helped: bool = False
 
 
 class SessionState(msgspec.Struct):
