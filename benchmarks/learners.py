@@ -25,9 +25,10 @@ import fsrs
 import numpy as np
 
 from quizgen.bank.bank import builtin_bank
-from quizgen.practice.ability import Attempt, read_practice_items
+from quizgen.practice.ability import read_practice_items
 from quizgen.practice.exam_plan import ExamPlan, read_exam_goal
 from quizgen.practice.scheduler import DAY
+from quizgen.practice.session_state import Attempt
 
 BANK = builtin_bank()
 ITEMS = read_practice_items(BANK)

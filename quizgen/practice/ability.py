@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from quizgen.bank.bank import Bank
 from quizgen.bank.rules import Rules, suggested_minutes
 from quizgen.practice.scheduler import DAY
+from quizgen.practice.session_state import Attempt
 
 Floats: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
@@ -93,29 +94,6 @@ class PracticeItem(msgspec.Struct, frozen=True):
     def guessed(self) -> float:
         """Return the share of the points that somebody gets who knows nothing."""
         return sum(part.share * part.guessed for part in self.parts)
-
-
-class Attempt(msgspec.Struct, frozen=True):
-    """One attempt at a template.
-
-    Parameters
-    ----------
-    template : str
-    credit : float
-        Share of its points that the first tries were worth, 0 to 1.
-    at : float
-        When it ended, in seconds since 1970.
-    helped : bool
-        Whether help came before a first try: that says nothing of what is known, but it teaches.
-    taught : bool
-        Whether its solution was seen.
-    """
-
-    template: str
-    credit: float
-    at: float
-    helped: bool = False
-    taught: bool = True
 
 
 @cache

@@ -17,13 +17,13 @@ from quizgen.bank.bank import Bank
 from quizgen.paper.blueprint import EVERYTHING, MOCK, Blueprint, SlotRule, load_blueprint
 from quizgen.practice.ability import (
     AbilityModel,
-    Attempt,
     Flags,
     Floats,
     PracticeItem,
     read_practice_items,
 )
 from quizgen.practice.scheduler import DAY
+from quizgen.practice.session_state import Attempt
 
 TRIAL = "trial"
 """Name of the blueprint that mirrors the real exam."""
@@ -174,6 +174,11 @@ class ExamPlan:
     def evidence(self) -> int:
         """Return how many attempts say something of what is known."""
         return sum(not one.helped for one in self.attempts)
+
+    @property
+    def missing(self) -> int:
+        """Return how many more attempts there must be for an estimate."""
+        return max(0, FROM_RANGE - self.evidence)
 
     def choose_next(self) -> str:
         """Return the template to ask now.

@@ -45,6 +45,29 @@ class PartOutcome(msgspec.Struct, frozen=True):
     skipped: bool = False
 
 
+class Attempt(msgspec.Struct, frozen=True):
+    """One attempt at a template.
+
+    Parameters
+    ----------
+    template : str
+    credit : float
+        Share of its points that the first tries were worth, 0 to 1.
+    at : float
+        When it ended, in seconds since 1970.
+    helped : bool
+        Whether help came before a first try: that says nothing of what is known, but it teaches.
+    taught : bool
+        Whether its solution was seen.
+    """
+
+    template: str
+    credit: float
+    at: float
+    helped: bool = False
+    taught: bool = True
+
+
 class PartState(msgspec.Struct):
     """Progress of one part of the open question.
 

@@ -8,18 +8,20 @@ import time
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from datetime import date, datetime, timedelta
 from datetime import time as day_time
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.levels import GUIDED
 from quizgen.bank.rules import Rules, part_points
-from quizgen.practice.ability import Attempt, read_practice_items
 from quizgen.practice.agenda import Agenda
-from quizgen.practice.exam_plan import SPACING, ExamPlan, read_exam_goal
 from quizgen.practice.scheduler import ReviewEvent, days_left, local_date, make_review_event
-from quizgen.practice.session_state import PartOutcome, PartState
+from quizgen.practice.session_state import Attempt, PartOutcome, PartState
 from quizgen.store import AttemptRecord, Learner, OutcomeRecord, QuestionRef, Store
+
+if TYPE_CHECKING:
+    from quizgen.practice.exam_plan import ExamPlan
 
 TOGETHER = 1800.0
 """Seconds within which parts of a template belong to one attempt, where none is named."""
@@ -57,10 +59,13 @@ class LearnerProgress(msgspec.Struct, frozen=True):
         """Return what the learner's attempts say, the earliest first; equal numbers count once."""
         repeated = self.store.list_repeated(self.learner.id)
         outcomes = self.store.list_outcomes(self.learner.id)
-        return read_attempts(self.bank, [one for one in outcomes if one.attempt not in repeated])
+        return group_attempts(self.bank, [one for one in outcomes if one.attempt not in repeated])
 
     def plan(self, names: Collection[str]) -> ExamPlan:
         """Return the plan until the exam, with questions of some templates."""
+        from quizgen.practice.ability import read_practice_items  # NumPy, only where it is asked
+        from quizgen.practice.exam_plan import SPACING, ExamPlan, read_exam_goal
+
         now = time.time()
         latest = self.store.latest(self.learner.id, SPACING)
         return ExamPlan(
@@ -114,7 +119,7 @@ class LearnerProgress(msgspec.Struct, frozen=True):
         self.store.cards.review(self.learner.id, asked, now, left)
 
 
-def read_attempts(bank: Bank, outcomes: Iterable[OutcomeRecord]) -> list[Attempt]:
+def group_attempts(bank: Bank, outcomes: Iterable[OutcomeRecord]) -> list[Attempt]:
     """Return attempts from how their parts went; parts that help came before say nothing.
 
     Parameters

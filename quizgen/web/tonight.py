@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 from starlette.requests import Request
@@ -12,13 +13,15 @@ from starlette.requests import Request
 from quizgen.bank.bank import Bank
 from quizgen.bank.language_file import read_language_file
 from quizgen.paper.blueprint import EVERYTHING, find_blueprint
-from quizgen.practice.exam_plan import FROM_RANGE, ExamPlan, ScoreEstimate
 from quizgen.practice.scheduler import days_left, local_date
 from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
 from quizgen.store.learner import LearnerProgress
 from quizgen.web.state import ServerState
 from quizgen.web.views import request_language
+
+if TYPE_CHECKING:
+    from quizgen.practice.exam_plan import ExamPlan, ScoreEstimate
 
 MINUTES = (15, 25, 45, 60, 90)
 """How long somebody may say to have; the second is meant where nobody has said."""
@@ -118,7 +121,7 @@ def look_at_tonight(request: Request) -> TonightView | None:
     return TonightView(
         days_left(learning.exam, local_date(plan.model.clock * 86400)),
         plan.estimate(),
-        max(0, FROM_RANGE - plan.evidence),
+        plan.missing,
         minutes,
         round(sum(_working_minutes(plan, block))),
         len(block),

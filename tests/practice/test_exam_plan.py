@@ -14,14 +14,14 @@ from quizgen.bank.bank import builtin_bank, builtin_root
 from quizgen.practice.ability import (
     SLIP,
     AbilityModel,
-    Attempt,
     is_past_curriculum,
     mean_credit,
     read_practice_items,
 )
 from quizgen.practice.exam_plan import ExamPlan, read_exam_goal
 from quizgen.practice.scheduler import DAY
-from quizgen.store.learner import exam_time, read_attempts
+from quizgen.practice.session_state import Attempt
+from quizgen.store.learner import exam_time, group_attempts
 from quizgen.store.records import OutcomeRecord
 
 NOW = 1_795_800_000.0
@@ -167,14 +167,14 @@ def outcome(part, credit, *, at=NOW, helped=False, attempt="one", name="hsv-to-r
 def test_an_attempt_weighs_its_parts_by_their_points():
     bank, name = builtin_bank(), "why-bayer-green-and-demosaicing"
     a, b = (float(part.points) for part in bank.rules(name).part[:2])
-    found = read_attempts(bank, [outcome("a", 1.0, name=name), outcome("b", 0.0, name=name)])
+    found = group_attempts(bank, [outcome("a", 1.0, name=name), outcome("b", 0.0, name=name)])
     assert [one.credit for one in found] == [pytest.approx(a / (a + b))]
 
 
 def test_parts_with_help_say_nothing():
     bank = builtin_bank()
     rows = [outcome("", 1.0, helped=True, attempt="x"), outcome("", 0.5, attempt="y", at=NOW + 9)]
-    assert [(one.helped, one.credit) for one in read_attempts(bank, rows)] == [
+    assert [(one.helped, one.credit) for one in group_attempts(bank, rows)] == [
         (True, 0.0), (False, 0.5),
     ]  # fmt: skip
 
@@ -186,7 +186,7 @@ def test_rows_of_earlier_versions_are_grouped_by_time():
         OutcomeRecord("hsv-to-rgb", "colour", "a", "", True, True, NOW + 2 * DAY),
         OutcomeRecord("gone", "colour", "a", "", True, True, NOW),
     ]
-    found = read_attempts(builtin_bank(), rows)
+    found = group_attempts(builtin_bank(), rows)
     assert [one.at for one in found] == [NOW + 60, NOW + 2 * DAY]
     assert found[0].credit < found[1].credit == 1
 
