@@ -27,10 +27,11 @@ def test_a_formula_an_item_and_a_word_of_the_text(client, bank):
     assert by_item == [n for n in bank.template_paths if "Q4a" in bank.rules(n).covers]
     assert by_item
     by_word = found(client.get("/questions", params={"q": "overexposed"}).text)
-    assert sorted(by_word) == [
+    assert by_word
+    assert set(by_word) == {
         name for name, path in bank.template_paths.items()
         if "overexposed" in (path / "en.md").read_text("utf-8").casefold()
-    ]  # fmt: skip
+    }  # fmt: skip
 
 
 def test_what_is_not_there_is_said_and_shown_back_unharmed(client):
