@@ -50,9 +50,9 @@ async def set_minutes(request: Request) -> Response:
 
 
 async def start_question(request: Request) -> Response:
-    """Choose a question by topic, tier or template, and redirect to it."""
+    """Choose a question by topic, template or an exam to repair, and redirect to it."""
     form = await read_form(request)
-    wish = {name: field_text(form, name) for name in ("topic", "tier")}
+    wish = {name: field_text(form, name) for name in ("topic", "tier", "repair")}
     template = field_text(form, "template")
     site: ServerState = request.app.state.site
     if template in site.bank.template_paths:
@@ -82,7 +82,11 @@ async def _find_next_question(request: Request, wish: dict[str, str]) -> Questio
             tier=wish.get("tier") or None,
         ),
     )
-    return await run_in_threadpool(progress_of(request).next_question, names) if names else None
+    learning, sitting = progress_of(request), wish.get("repair")
+    if names and sitting:
+        repairs = await run_in_threadpool(learning.list_repairs, sitting)
+        names = tuple(name for name in repairs if name in names)[:1] or names
+    return await run_in_threadpool(learning.next_question, names) if names else None
 
 
 async def _begin_attempt(request: Request, which: QuestionRef, wish: dict[str, Any]) -> Response:
