@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import base64
 import importlib.util
-import re
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
