@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 
 import pytest
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.variant import draw_variant
@@ -51,7 +51,7 @@ def test_the_longest_formula_is_no_better_guess_than_any():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CALCULATING)
+@together("name", CALCULATING)
 def test_in_no_template_is_the_longest_formula_mostly_right(name):
     found = list(choices(name, 50))
     assert sum(map(longest, found)) <= 0.6 * len(found)
@@ -120,7 +120,7 @@ def test_a_change_goes_either_way(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CALCULATING)
+@together("name", CALCULATING)
 def test_no_answer_is_right_in_nearly_every_draw(name):
     assert one_sided(name, draws(50), FEWEST) == set()
 
