@@ -1,4 +1,7 @@
-"""How far a sweep goes: little by default, the rest with ``-m slow``, more with ``QUIZGEN_SEEDS``."""
+"""How far a sweep goes: little by default, more with ``-m slow``, and all of it if one says so.
+
+``QUIZGEN_SEEDS`` says how many draws, ``QUIZGEN_SWEEP=full`` takes every item of every list.
+"""
 
 from __future__ import annotations
 
@@ -16,17 +19,28 @@ def draws(usual: int) -> int:
     return int(os.environ.get("QUIZGEN_SEEDS", usual))
 
 
-def spread(items: Iterable[Any], usual: int) -> list[Any]:
+def spread(items: Iterable[Any], usual: int, slow: int | None = None) -> list[Any]:
     """Return the parameters of a sweep: ``usual`` of the items by default, the others slow.
 
     Those of the default are spread evenly, so that neighbours, which are much alike, take turns.
+    With ``slow`` so many of the others, spread as well, are enough unless all are asked for.
     """
     every = list(items)
-    chosen = {place * len(every) // usual for place in range(usual)}
+    chosen = _choose(len(every), usual)
+    others = [place for place in range(len(every)) if place not in chosen]
+    if slow is not None and os.environ.get("QUIZGEN_SWEEP") != "full":
+        others = [others[place] for place in sorted(_choose(len(others), slow))]
     return [
-        item if place in chosen else pytest.param(*_values(item), marks=pytest.mark.slow)
-        for place, item in enumerate(every)
+        every[place]
+        if place in chosen
+        else pytest.param(*_values(every[place]), marks=pytest.mark.slow)
+        for place in sorted({*chosen, *others})
     ]
+
+
+def _choose(count: int, wanted: int) -> set[int]:
+    """Places spread evenly over so many."""
+    return {place * count // wanted for place in range(wanted)}
 
 
 def _values(item: Any) -> tuple[Any, ...]:

@@ -76,7 +76,7 @@ def unreadable(text: str) -> list[str]:
 
 
 @together("lang", LANGS)
-@together("name", spread(builtin_bank().template_paths, 16))
+@together("name", spread(builtin_bank().template_paths, 12, slow=60))
 def test_a_page_is_written_for_people(name, lang):
     for seed in SEEDS:
         question, key = compose_question(builtin_bank().template(name), seed, lang, figures=False)
@@ -88,7 +88,7 @@ def test_a_page_is_written_for_people(name, lang):
 
 
 @together("lang", LANGS)
-@together("name", spread(builtin_bank().template_paths, 16))
+@together("name", spread(builtin_bank().template_paths, 12, slow=60))
 def test_a_terminal_is_written_for_people(name, lang):
     template = builtin_bank().template(name)
     for seed in SEEDS:
@@ -106,7 +106,7 @@ def without_code(run):
 
 
 @together("lang", LANGS)
-@together("name", spread(builtin_bank().template_paths, 16))
+@together("name", spread(builtin_bank().template_paths, 12, slow=60))
 def test_what_is_said_of_mistakes_is_written_for_people(name, lang):
     """Each mistake of a question typed back: what was read, and what is said."""
     _, key = compose_question(builtin_bank().template(name), 1, lang, figures=False)

@@ -6,7 +6,6 @@ import itertools
 import math
 
 import mpmath
-import pytest
 from sweep import draws, spread, together
 
 from quizgen.bank.bank import builtin_bank
@@ -93,13 +92,13 @@ def tried(name):
 
 
 COUNTED = [
-    pytest.param(name, marks=[pytest.mark.slow] * (tried(name) > QUICKLY_COUNTED))
-    for name in NAMES
-    if builtin_bank().rules(name).pool and tried(name) <= MOST_COUNTED
+    name for name in NAMES if builtin_bank().rules(name).pool and tried(name) <= MOST_COUNTED
 ]
+QUICKLY = [name for name in COUNTED if tried(name) <= QUICKLY_COUNTED]
+LONG = spread((name for name in COUNTED if name not in QUICKLY), 0, slow=27)
 
 
-@together("name", COUNTED)
+@together("name", [*QUICKLY, *LONG])
 def test_the_pool_is_as_large_as_stated(bank, name):
     template = bank.template(name)
     plan = sampler_for(template)
@@ -130,7 +129,7 @@ def choices():
                 yield name, index
 
 
-@together(("name", "index"), spread(choices(), 12))
+@together(("name", "index"), spread(choices(), 8, slow=24))
 def test_the_right_choice_stands_anywhere(bank, name, index):
     """Position of the right option over seeds: no place more than five deviations off its share."""
     template = bank.template(name)
