@@ -80,7 +80,7 @@ def test_a_killed_server_has_lost_nothing(tmp_path, synced, number):
     assert lost(tmp_path / FILE, acknowledged) == []
 
 
-@pytest.mark.parametrize("number", rounds(2, min(draws(10), 20)))
+@pytest.mark.parametrize("number", rounds(2, min(draws(20), 20)))
 def test_a_power_cut_has_lost_nothing(tmp_path, synced, number):
     chance = random.Random(number)
     acknowledged = run(tmp_path, synced, chance.uniform(0.05, 0.6))
