@@ -7,7 +7,9 @@ import re
 import sys
 from pathlib import Path
 
+import pytest
 from sources import constants, nodes
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.locale import list_languages
@@ -151,3 +153,21 @@ def test_the_engine_names_no_template_no_solver_and_no_figure():
             assert not {*word.findall(path.read_text("utf-8"))} & named, path
         if path.suffix == ".py":
             assert not constants(path) & single, path
+
+
+def test_cases_that_are_checked_together_are_all_checked_and_all_failures_told():
+    seen = []
+
+    @together("n", [1, 2, pytest.param(3, marks=pytest.mark.slow), 4])
+    def check(n):
+        seen.append(n)
+        assert n % 2, f"{n} is even"
+
+    (mark,) = check.pytestmark
+    usual, slow = mark.args[1]
+    with pytest.raises(ExceptionGroup, match="2 cases fail") as told:
+        check(cases_of_n=usual.values[0])
+    assert ["with {'n': 2}"] in [one.__notes__ for one in told.value.exceptions]
+    check(cases_of_n=slow.values[0])
+    assert seen == [1, 2, 4, 3]
+    assert (usual.marks, [one.name for one in slow.marks]) == ((), ["slow"])
