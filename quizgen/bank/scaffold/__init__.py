@@ -26,6 +26,9 @@ _HERE = files(__name__)
 FIRST = ("example", "travel-time")
 """Topic and name of a new bank's first template, an example from life."""
 
+_EXAMPLE = {"en": "Example", "de": "Beispiel", "bn": "উদাহরণ"}
+"""What its topic is called."""
+
 
 def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
     """Return the files of a bank with one question, by their path in it.
@@ -35,12 +38,14 @@ def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
     name : str
         What it is called.
     langs : tuple of str
-        Languages that it is to be written in; each begins with the English words.
+        Languages that it is to be written in; one that no example is in begins with English words.
     """
     blanks = {"BANK": name, "VERSION": version("quizgen")}
     blanks["LANGUAGES"] = ", ".join(f'"{lang}"' for lang in langs)
     blanks["TITLES"] = "\n".join(f'{lang} = "{_make_title_from_name(name)}"' for lang in langs)
-    blanks["EXAMPLES"] = ", ".join(f'{lang} = "Example"' for lang in langs)
+    blanks["EXAMPLES"] = ", ".join(
+        f'{lang} = "{_EXAMPLE.get(lang, _EXAMPLE["en"])}"' for lang in langs
+    )
     found = {
         "templates/bank.toml": _fill_scaffold_file(_HERE / "bank.toml", blanks),
         **{f"schemas/{kind}.json": build_json_schema(kind) for kind in SCHEMAS},
@@ -81,7 +86,7 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
     kind : str
         One of ``KINDS``, or the first template of a bank.
     langs : tuple of str
-        Languages of the bank; each gets the English words, to be translated.
+        Languages of the bank; one that there is no example in gets English words, to be translated.
     """
     solver, folder = f"{topic}/{name.replace('-', '_')}", _HERE / kind
     blanks = {"TOPIC": topic, "SOLVER": solver, "TITLE": _make_title_from_name(name)}
@@ -91,7 +96,9 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
         )
     }
     for lang in langs:
-        found[f"templates/{topic}/{name}/{lang}.md"] = _fill_scaffold_file(folder / "en.md", blanks)
+        own = folder / f"{lang}.md"
+        words = own if own.is_file() else folder / "en.md"
+        found[f"templates/{topic}/{name}/{lang}.md"] = _fill_scaffold_file(words, blanks)
     if (folder / "solver.py.txt").is_file():
         found[f"solvers/{solver}.py"] = _fill_scaffold_file(folder / "solver.py.txt", blanks)
     return found
