@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -120,6 +121,23 @@ def test_without_a_kind_something_is_computed(root, tmp_path):
     ]
     assert written[0]
     assert written[0] == written[1]
+
+
+@pytest.mark.parametrize("name", ["mechanics", "My-Physics.2"])
+def test_a_package_says_where_its_bank_is(tmp_path, name):
+    made = run("new", "bank", tmp_path / name, "--package")
+    assert made.exit_code == 0, made.output
+    table = tomllib.loads((tmp_path / name / "pyproject.toml").read_text("utf-8"))
+    ((entry, module),) = table["project"]["entry-points"]["quizgen.banks"].items()
+    assert module == f"bank_of_{entry}"
+    assert module.isidentifier()
+    bank = Bank(tmp_path / name / module)
+    assert bank.name == name
+    assert f"--bank {tmp_path / name / module}" in made.output
+    about = tmp_path / name / table["tool"]["hatch"]["version"]["path"]
+    pattern = table["tool"]["hatch"]["version"]["pattern"]
+    found = re.search(pattern, about.read_text("utf-8"), re.MULTILINE)
+    assert found["version"] == bank.metadata.version
 
 
 def test_nothing_is_overwritten(root, capsys):

@@ -5,6 +5,7 @@ In: names. Out: files. Must never know: what is asked of whom.
 
 from __future__ import annotations
 
+import re
 from importlib.metadata import version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -55,6 +56,29 @@ def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
         if lang not in list_languages():
             found |= scaffold_language(lang)
     return found
+
+
+def scaffold_package(name: str, langs: tuple[str, ...]) -> tuple[str, dict[str, bytes]]:
+    """Return where the bank of a package stands in it, and the files of both by path.
+
+    Parameters
+    ----------
+    name : str
+        What the bank is called.
+    langs : tuple of str
+        As for ``scaffold_bank``.
+    """
+    word = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
+    module = f"bank_of_{word}"
+    blanks = {"BANK": name, "VERSION": version("quizgen"), "MODULE": module, "ENTRY": word}
+    blanks["PROJECT"] = module.replace("_", "-")
+    source = _HERE / "package"
+    return module, {
+        "pyproject.toml": _fill_scaffold_file(source / "pyproject.toml.txt", blanks),
+        ".github/workflows/lint.yml": _fill_scaffold_file(source / "lint.yml.txt", blanks),
+        f"{module}/__init__.py": f'"""Questions for quizgen: {name}."""\n'.encode(),
+        **{f"{module}/{path}": data for path, data in scaffold_bank(name, langs).items()},
+    }
 
 
 def scaffold_language(lang: str) -> dict[str, bytes]:
