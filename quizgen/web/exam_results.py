@@ -68,6 +68,11 @@ class ExamPartResult:
             return "open" if self.own is None else "judged"
         return self.result.status
 
+    @property
+    def word(self) -> str:
+        """Return the key of the word that the status is shown by."""
+        return self.result.word if self.status == self.result.status else self.status
+
 
 @dataclass(frozen=True)
 class ExamQuestionResult:

@@ -6,11 +6,13 @@ In: names. Out: files. Must never know: what is asked of whom.
 from __future__ import annotations
 
 import re
+import tomllib
 from importlib.metadata import version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
 from quizgen.bank.json_schema import SCHEMAS, build_json_schema
+from quizgen.locale import FIRST as ENGLISH
 from quizgen.locale import list_languages, translatable_files
 
 KINDS = {
@@ -27,9 +29,6 @@ _HERE = files(__name__)
 FIRST = ("example", "travel-time")
 """Topic and name of a new bank's first template, an example from life."""
 
-_EXAMPLE = {"en": "Example", "de": "Beispiel", "bn": "উদাহরণ"}
-"""What its topic is called."""
-
 
 def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
     """Return the files of a bank with one question, by their path in it.
@@ -44,8 +43,9 @@ def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
     blanks = {"BANK": name, "VERSION": version("quizgen")}
     blanks["LANGUAGES"] = ", ".join(f'"{lang}"' for lang in langs)
     blanks["TITLES"] = "\n".join(f'{lang} = "{_make_title_from_name(name)}"' for lang in langs)
+    example = tomllib.loads((_HERE / "example.toml").read_text("utf-8"))
     blanks["EXAMPLES"] = ", ".join(
-        f'{lang} = "{_EXAMPLE.get(lang, _EXAMPLE["en"])}"' for lang in langs
+        f'{lang} = "{example.get(lang, example[ENGLISH])}"' for lang in langs
     )
     found = {
         "templates/bank.toml": _fill_scaffold_file(_HERE / "bank.toml", blanks),
