@@ -70,9 +70,18 @@ AS_TYPED = frozenset({"code", "gap", "text"})
 
 def format_read_back(kind: str, read_as: str, lang: str) -> str:
     """Return what was read of an answer of a kind, with words and decimal sign of a language."""
-    if kind == "tf" and read_as in {"true", "false"}:
-        return translate(lang, f"ask.{read_as}")
+    if kind == "tf":
+        return name_truth(kind, read_as, lang)
     return read_as if kind in AS_TYPED else localise_numbers(lang, read_as)
+
+
+def name_truth(kind: str, answer: str, lang: str) -> str:
+    """Return the answer to a statement in the words it was asked in; any other answer as it is.
+
+    Pages and forms hold ``true`` and ``false``, whatever the language.
+    """
+    told = kind == "tf" and answer in {"true", "false"}
+    return translate(fallback_language(lang), f"ask.{answer}") if told else answer
 
 
 ECHOED = frozenset({"found", "typed"})

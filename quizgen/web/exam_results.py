@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from quizgen.bank.bank import Bank
 from quizgen.core.decoding import decode_json
+from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.verdict import Verdict
 from quizgen.paper.answer_key import KeyQuestion
@@ -44,6 +45,11 @@ class ExamPartResult:
     def verdict(self) -> Verdict:
         """Return the verdict of grading."""
         return self.result.verdict
+
+    @property
+    def typed(self) -> str:
+        """Return what was typed or ticked, in the words of the page."""
+        return name_truth(self.result.kind, self.result.typed, self.lang)
 
     @property
     def unread(self) -> ReadErrorView | None:

@@ -9,7 +9,7 @@ import pytest
 
 from quizgen.cards.deck import build_deck
 from quizgen.core.errors import BankError
-from quizgen.grading.feedback import feedback_sentence, format_read_back
+from quizgen.grading.feedback import feedback_sentence, format_read_back, name_truth
 from quizgen.grading.verdict import Verdict
 from quizgen.kinds.grade import grade_answer
 from quizgen.locale import load_words, translate
@@ -63,6 +63,8 @@ def test_a_statement_is_read_back_in_the_words_it_is_asked_in(lang, said):
     read = grade_answer(STATEMENT, "wahr").read_as
     assert format_read_back("tf", read, lang) == said
     assert format_read_back("gap", read, lang) == "true"  # a word that stands in a gap
+    assert name_truth("tf", "true", lang) == said  # as the field of a page holds it
+    assert name_truth("tf", "wahr", lang) == "wahr"  # as it was typed
 
 
 @pytest.mark.parametrize(("lang", "said"), [("de", "„6 nm“"), ("en", "“6 nm”")])
