@@ -82,6 +82,9 @@ class ArchivedOutcome(StrictStruct, frozen=True):
     right: bool
     first: bool
     at: Moment
+    credit: Annotated[float, msgspec.Meta(ge=0, le=1)] | None = None
+    helped: bool | None = None
+    attempt: Annotated[str, msgspec.Meta(max_length=50, pattern=TEXT)] | None = None
 
 
 class ArchivedAnswer(StrictStruct, frozen=True):

@@ -23,13 +23,13 @@ from quizgen.paper.code import LARGEST_SEED, parse_code
 from quizgen.practice.input_fields import is_complete
 from quizgen.store import ExamRecord
 from quizgen.store.exam_attempts import GRACE, ExamStore
-from quizgen.web.due import progress_of
 from quizgen.web.exam_results import ExamResults, grade_exam, outcome_records, review_events
 from quizgen.web.forms import field_text, field_texts, read_answer, read_form
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.papers import MakePaper
 from quizgen.web.question_view import PaperView, PartView, QuestionView
 from quizgen.web.state import ServerState
+from quizgen.web.tonight import progress_of
 from quizgen.web.views import (
     page_response,
     redirect,
@@ -329,7 +329,7 @@ async def _count(
     results = await grade_exam(site.workers, paper, answers, sitting.marks, sitting.learner)
     if not sitting.counted:
         first = await run_in_threadpool(
-            site.store.sittings.count, sitting, outcome_records(results)
+            site.store.sittings.count, sitting, outcome_records(results, sitting.id)
         )
         if first:
             learning = progress_of(request)

@@ -228,8 +228,11 @@ def review_events(bank: Bank, results: ExamResults) -> list[ReviewEvent]:
     return found
 
 
-def outcome_records(results: ExamResults) -> tuple[OutcomeRecord, ...]:
-    """Return the outcome of each part, for progress; blank parts count as not right."""
+def outcome_records(results: ExamResults, sitting: str) -> tuple[OutcomeRecord, ...]:
+    """Return the outcome of each part, for progress; blank parts count as not right.
+
+    ``sitting`` is the id of the exam.
+    """
     now = time.time()
     return tuple(
         OutcomeRecord(
@@ -240,8 +243,11 @@ def outcome_records(results: ExamResults) -> tuple[OutcomeRecord, ...]:
             part.verdict.verdict == "correct",
             part.verdict.verdict == "correct",
             now,
+            float(part.verdict.credit),
+            helped=False,
+            attempt=f"{sitting}/{number}",
         )
-        for question in results.questions
+        for number, question in enumerate(results.questions, start=1)
         for part in question.parts
         if part.status != "open"
     )
