@@ -16,7 +16,7 @@ from quizgen.cli.options import (
     language_option,
     level_option,
     match_choice,
-    open_bank,
+    open_sound_bank,
     resolve_topic,
 )
 from quizgen.core.errors import MissingExtraError, has_extra
@@ -71,7 +71,7 @@ def practice(**options: Unpack[PracticeOptions]) -> None:
     from quizgen.practice.session_store import SessionStore
 
     shelf = SessionStore(state_folder())
-    bank = open_bank(options)
+    bank = open_sound_bank(options)
     wish = _build_request(options, bank)
     learning = _open_learning(bank, options["database"])
     session = _open_session(bank, learning, wish, shelf, fresh=options["fresh"])

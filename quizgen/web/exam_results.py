@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from quizgen.bank.bank import Bank
 from quizgen.core.decoding import decode_json
+from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.verdict import Verdict
 from quizgen.paper.answer_key import KeyQuestion
@@ -46,6 +47,11 @@ class ExamPartResult:
         return self.result.verdict
 
     @property
+    def typed(self) -> str:
+        """Return what was typed or ticked, in the words of the page."""
+        return name_truth(self.result.kind, self.result.typed, self.lang)
+
+    @property
     def unread(self) -> ReadErrorView | None:
         """Return why the answer could not be read; None if it could."""
         if self.verdict.is_graded or self.verdict.needs_self_marking:
@@ -67,6 +73,11 @@ class ExamPartResult:
         if self.result.status == "open":
             return "open" if self.own is None else "judged"
         return self.result.status
+
+    @property
+    def word(self) -> str:
+        """Return the key of the word that the status is shown by."""
+        return self.result.word if self.status == self.result.status else self.status
 
 
 @dataclass(frozen=True)
