@@ -208,6 +208,8 @@ _CODES = {
                   "use a name of [draw] or of the solver's steps"),
     "QG159": Rule("LaTeX in the words cannot be read, or cannot be said in every output.",
                   "use what docs/formulas.md lists"),
+    "QG160": Rule("The field of a part stands where it cannot.",
+                  "write {{ ?b }} once, in section b or in that of a part before it"),
     # Proofs over many draws: soundness of units, answers, languages.
     "QG201": Rule("A drawn unit is of another kind than the solver's.",
                   "give it a unit of the kind that the solver works with"),

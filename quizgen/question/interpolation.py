@@ -9,6 +9,7 @@ from functools import lru_cache
 
 from quizgen import typeset
 from quizgen.bank.markdown import (
+    FIELD_MARK,
     TABLE_MARK,
     Block,
     ConditionalSentence,
@@ -28,6 +29,7 @@ from quizgen.bank.markdown import (
     fill_text,
     slot_names,
 )
+from quizgen.bank.template import PART_LABELS
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
@@ -38,6 +40,7 @@ from quizgen.maths.tree import Expr
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Values
 from quizgen.question.inlines import (
+    PlacedField,
     PlacedPicture,
     TypesetLayout,
     TypesetMaths,
@@ -75,6 +78,7 @@ class Interpolator:
         """
         self.drawn, self.lang, self.hidden = drawn, lang, hidden
         self.own: dict[str, LabelledName] = {}
+        self.fields: dict[str, PlacedField] = {}
         self.known: Values = drawn.shown if hidden else drawn.shown_values
         self.text = drawn.template.texts[lang]
 
@@ -101,7 +105,7 @@ class Interpolator:
             self._require_list(name, text)
         columns = [self.drawn.format_list(name) for name in names]
         if len({len(column) for column in columns}) != 1:
-            raise self._format_problem("the lists differ in length", "QG158", TEXT, text)
+            raise self.format_problem("the lists differ in length", "QG158", TEXT, text)
         rows = tuple(
             tuple(to_inlines(pretty.format_number(cell)) for cell in row)
             for row in zip(*columns, strict=True)
@@ -117,7 +121,7 @@ class Interpolator:
         """Raise the problem QG158 if a blank names a list that is not drawn."""
         if name not in self.drawn.lists:
             what = f"{{{{ {blank} }}}}: {name} is not a drawn list"
-            raise self._format_problem(what, "QG158", TEXT, f"{{{{ {blank} }}}}")
+            raise self.format_problem(what, "QG158", TEXT, f"{{{{ {blank} }}}}")
 
     def section(self, name: str) -> tuple[Block, ...]:
         """Return a section of the language file, filled; empty if there is none."""
@@ -154,7 +158,7 @@ class Interpolator:
         found = self._choose_sentence(cases) if cases else self.text.sentence(section, name)
         if found is None:
             lacks = "has no case of" if cases else "lacks"
-            raise self._format_problem(
+            raise self.format_problem(
                 f"section {section!r} {lacks} {name!r}", "QG157", section, name
             )
         return found
@@ -166,9 +170,15 @@ class Interpolator:
                 return sentence
         return None
 
+    def with_fields(self, fields: Iterable[PlacedField]) -> Interpolator:
+        """Return a copy that knows the fields of parts, which may then stand in its blocks."""
+        filler = Interpolator(self.drawn, self.lang, hidden=self.hidden)
+        filler.fields = {FIELD_MARK + (field.label or PART_LABELS[0]): field for field in fields}
+        return filler
+
     def with_sentence(self, name: str, section: str, sentence: str) -> Interpolator:
         """Return a copy with a slot that a named sentence fills."""
-        filler = Interpolator(self.drawn, self.lang, hidden=self.hidden)
+        filler = self.with_fields(self.fields.values())
         filler.own[name] = (section, sentence)
         return filler
 
@@ -209,6 +219,8 @@ class Interpolator:
         drawn = self.drawn
         if name in self.own:
             return self.sentence(*self.own[name])
+        if name.startswith(FIELD_MARK):
+            return (self._get_field(name),)
         if name in drawn.lists or name.startswith(TABLE_MARK) or name.endswith("]"):
             return self._fill_list_slot(name)
         if name in drawn.words:
@@ -221,11 +233,21 @@ class Interpolator:
             return (_inline_maths(formula),)
         return self._fill_number(name)
 
+    def _get_field(self, name: str) -> PlacedField:
+        """Return the field of a part; raise the problem QG160 where none can stand."""
+        if name in self.fields:
+            return self.fields[name]
+        blank = f"{{{{ {name} }}}}"
+        what = f"{blank} is the field of a part, and stands in the section of a part alone"
+        if self.fields:
+            what = f"{blank}: there is no such part, or its field is more than a line or a choice"
+        raise self.format_problem(what, "QG160", TEXT, blank)
+
     def _fill_number(self, name: str) -> tuple[Inline, ...]:
         """Return a quantity with its unit; ≈ goes before a rounded value."""
         if name not in self.known:
             what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
-            raise self._format_problem(what, "QG158", TEXT, blank)
+            raise self.format_problem(what, "QG158", TEXT, blank)
         if not self.drawn.is_rounded(name):
             return to_inlines(format_quantity(self.drawn, name))
         rounded = format_rounded(self.known[name])
@@ -240,7 +262,7 @@ class Interpolator:
         if name.startswith(TABLE_MARK):
             what = "stands alone in a paragraph, in a question that draws lists"
             blank = f"{{{{ {name} }}}}"
-            raise self._format_problem(f"{blank} {what}", "QG158", TEXT, blank)
+            raise self.format_problem(f"{blank} {what}", "QG158", TEXT, blank)
         self._require_list(listed, name)
         texts, unit = drawn.format_list(listed), drawn.template.units.get(listed, "")
         if not place:
@@ -250,7 +272,7 @@ class Interpolator:
         index = int(place.rstrip("]"))
         if not 1 <= index <= len(texts):
             what = f"{{{{ {name} }}}}: the list has {len(texts)} values, and the first is 1"
-            raise self._format_problem(what, "QG158", TEXT, f"{{{{ {name} }}}}")
+            raise self.format_problem(what, "QG158", TEXT, f"{{{{ {name} }}}}")
         return to_inlines(join_unit(texts[index - 1], unit))
 
     def _find_formula(self, name: str) -> Expr | None:
@@ -269,7 +291,7 @@ class Interpolator:
         """Return program text with the known values in place."""
         return fill_program(text, self.drawn, self.known)
 
-    def _format_problem(self, what: str, rule: str, *place: str) -> BankError:
+    def format_problem(self, what: str, rule: str, *place: str) -> BankError:
         """Return an error at a place of the language file."""
         file = self.drawn.template.path / f"{self.lang}.md"
         return BankError(what, rule=rule, file=file, place=place)

@@ -14,7 +14,7 @@ from quizgen import typeset
 from quizgen.bank import markdown
 from quizgen.core.errors import RenderError
 from quizgen.locale import languages_in_script, translate
-from quizgen.question.inlines import PlacedPicture, TypesetMaths
+from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
 from quizgen.question.interpolation import unbreakable_groups
 from quizgen.render import fonts
 
@@ -81,6 +81,30 @@ def _format_picture(part: PlacedPicture, _lang: str) -> str:
     """Return a picture as Typst markup that contains its file: a string can refer to none."""
     file = f'bytes({typst_literal(part.picture.svg)}), format: "svg"'
     return f"#box(baseline: 40%, image({file}, alt: {typst_literal(part.alt)}));"
+
+
+@inlines_to_typst.register
+def _format_field(part: PlacedField, lang: str) -> str:
+    """Return the field of a part as Typst markup: a ruled blank, or a box before each option."""
+    label = f'#text(0.85em, fill: rgb("#4b5563"), {typst_literal(f"({part.label})")});#h(0.25em);'
+    label = label if part.label else ""
+    if not part.options:
+        return f"#box[{label}{_RULED}];"
+    boxed = [
+        f"#box[{_BOX}#h(0.3em);{_format_mark(mark)}{inlines_to_typst(said, lang)}];"
+        for mark, said in part.options
+    ]
+    first, *rest = boxed
+    return " #h(0.4em); ".join([f"#box[{label}{first}];", *rest])
+
+
+def _format_mark(mark: str) -> str:
+    """Return the letter of an option in Typst; nothing where its words are its mark."""
+    return f"#strong({typst_literal(mark)}) " if len(mark) == 1 else ""
+
+
+_RULED = '#box(width: 6.5em, height: 1.5em, baseline: 0.25em, stroke: (bottom: 0.5pt + rgb("#555")));'
+_BOX = '#box(width: 0.75em, height: 0.75em, stroke: 0.5pt + rgb("#555"));'
 
 
 def typst_passage(body: str) -> str:
