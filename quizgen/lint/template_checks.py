@@ -22,7 +22,7 @@ from flint import arb
 
 from quizgen.bank.dimensions import find_unit_errors
 from quizgen.bank.levels import EXAM
-from quizgen.bank.markdown import LanguageFile, slot_names
+from quizgen.bank.markdown import FIELD_MARK, LanguageFile, slot_names
 from quizgen.bank.sampler import sampler_for
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant, reference_variant
@@ -314,8 +314,15 @@ def _find_language_problems(template: Template, langs: tuple[str, ...]) -> list[
 def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, str, Place]]:
     """Yield code, message and place of each section or sentence that a language lacks."""
     text, chain = template.texts[lang], template.chain
+    placed = {
+        name.removeprefix(FIELD_MARK)
+        for section in text.sections.values()
+        for name in slot_names(section)
+        if name.startswith(FIELD_MARK)
+    }
     for label, part in zip(template.labels, template.rules.part, strict=True):
-        if label and label not in text.sections and "from" not in part.answer:
+        said = label in text.sections or label in placed or "from" in part.answer
+        if label and not said:
             yield "QG211", f"section {label!r} is missing", ()
     if (chain.steps or chain.forms) and "check" not in text.sections:
         yield "QG211", "section 'check' is missing", ()

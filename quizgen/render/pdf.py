@@ -244,26 +244,35 @@ class _TypstPaper:
         texts = [blocks_to_typst(q.parts[index].body, q.lang) for q in questions]
         body = f"{worth}\n{stack_languages(self.langs, texts)}"
         if first.field.near is not None and self.kind == "exam":
-            return self._typeset_placed_part(questions, index, body)
+            text = stack_languages(self.langs, texts)
+            return self._typeset_placed_part(questions, index, text, worth)
         rows = self._typeset_options(questions, index)
         if self.kind == "solutions":
             return f"#whole[{body}]\n{rows}\n{self._typeset_part_solution(item, index)}"
         field = self._typeset_answer_space(questions, index)
         return f"#part[{body}\n{rows}\n{field}]\n{_typeset_notes_area(first)}"
 
-    def _typeset_placed_part(self, questions: tuple[Question, ...], index: int, body: str) -> str:
-        """Return a part whose field stands in a text; the last of them has room to work in."""
+    def _typeset_placed_part(
+        self, questions: tuple[Question, ...], index: int, text: str, worth: str
+    ) -> str:
+        """Return a part whose field stands in a text: one line below it, with points and hints.
+
+        The last of those in one text has room to work in.
+        """
         parts = questions[0].parts
-        hints = self._typeset_hints([q.parts[index].field for q in questions])
+        is_typed = parts[index].field.control.form not in {"one", "truth"}
+        hints = [inlines_to_typst(q.parts[index].field.hint, q.lang) for q in questions]
+        said = f"#hint[{join_languages(self.langs, hints)}]" if is_typed else ""
+        body = "\n\n".join(filter(None, [text, f"{worth} #h(0.6em); {said}"]))
         if any(part.shared for part in parts[index + 1 : index + 2]):
-            return f"#part[{body}\n{hints}]"
+            return f"#part[{body}]"
         begin = max(place for place in range(index + 1) if not parts[place].shared)
         group = parts[begin : index + 1]
         if not any(part.field.control.needs_working for part in group):
-            return f"#part[{body}\n{hints}]\n#rest"
+            return f"#part[{body}]\n#rest"
         points = sum((part.points for part in group), Fraction(0))
         room = f"#room({answer_rows(points)})"
-        return f"#part[{body}\n{hints}\n{room}]\n#more-room({float(points):g})"
+        return f"#part[{body}\n{room}]\n#more-room({float(points):g})"
 
     def _typeset_hints(self, fields: list[AnswerField]) -> str:
         """Return how the answer of a part is typed, in all languages; "" if nothing is said."""

@@ -161,7 +161,9 @@ def _format_table(part: markdown.TableBlock, lang: str) -> str:
     cells = [cell for row in (part.head, *part.rows) for cell in row]
     head = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in part.head)
     rest = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in cells[len(part.head) :])
-    return f"#table(columns: {len(part.head)}, table.header({head}), {rest});"
+    placed = any(isinstance(one, PlacedField) for cell in cells for one in cell)
+    align = "align: horizon, " if placed else ""
+    return f"#table(columns: {len(part.head)}, {align}table.header({head}), {rest});"
 
 
 def in_language(lang: str, body: str) -> str:
