@@ -24,7 +24,7 @@ from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, r
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous, correct, unreadable, verdict_by_share, wrong
-from quizgen.kinds.asking import make_spec
+from quizgen.kinds.asking import hint, make_spec
 from quizgen.kinds.contract import (
     AnswerKind,
     AskedPart,
@@ -33,7 +33,7 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
-from quizgen.locale import FIRST, fallback_language, is_written_in, translate
+from quizgen.locale import FIRST, fallback_language, is_written_in
 from quizgen.maths.notation import FormulaReadError
 
 
@@ -375,9 +375,4 @@ def _iter_wrong_words(
                 yield str(place), name, part.accepted_words(term) if part.has_gap(term) else [term]
 
 
-def input_hints(spec: GapSpec, lang: str) -> tuple[str, ...]:
-    """Return the sentence on how several words are typed, or that there is one."""
-    return (translate(lang, "ask.gap" if len(spec.gaps()) > 1 else "ask.gap_one"),)
-
-
-KIND = AnswerKind(AuthoredGap, GapSpec, ask, input_hints)
+KIND = AnswerKind(AuthoredGap, GapSpec, ask, hint("ask.gap"))

@@ -256,10 +256,12 @@ def _build_question_and_key(
 
 def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
     """Return one part as the learner sees it; its field is named by number and label."""
+    hints = KINDS[asked.spec.kind].input_hints(asked.spec, lang)
+    is_plain = asked.near is not None and asked.control.form == "gaps"  # a word in its sentence
     field = AnswerField(
         id=f"{number}{asked.label}",
         control=asked.control,
-        asks=tuple(map(to_inlines, KINDS[asked.spec.kind].input_hints(asked.spec, lang))),
+        asks=() if is_plain else tuple(map(to_inlines, hints)),
         options=asked.options,
         targets=asked.targets,
         drawing=FieldPicture(asked.control.board, lang) if asked.control.board else None,

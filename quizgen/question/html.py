@@ -140,8 +140,10 @@ def _render_picture(part: PlacedPicture, _lang: str, way: HtmlDialect) -> str:
 
 
 @_render_piece.register
-def _render_field(part: PlacedField, _lang: str, _way: HtmlDialect) -> str:
+def _render_field(part: PlacedField, _lang: str, way: HtmlDialect) -> str:
     """Return a blank; a page that is answered puts the field itself there (``put_fields``)."""
+    if not way.ours:
+        return part.text
     return f'<span class="blank" data-field="{part.label}">{part.text}</span>'
 
 
