@@ -65,6 +65,8 @@ class Template:
         ``digest`` leaves it out.
     figure_file, solver_file, data_file : pathlib.Path, optional
         What draws its figure, what its chain was read from, and what draws its data.
+    check_digest : str
+        Of its ``check.py``; empty without one.
     pictures : mapping of str to PictureFile
         The files that its words show, by their names.
     """
@@ -80,6 +82,7 @@ class Template:
     figure_file: Path | None = None
     solver_file: Path | None = None
     data_file: Path | None = None
+    check_digest: str = ""
     pictures: Mapping[str, PictureFile] = field(default_factory=dict)
 
     def __getstate__(self) -> dict[str, object]:
