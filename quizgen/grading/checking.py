@@ -11,8 +11,10 @@ import multiprocessing
 import signal
 import threading
 from collections.abc import Iterable, Mapping
+from contextlib import redirect_stdout
 from fractions import Fraction
 from functools import cache, lru_cache
+from io import StringIO
 from numbers import Real
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -98,7 +100,9 @@ def _run_within_time(
         if timed:
             signal.setitimer(signal.ITIMER_REAL, SECONDS)
         try:
-            found = check({name: _to_python(value) for name, value in values.items()}, typed)
+            given = {name: _to_python(value) for name, value in values.items()}
+            with redirect_stdout(StringIO()):
+                found = check(given, typed)
         finally:
             if timed:
                 signal.setitimer(signal.ITIMER_REAL, 0)

@@ -32,6 +32,7 @@ from quizgen.core.positions import TEXT, Place
 from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
+from quizgen.lint.examples import find_misjudged_examples
 from quizgen.lint.figures import check_figures
 from quizgen.lint.item_quality import QualityReview
 from quizgen.lint.leaks import QuestionContent, question_content
@@ -155,6 +156,7 @@ def lint_template(
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
+        report.problems += find_misjudged_examples(first)
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
         report.problems += _find_unused_draws(template)
         report.problems += _diagnose_quality_errors(template, lessons)
