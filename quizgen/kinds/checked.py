@@ -103,7 +103,13 @@ def _list_values(part: PartContext) -> Mapping[str, CheckValue]:
         name: str(format_for_key(value)) for name, value in part.shown_values.items()
     }
     found |= {name: [str(format_for_key(one)) for one in of] for name, of in part.lists.items()}
-    return {**found, **part.words}
+    for name, text in part.words.items():
+        listed, _, place = name.partition("[")
+        if place:
+            found[listed] = [*found.get(listed, ()), text]
+        else:
+            found[name] = text
+    return found
 
 
 KIND = AnswerKind(AuthoredChecked, CheckedSpec, ask, hint("ask.checked"), explain_as_code)

@@ -54,6 +54,8 @@ from quizgen.typeset.nodes import MathRow, Node, Phrase
 NBSP = "\u00a0"
 LIST_SEPARATOR = "; "
 """Between the numbers of a list: a comma would be a decimal sign in some languages."""
+TEXT_SEPARATOR = ", "
+"""Between the texts of a list."""
 SHORT = 16
 """Characters up to which a formula is held together with what stands beside it."""
 _TAIL = re.compile(r"[^ \n]*(?: [=≈<>≤≥≠] [^ \n]*)?")
@@ -90,7 +92,7 @@ class Interpolator:
         BankError
             If a slot names nothing that may stand there.
         """
-        if self.drawn.lists:
+        if self.drawn.lists or any(name.endswith("]") for name in self.drawn.words):
             parts = tuple(map(self._build_data_table, parts))
         return fill_blocks(parts, self._fill_value, self._fill_program)
 
@@ -103,11 +105,14 @@ class Interpolator:
                 return block
         for name in names:
             self._require_list(name, text)
-        columns = [self.drawn.format_list(name) for name in names]
+        columns = [self.drawn.list_texts(name) for name in names]
         if len({len(column) for column in columns}) != 1:
             raise self.format_problem("the lists differ in length", "QG158", TEXT, text)
         rows = tuple(
-            tuple(to_inlines(pretty.format_number(cell)) for cell in row)
+            tuple(
+                to_inlines(pretty.format_number(cell) if name in self.drawn.lists else cell)
+                for name, cell in zip(names, row, strict=True)
+            )
             for row in zip(*columns, strict=True)
         )
         return TableBlock(tuple(self._name_column(name) for name in names), rows)
@@ -119,7 +124,7 @@ class Interpolator:
 
     def _require_list(self, name: str, blank: str) -> None:
         """Raise the problem QG158 if a blank names a list that is not drawn."""
-        if name not in self.drawn.lists:
+        if not self.drawn.list_texts(name):
             what = f"{{{{ {blank} }}}}: {name} is not a drawn list"
             raise self.format_problem(what, "QG158", TEXT, f"{{{{ {blank} }}}}")
 
@@ -221,12 +226,14 @@ class Interpolator:
             return self.sentence(*self.own[name])
         if name.startswith(FIELD_MARK):
             return (self._get_field(name),)
+        if name in drawn.words:
+            rule = drawn.template.rules.draw.get(name)
+            text = drawn.words[name]  # of a table or data.py it stands for itself
+            return self.sentence("words", text) if rule and rule.words else to_inlines(text)
+        if texts := drawn.text_list(name):
+            return to_inlines(TEXT_SEPARATOR.join(texts))
         if name in drawn.lists or name.startswith(TABLE_MARK) or name.endswith("]"):
             return self._fill_list_slot(name)
-        if name in drawn.words:
-            own = name in drawn.template.rules.data  # a text of data.py stands for itself
-            text = drawn.words[name]
-            return to_inlines(text) if own else self.sentence("words", text)
         if not self.hidden and ("words", name) in self.text.cases:
             return self.sentence("words", name)
         if (formula := self._find_formula(name)) is not None:
@@ -264,7 +271,7 @@ class Interpolator:
             blank = f"{{{{ {name} }}}}"
             raise self.format_problem(f"{blank} {what}", "QG158", TEXT, blank)
         self._require_list(listed, name)
-        texts, unit = drawn.format_list(listed), drawn.template.units.get(listed, "")
+        texts, unit = drawn.list_texts(listed), drawn.template.units.get(listed, "")
         if not place:
             numbers = LIST_SEPARATOR.join(map(pretty.format_number, texts))
             shown = format_unit(unit)
@@ -378,6 +385,8 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
     def value(name: str) -> str:
         """Return a value as a program writes it; raise ``BankError`` if it is not exact."""
         listed, _, place = name.partition("[")
+        if (text := _get_own_text(drawn, name)) is not None:
+            return text
         if listed in drawn.lists:
             texts = [text.replace(MINUS, "-") for text in drawn.format_list(listed)]
             if not place:
@@ -391,6 +400,14 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
         return written
 
     return fill_text(text, value)
+
+
+def _get_own_text(drawn: Variant, name: str) -> str | None:
+    """Return a text of a table or of ``data.py``, or such a list, as it stands; else None."""
+    rule = drawn.template.rules.draw.get(name)
+    if name in drawn.words and not (rule and rule.words):
+        return drawn.words[name]
+    return TEXT_SEPARATOR.join(drawn.text_list(name)) or None
 
 
 def format_quantity(drawn: Variant, name: str) -> str:

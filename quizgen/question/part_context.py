@@ -182,7 +182,7 @@ class VariantPart(PartContext):
         """
         found: list[str] = []
         for lang in self.drawn.template.texts:
-            words = inlines_as_typed(Interpolator(self.drawn, lang).raw_sentence("gaps", name))
+            words = inlines_as_typed(Interpolator(self.drawn, lang).sentence("gaps", name))
             found += [word.strip() for word in words.split("|")]
         return list(dict.fromkeys(found))
 
