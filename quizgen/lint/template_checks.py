@@ -22,7 +22,7 @@ from flint import arb
 
 from quizgen.bank.dimensions import find_unit_errors
 from quizgen.bank.levels import EXAM
-from quizgen.bank.markdown import LanguageFile, slot_names
+from quizgen.bank.markdown import FIELD_MARK, LanguageFile, slot_names
 from quizgen.bank.sampler import sampler_for
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant, reference_variant
@@ -32,6 +32,7 @@ from quizgen.core.positions import TEXT, Place
 from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
+from quizgen.lint.examples import find_misjudged_examples
 from quizgen.lint.figures import check_figures
 from quizgen.lint.foreign_words import find_foreign_words
 from quizgen.lint.item_quality import QualityReview
@@ -156,6 +157,7 @@ def lint_template(
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
+        report.problems += find_misjudged_examples(first)
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
         report.problems += [*_find_unused_draws(template), *find_foreign_words(template)]
         report.problems += _diagnose_quality_errors(template, lessons)
@@ -315,8 +317,15 @@ def _find_language_problems(template: Template, langs: tuple[str, ...]) -> list[
 def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, str, Place]]:
     """Yield code, message and place of each section or sentence that a language lacks."""
     text, chain = template.texts[lang], template.chain
+    placed = {
+        name.removeprefix(FIELD_MARK)
+        for section in text.sections.values()
+        for name in slot_names(section)
+        if name.startswith(FIELD_MARK)
+    }
     for label, part in zip(template.labels, template.rules.part, strict=True):
-        if label and label not in text.sections and "from" not in part.answer:
+        said = label in text.sections or label in placed or "from" in part.answer
+        if label and not said:
             yield "QG211", f"section {label!r} is missing", ()
     if (chain.steps or chain.forms) and "check" not in text.sections:
         yield "QG211", "section 'check' is missing", ()
