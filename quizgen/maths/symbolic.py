@@ -90,6 +90,10 @@ class FormResolver:
 
     def _convert(self, whole: sympy.Basic) -> tuple[Expr, bool]:
         """Return the tree of an expression, and whether it is a form rather than a number."""
+        if isinstance(whole, sympy.Piecewise) and not self._is_free(
+            *(condition for _, condition in whole.args)
+        ):
+            return self._convert_cases(whole)
         if isinstance(whole, sympy.MatrixBase | MatrixExpr):
             return _convert_matrix(whole), True
         if isinstance(whole, sympy.Set):
@@ -102,6 +106,27 @@ class FormResolver:
             return self._convert_complex(whole)
         free = [s for s in getattr(whole, "free_symbols", ()) if s.name in self.free]
         return _convert_evaluated(whole, free), bool(free)
+
+    def _is_free(self, *parts: sympy.Basic) -> bool:
+        """Return whether any of these holds a name that no draw gives."""
+        return any(s.name in self.free for part in parts for s in part.free_symbols)
+
+    def _convert_cases(self, whole: sympy.Piecewise) -> tuple[Expr, bool]:
+        """Return what the drawn numbers choose among, each branch as it would be alone.
+
+        A draw thereby asks one of several formulas, or for matrices of one of several sizes.
+        """
+        found = [self._convert(value) for value, _ in whole.args]
+        if not any(is_form for _, is_form in found):
+            return _convert_evaluated(whole), False
+        numbers = sympy.Piecewise(*((n, c) for n, (_, c) in enumerate(whole.args)), evaluate=False)
+        cases = from_sympy(numbers)
+        if not isinstance(cases, Call):
+            return found[0]
+        args = [
+            found[place // 2][0] if place % 2 == 0 else arg for place, arg in enumerate(cases.args)
+        ]
+        return Call("piecewise", tuple(args)), True
 
     def _convert_complex(self, whole: sympy.Basic) -> tuple[Expr, bool]:
         """Return a complex number as its real and imaginary part; a real one as itself."""
