@@ -15,7 +15,6 @@ from contextlib import redirect_stdout
 from fractions import Fraction
 from functools import cache, lru_cache
 from io import StringIO
-from numbers import Real
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import msgspec
@@ -143,7 +142,7 @@ def _read_outcome(found: Any) -> CheckOutcome:
     share, says = found if isinstance(found, tuple) and len(found) == 2 else (found, "")
     if isinstance(says, str) and share is None:
         return CheckOutcome(None, says)
-    if isinstance(says, str) and isinstance(share, Real) and 0 <= share <= 1:
+    if isinstance(says, str) and isinstance(share, int | float | Fraction) and 0 <= share <= 1:
         return CheckOutcome(
             Fraction(str(share)) if isinstance(share, float) else Fraction(share), says
         )

@@ -343,11 +343,11 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
         "traps": {*chain.traps, *chain.form_traps, *listed},
     }
     for section, names in wanted.items():
-        said = set(text.named.get(section, {}))
-        for name in sorted(names - said):
+        explained = set(text.named.get(section, {}))
+        for name in sorted(names - explained):
             yield "QG212", f"section {section!r} lacks {name!r}", (section,)
         knows = "pool [claims]" if section == "claims" else "solver"
-        for name in sorted(said - known[section]):
+        for name in sorted(explained - known[section]):
             what = f"section {section!r} explains {name!r}, unknown to the {knows}"
             yield "QG213", what, (section, name)
 
