@@ -34,6 +34,7 @@ from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
 from quizgen.lint.figures import check_figures
+from quizgen.lint.foreign_words import find_foreign_words
 from quizgen.lint.item_quality import QualityReview
 from quizgen.lint.leaks import QuestionContent, question_content
 from quizgen.lint.unused_draws import find_unused_draws
@@ -158,7 +159,7 @@ def lint_template(
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
-        report.problems += _find_unused_draws(template)
+        report.problems += [*_find_unused_draws(template), *find_foreign_words(template)]
         report.problems += _diagnose_quality_errors(template, lessons)
         report.problems = [one for one in report.problems if one.code not in ignored]
     except QuizgenError as error:

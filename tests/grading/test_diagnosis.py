@@ -6,6 +6,7 @@ import time
 
 import pytest
 from flint import fmpq
+from sweep import together
 
 from quizgen.grading.diagnosis.mutations import mutate_formula
 from quizgen.grading.feedback import load_sentences
@@ -47,7 +48,7 @@ STOP = {"kind": "number", "value": "6", "decimals": 2, "of": ["e"]}
 ANGLE = {"kind": "number", "value": "39.5977527", "decimals": 1, "of": ["a"]}
 
 
-@pytest.mark.parametrize(
+@together(
     ("spec", "typed", "model", "given", "note"),
     [
         (IMAGE, "40 mm", LENS, LENS_GIVEN, "operator"),  # 1/f + 1/z
