@@ -212,7 +212,7 @@ def _examine_draws(
         met[one.traps] += 1
         _widen_ranges(report, one)
         report.problems += _find_uncertain_steps(one, report)
-        if not any(problem.code == "QG220" for problem in report.problems):
+        if not any(problem.code == "QG221" for problem in report.problems):
             report.problems += _find_unequal_alternatives(one)
         lessons.add(one)
         if len(first) < AT_MOST.count(seeds):
@@ -280,7 +280,7 @@ def _find_unequal_alternatives(one: Variant) -> Iterator[Diagnostic]:
                 f"{other.name} = {format_tree(other.expr)} gives another value than the step, "
                 f"seed {one.seed}"
             )
-            yield diagnose("QG220", file, what, ("alternatives", other.name))
+            yield diagnose("QG221", file, what, ("alternatives", other.name))
 
 
 def _widen_ranges(report: TemplateReport, one: Variant) -> None:
