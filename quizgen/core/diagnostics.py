@@ -247,6 +247,8 @@ _CODES = {
                   "translate them, or leave the language out of languages in bank.toml"),
     "QG221": Rule("An example of an answer is not judged as it says, or ``check.py`` fails.",
                   "mend check.py or the points of the example"),
+    "QG222": Rule("An alternative formula of a step gives another value.",
+                  "mend it, or leave it out of alternatives"),
     # Item writing: whether a question teaches and cannot be guessed.
     "QG301": Rule("The answer hardly varies.",
                   "let other options, statements or pairs be right in turn"),

@@ -1,4 +1,4 @@
-"""Constants that are a fraction times pi or a square root, as a person writes them: ``3*sqrt(2)/2``.
+"""Constants that are a fraction times pi or a root, as a person writes them: ``3*sqrt(2)/2``.
 
 Sine, cosine and tangent of multiples of 30° and 45° are such constants, and so are the angles that
 belong to them.
@@ -28,13 +28,13 @@ def split_constant(expr: Expr) -> tuple[Fraction, Expr] | None:
     if expr.op == "neg":
         inner = split_constant(expr.args[0])
         return inner and (-inner[0], inner[1])
-    if expr.op not in {"mul", "div"} or len(expr.args) != len(("one", "other")):
-        return None
-    first, second = expr.args
-    if expr.op == "mul" and isinstance(first, Num) and (inner := split_constant(second)):
-        return inner[0] * first.value, inner[1]
-    if expr.op == "div" and isinstance(second, Num) and (inner := split_constant(first)):
-        return (inner[0] / second.value, inner[1]) if second.value else None
+    match expr:
+        case Call("mul", (Num(value=factor), other)) if inner := split_constant(other):
+            return inner[0] * factor, inner[1]
+        case Call("div", (other, Num(value=divisor))) if divisor and (
+            inner := split_constant(other)
+        ):
+            return inner[0] / divisor, inner[1]
     return None
 
 

@@ -94,14 +94,8 @@ class FormResolver:
             *(condition for _, condition in whole.args)
         ):
             return self._convert_cases(whole)
-        if isinstance(whole, sympy.MatrixBase | MatrixExpr):
-            return _convert_matrix(whole), True
-        if isinstance(whole, sympy.Set):
-            return _convert_set(whole.doit()), True
-        if isinstance(whole, sympy.Tuple | list | tuple):
-            return Call("vector", tuple(map(from_sympy, whole))), True
-        if isinstance(whole, sympy.Eq):
-            return from_sympy(whole), True
+        if (several := _convert_several(whole)) is not None:
+            return several, True
         if _has_complex(whole):
             return self._convert_complex(whole)
         free = [s for s in getattr(whole, "free_symbols", ()) if s.name in self.free]
@@ -210,6 +204,17 @@ def _is_written(whole: sympy.Basic) -> bool:
 def _is_infinite(part: sympy.Basic) -> bool:
     """Return whether a sum, a product or an integral has an infinite bound."""
     return any(not bound.is_finite for limit in part.limits for bound in limit[1:])
+
+
+def _convert_several(whole: sympy.Basic) -> Expr | None:
+    """Return the tree of a matrix, set, vector or equation; None for a number or a formula."""
+    if isinstance(whole, sympy.MatrixBase | MatrixExpr):
+        return _convert_matrix(whole)
+    if isinstance(whole, sympy.Set):
+        return _convert_set(whole.doit())
+    if isinstance(whole, sympy.Tuple | list | tuple):
+        return Call("vector", tuple(map(from_sympy, whole)))
+    return from_sympy(whole) if isinstance(whole, sympy.Eq) else None
 
 
 def _convert_matrix(whole: sympy.Basic) -> Expr:

@@ -228,19 +228,22 @@ class Interpolator:
             return self.sentence(*self.own[name])
         if name.startswith(FIELD_MARK):
             return (self._get_field(name),)
-        if name in drawn.words:
-            rule = drawn.template.rules.draw.get(name)
-            text = drawn.words[name]  # of a table or data.py it stands for itself
-            return self.sentence("words", text) if rule and rule.words else to_inlines(text)
-        if texts := drawn.text_list(name):
-            return to_inlines(TEXT_SEPARATOR.join(texts))
+        if name in drawn.words or drawn.text_list(name):
+            return self._fill_words(name)
         if name in drawn.lists or name.startswith(TABLE_MARK) or name.endswith("]"):
             return self._fill_list_slot(name)
         if not self.hidden and ("words", name) in self.text.cases:
             return self.sentence("words", name)
-        if (formula := self._find_formula(name)) is not None:
-            return (_inline_maths(formula),)
-        return self._fill_number(name)
+        formula = self._find_formula(name)
+        return self._fill_number(name) if formula is None else (_inline_maths(formula),)
+
+    def _fill_words(self, name: str) -> tuple[Inline, ...]:
+        """Return a drawn phrase, or texts of a table or ``data.py`` as they stand."""
+        drawn = self.drawn
+        if name not in drawn.words:
+            return to_inlines(TEXT_SEPARATOR.join(drawn.text_list(name)))
+        rule, text = drawn.template.rules.draw.get(name), drawn.words[name]
+        return self.sentence("words", text) if rule and rule.words else to_inlines(text)
 
     def _get_field(self, name: str) -> PlacedField:
         """Return the field of a part; raise the problem QG160 where none can stand."""
