@@ -119,7 +119,7 @@ def test_a_command_without_extras_works(tmp_path, words):
 
 def test_the_doctor_lists_the_extras_that_are_there(tmp_path):
     done = run_without(EXTRA_MODULES["web"] + EXTRA_MODULES["print"], "doctor", cwd=tmp_path)
-    assert "ok  extras: class, lms, anki, postgres, cluster, image\n" in done.stdout
+    assert "ok  extras: class, lms, anki, postgres, cluster, image, circuits\n" in done.stdout
 
 
 def test_a_paper_without_extras_is_made_and_marked(tmp_path):
