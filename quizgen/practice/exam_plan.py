@@ -9,6 +9,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Collection, Iterable, Sequence
 from functools import cache
+from typing import NamedTuple
 
 import msgspec
 import numpy as np
@@ -125,6 +126,13 @@ def _matching_names(rule: SlotRule, items: Sequence[PracticeItem]) -> tuple[str,
     )
 
 
+class PracticeBlock(NamedTuple):
+    """What is practised in one go: templates in their order, and the minutes they take."""
+
+    templates: list[str]
+    minutes: float
+
+
 class ExamPlan:
     """The plan of one learner: what comes next, a block of minutes, and the points to expect.
 
@@ -193,21 +201,21 @@ class ExamPlan:
             raise ValueError("no template may be asked")
         return self.model.items[place].name
 
-    def plan_block(self, minutes: float) -> list[str]:
-        """Return the templates that fit into a number of minutes, as if each went as expected.
+    def plan_block(self, minutes: float) -> PracticeBlock:
+        """Return what fits into a number of minutes, as if each question went as expected.
 
-        At least one; it is planned again after every answer.
+        At least one question; it is planned again after every answer.
         """
         ahead, latest, left = copy.deepcopy(self.model), list(self._latest), minutes
         chosen: list[int] = []
         while left > TOO_SHORT or not chosen:
-            place = _choose_place(self, ahead, latest, left + TOO_SHORT if chosen else np.inf)
+            place = _choose_place(self, ahead, latest, left if chosen else np.inf)
             if place is None:
                 break
             left -= ahead.expect_attempt(place)
             chosen.append(place)
             latest = [*latest, place][-SPACING:]
-        return [self.model.items[place].name for place in chosen]
+        return PracticeBlock([self.model.items[place].name for place in chosen], minutes - left)
 
     def estimate(self) -> ScoreEstimate | None:
         """Return the points that the exam would bring today; None before there is evidence."""

@@ -14,7 +14,7 @@ import msgspec
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.levels import GUIDED
-from quizgen.bank.rules import Rules, part_points
+from quizgen.bank.rules import Rules, part_points, suggested_minutes
 from quizgen.practice.agenda import Agenda
 from quizgen.practice.scheduler import ReviewEvent, days_left, local_date, make_review_event
 from quizgen.practice.session_state import Attempt, PartOutcome, PartState
@@ -81,6 +81,31 @@ class LearnerProgress(msgspec.Struct, frozen=True):
     def next_question(self, names: Sequence[str]) -> QuestionRef:
         """Return which of these templates to ask next, with seed and level."""
         return QuestionRef(self.plan(names).choose_next(), self.seed_of_next())
+
+    def list_repairs(self, sitting: str) -> list[str]:
+        """Return the templates that cost points in an exam and were not asked again since.
+
+        Those that cost most per minute come first.
+
+        Parameters
+        ----------
+        sitting : str
+            Id of the exam.
+        """
+        lost: dict[str, float] = {}
+        for one in self.store.list_outcomes(self.learner.id):
+            if one.template not in self.bank.template_paths:
+                continue
+            if (one.attempt or "").startswith(f"{sitting}/"):
+                worth = part_points(self.bank.rules(one.template)).get(one.part, 1.0)
+                lost[one.template] = lost.get(one.template, 0.0) + worth * (1 - (one.credit or 0))
+            else:
+                lost.pop(one.template, None)
+        minutes = {name: suggested_minutes(self.bank.rules(name)) for name in lost}
+        return sorted(
+            (name for name, points in lost.items() if points),
+            key=lambda name: (-lost[name] / minutes[name], name),
+        )
 
     def seed_of_next(self) -> str:
         """Return the seed of the question that will be begun next."""

@@ -16,6 +16,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
+from quizgen.bank.rules import suggested_minutes
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import BlueprintError, PaperCodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, find_blueprint
@@ -210,9 +211,13 @@ async def show_exam(request: Request) -> Response:
     answers = await run_in_threadpool(store.answers, sitting)
     if sitting.handed is not None:
         results = await _count(request, sitting, paper, answers)
+        learning = progress_of(request)
+        repairs = await run_in_threadpool(learning.list_repairs, sitting.id)
+        minutes = sum(suggested_minutes(learning.bank.rules(name)) for name in repairs)
         return page_response(
-            request, "results.html.j2", sitting=sitting, paper=paper, results=results
-        )
+            request, "results.html.j2", sitting=sitting, paper=paper, results=results,
+            repairs=repairs, minutes=minutes,
+        )  # fmt: skip
     flags = await run_in_threadpool(store.flags, sitting)
     return page_response(request, "exam.html.j2", sitting=sitting, paper=paper, answers=answers,
                 flags=flags, now=now)  # fmt: skip

@@ -124,6 +124,11 @@ class ExamResults:
         """Return the number of sentences that the learner has yet to grade."""
         return sum(part.status == "open" for q in self.questions for part in q.parts)
 
+    def losses(self) -> list[ExamQuestionResult]:
+        """Return the questions that cost points, the most first."""
+        weak = [question for question in self.questions if question.weak]
+        return sorted(weak, key=lambda question: question.marks - question.points)
+
     def mistakes(self) -> list[tuple[str, list[QuestionView]]]:
         """Return each feedback on wrong parts with its questions, the most frequent first."""
         found: dict[str, list[QuestionView]] = {}

@@ -123,8 +123,8 @@ def look_at_tonight(request: Request) -> TonightView | None:
         plan.estimate(),
         plan.missing,
         minutes,
-        round(sum(_working_minutes(plan, block))),
-        len(block),
+        round(block.minutes),
+        len(block.templates),
         plan.goal.name if named else "",
         blueprint.title.get(lang, blueprint.title["en"]) if blueprint and named else "",
         _longest_minutes(blueprint.minutes) if blueprint else 0,
@@ -136,12 +136,6 @@ def chosen_minutes(request: Request) -> int:
     """Return the minutes that the learner has said to have."""
     said = str(request.state.learner.settings.get("minutes", ""))
     return int(said) if said in map(str, MINUTES) else MINUTES[1]
-
-
-def _working_minutes(plan: ExamPlan, block: list[str]) -> Iterator[float]:
-    """Yield the minutes of each question of a block."""
-    whole = plan.model.working_minutes(plan.model.expected_credit())
-    return (float(whole[plan.model.places[name]]) for name in block)
 
 
 def _longest_minutes(minutes: int | tuple[int, int] | None) -> int:

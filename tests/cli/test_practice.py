@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import time
 from functools import cache
 from pathlib import Path
@@ -232,6 +233,16 @@ def test_what_was_done_in_the_browser_is_known_here(browser_side):
     done = run(["!"] * 9, "--count", "1", "--seed", "s")
     assert "So far, here and in the browser" in done.output
     assert "Colour: 0 of 1 parts right at once" in done.output
+
+
+def test_the_summary_says_which_points_to_expect(browser_side):
+    assert "In the exam" not in run(["!"] * 30, "--count", "3").output
+    done = run(["!"] * 60, "--count", "7").output
+    said = re.search(
+        r"In the exam about ([\d.]+) of 10 points; in 8 of 10 cases ([\d.]+) to ([\d.]+)\.", done
+    )
+    low, high = float(said[2]), float(said[3])
+    assert low <= float(said[1]) <= high < 8, "nothing was known"
 
 
 def test_a_database_of_ones_own(tmp_path):

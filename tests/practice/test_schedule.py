@@ -6,6 +6,7 @@ from datetime import UTC, date, datetime, timedelta
 
 import fsrs
 import pytest
+from sweep import together
 
 from quizgen.practice.agenda import Agenda
 from quizgen.practice.scheduler import (
@@ -38,7 +39,7 @@ def theirs(reviews, most=36500):
     return card
 
 
-@pytest.mark.parametrize("grades", ["3", "1", "33", "3331", "2323", "1133", "333333"])
+@together("grades", ["3", "1", "33", "3331", "2323", "1133", "333333"])
 def test_a_card_goes_the_way_of_fsrs(grades):
     reviews = [(3 * place, int(grade)) for place, grade in enumerate(grades)]
     card = None
@@ -86,7 +87,7 @@ def test_days_left():
     assert days_left(None, today) is None
 
 
-@pytest.mark.parametrize(
+@together(
     ("outcomes", "grade"),
     [
         ([RIGHT, RIGHT], ReviewRating.GOOD), ([RIGHT, LATER], ReviewRating.HARD), ([RIGHT, WRONG], ReviewRating.AGAIN),
