@@ -160,7 +160,7 @@ def test_a_page_can_be_followed_from_top_to_bottom(page, tmp_path):
     folder = consoles.checkout(tmp_path)
     for step in consoles.steps(page):
         if step.file:
-            (folder / step.file).write_text(step.text, "utf-8")
+            consoles.save(step, folder)
             continue
         command = consoles.typed(step)
         if command in NOT_RUN:
@@ -213,6 +213,7 @@ INVENTED = {
         "templates/locale/",
     ),
     "commands.md": ("templates/locale/",),
+    "tutorial.md": ("templates/bank.toml",),
     "mistakes.md": (
         "solvers/forces/",
         "templates/forces/",

@@ -30,7 +30,7 @@ LAYERS = {
     "practice": "core locale grading kinds bank question paper",
     "store": "core bank paper practice",
     "render": "core locale typeset figures question paper",
-    "cards": "core locale typeset bank figures question paper render",
+    "cards": "core locale typeset grading bank figures question paper render",
     "tradeoff": "core locale maths numerics bank figures render",
     "classes": "core locale maths grading kinds bank figures paper render",
     "lms": "core locale maths typeset grading kinds bank figures question paper practice render classes",

@@ -179,8 +179,10 @@ _POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
 _EQUALS = re.compile(r"=(?=\s*$)")
 TABLE_MARK = "table:"
 """Begins a slot that is a table of lists: ``{{ table: x y }}``."""
+FIELD_MARK = "?"
+"""Begins a slot that is the field of a part: ``{{ ?b }}``."""
 _SLOT = re.compile(
-    r"\{\{\s*([A-Za-z_][\w']*(?:\[[0-9]{1,4}\])?|table:(?:\s+[A-Za-z_][\w']*){1,12})\s*\}\}"
+    r"\{\{\s*([A-Za-z_][\w']*(?:\[[0-9]{1,4}\])?|table:(?:\s+[A-Za-z_][\w']*){1,12}|\?[a-j])\s*\}\}"
 )
 _MATH = re.compile(r"\$([^$\n]+|[^$]*\\[^$]*)\$")
 """Mathematics; LaTeX may go over several lines."""

@@ -136,46 +136,6 @@ def card(bank, name, grade, now):
         None, ("template", bank.origin(name)), grade, now)}  # fmt: skip
 
 
-def test_what_is_due_comes_first_the_longest_due_before(bank, names):
-    early = card(bank, names[3], ReviewRating.AGAIN, NOW - 2 * DAY)
-    late = card(bank, names[5], ReviewRating.AGAIN, NOW - DAY)
-    todo = agenda(bank, late | early)
-    assert todo.due_templates(names) == [names[3], names[5]]
-    assert todo.choose_next(names, [], {}) == names[3]
-    assert todo.choose_next(names, [], {}, latest=names[3]) == names[5], "not twice in a row"
-
-
-def test_a_mistake_that_is_due_brings_its_template(bank, names):
-    origin = bank.origin(names[4])
-    name = ("mistake", f"{origin}/trap:any")
-    cards = {name: review_card(None, name, ReviewRating.AGAIN, NOW - DAY)}
-    assert agenda(bank, cards).choose_next(names, [], {}) == names[4]
-
-
-def test_then_weak_topics_then_what_was_never_asked(bank, names):
-    noise = PartOutcome("noise", right=False, first=False)
-    todo = agenda(bank, {})
-    assert bank.rules(todo.choose_next(names, [noise], {})).topic == "noise"
-    begun = {name: 1 for name in names if name != names[2]}
-    assert todo.choose_next(names, [RIGHT], begun) == names[2]
-
-
-def test_in_the_end_what_is_due_soonest(bank, names):
-    cards = {}
-    for place, name in enumerate(names):
-        cards |= card(bank, name, ReviewRating.GOOD, NOW - 60 + (place != 6))
-    assert agenda(bank, cards).choose_next(names, [], {}) == names[6]
-
-
-def test_new_templates_of_a_day(bank, names):
-    assert agenda(bank, {}).new_per_day(names) == 5
-    begun = card(bank, names[0], ReviewRating.GOOD, NOW - 60)
-    assert agenda(bank, begun).new_per_day(names) == 4
-    left = -(-len(names) // 4)
-    assert agenda(bank, {}, exam=date(2026, 11, 26)).new_per_day(names) == left
-    assert agenda(bank, begun, exam=date(2026, 11, 26)).new_per_day(names) == left - 1
-
-
 def test_how_far_a_topic_is_known(bank, names):
     cards = card(bank, names[0], ReviewRating.GOOD, NOW - 5) | card(
         bank, names[1], ReviewRating.AGAIN, NOW - 90
