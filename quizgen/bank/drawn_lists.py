@@ -168,7 +168,7 @@ class ListPlan(msgspec.Struct, frozen=True):
         count = self._count(env) if rule.sample else len(order)
         if count > len(order):
             raise BankError(f"a sample of {count} out of {len(order)} values", rule="QG110")
-        return tuple([self.pool[place] for place in order[:count]])  # type: ignore[return-value]
+        return tuple([self.pool[place] for place in order[:count]])
 
     def _count(self, env: Mapping[str, Any]) -> int:
         """Return how many values the list has, a number or a formula of values drawn before.
@@ -190,7 +190,7 @@ class ListPlan(msgspec.Struct, frozen=True):
         ranked = sorted(
             range(len(self.pool)), key=lambda row: hashlib.sha256(f"{key}/{row}".encode()).digest()
         )
-        return tuple([self.pool[row] for row in sorted(ranked[:take])])  # type: ignore[return-value]
+        return tuple([self.pool[row] for row in sorted(ranked[:take])])
 
 
 def plan_list(

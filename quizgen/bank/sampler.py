@@ -98,9 +98,7 @@ class _Variable(msgspec.Struct, frozen=True):
         with error_context(self.file):
             try:
                 if self.listed is not None:
-                    drawn.add_list(
-                        self.name, self.listed.draw(stem, attempt, drawn.environment)
-                    )
+                    drawn.add_list(self.name, self.listed.draw(stem, attempt, drawn.environment))
                 elif self.lookup is not None:
                     found = self.lookup.look_up(drawn.environment, drawn.words)
                     if isinstance(found, str):

@@ -165,7 +165,9 @@ class Variant:
         """
         compiled = self.sampler.compile_formula(formula)
         try:
-            return compiled({**self.shown_values, **self.lists} if self.lists else self.shown_values)
+            return compiled(
+                {**self.shown_values, **self.lists} if self.lists else self.shown_values
+            )
         except (TypeError, KeyError) as error:
             what = f"formula {formula!r}: {describe_list_fault(error)}"
             file, place = self.template.file, (TEXT, formula)

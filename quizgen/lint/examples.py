@@ -24,7 +24,10 @@ def find_misjudged_examples(draws: Iterable[Variant]) -> Iterator[Diagnostic]:
             if not part.example:
                 continue
             spec = ask_part(one, index).spec
-            examples = [*VariantPart(one, index).examples(), *((text, Fraction(0)) for text in NONSENSE)]
+            examples = [
+                *VariantPart(one, index).examples(),
+                *((text, Fraction(0)) for text in NONSENSE),
+            ]
             for place, (typed, share) in enumerate(examples):
                 verdict = grade_answer(spec, typed, lang=one.template.languages[0])
                 fault = str(verdict.fields.get("fault", ""))

@@ -226,19 +226,24 @@ class Interpolator:
             return self.sentence(*self.own[name])
         if name.startswith(FIELD_MARK):
             return (self._get_field(name),)
-        if name in drawn.words:
-            rule = drawn.template.rules.draw.get(name)
-            text = drawn.words[name]  # of a table or data.py it stands for itself
-            return self.sentence("words", text) if rule and rule.words else to_inlines(text)
-        if texts := drawn.text_list(name):
-            return to_inlines(TEXT_SEPARATOR.join(texts))
+        if (said := self._find_words(name)) is not None:
+            return said
         if name in drawn.lists or name.startswith(TABLE_MARK) or name.endswith("]"):
             return self._fill_list_slot(name)
-        if not self.hidden and ("words", name) in self.text.cases:
-            return self.sentence("words", name)
         if (formula := self._find_formula(name)) is not None:
             return (_inline_maths(formula),)
         return self._fill_number(name)
+
+    def _find_words(self, name: str) -> tuple[Inline, ...] | None:
+        """Return the text, phrase or case of a phrase that a slot stands for, if it is one."""
+        drawn = self.drawn
+        if (text := _get_own_text(drawn, name)) is not None:
+            return to_inlines(text)
+        if name in drawn.words:
+            return self.sentence("words", drawn.words[name])
+        if not self.hidden and name not in drawn.lists and ("words", name) in self.text.cases:
+            return self.sentence("words", name)
+        return None
 
     def _get_field(self, name: str) -> PlacedField:
         """Return the field of a part; raise the problem QG160 where none can stand."""

@@ -103,7 +103,9 @@ def _format_mark(mark: str) -> str:
     return f"#strong({typst_literal(mark)}) " if len(mark) == 1 else ""
 
 
-_RULED = '#box(width: 6.5em, height: 1.5em, baseline: 0.25em, stroke: (bottom: 0.5pt + rgb("#555")));'
+_RULED = (
+    '#box(width: 6.5em, height: 1.5em, baseline: 0.25em, stroke: (bottom: 0.5pt + rgb("#555")));'
+)
 _BOX = '#box(width: 0.75em, height: 0.75em, stroke: 0.5pt + rgb("#555"));'
 
 

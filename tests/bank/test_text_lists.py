@@ -67,7 +67,11 @@ def test_a_list_of_text_stands_in_draw_and_is_permuted(tmp_path):
 def test_data_py_gives_tables_with_columns_of_text(tmp_path):
     rules = "[data]\nx = { decimals = 0 }\nname = {}\n"
     data = "def draw(rng):\n    return {'t': {'name': ['Ana', 'Ben, jr.'], 'x': [1, 2]}}\n"
-    words = WORDS[: WORDS.index("{{ x")] + "{{ x }} {{ table: name x }}\n" + WORDS[WORDS.index("\n## steps"):]
+    words = (
+        WORDS[: WORDS.index("{{ x")]
+        + "{{ x }} {{ table: name x }}\n"
+        + WORDS[WORDS.index("\n## steps") :]
+    )
     words = words.replace("{{ x }} {{ table", "{{ x }}\n\n{{ table")
     files = '[files]\n"t.csv" = ["name", "x"]\n'
     one = draw(tmp_path, rules + files, 1, data=data, words=words)
@@ -88,7 +92,10 @@ def test_a_text_of_a_list_that_a_spreadsheet_would_run_is_guarded(tmp_path):
     [
         ('c = { values = ["red", 3] }', "red"),
         ('c = { values = ["red", "blue"] }\nd = { of = "c", at = "3" }', "no place 3"),
-        ('c = { values = ["red", "blue"] }\nd = { of = { green = "x" }, at = "c[1]" }', "no value for 'red'"),
+        (
+            'c = { values = ["red", "blue"] }\nd = { of = { green = "x" }, at = "c[1]" }',
+            "no value for 'red'",
+        ),
     ],
 )
 def test_mixed_lists_and_keys_that_there_are_not_are_errors(tmp_path, rules, said):

@@ -142,7 +142,9 @@ def test_in_text_blanks_are_numbered_and_asked_one_by_one(paper):
 def test_on_a_page_inputs_and_lists_stand_in_the_sentence(paper):
     page = render_paper_html(paper, "exam").decode()
     sentence = re.search(r"<p>The tides follow.*?</p>", page, re.DOTALL)[0]
-    assert re.search(r'<input type="text" id="a-1a" name="1a"[^>]*aria-label="[^"]*follow the"', sentence)
+    assert re.search(
+        r'<input type="text" id="a-1a" name="1a"[^>]*aria-label="[^"]*follow the"', sentence
+    )
     assert re.search(r'<select id="a-1b" name="1b".*<option value="A">higher</option>', sentence)
     assert re.search(r'<td>[^|]*<option value="true">.*</td>', page)
     assert page.count('name="1d"') == 1
@@ -177,7 +179,7 @@ def test_each_card_shows_the_text_with_its_blanks(bank):
 
 
 def test_one_field_stands_in_a_section_of_its_own(tmp_path):
-    rules = TIDE.split("[[part]]")[0] + "[[part]]" + TIDE.split("[[part]]")[4]
+    rules = TIDE.split("[[part]]", maxsplit=1)[0] + "[[part]]" + TIDE.split("[[part]]")[4]
     bank = make_bank(tmp_path, "The flood is {{ ?a }} m.\n", rules)
     question, _ = compose_question(bank.template("tide"), 1)
     assert list(blocks_to_plain_text(question.parts[0].body)) == ["The flood is ____ m."]

@@ -68,7 +68,9 @@ def send(client, question, do="answer", **fields):
 def test_inputs_stand_in_the_sentence_and_have_the_names_of_its_words(client, question):
     page = client.get(question).text
     sentence = re.search(r"<p>The tides follow.*?</p>", page, re.DOTALL)[0]
-    assert re.search(r'<input type="text" name="a-1a"[^>]*aria-label="[^"]*The tides follow the"', sentence)
+    assert re.search(
+        r'<input type="text" name="a-1a"[^>]*aria-label="[^"]*The tides follow the"', sentence
+    )
     assert re.search(r'<select name="a-1b"[^>]*aria-label="[^"]*the flood is"', sentence)
     assert page.count('value="answer"') == 1
 
@@ -100,7 +102,9 @@ def test_what_is_typed_stays_when_the_solution_of_another_field_is_shown(client,
 def test_an_exam_has_the_same_fields_and_marks_them(client):
     token = csrf_token(client.cookies[COOKIE])
     page = client.post("/exam", data={"token": token, "blueprint": "sea", "minutes": "15"})
-    assert re.search(r"follow the <span[^>]*><label[^>]*>\(a\)</label> <input[^>]*name=\"a-1a\"", page.text)
+    assert re.search(
+        r"follow the <span[^>]*><label[^>]*>\(a\)</label> <input[^>]*name=\"a-1a\"", page.text
+    )
     address = page.url.path
     data = {"token": token, "do": "hand-in", "on-1a": "[]", "on-1b": "[]", "on-1c": "[]"}
     done = client.post(address, data={**data, "a-1a": "moon", "a-1b": "A", "a-1c": "x"}).text

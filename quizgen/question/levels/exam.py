@@ -36,7 +36,9 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
     built = [ask_part(drawn, index) for index in range(len(drawn.template.rules.part))]
     hidden, told = Interpolator(drawn, lang, hidden=True), Interpolator(drawn, lang)
     stem = hidden.blocks(hidden.text.stem)
-    asking = hidden.with_fields(_build_fields(hidden, built)) if drawn.template.places_fields else hidden
+    asking = (
+        hidden.with_fields(_build_fields(hidden, built)) if drawn.template.places_fields else hidden
+    )
     labels = drawn.template.labels
     bodies = [
         _build_part_body(asking, label, part.statements)
@@ -59,7 +61,9 @@ def _build_fields(filler: Interpolator, built: list[AskedPart[Any]]) -> Iterator
             options = _label_choices(filler, part.options)
             if part.control.form == "truth":
                 ways = ("true", "false")
-                options = tuple((way, to_inlines(translate(filler.lang, f"ask.{way}"))) for way in ways)
+                options = tuple(
+                    (way, to_inlines(translate(filler.lang, f"ask.{way}"))) for way in ways
+                )
             yield PlacedField(label, options)
 
 
