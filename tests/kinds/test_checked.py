@@ -158,3 +158,13 @@ def test_a_typed_formula_becomes_a_sympy_expression():
 
     x, c = sympy.symbols("x C1")
     assert checking.read_expression("2x^2 + C1 sin 3x", "x C1") == 2 * x**2 + c * sympy.sin(3 * x)
+
+
+def test_the_example_of_the_manual_is_sound(tmp_path):
+    manual = (Path(__file__).parents[2] / "docs" / "banks.md").read_text("utf-8")
+    section = manual[manual.index("## Answers that no kind can judge") :]
+    check, rules = (
+        section[section.index(f"```{kind}\n") + len(kind) + 4 :].split("```", 1)[0]
+        for kind in ("python", "toml")
+    )
+    assert not _codes(make_bank(tmp_path, check, rules=f'topic = "t"\ntier = "A"\n{rules}'))

@@ -20,7 +20,9 @@ q = {{ is = "h/8" }}
 [[part]]
 answer = {{ kind = "code", output = "{output}" }}
 """
-WORDS = "# T\nAt {{ h:02 }}:00 the register holds `{{ n:08b }}`, {{ q:.2f }} of it.\n\n## why\nSo.\n"
+WORDS = (
+    "# T\nAt {{ h:02 }}:00 the register holds `{{ n:08b }}`, {{ q:.2f }} of it.\n\n## why\nSo.\n"
+)
 
 
 def draw(root, output, words=WORDS):
