@@ -100,7 +100,7 @@ class FormResolver:
             return _convert_set(whole.doit()), True
         if isinstance(whole, sympy.Tuple | list | tuple):
             return Call("vector", tuple(map(from_sympy, whole))), True
-        if isinstance(whole, sympy.Eq):
+        if isinstance(whole, sympy.Eq | sympy.Lt | sympy.Le | sympy.Gt | sympy.Ge):
             return from_sympy(whole), True
         if _has_complex(whole):
             return self._convert_complex(whole)
