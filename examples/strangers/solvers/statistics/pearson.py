@@ -2,7 +2,7 @@
 
 from sympy import Function, Rational, evaluate, sqrt, symbols
 
-from quizgen.maths.lists import corr, cov, pvar, slope
+from quizgen.maths.lists import corr, cov, len, pvar, slope
 from quizgen.maths.model import Model, Step
 
 x, y, r, T, c = symbols("x y r T c")
@@ -12,14 +12,14 @@ with evaluate(False):
         given={x: "", y: ""},
         steps=(
             Step(r, corr(x, y)),
-            Step(T, r * sqrt(3 / (1 - r**2))),
-            Step(c, quantile(Rational(39, 40), 3)),
+            Step(T, r * sqrt((len(x) - 2) / (1 - r**2))),
+            Step(c, quantile(Rational(39, 40), len(x) - 2)),
         ),
         traps={
             "slope": Step(r, slope(x, y)),
             "mixed": Step(r, cov(x, y) / sqrt(pvar(x) * pvar(y))),
-            "five-degrees": Step(T, r * sqrt(5 / (1 - r**2))),
-            "one-sided": Step(c, quantile(Rational(19, 20), 3)),
-            "five-free": Step(c, quantile(Rational(39, 40), 5)),
+            "all-degrees": Step(T, r * sqrt(len(x) / (1 - r**2))),
+            "one-sided": Step(c, quantile(Rational(19, 20), len(x) - 2)),
+            "all-free": Step(c, quantile(Rational(39, 40), len(x))),
         },
     )
