@@ -124,7 +124,9 @@ async def _make_question(request: Request, attempt: AttemptRecord) -> QuestionVi
 async def _get_question_attempt(request: Request) -> AttemptInBrowser:
     """Return the attempt with its rendered question and progress."""
     attempt = await _get_attempt(request)
-    return AttemptInBrowser(await _make_question(request, attempt), attempt)
+    return AttemptInBrowser(
+        await _make_question(request, attempt), attempt, progress_of(request).decimal
+    )
 
 
 def _get_part_attempt(request: Request, question: AttemptInBrowser) -> AttemptPart:
@@ -175,8 +177,31 @@ async def submit_answer(request: Request) -> Response:
     async with site.attempt_lock(request.path_params["attempt"]):
         question = await _get_question_attempt(request)
         part = _get_part_attempt(request, question)
-        _perform_action(question, part, field_text(form, "do"), read_answer(form, "a"))
+        chosen = field_text(form, "reading")
+        if chosen:
+            question, part = await _choose_reading(request, question, part, chosen)
+        else:
+            _perform_action(question, part, field_text(form, "do"), read_answer(form, "a"))
         return await _store_attempt(request, question, part)
+
+
+async def _choose_reading(
+    request: Request, question: AttemptInBrowser, part: AttemptPart, chosen: str
+) -> tuple[AttemptInBrowser, AttemptPart]:
+    """Grade the answer asked back by the reading of a number, and keep a sign declared by it.
+
+    A page left open may name a reading that there no longer is: then nothing is graded.
+    """
+    named = {str(number): one for number, one in enumerate(part.readings, 1)}
+    if chosen not in named:
+        return question, part
+    reading, values = named[chosen], part.progress.values
+    if reading.decimal:
+        await run_in_threadpool(progress_of(request).save_decimal, reading.decimal)
+        question = AttemptInBrowser(question.made, question.attempt, reading.decimal)
+        part = _get_part_attempt(request, question)
+    question.answer(part, [reading.typed] if reading.typed else values)
+    return question, part
 
 
 def _perform_action(
@@ -204,7 +229,8 @@ async def preview_practice_answer(request: Request) -> Response:
     if field is None:
         raise HTTPException(404)
     lang = request_language(request)
-    read = preview_reading(field, made.key, read_answer(form, "a"), lang)
+    decimal = progress_of(request).decimal
+    read = preview_reading(field, made.key, read_answer(form, "a"), lang, decimal)
     return HTMLResponse(translate_page(lang, "practice.read", value=read) if read else "")
 
 
