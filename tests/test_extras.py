@@ -97,6 +97,7 @@ def test_a_command_without_its_extra_says_what_to_type(tmp_path, extra, words, f
     line = f'quizgen: {feature} needs more packages; type: pip install "quizgen[{extra}]"\n'
     assert done.stderr == line
     assert done.stdout == ""
+    assert not (tmp_path / "midterm").exists()
 
 
 WITHOUT_EXTRAS = """
@@ -129,7 +130,7 @@ for words in {commands!r}:
 
 def test_the_doctor_lists_the_extras_that_are_there(tmp_path):
     done = run_without(EXTRA_MODULES["web"] + EXTRA_MODULES["print"], "doctor", cwd=tmp_path)
-    assert "ok  extras: class, lms, anki, postgres, cluster, image\n" in done.stdout
+    assert "ok  extras: class, lms, anki, postgres, cluster, image, circuits\n" in done.stdout
 
 
 def test_commands_work_without_extras(tmp_path):

@@ -37,6 +37,7 @@ from quizgen.bank.solvers import import_module_file, load_chain, unload_modules
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.core.cache import compute_digest
 from quizgen.core.errors import BankError, QuizgenError
+from quizgen.core.trusted_files import trust_folder
 from quizgen.core.untrusted import (
     NAMES,
     error_context,
@@ -52,8 +53,11 @@ SOLVERS, TEMPLATES, FIGURES = "solvers", "templates", "templates/figures"
 """Where the Python of a bank stands."""
 OWN_DATA = "data"
 """The module beside a template that draws its data, if it has ``[data]``."""
+OWN_CHECK = "check"
+"""The module beside a template that judges answers of kind ``checked``."""
 OWN_FIGURE = "figure"
 """The module beside a template that draws its figure, if ``[figure]`` names no other."""
+OWN_MODULES = (OWN_FIGURE, OWN_DATA, OWN_CHECK)
 LOCALE = "locale"
 """Where its words of a language stand, a folder for each."""
 _BESIDE = ("blueprints", "cards", "figures", LOCALE, "quantities")
@@ -111,6 +115,8 @@ class Bank:
         if not self.folder.is_dir():
             raise BankError(f"{root}: no folder 'templates' here")
         register_languages(place=self.folder / LOCALE)
+        if trusted:
+            trust_folder(self.folder)
 
     @property
     def members(self) -> tuple[Bank, ...]:
@@ -266,7 +272,7 @@ class Bank:
         """Return the same bank, its files, figures and solvers to be read again."""
         unload_modules(self._figure_folder)
         for folder in self.template_paths.values():
-            if any((folder / f"{own}.py").is_file() for own in (OWN_FIGURE, OWN_DATA)):
+            if any((folder / f"{own}.py").is_file() for own in OWN_MODULES):
                 unload_modules(folder)
         return Bank(self.root, trusted=self.trusted)
 
@@ -379,6 +385,12 @@ class Bank:
         if not self.rules(name).data:
             return None
         return self._find_module_beside(name, OWN_DATA, "there is [data]", "data")
+
+    def _find_check_file(self, name: str) -> Path | None:
+        """Return the module that judges answers of a template; None if no part asks for it."""
+        if not _has_checked_part(self.rules(name)):
+            return None
+        return self._find_module_beside(name, OWN_CHECK, 'there is kind = "checked"', "part")
 
     def _find_module_beside(self, name: str, stem: str, because: str, table: str) -> Path:
         """Return the module of a name in a template's folder, which its rules call for.
@@ -535,6 +547,7 @@ class Bank:
         """What draws figure and data beside a template, and the tables that it reads."""
         rules, folder = self.rules(name), self.folder_of(name)
         own = {OWN_FIGURE: rules.figure and not rules.figure.name, OWN_DATA: rules.data}
+        own[OWN_CHECK] = _has_checked_part(rules)
         files = [folder / f"{module}.py" for module, used in own.items() if used]
         files += sorted({folder / table for table in list_table_files(rules)})
         return [file for file in files if file.is_file()]
@@ -570,9 +583,12 @@ class Bank:
         ordered: dict[str, LanguageFile] = {lang: texts[lang] for lang in order}
         quantities = self.quantities.get(rules.solver, QuantityNames())
         figure, data = self._find_figure_file(name), self._find_data_file(name)
+        check = self._find_check_file(name)
         template = Template(
             name, rules, chain, ordered, digest, folder, self.metadata, quantities, figure,
-            self._solver_file(rules.solver), data, read_pictures(folder, ordered),
+            self._solver_file(rules.solver), data,
+            compute_digest(read_bytes(check, BankError)) if check else "",
+            read_pictures(folder, ordered),
         )  # fmt: skip
         check_against_chain(template)
         return template
@@ -584,6 +600,11 @@ class Bank:
     def __len__(self) -> int:
         """Return how many templates there are; loads none."""
         return len(self.template_paths)
+
+
+def _has_checked_part(rules: Rules) -> bool:
+    """Return whether ``check.py`` judges an answer."""
+    return any(part.answer.get("kind") == "checked" for part in rules.part)
 
 
 def _open_bank(root: Path, trusted: bool, left_out: Mapping[str, QuizgenError]) -> Bank:

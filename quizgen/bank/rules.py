@@ -94,12 +94,20 @@ class FigureRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     reads: tuple[str, ...] = ()
 
 
+class ExampleRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """An answer that ``check.py`` must judge, and the points that it earns."""
+
+    answer: str
+    points: Scalar
+
+
 class PartRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """One sub-question: its marks and its answer."""
 
     answer: dict[str, Any]
     points: Scalar = 1
     show: tuple[str, ...] | None = None
+    example: tuple[ExampleRule, ...] = ()
 
 
 class ClaimRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):

@@ -17,8 +17,8 @@ WRONG = "wrong"
 UNREADABLE = "unreadable"
 AMBIGUOUS = "ambiguous"
 
-SELF_MARKED = frozenset({"self-mark", "self-mark-none"})
-"""Notes on free text, which a person marks."""
+SELF_MARKED = frozenset({"self-mark", "self-mark-none", "unchecked"})
+"""Notes on what a person marks: free text, and what only its bank could check."""
 
 FULL, NONE = Fraction(1), Fraction(0)
 HALF = Fraction(1, 2)

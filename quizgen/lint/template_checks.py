@@ -22,7 +22,7 @@ from flint import arb
 
 from quizgen.bank.dimensions import find_unit_errors
 from quizgen.bank.levels import EXAM
-from quizgen.bank.markdown import LanguageFile, slot_names
+from quizgen.bank.markdown import FIELD_MARK, LanguageFile, slot_names
 from quizgen.bank.sampler import sampler_for
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant, reference_variant
@@ -33,6 +33,7 @@ from quizgen.grading.diagnosis.carry_forward import are_nearly_equal
 from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
+from quizgen.lint.examples import find_misjudged_examples
 from quizgen.lint.figures import check_figures
 from quizgen.lint.foreign_words import find_foreign_words
 from quizgen.lint.item_quality import QualityReview
@@ -158,6 +159,7 @@ def lint_template(
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
+        report.problems += find_misjudged_examples(first)
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
         report.problems += [*_find_unused_draws(template), *find_foreign_words(template)]
         report.problems += _diagnose_quality_errors(template, lessons)
@@ -212,7 +214,7 @@ def _examine_draws(
         met[one.traps] += 1
         _widen_ranges(report, one)
         report.problems += _find_uncertain_steps(one, report)
-        if not any(problem.code == "QG221" for problem in report.problems):
+        if not any(problem.code == "QG222" for problem in report.problems):
             report.problems += _find_unequal_alternatives(one)
         lessons.add(one)
         if len(first) < AT_MOST.count(seeds):
@@ -280,7 +282,7 @@ def _find_unequal_alternatives(one: Variant) -> Iterator[Diagnostic]:
                 f"{other.name} = {format_tree(other.expr)} gives another value than the step, "
                 f"seed {one.seed}"
             )
-            yield diagnose("QG221", file, what, ("alternatives", other.name))
+            yield diagnose("QG222", file, what, ("alternatives", other.name))
 
 
 def _widen_ranges(report: TemplateReport, one: Variant) -> None:
@@ -336,8 +338,14 @@ def _find_language_problems(template: Template, langs: tuple[str, ...]) -> list[
 def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, str, Place]]:
     """Yield code, message and place of each section or sentence that a language lacks."""
     text, chain = template.texts[lang], template.chain
+    placed = {
+        name.removeprefix(FIELD_MARK)
+        for section in text.sections.values()
+        for name in slot_names(section)
+        if name.startswith(FIELD_MARK)
+    }
     for label, part in zip(template.labels, template.rules.part, strict=True):
-        if label and label not in text.sections and "from" not in part.answer:
+        if label and label not in {*text.sections, *placed} and "from" not in part.answer:
             yield "QG211", f"section {label!r} is missing", ()
     if (chain.steps or chain.forms) and "check" not in text.sections:
         yield "QG211", "section 'check' is missing", ()
@@ -355,11 +363,11 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
         "traps": {*chain.traps, *chain.form_traps, *listed},
     }
     for section, names in wanted.items():
-        said = set(text.named.get(section, {}))
-        for name in sorted(names - said):
+        explained = set(text.named.get(section, {}))
+        for name in sorted(names - explained):
             yield "QG212", f"section {section!r} lacks {name!r}", (section,)
         knows = "pool [claims]" if section == "claims" else "solver"
-        for name in sorted(said - known[section]):
+        for name in sorted(explained - known[section]):
             what = f"section {section!r} explains {name!r}, unknown to the {knows}"
             yield "QG213", what, (section, name)
 

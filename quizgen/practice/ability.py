@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.rules import Rules, suggested_minutes
+from quizgen.bank.rules import Rules, part_points, suggested_minutes
 from quizgen.practice.scheduler import DAY
 from quizgen.practice.session_state import Attempt
 
@@ -111,7 +111,7 @@ def _read_item(
     name: str, rules: Rules, formulas: frozenset[str], beyond: Sequence[str]
 ) -> PracticeItem:
     """Return one template as the model sees it."""
-    points = [float(part.points) for part in rules.part]
+    points = [*part_points(rules).values()]
     whole = sum(points)
     kinds: dict[str, float] = {}
     for part, worth in zip(rules.part, points, strict=True):
@@ -166,7 +166,7 @@ def _guess_share(answer: Mapping[str, Any]) -> float:
     if kind == "choice":
         taken = answer.get("take")
         return 1 / max(
-            2, taken if isinstance(taken, int) and taken else len(answer["options"]) or 4
+            2, taken if isinstance(taken, int) and taken else len(answer.get("options", ())) or 4
         )
     return GUESSED.get(kind, RARELY_GUESSED)
 

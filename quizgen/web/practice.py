@@ -6,6 +6,7 @@ from typing import Any
 
 from starlette.background import BackgroundTask
 from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import FormData
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
@@ -22,6 +23,9 @@ from quizgen.web.question_view import QuestionRequest, QuestionView
 from quizgen.web.state import ServerState
 from quizgen.web.tonight import MINUTES, look_at_tonight, progress_of
 from quizgen.web.views import page_response, redirect, request_language, translate_page
+
+PLACED = "a-"
+"""Before the name of a part whose field stands inside a text."""
 
 
 async def show_practice(request: Request) -> Response:
@@ -140,8 +144,14 @@ def _get_part_attempt(request: Request, question: AttemptInBrowser) -> AttemptPa
 async def show_question(request: Request) -> Response:
     """Return the page of a question with the learner's progress in it."""
     question = await _get_question_attempt(request)
-    shown = page_response(request, "question.html.j2", turn=question, made=question.made,
-                 said_last=question.find_part(request.query_params.get("said", "")))  # fmt: skip
+    said = question.find_part(request.query_params.get("said", ""))
+    shown = page_response(
+        request,
+        "question.html.j2",
+        turn=question,
+        made=question.made,
+        said_last=question.find_group(said) if said else [],
+    )
     shown.background = BackgroundTask(_prepare_likely_next, request, question.attempt)
     return shown
 
@@ -180,8 +190,16 @@ async def submit_answer(request: Request) -> Response:
         chosen = field_text(form, "reading")
         if chosen:
             question, part = await _choose_reading(request, question, part, chosen)
-        else:
-            _perform_action(question, part, field_text(form, "do"), read_answer(form, "a"))
+            return await _store_attempt(request, question, part)
+        group, (action, _, named) = question.find_group(part), field_text(form, "do").partition(":")
+        for place in group:
+            values, checks = _read_part(form, place.name), action in {"", "answer"}
+            if len(group) > 1 and (place.is_finished or (checks and place.has_checked(values))):
+                continue  # one button checks all: what has been checked costs no further try
+            if checks or place.name == (named or part.name):
+                _perform_action(question, place, action, values)
+            else:
+                place.progress.values = values
         return await _store_attempt(request, question, part)
 
 
@@ -192,16 +210,23 @@ async def _choose_reading(
 
     A page left open may name a reading that there no longer is: then nothing is graded.
     """
-    named = {str(number): one for number, one in enumerate(part.readings, 1)}
-    if chosen not in named:
+    number, _, name = chosen.partition(":")
+    part = question.find_part(name) or part
+    named = {str(index): one for index, one in enumerate(part.readings, 1)}
+    if number not in named:
         return question, part
-    reading, values = named[chosen], part.progress.values
+    reading, values = named[number], part.progress.values
     if reading.decimal:
         await run_in_threadpool(progress_of(request).save_decimal, reading.decimal)
         question = AttemptInBrowser(question.made, question.attempt, reading.decimal)
-        part = _get_part_attempt(request, question)
+        part = question.find_part(part.name) or part
     question.answer(part, [reading.typed] if reading.typed else values)
     return question, part
+
+
+def _read_part(form: FormData, name: str) -> list[str]:
+    """Return what stands in the fields of a part: its own, or those inside a text."""
+    return read_answer(form, f"{PLACED}{name}") or read_answer(form, "a")
 
 
 def _perform_action(
@@ -230,7 +255,7 @@ async def preview_practice_answer(request: Request) -> Response:
         raise HTTPException(404)
     lang = request_language(request)
     decimal = progress_of(request).decimal
-    read = preview_reading(field, made.key, read_answer(form, "a"), lang, decimal)
+    read = preview_reading(field, made.key, _read_part(form, name), lang, decimal)
     return HTMLResponse(translate_page(lang, "practice.read", value=read) if read else "")
 
 

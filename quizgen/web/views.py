@@ -26,6 +26,7 @@ from quizgen.locale import (
 )
 from quizgen.maths.notation import FormulaReadError
 from quizgen.practice.scheduler import local_date
+from quizgen.question.html import put_fields
 from quizgen.render.layouts import jinja_environment
 from quizgen.store import Learner
 from quizgen.web.auth import csrf_token
@@ -37,7 +38,9 @@ def _build_environment() -> jinja2.Environment:
     """Return the Jinja environment with the page layouts."""
     layouts = jinja_environment("quizgen.web", "quizgen.render")
     layouts.filters["html"] = Markup  # of what was made here, see ``made.Html``
-    layouts.globals.update(language=get_language, strokes=strokes_to_svg, word=translate)
+    layouts.globals.update(
+        language=get_language, put_fields=put_fields, strokes=strokes_to_svg, word=translate
+    )
     return layouts
 
 

@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import norm
 
-from quizgen.bank.bank import builtin_bank, builtin_root
+from quizgen.bank.bank import Bank, builtin_bank, builtin_root
 from quizgen.practice.ability import (
     SLIP,
     AbilityModel,
@@ -192,3 +192,11 @@ def test_rows_of_earlier_versions_are_grouped_by_time():
 
 def test_without_a_day_the_exam_is_tomorrow():
     assert 10 * 3600 <= exam_time(None, NOW) - NOW <= 34 * 3600
+
+
+@pytest.mark.parametrize("name", ["filtering", "strangers"])
+def test_a_bank_without_a_trial_exam_has_a_plan_too(name):
+    bank = Bank(builtin_root() / "examples" / name, trusted=True)
+    plan = ExamPlan(read_exam_goal(bank), read_practice_items(bank), [], NOW, TOMORROW)
+    assert set(plan.plan_block(30).templates) <= set(bank.template_paths)
+    assert plan.goal.points > 0
