@@ -28,7 +28,7 @@ LAYERS = {
     "question": "core locale maths typeset grading kinds bank figures",
     "paper": "core locale maths typeset grading kinds bank question",
     "practice": "core locale grading kinds bank question paper",
-    "store": "core bank paper practice",
+    "store": "core bank grading paper practice",
     "render": "core locale typeset figures question paper",
     "cards": "core locale typeset grading bank figures question paper render",
     "tradeoff": "core locale maths numerics bank figures render",

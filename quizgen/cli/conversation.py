@@ -15,6 +15,12 @@ from quizgen.core.text_width import wrap_lines
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.figures import Figure
 from quizgen.grading.feedback import format_read_back, load_practice_words
+from quizgen.grading.offered_readings import (
+    OfferedReading,
+    choose_offered_reading,
+    list_offered_readings,
+)
+from quizgen.grading.verdict import Verdict
 from quizgen.locale import FIRST
 from quizgen.practice.part_attempt import NextStep, PartAttempt
 from quizgen.practice.session import QuestionAttempt, Session
@@ -89,6 +95,8 @@ class Conversation:
     ) -> None:
         self.session, self.shelf, self.learning = session, shelf, learning
         self.words = load_practice_words(session.state.wish.lang)
+        self._asked_back = ""
+        self._offered: tuple[OfferedReading, ...] = ()
 
     def hold(self) -> None:
         """Ask until every question is done; the session is saved after each answer.
@@ -158,8 +166,11 @@ class Conversation:
             self._save_session()
 
     def _handle_input(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
-        """Act on what was typed: a hint, the solution, a skip or an answer."""
-        if typed == "?":
+        """Act on what was typed: a reading offered, a hint, the solution, a skip or an answer."""
+        chosen, self._offered = choose_offered_reading(self._offered, typed), ()
+        if chosen is not None:
+            self._grade_input(task, chosen.typed or self._asked_back, chosen.decimal)
+        elif typed == "?":
             self._show_hint(task)
         elif typed == "!":
             task.give_up()
@@ -206,13 +217,21 @@ class Conversation:
             print_wrapped(f"[{hint}]", "   ", "    ")
         print_wrapped(self.words["help"], "   ", "   ", dim=True)
 
-    def _grade_input(self, task: PartAttempt[QuestionPart, PartSolution], typed: str) -> None:
-        """Grade an answer, print the feedback, and show the solution if the part has ended."""
+    def _grade_input(
+        self, task: PartAttempt[QuestionPart, PartSolution], typed: str, decimal: str = ""
+    ) -> None:
+        """Grade an answer, print the feedback, and show the solution if the part has ended.
+
+        ``decimal`` is the decimal sign that the learner has just declared.
+        """
+        if decimal:
+            self._declare_decimal(task, decimal)
         feedback = task.answer(typed)
         verdict = task.explain_verdict(feedback.verdict)
         match feedback.then:
             case NextStep.ASK_BACK:
                 print_wrapped(verdict.message, fg="magenta")
+                self._offer_readings(feedback.verdict, typed)
                 return
             case NextStep.SELF_MARK:
                 print_wrapped(verdict.message)
@@ -229,6 +248,21 @@ class Conversation:
             self._print_sentence("again", left=feedback.left)
         elif feedback.then is NextStep.OUT_OF_TRIES:
             self._show_solution(task)
+
+    def _offer_readings(self, verdict: Verdict, typed: str) -> None:
+        """Print the readings of an answer asked back with their numbers, if it has some."""
+        self._offered, self._asked_back = list_offered_readings(verdict), typed
+        for number, one in enumerate(self._offered, 1):
+            print_wrapped(f"{number}: {one.label}", "   ", "      ")
+        if self._offered:
+            self._print_sentence("choose-reading")
+
+    def _declare_decimal(self, task: PartAttempt[QuestionPart, PartSolution], decimal: str) -> None:
+        """Read answers by a decimal sign from now on, and keep it for the learner."""
+        task.declare_decimal(decimal)
+        self.session.decimal = decimal
+        if self.learning is not None:
+            self.learning.save_decimal(decimal)
 
     def _ask_self_mark(self, task: PartAttempt[QuestionPart, PartSolution]) -> bool:
         """Return whether the learner judges the own answer right."""

@@ -20,6 +20,7 @@ from quizgen.cli.options import (
     resolve_topic,
 )
 from quizgen.core.errors import MissingExtraError, has_extra
+from quizgen.grading.options import DECIMALS
 from quizgen.locale import default_language
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ class PracticeOptions(BankOptions):
     level: str
     database: str
     fresh: bool
+    decimal: str | None
 
 
 @click.command(short_help="Practise in the terminal with instant feedback.")
@@ -59,6 +61,8 @@ class PracticeOptions(BankOptions):
 @click.option("--seed", help="Any text: the same text gives the same questions.")
 @database_option
 @bank_options
+@click.option("--decimal", type=click.Choice(DECIMALS),
+              help="The decimal sign that you write; kept until you name another.")  # fmt: skip
 @click.option("--fresh", is_flag=True, help="Start over, not where these options were left.")
 def practice(**options: Unpack[PracticeOptions]) -> None:
     """Practise in the terminal: instant feedback, hints, retries, worked solutions.
@@ -75,6 +79,10 @@ def practice(**options: Unpack[PracticeOptions]) -> None:
     wish = _build_request(options, bank)
     learning = _open_learning(bank, options["database"])
     session = _open_session(bank, learning, wish, shelf, fresh=options["fresh"])
+    if options["decimal"]:
+        session.decimal = options["decimal"]
+        if learning is not None:
+            learning.save_decimal(options["decimal"])
     conversation = Conversation(session, shelf, learning)
     try:
         conversation.hold()
@@ -131,7 +139,8 @@ def _open_session(
     if state is not None:
         click.echo(load_practice_words(wish.lang)["resumed"].format(seed=state.seed))
     choose = None if wish.seed or learning is None else partial(_choose_due_question, learning)
-    return Session(bank, state or new_session(wish), choose)
+    decimal = learning.decimal if learning else DECIMALS[0]
+    return Session(bank, state or new_session(wish), choose, decimal)
 
 
 def _choose_due_question(learning: LearnerProgress, names: Sequence[str]) -> tuple[str, str]:

@@ -97,7 +97,9 @@ def _ask_what_is_meant(form: AnswerForm, typed: str, verdict: Verdict) -> Verdic
     if not readings:
         return verdict
     quoted = tuple(f"“{one}”" for one in readings)
-    return ambiguous("several-answers", " | ".join(readings), readings=quoted)
+    return ambiguous(
+        "several-answers", " | ".join(readings), readings=quoted, numbers=tuple(readings)
+    )
 
 
 def _prepare(typed: str, form: AnswerForm) -> str:

@@ -186,10 +186,13 @@ class QuestionGrader:
         self.options = options
         self.earlier: dict[str, Any] = {}
 
-    def judge_part(self, part: KeyPart, typed: str) -> PartResult:
-        """Return the result of one part without sentences; graded again, it replaces its values."""
+    def judge_part(self, part: KeyPart, typed: str, decimal: str = "") -> PartResult:
+        """Return the result of one part without sentences; graded again, it replaces its values.
+
+        ``decimal`` is the sign to read by, if it is not the one of the options.
+        """
         spec = part.parse_spec(proven=self.proven)
-        verdict = self._judge_in_question(part, spec, typed)
+        verdict = self._judge_in_question(part, spec, typed, decimal or self.options.decimal)
         return _build_part_result(self.question, part, typed, verdict)
 
     def explain_part(self, part: KeyPart, verdict: Verdict, *, reveal: bool = True) -> Verdict:
@@ -206,9 +209,9 @@ class QuestionGrader:
         return structs.replace(found, verdict=self.explain_part(part, found.verdict))
 
     @working_precision()
-    def _judge_in_question(self, part: KeyPart, spec: AnySpec, typed: str) -> Verdict:
+    def _judge_in_question(self, part: KeyPart, spec: AnySpec, typed: str, decimal: str) -> Verdict:
         """Return the verdict on one part, with earlier values of the same student in mind."""
-        options = structs.replace(self.options, points=part.points_exact())
+        options = structs.replace(self.options, points=part.points_exact(), decimal=decimal)
         verdict = _judge_with_context(self.question, spec, typed, options, self.earlier)
         if self.question.chain is not None:
             _remember_own_values(self.question, spec, verdict, self.earlier)

@@ -7,6 +7,7 @@ from enum import Enum
 from typing import Any, Generic, Protocol, TypeVar
 
 import msgspec
+from msgspec import structs
 
 from quizgen.core.errors import AttemptFinishedError
 from quizgen.grading.verdict import Verdict
@@ -100,7 +101,9 @@ class PartAttempt(Generic[P, S]):
     ) -> None:
         self.topic, self.part, self.solved, self.state = topic, part, solved, state
         self._keyed, self._marker = keyed, marker
-        self.verdict = marker.judge_part(keyed, state.typed).verdict if state.typed else None
+        self.verdict = (
+            marker.judge_part(keyed, state.typed, state.decimal).verdict if state.typed else None
+        )
         """On the last answer that could be read, without words."""
 
     @property
@@ -141,6 +144,10 @@ class PartAttempt(Generic[P, S]):
         self._require_unfinished()
         self.state.outcome = PartOutcome(self.topic, right=False, first=False, skipped=True)
 
+    def declare_decimal(self, decimal: str) -> None:
+        """Read the answers to the whole question by a decimal sign: ``point`` or ``comma``."""
+        self._marker.options = structs.replace(self._marker.options, decimal=decimal)
+
     def answer(self, typed: str) -> AnswerFeedback:
         """Grade an answer and return the feedback; an unreadable one costs no try.
 
@@ -156,6 +163,7 @@ class PartAttempt(Generic[P, S]):
             self.state.credit, self.state.helped = float(verdict.credit), bool(self.state.hints)
         if then is not NextStep.ASK_BACK:
             self.state.typed, self.verdict = typed, verdict
+            self.state.decimal = self._marker.options.decimal
         if then in {NextStep.AGAIN, NextStep.OUT_OF_TRIES}:
             self.state.wrong, self.state.note = typed, verdict.note
         if then in {NextStep.RIGHT, NextStep.OUT_OF_TRIES}:

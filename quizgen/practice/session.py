@@ -9,7 +9,7 @@ import msgspec
 
 from quizgen.bank.bank import Bank
 from quizgen.core.errors import require_one_of
-from quizgen.grading.options import GradingOptions
+from quizgen.grading.options import DECIMALS, GradingOptions
 from quizgen.locale import list_languages
 from quizgen.paper.answer_key import make_key_question
 from quizgen.paper.grading import QuestionGrader
@@ -65,6 +65,8 @@ class Session:
         A new one, or one that was kept.
     choose : callable, optional
         Gives template and seed of the question to be asked next, from the templates that fit.
+    decimal : str
+        The decimal sign that the learner declared: ``auto``, ``point`` or ``comma``.
 
     Raises
     ------
@@ -73,10 +75,15 @@ class Session:
     """
 
     def __init__(
-        self, bank: Bank, state: SessionState, choose: QuestionChooser | None = None
+        self,
+        bank: Bank,
+        state: SessionState,
+        choose: QuestionChooser | None = None,
+        decimal: str = DECIMALS[0],
     ) -> None:
         require_one_of("language", state.wish.lang, list_languages())
         self.bank, self.state, self._choose = bank, state, choose or self._choose_by_seed
+        self.decimal = decimal
         self.templates = matching_templates(bank, state.wish)
         """Names of the templates that fit the wish; without any the session is finished."""
 
@@ -101,7 +108,7 @@ class Session:
         wish = self.state.wish
         question, key = compose_variant(drawn, wish.lang, number=str(number), level=wish.level)
         keyed = make_key_question(PaperItem(str(number), (question,), (key,)))
-        marker = QuestionGrader(keyed, GradingOptions(wish.lang))
+        marker = QuestionGrader(keyed, GradingOptions(wish.lang, self.decimal))
         parts = zip(
             question.parts,
             key.solution.parts,

@@ -85,6 +85,8 @@ class PartState(msgspec.Struct):
         Share of the points that the first try was worth, 0 to 1.
     helped : bool
         Whether a hint came before that try.
+    decimal : str
+        The decimal sign that ``typed`` was read by; empty for the one declared now.
     """
 
     typed: str = ""
@@ -95,6 +97,7 @@ class PartState(msgspec.Struct):
     note: str = ""
     credit: float = 0.0
     helped: bool = False
+    decimal: str = ""
 
 
 class SessionState(msgspec.Struct):

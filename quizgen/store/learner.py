@@ -15,6 +15,7 @@ import msgspec
 from quizgen.bank.bank import Bank
 from quizgen.bank.levels import GUIDED
 from quizgen.bank.rules import Rules, part_points, suggested_minutes
+from quizgen.grading.options import DECIMALS
 from quizgen.practice.agenda import Agenda
 from quizgen.practice.scheduler import ReviewEvent, days_left, local_date, make_review_event
 from quizgen.practice.session_state import Attempt, PartOutcome, PartState
@@ -43,6 +44,17 @@ class LearnerProgress(msgspec.Struct, frozen=True):
             return date.fromisoformat(str(self.learner.settings.get("exam", "")))
         except ValueError:
             return None
+
+    @property
+    def decimal(self) -> str:
+        """The decimal sign that the learner declared; ``auto`` before that."""
+        kept = str(self.learner.settings.get("decimal", ""))
+        return kept if kept in DECIMALS else DECIMALS[0]
+
+    def save_decimal(self, decimal: str) -> None:
+        """Keep the decimal sign that the learner declared."""
+        self.store.update_settings(self.learner.id, {"decimal": decimal})
+        self.learner.settings["decimal"] = decimal
 
     def agenda(self) -> Agenda:
         """Return what is due for review today, and what is new."""

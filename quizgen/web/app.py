@@ -19,6 +19,7 @@ from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from quizgen.core.errors import QuizgenError
+from quizgen.grading.options import DECIMALS
 from quizgen.render.fonts import WEB
 from quizgen.web import (
     accounts,
@@ -113,13 +114,18 @@ def _load_classroom_routes() -> list[Route]:
 
 
 async def set_language(request: Request) -> Response:
-    """Store the learner's language and redirect to the page they came from."""
+    """Store the learner's language or decimal sign, and redirect to the page they came from."""
     form = await read_form(request)
     lang = field_text(form, "lang")
     site: ServerState = request.app.state.site
     if lang in site.languages:
         await run_in_threadpool(
             site.store.update_settings, request.state.learner.id, {"lang": lang}
+        )
+    decimal = field_text(form, "decimal")
+    if decimal in DECIMALS:
+        await run_in_threadpool(
+            site.store.update_settings, request.state.learner.id, {"decimal": decimal}
         )
     return redirect(safe_redirect_target(field_text(form, "back")))
 

@@ -10,6 +10,7 @@ from markupsafe import Markup, escape
 
 from quizgen import typeset
 from quizgen.core.errors import FormulaError
+from quizgen.grading.options import DECIMALS
 from quizgen.kinds.grade import grade_answer
 from quizgen.locale import localise_numbers
 from quizgen.maths.notation import FormulaReadError, parse_formula
@@ -31,13 +32,19 @@ _FRACTION = re.compile(r"[-−]?(\d{1,15})/(\d{1,15})")
 _HALF = re.compile(r"[-−+*/^(.,=:;·×]\s*$")
 
 
-def preview_reading(field: FieldView, key: KeyQuestion, values: Sequence[str], lang: str) -> Markup:
+def preview_reading(
+    field: FieldView,
+    key: KeyQuestion,
+    values: Sequence[str],
+    lang: str,
+    decimal: str = DECIMALS[0],
+) -> Markup:
     """Return how an answer is read, typeset; empty if it is incomplete or unreadable."""
     part = next(part for part in key.parts if part.id == field.id)
     typed = join_fields(field.control, values, field.marks)
     if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
         return Markup()
-    verdict = grade_answer(part.parse_spec(), typed)
+    verdict = grade_answer(part.parse_spec(), typed, decimal=decimal)
     boxes = bool(field.control.boxes)
     return _typeset_values(verdict.read_as, lang, boxes=boxes) if verdict.is_graded else Markup()
 

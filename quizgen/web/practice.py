@@ -128,7 +128,9 @@ async def _make_question(request: Request, attempt: AttemptRecord) -> QuestionVi
 async def _get_question_attempt(request: Request) -> AttemptInBrowser:
     """Return the attempt with its rendered question and progress."""
     attempt = await _get_attempt(request)
-    return AttemptInBrowser(await _make_question(request, attempt), attempt)
+    return AttemptInBrowser(
+        await _make_question(request, attempt), attempt, progress_of(request).decimal
+    )
 
 
 def _get_part_attempt(request: Request, question: AttemptInBrowser) -> AttemptPart:
@@ -185,6 +187,10 @@ async def submit_answer(request: Request) -> Response:
     async with site.attempt_lock(request.path_params["attempt"]):
         question = await _get_question_attempt(request)
         part = _get_part_attempt(request, question)
+        chosen = field_text(form, "reading")
+        if chosen:
+            question, part = await _choose_reading(request, question, part, chosen)
+            return await _store_attempt(request, question, part)
         group, (action, _, named) = question.find_group(part), field_text(form, "do").partition(":")
         for place in group:
             values, checks = _read_part(form, place.name), action in {"", "answer"}
@@ -195,6 +201,27 @@ async def submit_answer(request: Request) -> Response:
             else:
                 place.progress.values = values
         return await _store_attempt(request, question, part)
+
+
+async def _choose_reading(
+    request: Request, question: AttemptInBrowser, part: AttemptPart, chosen: str
+) -> tuple[AttemptInBrowser, AttemptPart]:
+    """Grade the answer asked back by the reading of a number, and keep a sign declared by it.
+
+    A page left open may name a reading that there no longer is: then nothing is graded.
+    """
+    number, _, name = chosen.partition(":")
+    part = question.find_part(name) or part
+    named = {str(index): one for index, one in enumerate(part.readings, 1)}
+    if number not in named:
+        return question, part
+    reading, values = named[number], part.progress.values
+    if reading.decimal:
+        await run_in_threadpool(progress_of(request).save_decimal, reading.decimal)
+        question = AttemptInBrowser(question.made, question.attempt, reading.decimal)
+        part = question.find_part(part.name) or part
+    question.answer(part, [reading.typed] if reading.typed else values)
+    return question, part
 
 
 def _read_part(form: FormData, name: str) -> list[str]:
@@ -227,7 +254,8 @@ async def preview_practice_answer(request: Request) -> Response:
     if field is None:
         raise HTTPException(404)
     lang = request_language(request)
-    read = preview_reading(field, made.key, _read_part(form, name), lang)
+    decimal = progress_of(request).decimal
+    read = preview_reading(field, made.key, _read_part(form, name), lang, decimal)
     return HTMLResponse(translate_page(lang, "practice.read", value=read) if read else "")
 
 

@@ -7,7 +7,8 @@ import time
 import msgspec
 
 from quizgen.core.decoding import convert
-from quizgen.grading.options import GradingOptions
+from quizgen.grading.offered_readings import OfferedReading, list_offered_readings
+from quizgen.grading.options import DECIMALS, GradingOptions
 from quizgen.grading.verdict import Verdict, unreadable
 from quizgen.paper.answer_key import KeyPart
 from quizgen.paper.grading import QuestionGrader
@@ -70,6 +71,15 @@ class AttemptPart:
         return self.task.explain_verdict(self.verdict) if self.verdict else None
 
     @property
+    def readings(self) -> tuple[OfferedReading, ...]:
+        """The readings of an answer asked back; whole ones only where one field holds them."""
+        if self.verdict is None or not self.progress.asked_back:
+            return ()
+        several = len(self.progress.values) > 1
+        offered = list_offered_readings(self.verdict)
+        return () if several and any(one.typed for one in offered) else offered
+
+    @property
     def unread(self) -> ReadErrorView | None:
         """Return why the answer could not be read; None if it could."""
         if self.explained_verdict is None or not self.progress.asked_back:
@@ -97,12 +107,16 @@ class AttemptInBrowser:
     made : QuestionView
         In the language of who asks.
     attempt : AttemptRecord
+    decimal : str
+        The decimal sign that the learner declared: ``auto``, ``point`` or ``comma``.
     """
 
-    def __init__(self, made: QuestionView, attempt: AttemptRecord) -> None:
+    def __init__(
+        self, made: QuestionView, attempt: AttemptRecord, decimal: str = DECIMALS[0]
+    ) -> None:
         self.made, self.attempt = made, attempt
         kept = attempt.state.get("parts", {})
-        self._marker = QuestionGrader(made.key, GradingOptions(made.wanted.lang))
+        self._marker = QuestionGrader(made.key, GradingOptions(made.wanted.lang, decimal))
         self.places = [
             self._open_part_attempt(part, keyed, convert(kept.get(part.field.id, {}), PartProgress))
             for part, keyed in zip(made.parts, made.key.parts, strict=True)

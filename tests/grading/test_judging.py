@@ -132,10 +132,10 @@ def test_a_quantity_is_asked_back_like_a_number():
 
 
 @pytest.mark.parametrize(
-    ("decimal", "verdict"), [("auto", "ambiguous"), ("comma", "ambiguous"), ("point", "wrong")]
+    ("decimal", "verdict"), [("auto", "ambiguous"), ("comma", "correct"), ("point", "wrong")]
 )
 def test_the_declared_sign_settles_what_a_point_means(decimal, verdict):
-    """Whoever writes decimals with a point has written a decimal; with a comma it may be both."""
+    """Whoever writes decimals with a point has written a decimal; with a comma, thousands."""
     spec = {"kind": "number", "value": "123456", "exact": True}
     assert grade_answer(spec, "123.456", decimal=decimal).verdict == verdict
 

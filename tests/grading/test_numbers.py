@@ -87,7 +87,7 @@ def test_both_readings_are_echoed(typed):
     sign = sign.replace("-", "−")
     first, second = f"{sign}123.456", f"{sign}123\u202f456"
     assert (found.verdict, found.note) == ("ambiguous", "two-readings")
-    assert dict(found.fields) == {"first": first, "second": second}
+    assert dict(found.fields) == {"first": first, "second": second, "mark": "."}
     assert found.read_as == f"{first} | {second}"
 
 

@@ -193,3 +193,33 @@ def test_an_empty_field_is_said_as_such(client, token, begin):
     assert verdicts(page.text) == ["asked"]
     assert "Fill in every field." in text(page.text)
     assert "Separate them" not in page.text
+
+
+def test_readings_of_an_answer_are_buttons_and_none_is_marked_as_right(client, token, begin):
+    page = client.post(
+        f"{begin('thin-lens-image-distance')}/1a", data={"token": token, "a": ["16 mm or 17 mm"]}
+    )
+    buttons = re.findall(r'<button[^>]*name="reading" value="(.):1a">([^<]*)<', page.text)
+    assert buttons == [("1", "16 mm"), ("2", "17 mm")]
+    address = str(page.url.path)
+    chosen = client.post(f"{address}/1a", data={"token": token, "a": ["99"], "reading": "2:1a"})
+    assert verdicts(chosen.text) == ["wrong"]
+    assert 'value="17 mm"' in chosen.text
+    assert 'name="reading"' not in chosen.text
+    late = client.post(f"{address}/1a", data={"token": token, "reading": "1:1a"})
+    assert "2 left" in text(late.text), "a page left open costs no try"
+
+
+def test_a_reading_chosen_declares_the_decimal_sign_which_is_kept(client, token, begin, bank):
+    at = begin("salt-and-pepper-mean-and-psnr")
+    _, key = compose_question(bank.template("salt-and-pepper-mean-and-psnr"), "3", "en")
+    assert key.solution.parts[1].answer == "1385"
+    asked = client.post(f"{at}/1b", data={"token": token, "a": ["1,385"]})
+    assert verdicts(asked.text) == ["asked"]
+    assert re.findall(r'name="reading" value=".:1b">([^<]*)<', asked.text) == ["1.385", "1385"]
+    chosen = client.post(f"{at}/1b", data={"token": token, "a": ["1,385"], "reading": "2:1b"})
+    assert verdicts(chosen.text) == ["correct"]
+    declared = '<button name="decimal" value="{}" aria-pressed="true">'
+    assert declared.format("point") in client.get(at).text
+    client.post("/settings", data={"token": token, "decimal": "auto", "back": at})
+    assert declared.format("auto") in client.get(at).text

@@ -103,7 +103,10 @@ def choose_reading(
         return second
     if not (first.credit or second.credit):
         return first
-    return ambiguous("two-readings", " | ".join(echoes), first=echoes[0], second=echoes[1])
+    first_echo, second_echo = echoes
+    return ambiguous(
+        "two-readings", " | ".join(echoes), first=first_echo, second=second_echo, mark=doubt.mark
+    )
 
 
 class NumberTarget(msgspec.Struct, frozen=True):

@@ -68,10 +68,10 @@ def read_literal(typed: str, decimal: str = "auto", column: int = 1) -> NumberLi
 
 def find_ambiguity(mark: str, decimal: str) -> Ambiguity | None:
     """Return what stays doubtful about ``1.000`` for a decimal sign; None if nothing does."""
-    if decimal == "point":
-        return None if mark == "." else Ambiguity(mark, native=False, group_wins=True)
-    native = decimal == "auto" or mark == ","
-    return Ambiguity(mark, native=native, group_wins=False)
+    if decimal == "auto":
+        return Ambiguity(mark, native=True, group_wins=False)
+    declared = mark == {"point": ".", "comma": ","}[decimal]
+    return None if declared else Ambiguity(mark, native=False, group_wins=True)
 
 
 def _several_marks(compact: str, column: int) -> str:
