@@ -97,6 +97,7 @@ def test_a_command_without_its_extra_says_what_to_type(tmp_path, extra, words, f
     line = f'quizgen: {feature} needs more packages; type: pip install "quizgen[{extra}]"\n'
     assert done.stderr == line
     assert done.stdout == ""
+    assert not (tmp_path / "midterm").exists()
 
 
 WITHOUT_EXTRAS = """

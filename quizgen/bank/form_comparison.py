@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TypeGuard
 
 from quizgen.maths.number_systems import compile_expr, float64_system
 from quizgen.maths.tree import Call, Expr, names_in
@@ -28,6 +29,9 @@ def forms_agree(first: Expr, second: Expr, relation: str = "") -> bool:
         return True
     if _is_call(first, "eq") and _is_call(second, "eq"):
         return _formulas_agree(_take_difference(first), _take_difference(second), "factor")
+    if _is_inequality(first) and _is_inequality(second):
+        sides = (_take_upper_side(first), _take_upper_side(second))
+        return _STRICT[first.op] == _STRICT[second.op] and _formulas_agree(*sides, "positive")
     if _is_call(first, "vector") and _is_call(second, "vector") and relation == "scale":
         return _are_parallel(first, second)
     if isinstance(first, Call) and first.op in _STRUCTURES:
@@ -48,6 +52,20 @@ def _is_call(expr: Expr, op: str) -> bool:
 def _take_difference(equation: Expr) -> Expr:
     """Return left side minus right side of an equation, and any other formula as it is."""
     return Call("sub", equation.args) if isinstance(equation, Call) else equation
+
+
+_STRICT = {"lt": "<", "gt": "<", "le": "<=", "ge": "<="}
+
+
+def _is_inequality(expr: Expr) -> TypeGuard[Call]:
+    """Return whether a formula is an inequality."""
+    return isinstance(expr, Call) and expr.op in _STRICT
+
+
+def _take_upper_side(inequality: Call) -> Expr:
+    """Return what is positive where an inequality holds."""
+    left, right = inequality.args
+    return Call("sub", (right, left) if inequality.op[0] == "l" else (left, right))
 
 
 def _are_parallel(first: Expr, second: Expr) -> bool:
@@ -87,9 +105,11 @@ def _are_related(pairs: Sequence[tuple[float, float]], relation: str) -> bool:
     if relation == "constant":
         shift = pairs[0][0] - pairs[0][1]
         return all(_is_near(a - b, shift, max(abs(a), abs(b))) for a, b in pairs)
-    if relation == "factor":
+    if relation in {"factor", "positive"}:
         a0, b0 = pairs[0]
-        return all(_is_near(a * b0, a0 * b, max(abs(a * b0), abs(a0 * b))) for a, b in pairs)
+        return (relation == "factor" or a0 * b0 > 0) and all(
+            _is_near(a * b0, a0 * b, max(abs(a * b0), abs(a0 * b))) for a, b in pairs
+        )
     return all(_is_near(a, b, max(abs(a), abs(b))) for a, b in pairs)
 
 

@@ -107,7 +107,7 @@ class _Variable(msgspec.Struct, frozen=True):
                         drawn.shown[self.name] = found
             except BankError as error:
                 raise self._fault(str(error)) from error
-            except (MathError, TypeError, ZeroDivisionError, OverflowError) as error:
+            except (MathError, TypeError, KeyError, ZeroDivisionError, OverflowError) as error:
                 raise self._fault(describe_list_fault(error)) from error
 
     def derive(
@@ -135,7 +135,7 @@ class _Variable(msgspec.Struct, frozen=True):
         """
         try:
             return self.formula(env) if self.formula else fmpq(0)
-        except (MathError, TypeError, ZeroDivisionError, OverflowError) as error:
+        except (MathError, TypeError, KeyError, ZeroDivisionError, OverflowError) as error:
             raise self._fault(describe_list_fault(error)) from error
 
     def _fault(self, what: str) -> BankError:
@@ -146,6 +146,8 @@ class _Variable(msgspec.Struct, frozen=True):
 
 def describe_list_fault(error: Exception) -> str:
     """Return what is wrong in a formula; Python's word for a sum with a list names only types."""
+    if isinstance(error, KeyError):
+        return f"{error.args[0]} is a text, where a number is needed"
     return "a list stands where a number is needed" if isinstance(error, TypeError) else str(error)
 
 
@@ -419,8 +421,8 @@ def solve_candidate(
         traps = _usable_traps(plan, shown, values, lenient=lenient)
     except (MathError, ZeroDivisionError, OverflowError) as error:
         return f"no value: {error}"
-    except TypeError as error:
-        if not lists:
+    except (TypeError, KeyError) as error:
+        if isinstance(error, TypeError) and not lists:
             raise
         what = f"a formula of this question: {describe_list_fault(error)}"
         raise BankError(what, rule="QG120", file=plan.template.file) from error

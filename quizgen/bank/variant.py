@@ -164,11 +164,11 @@ class Variant:
         Raises ``BankError`` if a list stands where a number is needed, or the other way round.
         """
         compiled = self.sampler.compile_formula(formula)
-        if not self.lists:
-            return compiled(self.shown_values)
         try:
-            return compiled({**self.shown_values, **self.lists})
-        except TypeError as error:
+            return compiled(
+                {**self.shown_values, **self.lists} if self.lists else self.shown_values
+            )
+        except (TypeError, KeyError) as error:
             what = f"formula {formula!r}: {describe_list_fault(error)}"
             file, place = self.template.file, (TEXT, formula)
             raise BankError(what, rule="QG120", file=file, place=place) from error

@@ -23,6 +23,7 @@ from quizgen.cli.options import (
     bank_options,
     jobs_option,
     match_choice,
+    open_bank,
     open_sound_bank,
     split_names,
     worthwhile_processes,
@@ -342,6 +343,19 @@ def _report_paper(
     if "exam.html" in written:
         page = build_command_line("check", folder / KEY, folder / "answers.json")
         click.echo(f"  or fill in {folder / 'exam.html'}, save answers.json there, then: {page}")
+    _report_short_exam(options)
+
+
+def _report_short_exam(options: ExamOptions) -> None:
+    """Print how to get the trial exam, where nothing was said and the long paper was made."""
+    from quizgen.paper.blueprint import TRIAL, find_blueprint, longest_minutes
+
+    if any(options[name] for name in ("code", "blueprint", "topic", "minutes")):
+        return
+    short = find_blueprint(TRIAL, open_bank(options))
+    if short is not None and short.minutes:
+        command = build_command_line("exam", "--blueprint", TRIAL, *_list_rebuild_options(options))
+        click.echo(f"Shorter, as long as the real one ({longest_minutes(short)} min): {command}")
 
 
 def _report_variety(paper: Paper, asked: int | None) -> None:

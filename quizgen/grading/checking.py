@@ -22,7 +22,7 @@ import msgspec
 from quizgen.core.errors import QuizgenError
 from quizgen.core.executor import ProcessExecutor
 from quizgen.core.trusted_files import find_trusted_file
-from quizgen.grading.reading.formulas import read_formula as read_typed_formula
+from quizgen.grading.reading.formulas import read_formula
 from quizgen.maths.notation import FormulaReadError
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 SECONDS = 5
 """What a check may take for one answer."""
+PAIR = 2
+"""What a check gives: a share and the name of a sentence."""
 HANGS = 30.0
 """Seconds after which its process is killed: it did not even notice that its time was over."""
 CHECK = "check.py"
@@ -139,18 +141,18 @@ def _to_python(value: CheckValue) -> Any:
 
 def _read_outcome(found: Any) -> CheckOutcome:
     """Return what a check gave as an outcome; a fault if it is nothing that it may give."""
-    share, says = found if isinstance(found, tuple) and len(found) == 2 else (found, "")
+    share, says = found if isinstance(found, tuple) and len(found) == PAIR else (found, "")
     if isinstance(says, str) and share is None:
         return CheckOutcome(None, says)
     if isinstance(says, str) and isinstance(share, int | float | Fraction) and 0 <= share <= 1:
-        return CheckOutcome(
-            Fraction(str(share)) if isinstance(share, float) else Fraction(share), says
-        )
+        # As it is written, so that 0.1 is a tenth; a truth is 0 or 1.
+        exactly = str(int(share)) if isinstance(share, bool) else str(share)
+        return CheckOutcome(Fraction(exactly), says)
     what = f"it gives {found!r}; a share from 0 to 1 or None is expected, alone or with a name"
     return CheckOutcome(fault=what[:500])
 
 
-def read_as_sympy(typed: str, symbols: str | Iterable[str]) -> Any:
+def read_expression(typed: str, symbols: str | Iterable[str]) -> Any:
     """Return a typed formula as a SymPy expression; nothing that was typed is run as code.
 
     Parameters
@@ -168,4 +170,4 @@ def read_as_sympy(typed: str, symbols: str | Iterable[str]) -> Any:
     from quizgen.grading.judging.sympy_equality import to_sympy
 
     names = symbols.split() if isinstance(symbols, str) else list(symbols)
-    return to_sympy(read_typed_formula(typed, names).tree, frozenset(), real=False)
+    return to_sympy(read_formula(typed, names).tree, frozenset(), real=False)

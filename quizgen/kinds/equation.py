@@ -1,7 +1,11 @@
-"""Kind ``equation``: any equation with the same solutions, equal up to a factor that is not 0."""
+"""Kind ``equation``: any equation, or inequality, with the same solutions.
+
+Equations may differ by a factor that is not 0, inequalities by a positive one.
+"""
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -24,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class AuthoredEquation(AuthoredAnswer, kw_only=True, tag="equation", frozen=True):
-    """An equation of the solver."""
+    """An equation or inequality of the solver."""
 
     of: str
     symbols: tuple[str, ...] = ()
@@ -40,15 +44,17 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
     def validate(self) -> None:
         """Require the key and the mistakes to be equations."""
         for text in (self.value, *self.traps.values()):
-            _split_authored(text, tuple(self.symbols))
+            _parse_authored_relation(text, tuple(self.symbols))
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed equation."""
-        sides = typed.replace("==", "=").split("=")
-        if len(sides) != 2 or not all(side.strip() for side in sides):
+        """Judge a typed equation or inequality."""
+        first, *rest = _SIGN.split(typed)
+        if len(rest) != len(("sign", "side")) or not (first.strip() and rest[1].strip()):
             raise FormulaReadError("equation-expected", 1, typed.strip()[:60])
-        left, right = (read_formula(side, self.symbols, options.decimal).tree for side in sides)
-        equation = Call("eq", (left, right))
+        left, right = (
+            read_formula(s, self.symbols, options.decimal).tree for s in (first, rest[1])
+        )
+        equation = Call(_OPERATORS[rest[0]], (left, right))
         read_as = pretty.format_formula(format_tree(equation))
         same = self._is_same(self.value, equation)
         if same is None:
@@ -61,35 +67,66 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
         return wrong(read_as)
 
     def _is_same(self, key: str, equation: Call) -> bool | None:
-        """Whether two equations differ by a constant factor; None if that cannot be told."""
-        first = _split_authored(key, tuple(self.symbols))
-        mine, typed = Call("sub", first), Call("sub", equation.args)
+        """Whether two have the same solutions, by a constant factor; None if that cannot be told."""
+        own = _parse_authored_relation(key, tuple(self.symbols))
+        if _kind_of(own) != _kind_of(equation):
+            return False
+        mine, typed = _take_difference(own), _take_difference(equation)
         domains: dict[str, Domain] = dict.fromkeys(self.symbols, "real")
         if prove_equal(mine, typed):
             return True
         found = compare_by_sampling(mine, typed, domains)
         if found.equal is None:
             return None
-        ratio = found.ratio
-        return found.equal or (ratio is not None and values_agree(ratio, fmpq(0)) is False)
+        if found.equal or found.ratio is None:
+            return found.equal
+        same = values_agree(found.ratio, fmpq(0)) is False
+        return same and (own.op == "eq" or bool(found.ratio > 0))
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
         return pretty.format_formula(format_tree(parse_authored(self.value, tuple(self.symbols))))
 
 
-def _split_authored(text: str, symbols: tuple[str, ...]) -> tuple[Expr, ...]:
-    """Return left and right side of an equation in a bank; ``ValueError`` if it is none."""
+_SIGN = re.compile(r"(<=|>=|==|[<>=≤≥])")
+_OPERATORS = {
+    "=": "eq",
+    "==": "eq",
+    "<": "lt",
+    "<=": "le",
+    "≤": "le",
+    ">": "gt",
+    ">=": "ge",
+    "≥": "ge",
+}
+RELATIONS = ("eq", "lt", "le", "gt", "ge")
+
+
+def _parse_authored_relation(text: str, symbols: tuple[str, ...]) -> Call:
+    """Return an equation or inequality in a bank; ``ValueError`` if it is none."""
     tree = parse_authored(text, symbols)
-    if not isinstance(tree, Call) or tree.op != "eq":
+    if not isinstance(tree, Call) or tree.op not in RELATIONS:
         raise ValueError(f"{text!r} is no equation")
-    return tree.args
+    return tree
+
+
+def _kind_of(relation: Call) -> str:
+    """Return ``=``, ``<`` or ``<=``, whichever way round."""
+    return {"eq": "=", "lt": "<", "gt": "<"}.get(relation.op, "<=")
+
+
+def _take_difference(relation: Call) -> Expr:
+    """Return what is 0, or at least 0, where an equation or inequality holds."""
+    left, right = relation.args
+    return Call("sub", (right, left) if relation.op in {"lt", "le"} else (left, right))
 
 
 def ask(part: PartContext) -> AskedPart[EquationSpec]:
     """Return the equation of the solver, and what each mistake makes of it."""
     forms = {"": part.answer_form(), **part.misconception_forms()}
-    texts = {name: format_tree(require_form(part, form, "eq")) for name, form in forms.items()}
+    texts = {
+        name: format_tree(require_form(part, form, *RELATIONS)) for name, form in forms.items()
+    }
     value = texts.pop("")
     names = sorted(set().union(*map(names_in, forms.values())))
     symbols = list(dict.fromkeys([*part.answer.get("symbols", ()), *names]))

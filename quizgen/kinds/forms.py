@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from quizgen.question.inlines import TextOrInlines
 
 _NUMBER = re.compile(r"-?\d+(?:/\d+|\.\d+)?")
-_FORM_WORDS = {"eq": "equation"}
+_FORM_WORDS = {"eq": "equation", "lt": "<", "le": "<=", "gt": ">", "ge": ">="}
 """Operator to its name, where that is not the word for it."""
 ROUNDED = fmpq(1, 200)
 """Share of a number that has no short decimal form within which it may be rounded."""

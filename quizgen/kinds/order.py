@@ -15,7 +15,7 @@ from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, normalise_typed
 from quizgen.grading.spec import WordSpec
-from quizgen.grading.verdict import Verdict, correct, verdict_by_share
+from quizgen.grading.verdict import HALF, Verdict, correct, verdict_by_share
 from quizgen.kinds.asking import assign_letters, make_spec
 from quizgen.kinds.contract import (
     AnswerKind,
@@ -44,6 +44,7 @@ class AuthoredOrder(AuthoredPooled, kw_only=True, tag="order", frozen=True):
     listed = "steps"
     steps: tuple[str, ...]
     before: tuple[tuple[str, str], ...] = ()
+    together: tuple[tuple[str, ...], ...] = ()
     distractors: tuple[str, ...] = ()
     extra: int | None = None
     traps: dict[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
@@ -59,6 +60,8 @@ class AuthoredOrder(AuthoredPooled, kw_only=True, tag="order", frozen=True):
         strangers = {name for pair in self.before for name in pair} - set(self.steps)
         if strangers:
             yield ("before",), "QG116", f"names {sorted(strangers)}, which are not steps"
+        if lost := {name for group in self.together for name in group} - {*self.steps}:
+            yield ("together",), "QG116", f"names {sorted(lost)}, which are not steps"
         if self.take and self.before:
             wrong = "some of the steps can be taken only of one order, without before"
             yield ("take",), "QG115", wrong
@@ -68,13 +71,14 @@ class AuthoredOrder(AuthoredPooled, kw_only=True, tag="order", frozen=True):
 class OrderSpec(WordSpec, kw_only=True, frozen=True):
     """Order: ``steps``; ``before`` = [[a, b], ...]; ``distractors`` that must stay out.
 
-    Without ``before`` the listed order is the only one. Steps are typed by their labels.
+    ``together`` are groups of steps between which no other one may stand. Without ``before`` the listed order is the only one. Steps are typed by their labels.
     """
 
     written_as: ClassVar[AnswerForm] = "option"
 
     steps: list[str]
     before: list[tuple[str, str]] | None = None
+    together: list[list[str]] = msgspec.field(default_factory=list)
     distractors: list[str] = msgspec.field(default_factory=list)
     traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
 
@@ -121,7 +125,11 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
         intruders = [label for label in chosen if label not in later]
         line = first_misplaced(self, chosen, later)
         if line == 0 and len(steps) == len(self.steps):
-            return correct(read_as)
+            torn = _find_torn_line(self, chosen)
+            if not torn:
+                return correct(read_as)
+            note = _find_misconception_note(self, chosen) or "order-torn"
+            return verdict_by_share(HALF, read_as, note, line=torn)
         kept = len(steps) - count_misplaced(steps, later)
         total = max(len(self.steps) - 1, 1)
         credit = max(Fraction(kept - 1 - len(intruders), total), Fraction(0))
@@ -145,6 +153,17 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
             rest.remove(step)
             shown.append(step)
         return " ".join(shown)
+
+
+def _find_torn_line(spec: OrderSpec, chosen: list[str]) -> int:
+    """Return the first line (from 1) that stands inside a group that it is not of; 0 if none."""
+    for group in spec.together:
+        places = [chosen.index(label) for label in group]
+        inside = range(min(places), max(places))
+        torn = next((i for i in inside if chosen[i] not in group), None)
+        if torn is not None:
+            return torn + 1
+    return 0
 
 
 def _find_misconception_note(spec: OrderSpec, chosen: list[str]) -> str:
@@ -279,6 +298,7 @@ def ask(part: PartContext) -> AskedPart[OrderSpec]:
         why=part.reasons(options),
         steps=[marks[name] for name in steps],
         before=[(marks[first], marks[second]) for first, second in part.answer.get("before", ())],
+        together=[[marks[name] for name in group] for group in part.answer.get("together", ())],
         distractors=[marks[name] for name in extra],
     )
     return AskedPart(
@@ -288,7 +308,7 @@ def ask(part: PartContext) -> AskedPart[OrderSpec]:
         reasons=part.with_reason(options),
         mistakes={
             trap: msgspec.structs.replace(
-                spec, steps=wrong, before=None, distractors=[], traps={}, notes={}
+                spec, steps=wrong, before=None, together=[], distractors=[], traps={}, notes={}
             )
             for trap, wrong in traps.items()
         },

@@ -140,10 +140,10 @@ class SketchSpec(WordSpec, kw_only=True, frozen=True):
         drawn = [line(piece) for stroke in strokes for piece in self._cut_stroke(stroke)]
         sheet, *mistaken = self._build_comparisons(drawn)
         note, shares = "sketch", self._compute_shares(sheet)
-        if not any(one.is_judgeable(sheet) for one in self.features.values()):
-            note = "sketch-elsewhere"
-        elif any(share < 1 for share in shares.values()):
-            note = self._find_misconception_note(shares, mistaken) or note
+        if any(share < 1 for share in shares.values()):
+            is_near = any(one.is_judgeable(sheet) for one in self.features.values())
+            usual = note if is_near else "sketch-elsewhere"
+            note = self._find_misconception_note(shares, mistaken) or usual
         worth = {name: one.worth for name, one in self.features.items()}
         credit = sum((worth[name] * share for name, share in shares.items()), Fraction(0))
         missed = tuple(name for name, share in shares.items() if share < 1)

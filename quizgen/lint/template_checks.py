@@ -345,8 +345,7 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
         if name.startswith(FIELD_MARK)
     }
     for label, part in zip(template.labels, template.rules.part, strict=True):
-        said = label in text.sections or label in placed or "from" in part.answer
-        if label and not said:
+        if label and label not in {*text.sections, *placed} and "from" not in part.answer:
             yield "QG211", f"section {label!r} is missing", ()
     if (chain.steps or chain.forms) and "check" not in text.sections:
         yield "QG211", "section 'check' is missing", ()

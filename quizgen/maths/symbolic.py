@@ -214,7 +214,8 @@ def _convert_several(whole: sympy.Basic) -> Expr | None:
         return _convert_set(whole.doit())
     if isinstance(whole, sympy.Tuple | list | tuple):
         return Call("vector", tuple(map(from_sympy, whole)))
-    return from_sympy(whole) if isinstance(whole, sympy.Eq) else None
+    relations = sympy.Eq | sympy.Lt | sympy.Le | sympy.Gt | sympy.Ge
+    return from_sympy(whole) if isinstance(whole, relations) else None
 
 
 def _convert_matrix(whole: sympy.Basic) -> Expr:

@@ -15,7 +15,7 @@ import msgspec
 import numpy as np
 
 from quizgen.bank.bank import Bank
-from quizgen.paper.blueprint import EVERYTHING, MOCK, Blueprint, SlotRule, load_blueprint
+from quizgen.paper.blueprint import EVERYTHING, MOCK, TRIAL, Blueprint, SlotRule, load_blueprint
 from quizgen.practice.ability import (
     AbilityModel,
     Flags,
@@ -26,8 +26,6 @@ from quizgen.practice.ability import (
 from quizgen.practice.scheduler import DAY
 from quizgen.practice.session_state import Attempt
 
-TRIAL = "trial"
-"""Name of the blueprint that mirrors the real exam."""
 ROUND_AGAIN = 1.5
 """Days after which a question of the exam is asked once more in the round."""
 OF_EXAM, OF_ALL = 0.7, 0.3

@@ -7,6 +7,8 @@ from collections import deque
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
+from flint import fmpq
+
 from quizgen import typeset
 from quizgen.bank.markdown import (
     FIELD_MARK,
@@ -35,10 +37,10 @@ from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
 from quizgen.kinds.contract import VALUE_OPTION, LabelledName, asked_form
 from quizgen.maths.notation import format_tree, pretty
-from quizgen.maths.numbers import MINUS, format_exact, format_rounded
+from quizgen.maths.numbers import MINUS, format_exact, format_rounded, to_float
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import format_unit
-from quizgen.maths.values import Values
+from quizgen.maths.values import Value, Values
 from quizgen.question.inlines import (
     PlacedField,
     PlacedPicture,
@@ -228,22 +230,24 @@ class Interpolator:
             return self.sentence(*self.own[name])
         if name.startswith(FIELD_MARK):
             return (self._get_field(name),)
-        if name in drawn.words or drawn.text_list(name):
-            return self._fill_words(name)
+        if (said := self._find_words(name)) is not None:
+            return said
         if name in drawn.lists or name.startswith(TABLE_MARK) or name.endswith("]"):
             return self._fill_list_slot(name)
-        if not self.hidden and ("words", name) in self.text.cases:
-            return self.sentence("words", name)
-        formula = self._find_formula(name)
-        return self._fill_number(name) if formula is None else (_inline_maths(formula),)
+        if (formula := self._find_formula(name)) is not None:
+            return (_inline_maths(formula),)
+        return self._fill_number(name)
 
-    def _fill_words(self, name: str) -> tuple[Inline, ...]:
-        """Return a drawn phrase, or texts of a table or ``data.py`` as they stand."""
+    def _find_words(self, name: str) -> tuple[Inline, ...] | None:
+        """Return the text, phrase or case of a phrase that a slot stands for, if it is one."""
         drawn = self.drawn
-        if name not in drawn.words:
-            return to_inlines(TEXT_SEPARATOR.join(drawn.text_list(name)))
-        rule, text = drawn.template.rules.draw.get(name), drawn.words[name]
-        return self.sentence("words", text) if rule and rule.words else to_inlines(text)
+        if (text := _get_own_text(drawn, name)) is not None:
+            return to_inlines(text)
+        if name in drawn.words:
+            return self.sentence("words", drawn.words[name])
+        if not self.hidden and name not in drawn.lists and ("words", name) in self.text.cases:
+            return self.sentence("words", name)
+        return None
 
     def _get_field(self, name: str) -> PlacedField:
         """Return the field of a part; raise the problem QG160 where none can stand."""
@@ -256,7 +260,12 @@ class Interpolator:
         raise self.format_problem(what, "QG160", TEXT, blank)
 
     def _fill_number(self, name: str) -> tuple[Inline, ...]:
-        """Return a quantity with its unit; ≈ goes before a rounded value."""
+        """Return a quantity with its unit; ≈ goes before a rounded value.
+
+        One with a format, as ``{{ h:02 }}``, is the number alone, as Python prints it.
+        """
+        if ":" in name:
+            return to_inlines(pretty.format_number(self._format_as_python(name)))
         if name not in self.known:
             what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
             raise self.format_problem(what, "QG158", TEXT, blank)
@@ -267,6 +276,17 @@ class Interpolator:
             RoundedMarker(),
             *to_inlines(join_unit(rounded, self.drawn.template.units.get(name, ""))),
         )
+
+    def _format_as_python(self, slot: str) -> str:
+        """Return a quantity as Python's ``format`` prints it, such as ``{{ h:02 }}``."""
+        name, _, spec = slot.partition(":")
+        if name not in self.known:
+            self._fill_number(name)  # which raises
+        try:
+            return format_as_python(self.known[name], spec)
+        except ValueError as error:
+            blank = f"{{{{ {slot} }}}}"
+            raise self.format_problem(f"{blank}: {error}", "QG158", TEXT, blank) from error
 
     def _fill_list_slot(self, name: str) -> tuple[Inline, ...]:
         """Return a list with its unit once, or one of its values."""
@@ -397,6 +417,13 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
         listed, _, place = name.partition("[")
         if (text := _get_own_text(drawn, name)) is not None:
             return text
+        bare, _, spec = name.partition(":")
+        if spec and bare in known:
+            try:
+                return format_as_python(known[bare], spec)
+            except ValueError as error:
+                what, file = f"{{{{ {name} }}}}: {error}", drawn.template.file
+                raise BankError(what, rule="QG158", file=file) from error
         if listed in drawn.lists:
             texts = [text.replace(MINUS, "-") for text in drawn.format_list(listed)]
             if not place:
@@ -412,6 +439,21 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
         return written
 
     return fill_text(text, value)
+
+
+def format_as_python(value: Value, spec: str) -> str:
+    """Return a number as Python's ``format`` prints it.
+
+    Raises
+    ------
+    ValueError
+        If it is no whole number, where only these can be printed so.
+    """
+    if spec.endswith("f"):
+        return format(to_float(value), spec)
+    if not isinstance(value, fmpq) or value.q != 1:
+        raise ValueError(f"{spec} prints whole numbers")
+    return format(int(value.p), spec)
 
 
 def _get_own_text(drawn: Variant, name: str) -> str | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
@@ -37,6 +38,8 @@ from quizgen.question.interpolation import (
     join_unit,
 )
 
+_UNFILLED = re.compile(r"\{\{[^{}]*\}\}")
+"""What stays of a blank with a slip in it."""
 OPTION_FIGURES = 4
 """Significant figures of a value to choose that has no short exact form."""
 
@@ -221,7 +224,10 @@ class VariantPart(PartContext):
 
     def fill_program(self, text: str) -> str:
         """Return program text, or its output, with the drawn values in place."""
-        return fill_program(text, self.drawn, self.drawn.shown_values)
+        filled = fill_program(text, self.drawn, self.drawn.shown_values)
+        if found := _UNFILLED.search(filled):
+            raise self.error(f"{found[0]} is no blank that can be filled", "QG154")
+        return filled
 
     def examples(self) -> tuple[tuple[str, Fraction], ...]:
         """Return the answers of ``[[part.example]]`` filled, and the share that each earns."""

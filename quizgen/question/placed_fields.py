@@ -11,7 +11,7 @@ from quizgen.kinds.contract import InputControl
 from quizgen.question.inlines import PlacedField
 from quizgen.question.interpolation import inlines_to_text
 
-_SENTENCE = re.compile(r".*[.!?;:।]\s", re.DOTALL)
+_SENTENCE = re.compile(r".*[.!?;।]\s", re.DOTALL)
 _BREAK = re.compile(r"[.!?;।](?:\s|$)")
 _BETWEEN = ": "
 
@@ -70,8 +70,8 @@ def _iter_in_sentence(parts: Iterable[Inline]) -> Iterator[tuple[str, str]]:
         else:
             texts[-1] += inlines_to_text((piece,))
     for field, (before, after) in zip(fields, pairwise(texts), strict=True):
-        lead = _SENTENCE.sub("", before).strip(" ,\u00a0")
-        yield field.label, lead or _BREAK.split(after)[0].strip(" ,\u00a0")
+        lead = _SENTENCE.sub("", before).strip(" ,:\u00a0")
+        yield field.label, lead or _BREAK.split(after)[0].strip(" ,:\u00a0")
 
 
 def _flatten(parts: Iterable[Inline]) -> Iterator[Inline]:

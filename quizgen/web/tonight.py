@@ -12,7 +12,7 @@ from starlette.requests import Request
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.language_file import read_language_file
-from quizgen.paper.blueprint import EVERYTHING, find_blueprint
+from quizgen.paper.blueprint import EVERYTHING, find_blueprint, longest_minutes
 from quizgen.practice.scheduler import days_left, local_date
 from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
@@ -127,7 +127,7 @@ def look_at_tonight(request: Request) -> TonightView | None:
         len(block.templates),
         plan.goal.name if named else "",
         blueprint.title.get(lang, blueprint.title["en"]) if blueprint and named else "",
-        _longest_minutes(blueprint.minutes) if blueprint else 0,
+        longest_minutes(blueprint) if blueprint else 0,
         tuple(_list_tasks(plan, learning.bank, lang)),
     )
 
@@ -136,11 +136,6 @@ def chosen_minutes(request: Request) -> int:
     """Return the minutes that the learner has said to have."""
     said = str(request.state.learner.settings.get("minutes", ""))
     return int(said) if said in map(str, MINUTES) else MINUTES[1]
-
-
-def _longest_minutes(minutes: int | tuple[int, int] | None) -> int:
-    """Return the minutes that a blueprint states, the upper bound of two; 0 for none."""
-    return max(minutes) if isinstance(minutes, tuple) else minutes or 0
 
 
 def _list_tasks(plan: ExamPlan, bank: Bank, lang: str) -> Iterator[ExamTask]:

@@ -185,6 +185,8 @@ def test_all_that_is_said_can_be_translated(place):
         ("fr/interface.toml", '[paper]\npage = "{page!r}"', "a name between braces and nothing"),
         ("fr/interface.toml", '[paper]\npage = "{page.real}"', "a name between braces and nothing"),
         ("fr/interface.toml", '[paper]\npage = "{page[0]}"', "a name between braces and nothing"),
+        ("fr/speech.toml", '[letters]\nx = "{0.__class__}"', ":1:1: QG507 letters: there is nothing to fill"),
+        ("fr/answers.toml", '[labels]\nnear = ["{a:>9}"]', "near: there is nothing to fill"),
         ("fr/interface.toml", '[paper]\npage = "{page"', ":2:1: QG507 paper.page: expected '}'"),
         ("fr/interface.toml", "[paper]\nexam = 3", ":2:1: QG507 paper.exam: is to be a text"),
         ("fr/interface.toml", "paper = 'x'", ":1:1: QG507 paper: is to be a table, and not a text"),

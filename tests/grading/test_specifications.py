@@ -16,6 +16,8 @@ from quizgen.maths.tolerance import Tolerance
 NOTES = {"en": {"half": "You took half."}, "bn": {"half": "অর্ধেক নিয়েছ।"}}
 
 FULL = [
+    {"kind": "checked", "check": "abc", "example": "1 6", "function": "judge",
+     "values": {"n": "6", "x": ["1", "2"]}},
     {"kind": "number", "decimals": 3, "within": "1/2", "accept": ["1", "2"], "strict": True,
      "value": "20/3", "traps": {"half": "10/3", "two": ["1", "2"]}, "notes": NOTES, "of": ["x"],
      "form": "decimal", "percent": True, "notation": "f-number"},

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.variant import draw_variant
+from quizgen.cli.main import root_group
+from quizgen.core import trusted_files
 from quizgen.core.errors import BankError
 from quizgen.grading import checking
 from quizgen.kinds.grade import grade_answer
@@ -157,4 +161,35 @@ def test_a_typed_formula_becomes_a_sympy_expression():
     import sympy
 
     x, c = sympy.symbols("x C1")
-    assert checking.read_as_sympy("2x^2 + C1 sin 3x", "x C1") == 2 * x**2 + c * sympy.sin(3 * x)
+    assert checking.read_expression("2x^2 + C1 sin 3x", "x C1") == 2 * x**2 + c * sympy.sin(3 * x)
+
+
+def test_the_example_of_the_manual_is_sound(tmp_path):
+    manual = (Path(__file__).parents[2] / "docs" / "banks.md").read_text("utf-8")
+    section = manual[manual.index("## Answers that no kind can judge") :]
+    check, rules = (
+        section[section.index(f"```{kind}\n") + len(kind) + 4 :].split("```", 1)[0]
+        for kind in ("python", "toml")
+    )
+    assert not _codes(make_bank(tmp_path, check, rules=f'topic = "t"\ntier = "A"\n{rules}'))
+
+
+def test_check_runs_it_for_a_filled_form_only_with_trust(tmp_path, monkeypatch):
+    bank, out = make_bank(tmp_path / "bank", CHECK + "# of a form\n"), tmp_path / "paper"
+    run = CliRunner().invoke
+    sources = ["--bank", str(bank.root), "--trust"]
+    made = run(
+        root_group, ["exam", *sources, "--topic", "t", "--format", "html", "--out", str(out)]
+    )
+    assert made.exit_code == 0, made.output
+    form = out / "answers.toml"
+    n = int(
+        json.loads((out / "key.json").read_text())["questions"][0]["parts"][0]["spec"]["values"][
+            "n"
+        ]
+    )
+    form.write_text(form.read_text().replace('"1" = ""', f'"1" = "{n} 1"'))
+    monkeypatch.setattr(trusted_files, "_FOLDERS", {})
+    checked = ["check", str(out / "key.json"), str(form)]
+    assert "decide yourself" in run(root_group, checked).output
+    assert "2 / 2" in run(root_group, [*checked, *sources]).output

@@ -221,3 +221,15 @@ def test_a_field_of_several_values_cannot_stand_in_a_sentence(tmp_path):
     assert ask_part(draw_variant(bank.template("tide"), 1), 4).control.boxes
     with pytest.raises(BankError, match="more than a line"):
         compose_question(bank.template("tide"), 1)
+
+
+def test_the_example_of_the_manual_is_read(tmp_path):
+    manual = (Path(__file__).parents[2] / "docs" / "banks.md").read_text("utf-8")
+    section = manual[manual.index("## Fields in sentences and tables") :]
+    words = section[section.index("## a\n") + 5 :].split("```", 1)[0]
+    rules = TIDE.replace(
+        '{ kind = "tf", true = "h > 5" }', '{ kind = "number", of = "d", exact = true }'
+    )
+    rules = "[[part]]".join(rules.split("[[part]]")[:4])
+    question, _ = compose_question(make_bank(tmp_path, words, rules).template("tide"), 1)
+    assert [part.field.near for part in question.parts][2] == "high: height: m"

@@ -210,7 +210,7 @@ def test_a_figure_that_is_saved_is_drawn_anew_and_told_in_its_new_words(author, 
         rules.write_text(before, "utf-8")
 
 
-def test_authors_of_one_bank_among_others(root, database):
+def test_authors_of_one_bank_among_others(root, database, jobs_in_this_process):
     mixed = open_banks([("", True), (str(root), True)])
     app = create_app(ServerSettings(database(), mixed, workers=1, examine=lint_while_writing))
     with TestClient(app, "http://127.0.0.1:8000") as client:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from quizgen.grading.drawing.curve import CurveFeature
 from quizgen.grading.drawing.line import LineFeature
 from quizgen.grading.drawing.moved import MovedFeature
+from quizgen.grading.drawing.point import PointFeature
 
-AnyFeature = LineFeature | CurveFeature | MovedFeature
+AnyFeature = LineFeature | CurveFeature | MovedFeature | PointFeature
 """Every way to read a drawing."""
