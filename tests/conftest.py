@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import gc
 import os
 import sys
 from collections.abc import Iterable
@@ -39,6 +40,12 @@ def pytest_collection_modifyitems(items):
     for item in items:
         if {"browser", "chromium", "firefox"} & {*getattr(item, "fixturenames", ())}:
             item.add_marker(pytest.mark.browser)
+
+
+def pytest_collection_finish():
+    """Look for no garbage among the thousands of tests, which stay to the end."""
+    gc.collect()
+    gc.freeze()
 
 
 class Snapshots:

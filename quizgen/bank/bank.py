@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache, cached_property
 from pathlib import Path
-from types import ModuleType
+from types import MappingProxyType, ModuleType
 
 from quizgen.bank.candidate import Candidate
 from quizgen.bank.drawn_lists import list_table_files
@@ -35,7 +36,7 @@ from quizgen.bank.rules import Rules, suggested_minutes, total_points
 from quizgen.bank.solvers import import_module_file, load_chain, unload_modules
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.core.cache import compute_digest
-from quizgen.core.errors import BankError
+from quizgen.core.errors import BankError, QuizgenError
 from quizgen.core.trusted_files import trust_folder
 from quizgen.core.untrusted import (
     NAMES,
@@ -85,9 +86,17 @@ class Bank:
         Folder that holds ``templates/`` and, optionally, ``solvers/``.
     trusted : bool
         Whether its own solvers may run; otherwise only built-in ones are used.
+    left_out : mapping, optional
+        What is wrong with templates that it is to be without, by name.
     """
 
-    def __init__(self, root: Path, *, trusted: bool = False) -> None:
+    def __init__(
+        self,
+        root: Path,
+        *,
+        trusted: bool = False,
+        left_out: Mapping[str, QuizgenError] = MappingProxyType({}),
+    ) -> None:
         """Open the folder; nothing in it is read yet but its languages.
 
         Raises
@@ -97,6 +106,7 @@ class Bank:
         """
         self.root = root
         self.trusted = trusted
+        self.left_out = left_out
         self._templates: dict[str, Template] = {}
         self._rules: dict[str, Rules] = {}
         self._candidates: dict[str, Candidate] = {}
@@ -234,7 +244,7 @@ class Bank:
         return (
             (builtin_bank, ())
             if self is builtin_bank()
-            else (_open_bank, (self.root, self.trusted))
+            else (_open_bank, (self.root, self.trusted, dict(self.left_out)))
         )
 
     def __repr__(self) -> str:
@@ -247,7 +257,11 @@ class Bank:
 
         If several folders share a name, the first stands here; ``rules`` refuses it.
         """
-        return {name: folders[0] for name, folders in self._template_folders.items()}
+        return {
+            name: folders[0]
+            for name, folders in self._template_folders.items()
+            if name not in self.left_out
+        }
 
     @cached_property
     def _template_folders(self) -> dict[str, list[Path]]:
@@ -261,6 +275,10 @@ class Bank:
             if any((folder / f"{own}.py").is_file() for own in OWN_MODULES):
                 unload_modules(folder)
         return Bank(self.root, trusted=self.trusted)
+
+    def without(self, broken: Mapping[str, QuizgenError]) -> Bank:
+        """Return the same bank without some templates, given what is wrong with each."""
+        return Bank(self.root, trusted=self.trusted, left_out=broken)
 
     def solver(self, name: str) -> ModuleType:
         """Return a solver module, imported: the bank's own, else the built-in one of this name.
@@ -472,8 +490,11 @@ class Bank:
         Raises
         ------
         BankError
-            If there is none of this name; suggests similar ones.
+            If there is none of this name; suggests similar ones. One that is left out raises what
+            is wrong with it.
         """
+        if name in self.left_out:
+            raise self.left_out[name]
         if name not in self.template_paths:
             raise BankError(f"unknown template {name!r}{self._suggest_template(name)}")
         return self.template_paths[name]
@@ -484,7 +505,7 @@ class Bank:
         It gives the present name of a renamed template, else up to three similar ones, else where
         all are listed.
         """
-        renamed = [known for known in self.template_paths if self.rules(known).formerly == name]
+        renamed = [known for known in self.template_paths if self._has_been_called(known, name)]
         if renamed:
             return f"; it is now called {renamed[0]!r}"
         from difflib import get_close_matches
@@ -493,6 +514,12 @@ class Bank:
         if close:
             return f"; did you mean {', '.join(close)}?"
         return f" (there are {len(self.template_paths)}; quizgen templates lists them)"
+
+    def _has_been_called(self, known: str, name: str) -> bool:
+        """Return whether a template had a name before; False where its rules cannot be read."""
+        with suppress(BankError):
+            return self.rules(known).formerly == name
+        return False
 
     def template_files(self, name: str) -> tuple[bytes, ...]:
         """Return the bytes of the files that make a template; none of them is run.
@@ -580,9 +607,9 @@ def _has_checked_part(rules: Rules) -> bool:
     return any(part.answer.get("kind") == "checked" for part in rules.part)
 
 
-def _open_bank(root: Path, trusted: bool) -> Bank:
+def _open_bank(root: Path, trusted: bool, left_out: Mapping[str, QuizgenError]) -> Bank:
     """Return a bank; ``pickle`` calls it by name, as it cannot pass ``trusted`` by keyword."""
-    return Bank(root, trusted=trusted)
+    return Bank(root, trusted=trusted, left_out=left_out)
 
 
 def _make_title_from_name(name: str) -> str:

@@ -22,7 +22,7 @@ from quizgen.bank.markdown import FIELD_MARK, slot_names
 from quizgen.bank.metadata import BankMetadata
 from quizgen.bank.pictures import PictureFile
 from quizgen.bank.quantities import QuantityNames
-from quizgen.bank.rules import WAYS, Rules, get_draw_way, suggested_minutes
+from quizgen.bank.rules import PART_LABELS, WAYS, Rules, get_draw_way, suggested_minutes
 from quizgen.bank.solvers import import_module_file
 from quizgen.bank.validation import find_malformed_answers, find_problems
 from quizgen.core.complaints import complaint_of, written_place
@@ -34,7 +34,6 @@ from quizgen.maths.chain import Chain
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.tree import Expr, names_in
 
-PART_LABELS = "abcdefghij"
 QUOTED = 60
 """Letters of a formula by which an author knows it."""
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}\.0")

@@ -15,6 +15,7 @@ from quizgen.cli.options import (
     bank_options,
     jobs_option,
     open_bank,
+    open_sound_bank,
     split_names,
     worthwhile_processes,
 )
@@ -150,7 +151,7 @@ def _open_class_blueprint(
     from quizgen.paper.blueprint import default_blueprint_name, load_blueprint
 
     if folder.is_new:
-        bank = open_bank(options)
+        bank = open_sound_bank(options)
         blueprint = load_blueprint(options["blueprint"] or default_blueprint_name(bank), bank)
         name = folder.path.resolve().name
         lang = options["lang"] or default_language(bank.languages)

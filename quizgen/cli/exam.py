@@ -23,7 +23,7 @@ from quizgen.cli.options import (
     bank_options,
     jobs_option,
     match_choice,
-    open_bank,
+    open_sound_bank,
     split_names,
     worthwhile_processes,
 )
@@ -128,7 +128,7 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
         raise InvalidChoiceError(
             "--count makes papers of many seeds; leave --code and --reference out"
         )
-    bank, count = open_bank(options), options["count"]
+    bank, count = open_sound_bank(options), options["count"]
     name = f"answers.{options['form']}"
     lang = options["lang"] or default_language(bank.languages)
     make = partial(
@@ -235,7 +235,7 @@ def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
     from quizgen.paper.paper import build_paper, build_reference_paper, rebuild_paper
     from quizgen.paper.provenance import bank_difference_context
 
-    bank = open_bank(options)
+    bank = open_sound_bank(options)
     if options["code"]:
         if options["seed"] is not None or options["lang"]:
             raise PaperCodeError(

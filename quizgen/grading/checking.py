@@ -153,7 +153,7 @@ def _read_outcome(found: Any) -> CheckOutcome:
     return CheckOutcome(fault=what[:500])
 
 
-def read_expression(typed: str, symbols: str | Iterable[str]) -> Any:
+def read_as_sympy(typed: str, symbols: str | Iterable[str]) -> Any:
     """Return a typed formula as a SymPy expression; nothing that was typed is run as code.
 
     Parameters

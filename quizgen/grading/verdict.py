@@ -68,6 +68,11 @@ class Verdict(msgspec.Struct, frozen=True):
         """Whether a person has to decide: key points are only suggested."""
         return self.note in SELF_MARKED
 
+    @property
+    def word(self) -> str:
+        """The key of the word it is shown by: an error carried forward is not partly right."""
+        return "carried" if (self.verdict, self.credit) == (PARTIAL, FULL) else self.verdict
+
     def __repr__(self) -> str:
         """Return verdict, what was read and note, for a terminal."""
         said = (self.verdict, f"read as {self.read_as}" if self.read_as else "", self.note)

@@ -80,7 +80,7 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
-        return pretty.format_formula(format_tree(build_complex(self.parts, self.form)))
+        return pretty.format_constant(format_tree(build_complex(self.parts, self.form)))
 
 
 def find_written_form(tree: Expr) -> str:

@@ -21,7 +21,7 @@ from quizgen.maths.values import Value
 if TYPE_CHECKING:
     from quizgen.question.inlines import TextOrInlines
 
-_NUMBER = re.compile(r"-?\d+(?:/\d+)?")
+_NUMBER = re.compile(r"-?\d+(?:/\d+|\.\d+)?")
 _FORM_WORDS = {"eq": "equation"}
 """Operator to its name, where that is not the word for it."""
 ROUNDED = fmpq(1, 200)
@@ -55,13 +55,17 @@ def typeset_key(tree: Expr, typed_text: str = "") -> TextOrInlines:
 
 def format_plain(expr: Expr) -> str:
     """Return a number of a form as a person types it: ``-1/3``, ``2*sqrt(3)``, ``inf``."""
-    return str(expr.value) if isinstance(expr, Num) else format_tree(expr)
+    if not isinstance(expr, Num):
+        return format_tree(expr)
+    return format_tree(expr).strip("{}") if expr.decimal else str(expr.value)
 
 
 def show_entry(text: str) -> str:
     """Return a number of a key as it is printed, and as it can be typed back."""
     plain = format_plain(parse_entry(text))
-    return pretty.format_number(plain) if _NUMBER.fullmatch(plain) else pretty.format_formula(plain)
+    return (
+        pretty.format_number(plain) if _NUMBER.fullmatch(plain) else pretty.format_constant(plain)
+    )
 
 
 def parse_entry(text: str) -> Expr:

@@ -112,7 +112,7 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         if self.exact and not self.percent and not is_number(self.value):
-            return f"{pretty.format_formula(str(self.value))} {format_unit(self.unit)}".rstrip()
+            return f"{pretty.format_constant(str(self.value))} {format_unit(self.unit)}".rstrip()
         value = parse_exact(self.value) * (100 if self.percent else 1)
         unit_text = "%" if self.percent else format_unit(self.unit)
         return f"{pretty.format_number(format_key(self, value, self.form))} {unit_text}".rstrip()

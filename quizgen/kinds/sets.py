@@ -33,6 +33,7 @@ from quizgen.kinds.contract import (
     asked_form,
 )
 from quizgen.kinds.forms import format_plain, require_form
+from quizgen.kinds.number import is_number
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
@@ -92,7 +93,13 @@ class SetSpec(VectorSpec, kw_only=True, frozen=True):
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
-        numbers = [pretty.format_number(format_key(self, key)) for key in self.keys()]
+        written = is_number if self.exact else lambda _value: True
+        numbers = [
+            pretty.format_number(format_key(self, key))
+            if written(value)
+            else pretty.format_constant(str(value))
+            for value, key in zip(self.values, self.keys(), strict=True)
+        ]
         return "{" + "; ".join([*numbers, *self.letters]) + "}"
 
 

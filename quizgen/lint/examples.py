@@ -39,6 +39,6 @@ def find_misjudged_examples(draws: Iterable[Variant]) -> Iterator[Diagnostic]:
                 what = f"seed {one.seed}: {typed[:60]!r} {found}"
                 own = place < len(part.example)
                 at = ("part", index, "example", place) if own else ("part", index, "answer")
-                yield diagnose("QG220", one.template.file, what, at)
+                yield diagnose("QG221", one.template.file, what, at)
                 if fault:
                     return  # one that takes too long does so for each answer of each draw

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
 from functools import cached_property
+from itertools import islice, product
 from typing import TypeAlias
 
 import msgspec
@@ -18,19 +19,24 @@ from quizgen.core.errors import MathError
 from quizgen.maths.number_systems import (
     CompiledFormula,
     NumberSystem,
+    compile_expr,
     compile_nested,
     exact_system,
     select_branch,
 )
-from quizgen.maths.numbers import to_fraction
-from quizgen.maths.operators import CHECKED
+from quizgen.maths.numbers import is_short_decimal, to_fraction, to_rational
+from quizgen.maths.operators import CHECKED, LIST_OPERATORS, OPERATORS
 from quizgen.maths.precision import PRECISION, working_precision
 from quizgen.maths.tidy import tidy_formula
-from quizgen.maths.tree import Expr, Num, names_in, operators_in, substitute
+from quizgen.maths.tree import Call, Expr, Num, names_in, operators_in, substitute, walk_tree
 from quizgen.maths.values import Value, Values
 
 CompiledSteps: TypeAlias = tuple[tuple[str, CompiledFormula], ...]
 """Quantities to compute, in order, each from the ones given and before it."""
+
+
+MOST_WAYS = 64
+"""Choices among other right formulas that are tried with a student's own values."""
 
 
 class ChainStep(msgspec.Struct, frozen=True):
@@ -61,6 +67,8 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         Trap name to the wrong forms put in place of the right ones.
     free : tuple of str
         Names in forms that no draw gives.
+    alternatives : tuple of ChainStep
+        Other right formulas of steps: the ways that a student may go from an own earlier value.
     """
 
     given: Mapping[str, str]
@@ -70,6 +78,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
     forms: tuple[ChainStep, ...] = ()
     form_traps: Mapping[str, tuple[ChainStep, ...]] = msgspec.field(default_factory=dict)
     free: tuple[str, ...] = ()
+    alternatives: tuple[ChainStep, ...] = ()
 
     @cached_property
     def by_name(self) -> dict[str, ChainStep]:
@@ -80,6 +89,15 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
     def form_by_name(self) -> dict[str, ChainStep]:
         """Name of a form to its step."""
         return {step.name: step for step in self.forms}
+
+    @cached_property
+    def right_ways(self) -> tuple[Chain, ...]:
+        """The chain as it is written, then with each choice of alternatives; ``MOST_WAYS``."""
+        formulas = {step.name: [step] for step in self.steps}
+        for other in self.alternatives:
+            formulas[other.name].append(other)
+        ways = islice(product(*formulas.values()), 1, MOST_WAYS)
+        return (self, *(Chain(self.given, steps) for steps in ways))
 
     def bind_form(
         self, expr: Expr, values: Values, wrong: Mapping[str, Expr] | None = None
@@ -97,8 +115,17 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
             Formulas that a mistake puts in place of those of steps.
         """
         steps = {step.name: step.expr for step in self.steps} | dict(wrong or {})
+        if isinstance(expr, Call) and expr.op == "piecewise" and not self._has_free_case(expr):
+            expr = select_branch(expr, values, exact_system())
+        expr = _reckon_lists(expr, values)
         names = names_in(expr) - {*self.free}
-        return tidy_formula(substitute(expr, {n: _write_exactly(n, values, steps) for n in names}))
+        bound = substitute(expr, {n: _write_exactly(n, values, steps) for n in names})
+        tidied = tidy_formula(bound)
+        return _write_decimals(tidied) if any(map(_is_decimal, walk_tree(bound))) else tidied
+
+    def _has_free_case(self, cases: Call) -> bool:
+        """Return whether a condition holds a name that no draw gives: nothing chooses then."""
+        return any(names_in(condition) & {*self.free} for condition in cases.args[1::2])
 
     @cached_property
     def certainties(self) -> dict[str, str]:
@@ -217,6 +244,18 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
             self.compile_affected_steps(wrong, exact_system()), dict(solved), PRECISION
         )
 
+    def solve_from(self, own: Values, solved: Values) -> dict[str, Value]:
+        """Return the quantities with some values replaced, given ones too, and what follows.
+
+        Raises
+        ------
+        MathError
+            If a step has no finite real value.
+        """
+        plan = self.compile_affected_steps((), exact_system(), changed=own)
+        steps = [step for step in plan if step[0] not in own]
+        return _run_steps(steps, {**solved, **own}, PRECISION)
+
     def required_steps(self, name: str, known: Iterable[str] = ()) -> frozenset[str]:
         """Return the names of the steps that ``name`` rests on, itself included.
 
@@ -236,9 +275,54 @@ def _write_exactly(name: str, values: Values, steps: Mapping[str, Expr]) -> Expr
     """Return a quantity as a rational, else as the formula that gives it."""
     value = values[name]
     if isinstance(value, fmpq):
-        return Num(to_fraction(value))
-    expr = select_branch(steps[name], values, exact_system())
+        return Num(to_fraction(value)) if name in steps else _write_number(value)
+    expr = _reckon_lists(select_branch(steps[name], values, exact_system()), values)
     return substitute(expr, {n: _write_exactly(n, values, steps) for n in names_in(expr)})
+
+
+def _is_decimal(part: Expr) -> bool:
+    """Return whether a formula is a number with decimals, as drawn ones are printed."""
+    return isinstance(part, Num) and part.decimal
+
+
+def _write_decimals(expr: Expr) -> Expr:
+    """Return a formula with decimals for fractions, if each of its fractions has short ones."""
+    numbers = [part for part in walk_tree(expr) if isinstance(part, Num)]
+    if not all(is_short_decimal(to_rational(number.value)) for number in numbers):
+        return expr
+    return _mark_decimals(expr)
+
+
+def _mark_decimals(expr: Expr) -> Expr:
+    """Return a formula whose numbers are decimals."""
+    if isinstance(expr, Call):
+        return Call(expr.op, tuple(map(_mark_decimals, expr.args)))
+    if isinstance(expr, Num) and expr.value.denominator > 1:
+        return Num(expr.value, decimal=True)
+    return expr
+
+
+def _write_number(value: fmpq) -> Num:
+    """Return a drawn number; one that is printed with decimals says so."""
+    return Num(to_fraction(value), value.q != 1 and is_short_decimal(value))
+
+
+def _reckon_lists(expr: Expr, values: Values) -> Expr:
+    """Return a formula with the number that each function of lists gives in its place.
+
+    Raises
+    ------
+    MathError
+        If one has no rational value.
+    """
+    if not isinstance(expr, Call):
+        return expr
+    if expr.op not in LIST_OPERATORS or not names_in(expr) <= values.keys():
+        return Call(expr.op, tuple(_reckon_lists(arg, values) for arg in expr.args))
+    value = compile_expr(expr, exact_system())(values)
+    if not isinstance(value, fmpq):
+        raise MathError(f"{OPERATORS[expr.op].signs[0]} has no exact value for a formula")
+    return _write_number(value)
 
 
 def _run_steps(

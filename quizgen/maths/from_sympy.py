@@ -18,7 +18,7 @@ from sympy.logic.boolalg import BooleanFalse, BooleanTrue
 from quizgen.core.errors import BankError
 from quizgen.maths.lists import ListFunction
 from quizgen.maths.operators import OPERATORS
-from quizgen.maths.tree import Call, Expr, Num, Sym
+from quizgen.maths.tree import Call, Expr, Num, Sym, make_number
 
 _DOUBLE = 53
 _ONE = Num(Fraction(1))
@@ -234,6 +234,9 @@ def _make_binder_converter(op: str) -> Callable[[sympy.Basic], Expr]:
     def rule(expression: sympy.Basic) -> Expr:
         """Return a sum, product or integral as nested calls, a call for each limit."""
         body = from_sympy(expression.function)
+        if isinstance(body, Call) and body.op == "mul" and body.args[0] == make_number(1):
+            # SymPy puts a 1 before what is summed where it must not evaluate
+            body = body.args[1] if len(body.args) == 2 else Call("mul", body.args[1:])
         for limit in expression.limits:
             if len(limit) != 3 or any(bound.is_infinite for bound in limit[1:]):
                 raise BankError(f"{expression} has no closed form, or lacks finite bounds")

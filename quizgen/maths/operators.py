@@ -187,6 +187,11 @@ BINDERS = frozenset({"sum", "product", "integral"})
 CHECKED = frozenset({"integral"})
 """Operators whose value is computed twice and compared, but not proved."""
 
+LIST_OPERATORS = frozenset(
+    row.name for row in OPERATORS.values() if row.typed is OperatorSyntax.LIST
+)
+"""Operators that take lists."""
+
 CONDITIONS = frozenset(
     row.name
     for row in OPERATORS.values()

@@ -17,7 +17,7 @@ from sympy.matrices.expressions.matexpr import MatrixExpr
 
 from quizgen.core.errors import BankError
 from quizgen.maths.from_sympy import from_sympy
-from quizgen.maths.tree import Call, Expr, Num, make_number
+from quizgen.maths.tree import Call, Expr, Num, make_number, names_in
 
 _COMPLEX = (sympy.re, sympy.im, sympy.conjugate, sympy.arg)
 _EVALUATED = (sympy.Derivative, sympy.Integral, sympy.Limit, sympy.Subs)
@@ -90,18 +90,40 @@ class FormResolver:
 
     def _convert(self, whole: sympy.Basic) -> tuple[Expr, bool]:
         """Return the tree of an expression, and whether it is a form rather than a number."""
-        if isinstance(whole, sympy.MatrixBase | MatrixExpr):
-            return _convert_matrix(whole), True
-        if isinstance(whole, sympy.Set):
-            return _convert_set(whole.doit()), True
-        if isinstance(whole, sympy.Tuple | list | tuple):
-            return Call("vector", tuple(map(from_sympy, whole))), True
-        if isinstance(whole, sympy.Eq):
-            return from_sympy(whole), True
+        if isinstance(whole, sympy.Piecewise) and not self._is_free(
+            *(condition for _, condition in whole.args)
+        ):
+            return self._convert_cases(whole)
+        if (several := _convert_several(whole)) is not None:
+            return several, True
         if _has_complex(whole):
             return self._convert_complex(whole)
         free = [s for s in getattr(whole, "free_symbols", ()) if s.name in self.free]
-        return _convert_evaluated(whole, free), bool(free)
+        tree = _convert_evaluated(whole, free)
+        if free and not _is_written(whole):
+            tree = _put_free_first(tree, self.free)
+        return tree, bool(free)
+
+    def _is_free(self, *parts: sympy.Basic) -> bool:
+        """Return whether any of these holds a name that no draw gives."""
+        return any(s.name in self.free for part in parts for s in part.free_symbols)
+
+    def _convert_cases(self, whole: sympy.Piecewise) -> tuple[Expr, bool]:
+        """Return what the drawn numbers choose among, each branch as it would be alone.
+
+        A draw thereby asks one of several formulas, or for matrices of one of several sizes.
+        """
+        found = [self._convert(value) for value, _ in whole.args]
+        if not any(is_form for _, is_form in found):
+            return _convert_evaluated(whole), False
+        numbers = sympy.Piecewise(*((n, c) for n, (_, c) in enumerate(whole.args)), evaluate=False)
+        cases = from_sympy(numbers)
+        if not isinstance(cases, Call):
+            return found[0]
+        args = [
+            found[place // 2][0] if place % 2 == 0 else arg for place, arg in enumerate(cases.args)
+        ]
+        return Call("piecewise", tuple(args)), True
 
     def _convert_complex(self, whole: sympy.Basic) -> tuple[Expr, bool]:
         """Return a complex number as its real and imaginary part; a real one as itself."""
@@ -157,9 +179,42 @@ def _convert_evaluated(whole: sympy.Basic, free: Sequence[sympy.Symbol] = ()) ->
         return from_sympy(whole)
 
 
+def _put_free_first(expr: Expr, free: frozenset[str]) -> Expr:
+    """Return a formula with ``x + b`` for ``b + x``: in sums, what varies goes first."""
+    if not isinstance(expr, Call):
+        return expr
+    args = tuple(_put_free_first(arg, free) for arg in expr.args)
+    varies = [bool(names_in(arg) & free) for arg in args]
+    if expr.op == "add" and True in varies and not _is_negative(args[varies.index(True)]):
+        args = tuple(sorted(args, key=lambda arg: not names_in(arg) & free))
+    return Call(expr.op, args)
+
+
+def _is_negative(expr: Expr) -> bool:
+    """Return whether a formula has a minus sign in front."""
+    return isinstance(expr, Call) and expr.op == "neg"
+
+
+def _is_written(whole: sympy.Basic) -> bool:
+    """Return whether an author wrote the terms of a sum in an order that is not SymPy's own."""
+    sums = whole.atoms(sympy.Add) if hasattr(whole, "atoms") else ()
+    return any(one.args != sympy.Add(*one.args).args for one in sums)
+
+
 def _is_infinite(part: sympy.Basic) -> bool:
     """Return whether a sum, a product or an integral has an infinite bound."""
     return any(not bound.is_finite for limit in part.limits for bound in limit[1:])
+
+
+def _convert_several(whole: sympy.Basic) -> Expr | None:
+    """Return the tree of a matrix, set, vector or equation; None for a number or a formula."""
+    if isinstance(whole, sympy.MatrixBase | MatrixExpr):
+        return _convert_matrix(whole)
+    if isinstance(whole, sympy.Set):
+        return _convert_set(whole.doit())
+    if isinstance(whole, sympy.Tuple | list | tuple):
+        return Call("vector", tuple(map(from_sympy, whole)))
+    return from_sympy(whole) if isinstance(whole, sympy.Eq) else None
 
 
 def _convert_matrix(whole: sympy.Basic) -> Expr:

@@ -6,6 +6,12 @@ from collections.abc import Callable, Iterable
 from fractions import Fraction
 from math import isqrt
 
+from quizgen.maths.surds import (
+    find_special_angle,
+    find_special_value,
+    split_constant,
+    write_multiple,
+)
 from quizgen.maths.tree import Call, Expr, Num
 
 _ZERO, _ONE = Num(Fraction(0)), Num(Fraction(1))
@@ -54,20 +60,46 @@ def _tidy_negative(args: tuple[Expr, ...]) -> Expr:
 
 
 def _tidy_sum(args: tuple[Expr, ...]) -> Expr:
-    """Return a sum with its numbers added up, in the place of the first of them."""
+    """Return a sum with its numbers added up, in the place of the first of them.
+
+    So are multiples of pi and of one root.
+    """
     terms: list[Expr] = []
     total, place = Fraction(0), -1
-    for term in _flatten("add", args):
+    sums: dict[Expr, Fraction] = {}
+    for term in _iter_terms(args):
         if isinstance(term, Num):
             total += term.value
             place = len(terms) if place < 0 else place
+        elif constant := split_constant(term):
+            number, rest = constant
+            if rest not in sums:
+                terms.append(rest)
+            sums[rest] = sums.get(rest, Fraction(0)) + number
         else:
             terms.append(term)
+    terms = [write_multiple(sums[term], term) if term in sums else term for term in terms]
+    terms = [term for term in terms if not _is_value(term, 0)]
+    place = min(place, len(terms))
     if total:
         terms.insert(place, _make_number(total))
     if not terms:
         return _ZERO
     return _join_terms(terms)
+
+
+def _iter_terms(args: Iterable[Expr]) -> Iterable[Expr]:
+    """Yield the terms of a sum, also of sums and differences of constants within it."""
+    for term in _flatten("add", args):
+        if isinstance(term, Call) and term.op == "sub" and all(map(_is_constant, term.args)):
+            yield from (*_iter_terms(term.args[:1]), negate_formula(term.args[1]))
+        else:
+            yield term
+
+
+def _is_constant(expr: Expr) -> bool:
+    """Return whether a formula is a number, or a multiple of pi or of a root."""
+    return isinstance(expr, Num) or split_constant(expr) is not None
 
 
 def _join_terms(terms: list[Expr]) -> Expr:
@@ -109,6 +141,8 @@ def _tidy_difference(args: tuple[Expr, ...]) -> Expr:
     if isinstance(second, Num) and second.value < 0:
         return _tidy_sum((first, negate_formula(second)))
     minus, value = _split_minus(second)
+    if all(map(_is_constant, args)):
+        return _tidy_sum((first, negate_formula(second)))
     return _tidy_sum((first, value)) if minus else Call("sub", args)
 
 
@@ -131,17 +165,47 @@ def _tidy_product(args: tuple[Expr, ...]) -> Expr:
             minus, factor = not minus, factor.args[0]
         if isinstance(factor, Num):
             number *= factor.value
+        elif constant := split_constant(factor):
+            number *= constant[0]
+            factors.append(constant[1])
         else:
             factors.append(factor)
     number = -number if minus else number
+    number, factors = _join_roots(number, factors)
     if not number:
         return _ZERO
     if not factors:
         return _make_number(number)
+    if all(map(_is_constant, factors)):
+        rest = factors[0] if len(factors) == 1 else Call("mul", tuple(factors))
+        return write_multiple(number, rest)
+    constants = [factor for factor in factors if _is_constant(factor)]
+    if constants and number.denominator > 1:
+        rest = constants[0] if len(constants) == 1 else Call("mul", tuple(constants))
+        others = (factor for factor in factors if factor not in constants)
+        scaled = Call("mul", (write_multiple(abs(number), rest), *others))
+        return scaled if number > 0 else Call("neg", (scaled,))
     if abs(number) != 1:
         factors.insert(0, _make_number(abs(number)))
     product = factors[0] if len(factors) == 1 else Call("mul", tuple(factors))
     return product if number > 0 else Call("neg", (product,))
+
+
+def _join_roots(number: Fraction, factors: list[Expr]) -> tuple[Fraction, list[Expr]]:
+    """Return a number and factors that hold one root of a number at most."""
+    under, rest = Fraction(1), list[Expr]()
+    for factor in factors:
+        if isinstance(factor, Call) and factor.op == "sqrt" and isinstance(factor.args[0], Num):
+            under *= factor.args[0].value
+        else:
+            rest.append(factor)
+    if under == 1 or len(factors) - len(rest) == 1:
+        return number, factors
+    root = _tidy_root((_make_number(under),))
+    if isinstance(root, Num):
+        return number * root.value, rest
+    size, one = split_constant(root) or (Fraction(1), root)
+    return number * size, [one, *rest]
 
 
 def _tidy_quotient(args: tuple[Expr, ...]) -> Expr:
@@ -153,6 +217,10 @@ def _tidy_quotient(args: tuple[Expr, ...]) -> Expr:
         return _divide_by_number(top, bottom.value)
     if _is_value(top, 0):
         return _ZERO
+    if (below := split_constant(bottom)) and below[0] and _is_constant(top):
+        size, rest = below
+        if isinstance(rest, Call) and rest.op == "sqrt" and isinstance(rest.args[0], Num):
+            return _tidy_product((top, _make_number(1 / size / rest.args[0].value), rest))
     if isinstance(bottom, Call) and bottom.op == "neg":
         return negate_formula(Call("div", (top, bottom.args[0])))
     return Call("div", (top, bottom))
@@ -233,6 +301,19 @@ def _make_point_rule(op: str, at: int, value: int) -> Callable[[tuple[Expr, ...]
     return rule
 
 
+def _make_special_rule(
+    op: str, find: Callable[[str, Expr], Expr | None]
+) -> Callable[[tuple[Expr, ...]], Expr]:
+    """Return the rule for a function with exact values at special places."""
+
+    def rule(args: tuple[Expr, ...]) -> Expr:
+        """Return the exact value where there is one, else the call as it was."""
+        found = find(op, args[0])
+        return Call(op, args) if found is None else found
+
+    return rule
+
+
 _RULES: dict[str, Callable[[tuple[Expr, ...]], Expr]] = {
     "neg": _tidy_negative,
     "add": _tidy_sum,
@@ -243,6 +324,6 @@ _RULES: dict[str, Callable[[tuple[Expr, ...]], Expr]] = {
     "sqrt": _tidy_root,
     "exp": _make_point_rule("exp", 0, 1),
     "ln": _make_point_rule("ln", 1, 0),
-    "sin": _make_point_rule("sin", 0, 0),
-    "cos": _make_point_rule("cos", 0, 1),
+    **{op: _make_special_rule(op, find_special_value) for op in ("sin", "cos", "tan")},
+    **{op: _make_special_rule(op, find_special_angle) for op in ("asin", "acos", "atan")},
 }

@@ -284,6 +284,7 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     if not chain.steps:
         return None
     units, own = drawn.template.units, drawn.template.about.units
+    others = [[other.name, format_tree(other.expr)] for other in chain.alternatives]
     checked = [name for name, grade in chain.certainties.items() if grade == "checked"]
     return {
         **({"define": list(own)} if own else {}),
@@ -296,4 +297,5 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
             for name in chain.given
         },
         "steps": [[step.name, format_tree(step.expr), step.unit] for step in chain.steps],
+        **({"alternatives": others} if others else {}),
     }

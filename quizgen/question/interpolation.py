@@ -31,7 +31,7 @@ from quizgen.bank.markdown import (
     fill_text,
     slot_names,
 )
-from quizgen.bank.template import PART_LABELS
+from quizgen.bank.rules import PART_LABELS
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
@@ -211,6 +211,8 @@ class Interpolator:
         """Return what stands for a quantity, a formula or a phrase inside a formula."""
         if name not in self.own and (formula := self._find_formula(name)) is not None:
             return make_leaf_value(formula)
+        if name not in self.own and name.endswith("]"):
+            return make_leaf_value(*self._find_list_value(name))
         if name in self.own or name not in self.known or name in self.drawn.words:
             return LeafValue(_inlines_to_node(self._fill_slot(name)))
         value, unit = self.known[name], self.drawn.template.units.get(name, "")
@@ -293,17 +295,22 @@ class Interpolator:
             what = "stands alone in a paragraph, in a question that draws lists"
             blank = f"{{{{ {name} }}}}"
             raise self.format_problem(f"{blank} {what}", "QG158", TEXT, blank)
+        if place:
+            return to_inlines(join_unit(*self._find_list_value(name)))
         self._require_list(listed, name)
-        texts, unit = drawn.list_texts(listed), drawn.template.units.get(listed, "")
-        if not place:
-            numbers = LIST_SEPARATOR.join(map(pretty.format_number, texts))
-            shown = format_unit(unit)
-            return to_inlines(f"{numbers}{NBSP}{shown}" if shown else numbers)
-        index = int(place.rstrip("]"))
+        numbers = LIST_SEPARATOR.join(map(pretty.format_number, drawn.list_texts(listed)))
+        shown = format_unit(drawn.template.units.get(listed, ""))
+        return to_inlines(f"{numbers}{NBSP}{shown}" if shown else numbers)
+
+    def _find_list_value(self, name: str) -> tuple[str, str]:
+        """Return one value of a list, ``x[3]``, as it is shown, and its unit."""
+        listed, _, place = name.partition("[")
+        self._require_list(listed, name)
+        texts, index = self.drawn.list_texts(listed), int(place.rstrip("]"))
         if not 1 <= index <= len(texts):
             what = f"{{{{ {name} }}}}: the list has {len(texts)} values, and the first is 1"
             raise self.format_problem(what, "QG158", TEXT, f"{{{{ {name} }}}}")
-        return to_inlines(join_unit(texts[index - 1], unit))
+        return texts[index - 1], self.drawn.template.units.get(listed, "")
 
     def _find_formula(self, name: str) -> Expr | None:
         """Return the formula that a step stands for, with the drawn numbers in it, if it is one.
@@ -423,6 +430,8 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
                 return ", ".join(texts)
             if 1 <= int(place.rstrip("]")) <= len(texts):
                 return texts[int(place.rstrip("]")) - 1]
+        if name in drawn.template.rules.data and name in drawn.words:
+            return drawn.words[name]
         written = format_exact(known[name], minus="-") if name in known else None
         if written is None:
             what = f"{{{{ {name} }}}} cannot stand in a program"

@@ -73,7 +73,7 @@ from quizgen.typeset.signs import RELATIONS as MORE_RELATIONS
 if TYPE_CHECKING:
     from math_core import LatexToMathML
 
-SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*)\s*\}\}")
+SLOT = re.compile(r"\{\{\s*([A-Za-z_][\w']*(?:\[[0-9]{1,4}\])?)\s*\}\}")
 LONGEST = 4000
 """Most characters of a formula."""
 DEEPEST = 60

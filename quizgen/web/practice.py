@@ -16,36 +16,47 @@ from quizgen.bank.levels import GUIDED
 from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
 from quizgen.store import AttemptRecord, QuestionRef
-from quizgen.web.due import due_today, progress_of
 from quizgen.web.forms import field_text, read_answer, read_form
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.question_attempt import AttemptInBrowser, AttemptPart
 from quizgen.web.question_view import QuestionRequest, QuestionView
 from quizgen.web.state import ServerState
+from quizgen.web.tonight import MINUTES, look_at_tonight, progress_of
 from quizgen.web.views import page_response, redirect, request_language, translate_page
 
-TIERS = tuple("ABCD")
 PLACED = "a-"
 """Before the name of a part whose field stands inside a text."""
 
 
 async def show_practice(request: Request) -> Response:
-    """Return the start page: what is due, and topics to choose from."""
+    """Return the start page: where one stands, what to do now, and topics to choose from."""
     site: ServerState = request.app.state.site
     lang = request_language(request)
     topics = [(name, site.bank.topic_title(name, lang)) for name in site.bank.topics]
     latest = await run_in_threadpool(site.store.latest, request.state.learner.id, 1)
     going_on = latest[0] if latest and latest[0].ended is None else None
-    plan = await run_in_threadpool(due_today, request)
+    tonight = await run_in_threadpool(look_at_tonight, request)
     return page_response(
-        request, "home.html.j2", topics=topics, tiers=TIERS, going_on=going_on, plan=plan
-    )
+        request, "home.html.j2", topics=topics, going_on=going_on, tonight=tonight,
+        lengths=MINUTES, exam_set=progress_of(request).exam is not None,
+    )  # fmt: skip
+
+
+async def set_minutes(request: Request) -> Response:
+    """Store how many minutes the learner has now."""
+    minutes = field_text(await read_form(request), "minutes")
+    site: ServerState = request.app.state.site
+    if minutes in map(str, MINUTES):
+        await run_in_threadpool(
+            site.store.update_settings, request.state.learner.id, {"minutes": minutes}
+        )
+    return redirect("/")
 
 
 async def start_question(request: Request) -> Response:
-    """Choose a question by topic, tier or template, and redirect to it."""
+    """Choose a question by topic, template or an exam to repair, and redirect to it."""
     form = await read_form(request)
-    wish = {name: field_text(form, name) for name in ("topic", "tier")}
+    wish = {name: field_text(form, name) for name in ("topic", "tier", "repair")}
     template = field_text(form, "template")
     site: ServerState = request.app.state.site
     if template in site.bank.template_paths:
@@ -75,7 +86,11 @@ async def _find_next_question(request: Request, wish: dict[str, str]) -> Questio
             tier=wish.get("tier") or None,
         ),
     )
-    return await run_in_threadpool(progress_of(request).next_question, names) if names else None
+    learning, sitting = progress_of(request), wish.get("repair")
+    if names and sitting:
+        repairs = await run_in_threadpool(learning.list_repairs, sitting)
+        names = tuple(name for name in repairs if name in names)[:1] or names
+    return await run_in_threadpool(learning.next_question, names) if names else None
 
 
 async def _begin_attempt(request: Request, which: QuestionRef, wish: dict[str, Any]) -> Response:
@@ -250,6 +265,7 @@ async def next_question(request: Request) -> Response:
 
 ROUTES = [
     Route("/", show_practice),
+    Route("/tonight", set_minutes, methods=["POST"]),
     Route("/practice", start_question, methods=["POST"]),
     Route("/q/{attempt}", show_question),
     Route("/q/{attempt}/again", repeat_question, methods=["POST"]),

@@ -178,9 +178,7 @@ class AttemptInBrowser:
 
     def _build_review_event(self, place: AttemptPart) -> OutcomeRecord:
         """Return the outcome of a part, for progress."""
-        return outcome_record(
-            self.attempt.which, self.made.topic, place.part.label, place.task.state
-        )
+        return outcome_record(self.attempt, self.made.topic, place.part.label, place.task.state)
 
 
 def _is_fully_filled(part: PartView, values: list[str]) -> bool:

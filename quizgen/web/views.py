@@ -11,6 +11,7 @@ from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
+from quizgen.bank.bank import builtin_bank
 from quizgen.figures.inks import write_theme_css
 from quizgen.grading.drawing.strokes import read_strokes
 from quizgen.kinds.contract import DrawingField
@@ -70,7 +71,9 @@ def _build_menu(site: ServerState, learner: Learner) -> list[tuple[str, str]]:
         return []
     shown = [("/", "practice"), ("/exam", "exam"), ("/progress", "progress")]
     shown += [("/formulas", "formulas")] if "formulas" in site.bank.cards else []
-    shown += [("/camera", "camera"), ("/tradeoff", "tradeoff")]
+    # Its scenes and measurements are of the built-in bank's chapter.
+    if builtin_bank() in site.bank.members:
+        shown += [("/camera", "camera"), ("/tradeoff", "tradeoff")]
     shown += [("/author", "author")] if here.examine else []
     shown += [("/class", "class")] if here.classroom else []
     shown += [("/people", "people")] if learner.manages else []

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import sympy
 from click.testing import CliRunner
+from sweep import together
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.variant import draw_variant
@@ -22,13 +23,13 @@ ROOT = Path(__file__).parent.parent.parent / "examples" / "strangers"
 BANK = Bank(ROOT, trusted=True)
 
 
-@pytest.mark.parametrize("name", BANK.template_paths)
+@together("name", BANK.template_paths)
 def test_every_template_is_clean(name):
     assert not lint_template(BANK.template(name), 40, BANK.languages).problems
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", BANK.template_paths)
+@together("name", BANK.template_paths)
 def test_every_template_is_clean_in_many_draws(name):
     assert not lint_template(BANK.template(name), 300, BANK.languages).problems
 

@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 from needed import absent
 from sqlalchemy import event
+from sweep import draws
 
 from quizgen.store import Store
 
@@ -72,14 +73,14 @@ def rounds(few: int, many: int):
     return [pytest.param(n, marks=[pytest.mark.slow] if n >= few else []) for n in range(many)]
 
 
-@pytest.mark.parametrize("number", rounds(2, 100))
+@pytest.mark.parametrize("number", rounds(2, draws(30)))
 def test_a_killed_server_has_lost_nothing(tmp_path, synced, number):
     acknowledged = run(tmp_path, synced, random.Random(number).uniform(0.05, 0.6))
     assert acknowledged
     assert lost(tmp_path / FILE, acknowledged) == []
 
 
-@pytest.mark.parametrize("number", rounds(2, 20))
+@pytest.mark.parametrize("number", rounds(2, min(draws(20), 20)))
 def test_a_power_cut_has_lost_nothing(tmp_path, synced, number):
     chance = random.Random(number)
     acknowledged = run(tmp_path, synced, chance.uniform(0.05, 0.6))

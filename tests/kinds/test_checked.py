@@ -135,7 +135,7 @@ def test_a_check_that_does_not_load_leaves_the_answer_to_a_person(tmp_path):
 def test_lint_holds_a_check_to_its_examples(tmp_path):
     assert not _codes(make_bank(tmp_path / "a"))
     harsh = CHECK.replace("0.5", "0.25")
-    assert _codes(make_bank(tmp_path / "b", harsh)) == ["QG220"]
+    assert _codes(make_bank(tmp_path / "b", harsh)) == ["QG221"]
     broken = CHECK.replace("return None", "return int(answer)")
     (found,) = _lint(make_bank(tmp_path / "c", broken))
     assert "ValueError" in found.message
@@ -161,7 +161,7 @@ def test_a_typed_formula_becomes_a_sympy_expression():
     import sympy
 
     x, c = sympy.symbols("x C1")
-    assert checking.read_expression("2x^2 + C1 sin 3x", "x C1") == 2 * x**2 + c * sympy.sin(3 * x)
+    assert checking.read_as_sympy("2x^2 + C1 sin 3x", "x C1") == 2 * x**2 + c * sympy.sin(3 * x)
 
 
 def test_the_example_of_the_manual_is_sound(tmp_path):

@@ -34,6 +34,12 @@ def test_learners_have_no_such_page(client):
     assert client.get(f"/author/{NAME}").status_code == 404
 
 
+def test_the_menu_has_the_camera_only_where_its_chapter_is(author, client):
+    for chapter in ('href="/camera"', 'href="/tradeoff"'):
+        assert chapter in client.get("/").text
+        assert chapter not in author.get("/").text
+
+
 def test_a_template_stands_with_its_solution_in_both_languages(author):
     assert f'href="/author/{NAME}"' in author.get("/author").text
     page = author.get(f"/author/{NAME}?seed=3").text

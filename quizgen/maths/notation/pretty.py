@@ -186,6 +186,21 @@ def format_formula(text: str) -> str:
     return _DOUBLED.sub(r"(\1)", _FORMULA.sub(_rewrite_match, text))
 
 
+def format_constant(text: str) -> str:
+    """Return an exact number as it is written by hand.
+
+    Examples
+    --------
+    >>> format_constant("-9*sqrt(2)/2")
+    '−9√2/2'
+    """
+    return _BEFORE_ROOT.sub("", _ROOT.sub(r"√\1", format_formula(text)))
+
+
+_ROOT = re.compile(r"√\((\d+)\)(?![\d⁰¹²³⁴-⁹])")
+_BEFORE_ROOT = re.compile(r"(?<=\d)·(?=[√π])")
+
+
 def _rewrite_match(match: re.Match[str]) -> str:
     """Return one piece of a formula as people write it."""
     kind = str(match.lastgroup)

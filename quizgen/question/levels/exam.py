@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 from quizgen.bank.markdown import FIELD_MARK, Block, Emphasis, ListBlock, Paragraph, slot_names
-from quizgen.bank.template import PART_LABELS
+from quizgen.bank.rules import PART_LABELS
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
