@@ -14,7 +14,11 @@ from collections.abc import Iterable, Mapping
 from contextlib import redirect_stdout
 from fractions import Fraction
 from functools import cache, lru_cache
+from importlib.abc import SourceLoader
+from importlib.machinery import ModuleSpec
+from importlib.util import module_from_spec
 from io import StringIO
+from numbers import Real
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import msgspec
@@ -96,14 +100,13 @@ def _run_within_time(
     """Run a check in this process, for ``SECONDS`` at most where there is such a timer."""
     timed = hasattr(signal, "setitimer") and threading.current_thread() is threading.main_thread()
     try:
-        check = _load_check(source)[function]
         before = signal.signal(signal.SIGALRM, _end_check) if timed else None
         if timed:
             signal.setitimer(signal.ITIMER_REAL, SECONDS)
         try:
             given = {name: _to_python(value) for name, value in values.items()}
             with redirect_stdout(StringIO()):
-                found = check(given, typed)
+                found = _load_check(source)[function](given, typed)
         finally:
             if timed:
                 signal.setitimer(signal.ITIMER_REAL, 0)
@@ -120,12 +123,32 @@ def _end_check(_signal: int, _frame: FrameType | None) -> None:
     raise TimeoutError(f"it takes more than {SECONDS} seconds")
 
 
+class _TrustedSource(SourceLoader):
+    """Loader of a check from the text that was found by its digest, not from a file again."""
+
+    def __init__(self, source: bytes) -> None:
+        """Take the text."""
+        self._source = source
+
+    def get_filename(self, fullname: str) -> str:
+        """Return what tracebacks call it."""
+        del fullname
+        return CHECK
+
+    def get_data(self, path: str) -> bytes:
+        """Return the text; there is no bytecode of it."""
+        if path != CHECK:
+            raise OSError(path)
+        return self._source
+
+
 @lru_cache(maxsize=64)
 def _load_check(source: bytes) -> dict[str, Any]:
     """Return the names of a check's module, run once for each text of it."""
-    names: dict[str, Any] = {"__name__": "check"}
-    exec(compile(source, CHECK, "exec"), names)  # noqa: S102 - a file that was trusted
-    return names
+    loader = _TrustedSource(source)
+    module = module_from_spec(ModuleSpec("check", loader, origin=CHECK))
+    loader.exec_module(module)
+    return vars(module)
 
 
 def _to_python(value: CheckValue) -> Any:
@@ -152,7 +175,7 @@ def _read_outcome(found: Any) -> CheckOutcome:
     return CheckOutcome(fault=what[:500])
 
 
-def read_expression(typed: str, symbols: str | Iterable[str]) -> Any:
+def read_as_sympy(typed: str, symbols: str | Iterable[str]) -> Any:
     """Return a typed formula as a SymPy expression; nothing that was typed is run as code.
 
     Parameters

@@ -130,7 +130,7 @@ def test_editors_are_told_what_each_key_means(kind):
 ANSWERS = {
     "Number", "Quantity", "Angle", "Point", "Set", "Table", "Interval", "Expression", "Choice",
     "Multi", "Truth", "Match", "Order", "Gap", "Witness", "Code", "Text", "Sketch",
-    "Complex", "Equation", "Matrix", "Vector",
+    "Complex", "Equation", "Matrix", "Vector", "Checked",
 }  # fmt: skip
 """Names that editors know the answers of each kind by."""
 
@@ -149,6 +149,7 @@ def test_nothing_is_told_of_a_key_that_there_is_not():
 
 
 UNUSED = {
+    "checked": {"kind": "checked", "function": "judge", "traps": ["near"]},
     "set": {"kind": "set", "of": ["x"]},
     "interval": {"kind": "interval", "value": "[0, 1]"},
     "equation": {"kind": "equation", "of": "c", "symbols": ["x", "y"]},
@@ -175,6 +176,8 @@ MADE = {
     "parts",
     "entries",
     "components",
+    "check",
+    "example",
 }
 """What a draw, the bank or the words give to the key of a part, and nobody writes in an answer."""
 

@@ -161,7 +161,7 @@ def test_a_typed_formula_becomes_a_sympy_expression():
     import sympy
 
     x, c = sympy.symbols("x C1")
-    assert checking.read_expression("2x^2 + C1 sin 3x", "x C1") == 2 * x**2 + c * sympy.sin(3 * x)
+    assert checking.read_as_sympy("2x^2 + C1 sin 3x", "x C1") == 2 * x**2 + c * sympy.sin(3 * x)
 
 
 def test_the_example_of_the_manual_is_sound(tmp_path):

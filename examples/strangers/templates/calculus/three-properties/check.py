@@ -2,14 +2,14 @@
 
 import sympy
 
-from quizgen.grading.checking import read_expression
+from quizgen.grading.checking import read_as_sympy
 
 X = sympy.Symbol("x", real=True)
 
 
 def check(values, answer):
     """Judge each property by itself; the first that fails is said."""
-    f = read_expression(answer, "x").subs(sympy.Symbol("x"), X)
+    f = read_as_sympy(answer, "x").subs(sympy.Symbol("x"), X)
     if f.has(sympy.nan, sympy.zoo):
         return None
     slope = f.diff(X)
