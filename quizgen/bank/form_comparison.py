@@ -107,7 +107,9 @@ def _are_related(pairs: Sequence[tuple[float, float]], relation: str) -> bool:
         return all(_is_near(a - b, shift, max(abs(a), abs(b))) for a, b in pairs)
     if relation in {"factor", "positive"}:
         a0, b0 = pairs[0]
-        return (relation == "factor" or a0 * b0 > 0) and all(_is_near(a * b0, a0 * b, max(abs(a * b0), abs(a0 * b))) for a, b in pairs)
+        return (relation == "factor" or a0 * b0 > 0) and all(
+            _is_near(a * b0, a0 * b, max(abs(a * b0), abs(a0 * b))) for a, b in pairs
+        )
     return all(_is_near(a, b, max(abs(a), abs(b))) for a, b in pairs)
 
 

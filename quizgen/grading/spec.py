@@ -115,8 +115,8 @@ class WordSpec(SpecBase, msgspec.Struct, kw_only=True, frozen=True, omit_default
 class NumericSpec(SpecBase, Tolerance, kw_only=True, frozen=True):
     """Fields of every kind whose key is made of numbers: those of all, and the tolerance.
 
-    ``define`` are the units of the question's bank, each as ``bank.toml`` defines it; ``worth`` maps
-    a mistake's name to the share of the points that it still earns.
+    ``define`` are the units of the question's bank, each as ``bank.toml`` defines it; ``worth``
+    maps a mistake's name to the share of the points that it still earns.
     """
 
     kind: str

@@ -51,7 +51,9 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
         first, *rest = _SIGN.split(typed)
         if len(rest) != len(("sign", "side")) or not (first.strip() and rest[1].strip()):
             raise FormulaReadError("equation-expected", 1, typed.strip()[:60])
-        left, right = (read_formula(s, self.symbols, options.decimal).tree for s in (first, rest[1]))
+        left, right = (
+            read_formula(s, self.symbols, options.decimal).tree for s in (first, rest[1])
+        )
         equation = Call(_OPERATORS[rest[0]], (left, right))
         read_as = pretty.format_formula(format_tree(equation))
         same = self._is_same(self.value, equation)
@@ -65,7 +67,7 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
         return wrong(read_as)
 
     def _is_same(self, key: str, equation: Call) -> bool | None:
-        """Whether two have the same solutions, by a constant factor; None if that cannot be told."""
+        """Whether both have the same solutions, by a constant factor; None if undecided."""
         own = _parse_authored_relation(key, tuple(self.symbols))
         if _kind_of(own) != _kind_of(equation):
             return False
@@ -87,7 +89,16 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
 
 
 _SIGN = re.compile(r"(<=|>=|==|[<>=≤≥])")
-_OPERATORS = {"=": "eq", "==": "eq", "<": "lt", "<=": "le", "≤": "le", ">": "gt", ">=": "ge", "≥": "ge"}
+_OPERATORS = {
+    "=": "eq",
+    "==": "eq",
+    "<": "lt",
+    "<=": "le",
+    "≤": "le",
+    ">": "gt",
+    ">=": "ge",
+    "≥": "ge",
+}
 RELATIONS = ("eq", "lt", "le", "gt", "ge")
 
 
@@ -113,7 +124,9 @@ def _take_difference(relation: Call) -> Expr:
 def ask(part: PartContext) -> AskedPart[EquationSpec]:
     """Return the equation of the solver, and what each mistake makes of it."""
     forms = {"": part.answer_form(), **part.misconception_forms()}
-    texts = {name: format_tree(require_form(part, form, *RELATIONS)) for name, form in forms.items()}
+    texts = {
+        name: format_tree(require_form(part, form, *RELATIONS)) for name, form in forms.items()
+    }
     value = texts.pop("")
     names = sorted(set().union(*map(names_in, forms.values())))
     symbols = list(dict.fromkeys([*part.answer.get("symbols", ()), *names]))

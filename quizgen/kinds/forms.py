@@ -63,7 +63,9 @@ def format_plain(expr: Expr) -> str:
 def show_entry(text: str) -> str:
     """Return a number of a key as it is printed, and as it can be typed back."""
     plain = format_plain(parse_entry(text))
-    return pretty.format_number(plain) if _NUMBER.fullmatch(plain) else pretty.format_constant(plain)
+    return (
+        pretty.format_number(plain) if _NUMBER.fullmatch(plain) else pretty.format_constant(plain)
+    )
 
 
 def parse_entry(text: str) -> Expr:

@@ -268,8 +268,9 @@ def _mark_decimals(expr: Expr) -> Expr:
     """Return a formula whose numbers are decimals."""
     if isinstance(expr, Call):
         return Call(expr.op, tuple(map(_mark_decimals, expr.args)))
-    is_broken = isinstance(expr, Num) and expr.value.denominator > 1
-    return Num(expr.value, decimal=True) if is_broken else expr
+    if isinstance(expr, Num) and expr.value.denominator > 1:
+        return Num(expr.value, decimal=True)
+    return expr
 
 
 def _write_number(value: fmpq) -> Num:

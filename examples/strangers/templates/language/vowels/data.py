@@ -1,7 +1,13 @@
 """Five vowels of the phonetic alphabet, and the description of one of them."""
 
 FRONT, BACK = "iyɪʏeøɛœa", "uɯʊʌoɤɔɑɒ"
-HEIGHTS = {"close": "iyuɯ", "near-close": "ɪʏʊ", "close-mid": "eøoɤ", "open-mid": "ɛœɔʌ", "open": "aɑɒ"}
+HEIGHTS = {
+    "close": "iyuɯ",
+    "near-close": "ɪʏʊ",
+    "close-mid": "eøoɤ",
+    "open-mid": "ɛœɔʌ",
+    "open": "aɑɒ",
+}
 ROUNDED = "yʏøœuʊoɔɒ"
 
 
@@ -12,4 +18,6 @@ def draw(rng):
     height = next(name for name, group in HEIGHTS.items() if right in group)
     place = "front" if right in FRONT else "back"
     lips = "rounded" if right in ROUNDED else "unrounded"
-    return {"vowel": f"{height} {place} {lips} vowel", "k": k} | dict(zip("rstuv", signs, strict=True))
+    return {"vowel": f"{height} {place} {lips} vowel", "k": k} | dict(
+        zip("rstuv", signs, strict=True)
+    )

@@ -16,6 +16,6 @@ def draw(rng):
             return None
     place = abs(np.subtract(*(np.median(z) for z in found.values())))
     spread = [np.subtract(*np.quantile(z, (0.75, 0.25))) for z in found.values()]
-    if place < 4 or 0.6 < min(spread) / max(spread):
+    if place < 4 or min(spread) / max(spread) > 0.6:
         return None
     return found
