@@ -299,6 +299,11 @@ def _check_names(template: Template) -> None:
         if strangers:
             what = f"{sorted(strangers)} is not a trap of {rules.solver!r}"
             raise BankError(what, rule="QG116", place=(key,))
+    for part, one in enumerate(rules.part):
+        strangers = {*one.answer.get("worth", ())} - {*template.chain.traps}
+        if strangers:
+            what = f"worth: {sorted(strangers)} is not a trap of {rules.solver!r}"
+            raise BankError(what, rule="QG116", place=("part", str(part), "answer", "worth"))
     strangers = set(rules.precision) - set(template.chain.by_name)
     if strangers:
         what = f"precision names {sorted(strangers)}, which are not steps"

@@ -18,7 +18,6 @@ from importlib.abc import SourceLoader
 from importlib.machinery import ModuleSpec
 from importlib.util import module_from_spec
 from io import StringIO
-from numbers import Real
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import msgspec

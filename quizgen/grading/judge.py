@@ -5,6 +5,10 @@ What a student types never raises: it becomes a ``Verdict``. Neither SymPy nor N
 
 from __future__ import annotations
 
+from fractions import Fraction
+
+import msgspec
+
 from quizgen.grading.diagnosis.numeric_slips import find_common_slip
 from quizgen.grading.feedback import feedback_sentence
 from quizgen.grading.options import GradingOptions
@@ -21,7 +25,7 @@ from quizgen.grading.reading.answer_reader import (
 )
 from quizgen.grading.reading.normalise import LONGEST_PROSE
 from quizgen.grading.spec import AnySpec, WordSpec
-from quizgen.grading.verdict import WRONG, Verdict, ambiguous, attach_message, unreadable
+from quizgen.grading.verdict import PARTIAL, WRONG, Verdict, ambiguous, attach_message, unreadable
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.precision import working_precision
 
@@ -56,7 +60,16 @@ def judge_answer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
     typed that is asked back, since columns count in it.
     """
     with spec.known_units().activate():
-        return _judge_as_written(spec, typed, options)
+        return _credit_mistake(spec, _judge_as_written(spec, typed, options))
+
+
+def _credit_mistake(spec: AnySpec, verdict: Verdict) -> Verdict:
+    """Return the verdict, with the share that a known mistake still earns."""
+    share = getattr(spec, "worth", {}).get(verdict.note.removeprefix("trap:"))
+    if verdict.verdict != WRONG or share is None:
+        return verdict
+    credit = Fraction(str(share))
+    return msgspec.structs.replace(verdict, verdict=PARTIAL, credit=credit)
 
 
 def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:

@@ -115,7 +115,8 @@ class WordSpec(SpecBase, msgspec.Struct, kw_only=True, frozen=True, omit_default
 class NumericSpec(SpecBase, Tolerance, kw_only=True, frozen=True):
     """Fields of every kind whose key is made of numbers: those of all, and the tolerance.
 
-    ``define`` are the units of the question's bank, each as ``bank.toml`` defines it.
+    ``define`` are the units of the question's bank, each as ``bank.toml`` defines it; ``worth``
+    maps a mistake's name to the share of the points that it still earns.
     """
 
     kind: str
@@ -125,6 +126,7 @@ class NumericSpec(SpecBase, Tolerance, kw_only=True, frozen=True):
     notes: MisconceptionNotes = msgspec.field(default_factory=dict)
     of: list[str] | dict[str, str] = msgspec.field(default_factory=list)
     define: tuple[str, ...] = ()
+    worth: dict[str, Scalar] = msgspec.field(default_factory=dict)
 
     def known_units(self) -> UnitRegistry:
         """Return the units that may be typed: those listed, and those of the question's bank."""

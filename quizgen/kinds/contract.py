@@ -37,6 +37,7 @@ from quizgen.core.positions import Place
 from quizgen.grading.judge import show_spec
 from quizgen.grading.spec import AnySpec
 from quizgen.maths.constants import Scalar
+from quizgen.maths.numbers import to_rational
 from quizgen.maths.tolerance import Tolerance
 from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value, Values
@@ -77,11 +78,14 @@ class AuthoredMeasured(Tolerance, kw_only=True, frozen=True, tag_field="kind"):
     """The same, and how near an answer must be."""
 
     of: str | tuple[str, ...] | dict[str, str] = ()
+    worth: dict[str, Scalar] = msgspec.field(default_factory=dict)
     accept: tuple[Scalar, Scalar] | None = None  # type: ignore[assignment]
 
     def find_problems(self) -> Iterator[FieldProblem]:
         """Yield what is wrong apart from types."""
-        return iter(())
+        for name, share in self.worth.items():
+            if not 0 < to_rational(str(share)) < 1:
+                yield ("worth", name), "QG112", "a share of the points: more than 0, less than 1"
 
 
 class AuthoredNumeric(AuthoredMeasured, kw_only=True, frozen=True):

@@ -67,7 +67,7 @@ class EquationSpec(WordSpec, kw_only=True, frozen=True):
         return wrong(read_as)
 
     def _is_same(self, key: str, equation: Call) -> bool | None:
-        """Whether two have the same solutions, by a constant factor; None if that cannot be told."""
+        """Whether both have the same solutions, by a constant factor; None if undecided."""
         own = _parse_authored_relation(key, tuple(self.symbols))
         if _kind_of(own) != _kind_of(equation):
             return False

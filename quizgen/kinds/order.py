@@ -71,7 +71,8 @@ class AuthoredOrder(AuthoredPooled, kw_only=True, tag="order", frozen=True):
 class OrderSpec(WordSpec, kw_only=True, frozen=True):
     """Order: ``steps``; ``before`` = [[a, b], ...]; ``distractors`` that must stay out.
 
-    ``together`` are groups of steps between which no other one may stand. Without ``before`` the listed order is the only one. Steps are typed by their labels.
+    ``together`` are groups of steps between which no other one may stand. Without ``before`` the
+    listed order is the only one. Steps are typed by their labels.
     """
 
     written_as: ClassVar[AnswerForm] = "option"

@@ -14,7 +14,9 @@ MODEL = Model(
         Step(I, U / R, "mA"),
     ),
     traps={
-        "other-circuit": Step(R, Piecewise((parallel, Eq(k, 0)), (row, True), evaluate=False), "ohm"),
+        "other-circuit": Step(
+            R, Piecewise((parallel, Eq(k, 0)), (row, True), evaluate=False), "ohm"
+        ),
         "mean": Step(R, (A + B + C) / 3, "ohm"),
         "one-resistor": Step(I, U / A, "mA"),
     },

@@ -26,6 +26,8 @@ MODEL = Model(
     traps={
         "of-a-value": Step(h, width * sqrt(50)),
         "root-left-out": Step(h, width**2),
-        "next-sample": Step(m, Piecewise((mean(y), Eq(k, 0)), (mean(z), Eq(k, 1)), (mean(x), True))),
+        "next-sample": Step(
+            m, Piecewise((mean(y), Eq(k, 0)), (mean(z), Eq(k, 1)), (mean(x), True))
+        ),
     },
 )

@@ -4,7 +4,11 @@ import numpy as np
 
 from quizgen.figures.kit import SQUARE, Parameter, format_given
 
-PARAMETERS = {"m": Parameter("", "slope"), "b": Parameter("", "height at 0"), "x": Parameter("", "place")}
+PARAMETERS = {
+    "m": Parameter("", "slope"),
+    "b": Parameter("", "height at 0"),
+    "x": Parameter("", "place"),
+}
 SIZE = SQUARE
 
 
@@ -24,4 +28,5 @@ def mark(ax, values, marks):
 
 def alt(values, lang, *, quiz):
     low = format_given(-5 * values["m"] + values["b"])
-    return f"A straight line over a grid. It goes through (0, {format_given(values['b'])}) and (-5, {low})."
+    start = format_given(values["b"])
+    return f"A straight line over a grid. It goes through (0, {start}) and (-5, {low})."

@@ -6,4 +6,6 @@ def draw(rng):
     lost, longest = a ^ b, a | b
     if len({a + b, lost, longest}) < 3:
         return None
-    return {name: f"{n:b}" for name, n in dict(a=a, b=b, s=a + b, w=lost, o=longest).items()}
+    return {
+        name: f"{n:b}" for name, n in {"a": a, "b": b, "s": a + b, "w": lost, "o": longest}.items()
+    }

@@ -28,6 +28,7 @@ def draw(fig, values, *, quiz):
 
 def alt(values, lang, *, quiz):
     return (
-        "State diagram. It starts in q0. Reading a leads from q0 to q2 and back, from q1 to q3 and back; "
-        f"b from q0 to q1 and back, from q2 to q3 and back. The accepting state is q{int(values['goal'])}."
+        "State diagram. It starts in q0. Reading a leads from q0 to q2 and back, from q1 to q3 and "
+        "back; b from q0 to q1 and back, from q2 to q3 and back. "
+        f"The accepting state is q{int(values['goal'])}."
     )

@@ -2,9 +2,10 @@
 
 from quizgen.figures.kit import Parameter, format_given
 
-PARAMETERS = {"k": Parameter("", "1 parallel, 0 in series", 0, 0, 1, whole=True), "U": Parameter("V", "voltage")} | {
-    f"R_{n}": Parameter("ohm", f"resistor {n}") for n in (1, 2, 3)
-}
+PARAMETERS = {
+    "k": Parameter("", "1 parallel, 0 in series", 0, 0, 1, whole=True),
+    "U": Parameter("V", "voltage"),
+} | {f"R_{n}": Parameter("ohm", f"resistor {n}") for n in (1, 2, 3)}
 SIZE = (250, 130)
 
 

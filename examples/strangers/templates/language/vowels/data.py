@@ -1,15 +1,23 @@
-"""A vowel of the phonetic alphabet, and four others to choose from."""
+"""Five vowels of the phonetic alphabet, and the description of one of them."""
 
 FRONT, BACK = "iyɪʏeøɛœa", "uɯʊʌoɤɔɑɒ"
-HEIGHTS = {"close": "iyuɯ", "near-close": "ɪʏʊ", "close-mid": "eøoɤ", "open-mid": "ɛœɔʌ", "open": "aɑɒ"}
+HEIGHTS = {
+    "close": "iyuɯ",
+    "near-close": "ɪʏʊ",
+    "close-mid": "eøoɤ",
+    "open-mid": "ɛœɔʌ",
+    "open": "aɑɒ",
+}
 ROUNDED = "yʏøœuʊoɔɒ"
 
 
 def draw(rng):
-    signs = rng.permutation(list(FRONT + BACK))[:5]
-    right = str(signs[0])
+    signs = [str(sign) for sign in rng.permutation(list(FRONT + BACK))[:5]]
+    k = int(rng.integers(1, 6))
+    right = signs[k - 1]
     height = next(name for name, group in HEIGHTS.items() if right in group)
     place = "front" if right in FRONT else "back"
     lips = "rounded" if right in ROUNDED else "unrounded"
-    named = dict(zip(("r", "s", "t", "u", "v"), map(str, signs), strict=True))
-    return {"vowel": f"{height} {place} {lips} vowel"} | named
+    return {"vowel": f"{height} {place} {lips} vowel", "k": k} | dict(
+        zip("rstuv", signs, strict=True)
+    )

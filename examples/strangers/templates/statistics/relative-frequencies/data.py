@@ -5,7 +5,9 @@ import numpy as np
 
 def draw(rng):
     shares = rng.uniform(0.15, 0.6, (2, 3))
-    counts = np.array([rng.multinomial(n, s / s.sum()) for n, s in zip((100, 150), shares)])
+    counts = np.array(
+        [rng.multinomial(n, s / s.sum()) for n, s in zip((100, 150), shares, strict=True)]
+    )
     kind = int(rng.integers(0, 3))
     whole = (counts.sum(1, keepdims=True), counts.sum(0, keepdims=True), counts.sum())[kind]
     percent = (100 * counts / whole).round(1).ravel()
