@@ -35,7 +35,9 @@ _LINE = re.compile(
     r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
     r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
 )
-_TIED = re.compile(r"[^\W\d_] ?= ?[^\W\d_]|[^/]*\w ?/ ?\w ?[\s,;>→-]+\w|^[^/]*\w[\s,;>→-]+\w ?/ ?\w")
+_TIED = re.compile(
+    r"[^\W\d_] ?= ?[^\W\d_]|[^/]*\w ?/ ?\w ?[\s,;>→-]+\w|^[^/]*\w[\s,;>→-]+\w ?/ ?\w"
+)
 """Steps set equal or beside each other among others in order: ``B = D > A``, ``E G A/B F``."""
 _FILLERS = frozenset({"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং"})
 
