@@ -38,6 +38,9 @@ MEASURED = frozenset({"number", "quantity"})
 WITHOUT_WORDS = MEASURED | {"values"}
 """Forms of answers in which a word can only be a name or a unit, or deny what follows."""
 
+DENIABLE = WITHOUT_WORDS | {"formula"}
+"""Forms of answers that a word of denial turns round."""
+
 DECIDED = frozenset(
     {"unit-not-asked", "unit-other", "percent-not-asked", "unknown-unit-case", "two-readings",
      "used-twice", "no-answer", "too-long", "which-term", "another-word",
@@ -133,7 +136,7 @@ def _judge_text(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict:
         verdict = spec.judge(typed, options)
     except FormulaReadError as error:
         return read_error_verdict(error)
-    if verdict.is_graded and spec.written_as in WITHOUT_WORDS and is_denied(typed):
+    if verdict.is_graded and spec.written_as in DENIABLE and is_denied(typed):
         return ambiguous("denied")
     return verdict
 

@@ -12,7 +12,7 @@ import msgspec
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm
+from quizgen.grading.reading.answer_reader import AnswerForm, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, partial, wrong
@@ -33,12 +33,23 @@ from quizgen.maths.notation import FormulaReadError
 
 _TRUE = frozenset(
     {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r", "stimmt"}
-    | {"holds", "trifft zu", "zutreffend", "yep", "yeah"}
+    | {"holds", "trifft zu", "zutreffend", "yep", "yeah", "ture", "tru", "korrekt", "✅", "☑"}
     | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
 _FALSE = frozenset(
     {"false", "f", "no", "n", "wrong", "incorrect", "falsch", "nein", "untrue", "unwahr", "nope"}
-    | {"doesn't hold", "does not hold", "trifft nicht zu", "unzutreffend", "nö"}
+    | {
+        "doesn't hold",
+        "does not hold",
+        "trifft nicht zu",
+        "unzutreffend",
+        "nö",
+        "fasle",
+        "flase",
+        "fals",
+        "inkorrekt",
+        "❌",
+    }
     | {"মিথ্যা", "মিথ্যে", "অসত্য", "ভূল", "বেঠিক", "না", "ভুল", "ম", "0", "2", "✗", "✘"}
 )
 _FEWEST_VALUES = 2
@@ -69,8 +80,27 @@ _SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\
 """A letter with a sign before or behind words of more than one letter."""
 _UNFINISHED = re.compile(r"[+/&|(\[{][\s*+/&|(\[{]*$")
 """A sign behind which more was to come: no answer yet."""
+_ALTERNATIVE = re.compile(
+    r"(?<![\w\u0980-\u09ff])(?:or|oder|বা|অথবা|কিংবা)(?![\w\u0980-\u09ff])", re.IGNORECASE
+)
+"""A word between options of which only one is meant."""
+_SET_APART = (
+    re.compile(
+        r"(?P<kept>.+?)[,;]? (?:(?:and|but|und|aber) )?"
+        r"(?:not|nicht|instead of|rather than|statt) (?P<denied>.+)",
+        re.IGNORECASE | re.DOTALL,
+    ),
+    re.compile(
+        r"(?:not|nicht) (?P<denied>.+?)[,;]? (?:but|sondern) (?P<kept>.+)",
+        re.IGNORECASE | re.DOTALL,
+    ),
+)
+"""One option set against another: ``B, not E``; ``not E but B``."""
+_BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
+_LONG_WORD = 8
+"""Letters of a word that can stand for an option by itself."""
 _FILLERS = re.compile(
-    r"(?<![\w\u0980-\u09ff])(?:and|und|or|option|answer|ans|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
+    r"(?<![\w\u0980-\u09ff])(?:and|und|or|oder|option|answer|ans|এবং|ও|উত্তর)(?![\w\u0980-\u09ff])",
     re.IGNORECASE,
 )
 
@@ -143,12 +173,7 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
             raise FormulaReadError("too-long", 1001, "1000")
         if self.kind == "tf":
             return _judge_single_option(self, _read_truth_value(self, typed))
-        whole = _find_option_by_text(self, typed)
-        chosen = (
-            [whole]
-            if whole
-            else _parse_labelled_options(self, typed) or _read_positions(self, typed)
-        )
+        chosen = _read_options(self, typed)
         if self.kind == "multi":
             return _judge_several_options(self, chosen)
         if len(chosen) > 1:
@@ -166,6 +191,60 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
             if self.kind == "tf"
             else self.show()
         )
+
+
+def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the positions that an answer chooses, by words, by letters or against others.
+
+    Raises
+    ------
+    FormulaReadError
+        If there is none.
+    """
+    whole = _find_option_by_text(spec, typed)
+    if whole:
+        return [whole]
+    return (
+        _parse_labelled_options(spec, typed)
+        or _read_set_apart(spec, typed)
+        or _find_option_by_its_end(spec, typed)
+        or _read_positions(spec, typed)
+    )
+
+
+def _read_set_apart(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the options kept in ``B, not E``; none unless all others named are denied.
+
+    What is kept and what is denied must each be read as options, and be different ones.
+    """
+    for shape in _SET_APART:
+        match = shape.fullmatch(typed.strip(_AROUND))
+        if match is None:
+            continue
+        try:
+            kept = _read_options(spec, match["kept"])
+            denied = _read_options(spec, re.sub(r"\b(?:not|nicht) ", "", match["denied"]))
+        except FormulaReadError:
+            continue
+        if not {*kept} & {*denied}:
+            return kept
+    return []
+
+
+def _find_option_by_its_end(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the one option that ends in these words, ``half as wide``; none if they are too few.
+
+    Nothing is found where the words left out change the others: ``It does not | become larger``.
+    """
+    words = typed.casefold().strip(_AROUND)
+    if len(words) < _LONG_WORD:
+        return []
+    hits = [
+        (place, option.casefold().strip(_AROUND).removesuffix(words))
+        for place, option in enumerate(spec.choices(), 1)
+        if re.search(rf"(?<!\w){re.escape(words)}$", option.casefold().strip(_AROUND))
+    ]
+    return [] if len(hits) != 1 or says_otherwise(hits[0][1]) else [hits[0][0]]
 
 
 def _read_truth_value(spec: ChoiceSpec, typed: str) -> int:
@@ -232,7 +311,8 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
         If the words are those of another option than the letter.
     """
     text = normalise_typed(piece, keep_x=True, longest=1000).text.strip(_QUOTED)
-    match = _LABELLED.fullmatch(_FILLING.sub("", text)) or _BEHIND.fullmatch(text)
+    bare = _FILLING.sub("", text)
+    match = _LABELLED.fullmatch(bare) or _BRACKETED.fullmatch(bare) or _BEHIND.fullmatch(text)
     if match is None:
         return 0
     mark = match["mark"].translate(BANGLA_LETTERS)
@@ -286,6 +366,8 @@ def _read_positions(spec: ChoiceSpec, typed: str) -> list[int]:
     found = [position for mark in marks for position in _parse_mark(spec, mark)]
     if not found or _UNFINISHED.search(text):
         raise FormulaReadError("option-expected", 1, safe_echo(typed), _list_letters(spec))
+    if len({*found}) > 1 and _ALTERNATIVE.search(text):
+        raise FormulaReadError("one-option", 1, safe_echo(typed))
     return list(dict.fromkeys(found))
 
 

@@ -80,7 +80,8 @@ SET_OTHERWISE = frozenset({"output-brackets", "output-separators"})
 _BRACKETS = re.compile(r"[\[\](){}]")
 _SEPARATORS = re.compile(r"[\[\](){},;\s]+")
 _PROMPT = re.compile(
-    r"^(?:>>> ?|out(?:put)?(?: ?\[\d+\])? ?:|ausgabe ?:|আউটপুট ?:|(?:it )?prints?\b)\s*",
+    r"^(?:>>> ?|out(?:put)?(?: ?\[\d+\])? ?:|(?:ausgabe|আউটপুট|answer|antwort|উত্তর) ?:"
+    r"|(?:(?:it|the program) )?prints?\b)\s*",
     re.IGNORECASE,
 )
 """What stands before an output that is copied or told."""

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import msgspec
 
 from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.formulas import read_formula
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
-from quizgen.kinds.forms import entry_matches, format_plain, parse_entry, typeset_key
+from quizgen.kinds.forms import drop_name, entry_matches, format_plain, parse_entry, typeset_key
 from quizgen.locale import translate
 from quizgen.maths.complex_values import ComplexValue, evaluate_complex
 from quizgen.maths.constants import parse_exact
@@ -39,6 +40,8 @@ class AuthoredComplex(AuthoredAnswer, kw_only=True, tag="complex", frozen=True):
 class ComplexSpec(WordSpec, kw_only=True, frozen=True):
     """Complex: ``parts`` = real and imaginary; ``form`` = cartesian, polar or any."""
 
+    written_as: ClassVar[AnswerForm] = "formula"
+
     parts: list[str]
     form: Literal["cartesian", "polar", "any"] = "any"
     traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
@@ -53,7 +56,7 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Judge a typed complex number."""
-        tree = read_formula(typed, _UNITS, options.decimal).tree
+        tree = read_formula(drop_name(typed), _UNITS, options.decimal).tree
         value = evaluate_complex(tree, frozenset(_UNITS))
         read_as = pretty.format_formula(format_tree(tree))
         if _is_same(value, self.parts):

@@ -6,7 +6,7 @@ Equations may differ by a factor that is not 0, inequalities by a positive one.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import msgspec
 from flint import fmpq
@@ -14,6 +14,7 @@ from flint import fmpq
 from quizgen.grading.judging.algebraic_equality import prove_equal
 from quizgen.grading.judging.sampled_equality import Domain, compare_by_sampling, values_agree
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.formulas import parse_authored, read_formula
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous, correct, wrong
@@ -36,6 +37,8 @@ class AuthoredEquation(AuthoredAnswer, kw_only=True, tag="equation", frozen=True
 
 class EquationSpec(WordSpec, kw_only=True, frozen=True):
     """Equation: ``value`` such as ``(x - 1)^2 + y^2 = 4``; ``symbols`` that it may hold."""
+
+    written_as: ClassVar[AnswerForm] = "formula"
 
     value: str
     symbols: list[str]

@@ -24,6 +24,11 @@ if TYPE_CHECKING:
 _NUMBER = re.compile(r"-?\d+(?:/\d+|\.\d+)?")
 _FORM_WORDS = {"eq": "equation", "lt": "<", "le": "<=", "gt": ">", "ge": ">="}
 """Operator to its name, where that is not the word for it."""
+_CALLED = re.compile(
+    r"^\s*(?:[^\W\d_]\w{0,9}'*\s*[·*⋅×]?\s*){1,2}(?::=|[=:≈]|(?<=\s)is\b)\s*(?=\S)"
+)
+"""A name or a product of two in front of a value: ``A = ``, ``z·w is ``."""
+_BOXED = re.compile(r"\s*\\boxed ?\{(.*)\}\s*", re.DOTALL)
 ROUNDED = fmpq(1, 200)
 """Share of a number that has no short decimal form within which it may be rounded."""
 
@@ -91,3 +96,9 @@ def entry_matches(value: Value, text: str) -> bool:
     if values_agree(value, key) is not False:
         return True
     return not is_short_decimal(key) and bool(abs(value - key) <= abs(key) * ROUNDED)
+
+
+def drop_name(typed: str) -> str:
+    """Return an answer without the box around it and what the student calls it in front."""
+    boxed = _BOXED.fullmatch(typed)
+    return _CALLED.sub("", boxed[1] if boxed else typed)

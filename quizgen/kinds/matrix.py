@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import msgspec
 
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
@@ -20,6 +21,7 @@ from quizgen.kinds.contract import (
     PartContext,
 )
 from quizgen.kinds.forms import (
+    drop_name,
     entry_matches,
     format_plain,
     parse_entry,
@@ -40,7 +42,9 @@ Entries = list[list[str]]
 """Rows of numbers, each a constant formula."""
 LONGEST = 2000
 """Characters of a typed matrix."""
-_LATEX = re.compile(r"\\(?:begin|end) ?\{[a-zA-Z]*matrix\}|\\left[(\[]|\\right[)\]]|\$")
+_LATEX = re.compile(r"\\(?:begin|end) ?\{[a-zA-Z]*matrix\}|\\left[(\[]|\\right[)\]]|\\[()]|\$")
+_ARRAY = re.compile(r"^(?:\w+\.)?(?:array|[mM]atrix)\((\[.*\])\)$", re.DOTALL)
+"""A matrix as NumPy and SymPy print it."""
 _ROWS = re.compile(r"\]\s*[,;]?\s*\[|\\\\|[;\n]")
 _ENTRIES = re.compile(r"\s*&\s*|,\s+|\t+")
 
@@ -53,6 +57,8 @@ class AuthoredMatrix(AuthoredAnswer, kw_only=True, tag="matrix", frozen=True):
 
 class MatrixSpec(WordSpec, kw_only=True, frozen=True):
     """Matrix: ``entries``, row by row."""
+
+    written_as: ClassVar[AnswerForm] = "formula"
 
     entries: Entries
     traps: dict[str, Entries] = msgspec.field(default_factory=dict)
@@ -81,10 +87,6 @@ class MatrixSpec(WordSpec, kw_only=True, frozen=True):
         return f"[{'; '.join(', '.join(map(show_entry, row)) for row in self.entries)}]"
 
 
-_NAMED = re.compile(r"^\s*[^\W\d_]\w{0,9}'*\s*=\s*(?=[\[(\\])")
-"""A name in front of a matrix: ``A = [1, 2; 3, 4]``."""
-
-
 def build_matrix(entries: Entries) -> Expr:
     """Return rows of a key as a tree."""
     return Call("matrix", tuple(Call("row", tuple(map(parse_entry, row))) for row in entries))
@@ -100,7 +102,8 @@ def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
     """
     if len(typed) > LONGEST:
         raise FormulaReadError("too-long", 1, str(LONGEST))
-    text = _LATEX.sub("", _NAMED.sub("", typed)).strip()
+    text = _LATEX.sub("", drop_name(typed)).strip().rstrip(".")
+    text = _ARRAY.sub(r"\1", text)
     while text[:1] in {"[", "("} and text[-1:] in {"]", ")"}:
         text = text[1:-1].strip()
     rows = [

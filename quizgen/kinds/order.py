@@ -35,6 +35,10 @@ _LINE = re.compile(
     r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
     r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
 )
+_TIED = re.compile(
+    r"[^\W\d_] ?= ?[^\W\d_]|[^/]*\w ?/ ?\w ?[\s,;>→-]+\w|^[^/]*\w[\s,;>→-]+\w ?/ ?\w"
+)
+"""Steps set equal or beside each other among others in order: ``B = D > A``, ``E G A/B F``."""
 _FILLERS = frozenset({"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং"})
 
 
@@ -231,6 +235,8 @@ def _read_labels(spec: OrderSpec, typed: str) -> list[str]:
     text = re.sub(r"[\r\n]+", " ", typed.strip())
     source = normalise_typed(text, keep_x=True, longest=1000)
     known = {fold_word(label): label for label in (*spec.steps, *spec.distractors)}
+    if _TIED.search(source.text.strip()):
+        raise FormulaReadError("label-expected", 1, safe_echo(typed), list(known.values()))
     words = _parse_numbered_lines(source.text) or _split_words(source.text, known)
     if len(words) == 1 and fold_word(words[0]) not in known:
         words = list(words[0])

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import msgspec
 
 from quizgen.grading.judging.sampled_equality import values_agree
 from quizgen.grading.options import GradingOptions
+from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
@@ -49,6 +50,8 @@ class AuthoredVector(AuthoredAnswer, kw_only=True, tag="vector", frozen=True):
 
 class ColumnSpec(WordSpec, kw_only=True, frozen=True):
     """Vector: ``components`` in order; ``up_to`` = scale for any multiple."""
+
+    written_as: ClassVar[AnswerForm] = "formula"
 
     components: list[str]
     up_to: Literal["", "scale"] = ""

@@ -118,7 +118,9 @@ _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to"
 _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
-_NAMED = re.compile(rf"^{NAME} ?[=≈:] ?(?=[-+]?[.,]?\d)")
+_NAMED = re.compile(rf"^{NAME}(?: ?[=≈:] ?| (?:is|ist|gleich) )(?=[-+]?[.,]?\d)")
+_NEARLY = re.compile(rf"(?:almost|nearly|fast|প্রায়){_END}", re.IGNORECASE)
+"""What changes a word, and only rounds a number."""
 _LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
 
 
@@ -158,7 +160,9 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) 
 
 def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     """Yield the one number among words; a quantity needs its unit if words follow."""
-    text = _NAMED.sub("", text)
+    named_by, text = text, _NAMED.sub("", text)
+    if text != named_by:
+        yield text
     found, around = scan_numbers(text)
     if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
         return
@@ -203,6 +207,8 @@ def _drop_once(text: str, form: AnswerForm) -> str:
     text = _PAIRED.sub(r"\2", text)
     if form != "option":
         text = _LIST_MARK.sub("", text)
+    if form in {"option", "word"} and _NEARLY.match(text):
+        return text
     around = _load_around_words()
     text = around.before.sub("", _ARROW.sub("", text))
     if form == "formula" and text.endswith("!"):
@@ -331,6 +337,12 @@ _CUT_SHORT = re.compile(r"\d *(?:\.{2,}|…)")
 _RANGE = re.compile(r"[-+−]?\d+(?:[.,]\d+)? *[-–—] *\d+(?:[.,]\d+)?(?: *[^\W\d][^\d]*)?")
 _NUMBERED = re.compile(r"\d{1,2}[.)] +[-+−–]?[.,]?\d.*")
 _RAISED_DOT = re.compile(r"[-+−]?\d+·\d+(?: *[^\W\d][^\d]*)?")
+
+
+def says_otherwise(text: str) -> bool:
+    """Whether words deny, double or change what stands beside them."""
+    words = (word[0].lower().replace("’", "'") for word in _WORD.finditer(text))
+    return any(word in _load_around_words().altering for word in words)
 
 
 def is_denied(text: str) -> bool:
