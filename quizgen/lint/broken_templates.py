@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from importlib.metadata import version
 
-from quizgen.bank.bank import Bank, builtin_bank
+from quizgen.bank.bank import Bank, builtin_root
 from quizgen.bank.combined import CombinedBank
 from quizgen.bank.discovery import python_digest
 from quizgen.core.cache import compute_digest, read_cached, write_cached
@@ -57,7 +57,7 @@ def leave_out_broken(bank: Bank) -> tuple[Bank, Mapping[str, QuizgenError]]:
     parts: list[Bank] = []
     broken: dict[str, QuizgenError] = {}
     for part in bank.members:
-        found = {} if part is builtin_bank() else find_broken_templates(part)
+        found = {} if part.root == builtin_root() else find_broken_templates(part)
         parts.append(part.without(found) if found else part)
         broken |= found
     if not broken:
