@@ -18,6 +18,7 @@ from importlib.abc import SourceLoader
 from importlib.machinery import ModuleSpec
 from importlib.util import module_from_spec
 from io import StringIO
+from numbers import Real
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import msgspec
@@ -166,7 +167,7 @@ def _read_outcome(found: Any) -> CheckOutcome:
     share, says = found if isinstance(found, tuple) and len(found) == PAIR else (found, "")
     if isinstance(says, str) and share is None:
         return CheckOutcome(None, says)
-    if isinstance(says, str) and isinstance(share, int | float | Fraction) and 0 <= share <= 1:
+    if isinstance(says, str) and isinstance(share, Real) and 0 <= float(share) <= 1:
         # As it is written, so that 0.1 is a tenth; a truth is 0 or 1.
         exactly = str(int(share)) if isinstance(share, bool) else str(share)
         return CheckOutcome(Fraction(exactly), says)
