@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import difflib
+import gc
 import os
 import sys
 from collections.abc import Iterable
+from concurrent.futures import Future
 from itertools import islice
 from pathlib import Path
 
@@ -14,6 +16,7 @@ from needed import installed
 
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.core import cache
+from quizgen.core.executor import InlineExecutor
 
 # Containers forbid bytecode to be kept; then every cold process that a test starts would compile
 # SymPy and all the rest again, two seconds each.
@@ -39,6 +42,12 @@ def pytest_collection_modifyitems(items):
     for item in items:
         if {"browser", "chromium", "firefox"} & {*getattr(item, "fixturenames", ())}:
             item.add_marker(pytest.mark.browser)
+
+
+def pytest_collection_finish():
+    """Look for no garbage among the thousands of tests, which stay to the end."""
+    gc.collect()
+    gc.freeze()
 
 
 class Snapshots:
@@ -81,6 +90,33 @@ def snapshots(request) -> Snapshots:
 @pytest.fixture(scope="session")
 def bank() -> Bank:
     return builtin_bank()
+
+
+@pytest.fixture
+def jobs_in_this_process(monkeypatch):
+    """Lets servers that begin now do their work here: processes of their own take seconds to begin."""
+    from quizgen.web import job_cache
+
+    class Here(InlineExecutor):
+        def __init__(self, _count, prepare, given, **_more):
+            self.processes, self._prepare = [], lambda: prepare(*given)
+
+        def submit(self, fn, /, *args, **kwargs):
+            self._prepare()  # another server may have prepared this process for its bank
+            try:
+                return super().submit(fn, *args, **kwargs)
+            except Exception as error:  # noqa: BLE001
+                failed = Future()
+                failed.set_exception(error)
+                return failed
+
+        def start_all(self):
+            """Needs none."""
+
+        def stop(self):
+            """Has none."""
+
+    monkeypatch.setattr(job_cache, "ProcessExecutor", Here)
 
 
 @pytest.fixture

@@ -71,6 +71,13 @@ def typed(step: Step) -> str:
     return re.sub(r"\s+#\s.*", "", step.text)
 
 
+def save(step: Step, folder: Path) -> None:
+    """Save a file of a page where the page says."""
+    file = folder / step.file
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(step.text, "utf-8")
+
+
 def checkout(folder: Path) -> Path:
     """A copy of the project, so that a command may change it."""
     for source in filter(Path.exists, (ROOT / name for name in CHECKOUT)):

@@ -13,6 +13,7 @@ import click
 import consoles
 import msgspec
 import pytest
+from sweep import together
 
 import quizgen
 from quizgen import typeset
@@ -44,7 +45,7 @@ def test_examples_in_docstrings_run(module):
     assert result.failed == 0
 
 
-@pytest.mark.parametrize("name", list(COMMANDS))
+@together("name", list(COMMANDS))
 def test_every_command_loads_and_is_in_the_readme(name):
     command = root_group.get_command(None, name)
     assert command is not None
@@ -74,8 +75,8 @@ def blanks(text):
     return {part.split("}")[0] for part in text.split("{")[1:]}
 
 
-@pytest.mark.parametrize("lang", sorted({*list_languages()} - {"en"}))
-@pytest.mark.parametrize("file", ["interface", "messages", "web", "classes", "cards"])
+@together("lang", sorted({*list_languages()} - {"en"}))
+@together("file", ["interface", "messages", "web", "classes", "cards"])
 def test_every_word_has_the_same_blanks_in_every_language(file, lang):
     # From the files: a word that a language lacks is said in English.
     english, other = (
@@ -129,7 +130,7 @@ PAIRS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "inner"), PAIRS)
+@together(("name", "inner"), PAIRS)
 def test_every_option_is_documented_and_explained(name, inner):
     pages = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md"]
     text = "".join(page.read_text(encoding="utf-8") for page in pages if page.stem != "api")
@@ -159,7 +160,7 @@ def test_a_page_can_be_followed_from_top_to_bottom(page, tmp_path):
     folder = consoles.checkout(tmp_path)
     for step in consoles.steps(page):
         if step.file:
-            (folder / step.file).write_text(step.text, "utf-8")
+            consoles.save(step, folder)
             continue
         command = consoles.typed(step)
         if command in NOT_RUN:
@@ -212,6 +213,7 @@ INVENTED = {
         "templates/locale/",
     ),
     "commands.md": ("templates/locale/",),
+    "tutorial.md": ("templates/bank.toml",),
     "mistakes.md": (
         "solvers/forces/",
         "templates/forces/",
@@ -235,7 +237,7 @@ def spans(page):
             if not re.search(r"[<>*]|\bTOPIC\b|\bNAME\b|\bSUBJECT\b", text)]  # fmt: skip
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@together("page", PAGES)
 def test_every_path_in_a_page_exists(page):
     invented = INVENTED.get(page.name, ())
     paths = [
@@ -257,7 +259,7 @@ def is_importable(name):
     return True
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@together("page", PAGES)
 def test_every_dotted_name_in_a_page_can_be_imported(page):
     names = {match[0] for text in spans(page) if (match := DOTTED_NAME.match(text))}
     assert [name for name in sorted(names - FILES_NAMED_QUIZGEN) if not is_importable(name)] == []
@@ -266,7 +268,7 @@ def test_every_dotted_name_in_a_page_can_be_imported(page):
 ARCHAIC = re.compile(r"\bof which\b|\banew\b|\bwhoever\b|\bbesides\b", re.IGNORECASE)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@together("page", PAGES)
 def test_pages_are_in_plain_modern_english(page):
     text = page.read_text("utf-8")
     if page.name == "ARCHITECTURE.md":  # lists the words that are not used
@@ -297,7 +299,7 @@ def test_names_of_the_glossary_stand_in_the_code():
 IMPORT = re.compile(r"^(?:>>> )?from (quizgen[\w.]*) import (\w+(?:, \w+)*)$", re.MULTILINE)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@together("page", PAGES)
 def test_what_a_page_imports_exists(page):
     invented = {"veil", "plain", "hex_colour"}
     missing = [

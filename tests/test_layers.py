@@ -9,6 +9,8 @@ from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
+from sources import nodes
+
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "quizgen"
 
@@ -28,7 +30,7 @@ LAYERS = {
     "practice": "core locale grading kinds bank question paper",
     "store": "core bank paper practice",
     "render": "core locale typeset figures question paper",
-    "cards": "core locale typeset bank figures question paper render",
+    "cards": "core locale typeset grading bank figures question paper render",
     "tradeoff": "core locale maths numerics bank figures render",
     "classes": "core locale maths grading kinds bank figures paper render",
     "lms": "core locale maths typeset grading kinds bank figures question paper practice render classes",
@@ -62,21 +64,16 @@ MODULES = {module_name(path): path for path in sorted(PACKAGE.rglob("*.py"))}
 
 
 @cache
-def nodes(path: Path) -> tuple[ast.AST, ...]:
-    """All nodes of a file, the module first."""
-    return tuple(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
-
-
-def imported_modules(path: Path) -> set[str]:
+def imported_modules(path: Path) -> frozenset[str]:
     """Modules of quizgen that a file imports, anywhere in it."""
-    found = set()
+    found: set[str] = set()
     for node in nodes(path):
         if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("quizgen"):
             whole = {f"{node.module}.{alias.name}" for alias in node.names} & MODULES.keys()
             found |= whole or {node.module}
         elif isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names if alias.name in MODULES}
-    return found - {module_name(path) if path.is_relative_to(PACKAGE) else ""}
+    return frozenset(found - {module_name(path) if path.is_relative_to(PACKAGE) else ""})
 
 
 def imported(path: Path) -> set[str]:

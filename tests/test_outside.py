@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from sweep import together
 
 from quizgen.core.errors import BankError, FormulaError, PaperCodeError
 from quizgen.core.untrusted import error_context
 
 
-@pytest.mark.parametrize(
+@together(
     ("file", "said", "shown"),
     [
         ("bank/a/template.toml", "no words", "bank/a/template.toml: no words"),

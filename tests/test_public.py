@@ -10,6 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
+from sweep import together
 
 import quizgen
 
@@ -28,7 +29,7 @@ def test_what_runs_is_what_type_checkers_see():
     assert declared() == {name: f"quizgen.{home}" for name, home in quizgen.HOMES.items()}
 
 
-@pytest.mark.parametrize("name", quizgen.HOMES)
+@together("name", quizgen.HOMES)
 def test_a_public_name_is_called_so_at_home_and_documented(name):
     value = getattr(quizgen, name)
     assert value.__name__ == name

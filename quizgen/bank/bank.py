@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache, cached_property
 from pathlib import Path
-from types import ModuleType
+from types import MappingProxyType, ModuleType
 
 from quizgen.bank.candidate import Candidate
 from quizgen.bank.drawn_lists import list_table_files
@@ -35,7 +36,8 @@ from quizgen.bank.rules import Rules, suggested_minutes, total_points
 from quizgen.bank.solvers import import_module_file, load_chain, unload_modules
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.core.cache import compute_digest
-from quizgen.core.errors import BankError
+from quizgen.core.errors import BankError, QuizgenError
+from quizgen.core.trusted_files import trust_folder
 from quizgen.core.untrusted import (
     NAMES,
     error_context,
@@ -51,8 +53,11 @@ SOLVERS, TEMPLATES, FIGURES = "solvers", "templates", "templates/figures"
 """Where the Python of a bank stands."""
 OWN_DATA = "data"
 """The module beside a template that draws its data, if it has ``[data]``."""
+OWN_CHECK = "check"
+"""The module beside a template that judges answers of kind ``checked``."""
 OWN_FIGURE = "figure"
 """The module beside a template that draws its figure, if ``[figure]`` names no other."""
+OWN_MODULES = (OWN_FIGURE, OWN_DATA, OWN_CHECK)
 LOCALE = "locale"
 """Where its words of a language stand, a folder for each."""
 _BESIDE = ("blueprints", "cards", "figures", LOCALE, "quantities")
@@ -81,9 +86,17 @@ class Bank:
         Folder that holds ``templates/`` and, optionally, ``solvers/``.
     trusted : bool
         Whether its own solvers may run; otherwise only built-in ones are used.
+    left_out : mapping, optional
+        What is wrong with templates that it is to be without, by name.
     """
 
-    def __init__(self, root: Path, *, trusted: bool = False) -> None:
+    def __init__(
+        self,
+        root: Path,
+        *,
+        trusted: bool = False,
+        left_out: Mapping[str, QuizgenError] = MappingProxyType({}),
+    ) -> None:
         """Open the folder; nothing in it is read yet but its languages.
 
         Raises
@@ -93,6 +106,7 @@ class Bank:
         """
         self.root = root
         self.trusted = trusted
+        self.left_out = left_out
         self._templates: dict[str, Template] = {}
         self._rules: dict[str, Rules] = {}
         self._candidates: dict[str, Candidate] = {}
@@ -101,6 +115,8 @@ class Bank:
         if not self.folder.is_dir():
             raise BankError(f"{root}: no folder 'templates' here")
         register_languages(place=self.folder / LOCALE)
+        if trusted:
+            trust_folder(self.folder)
 
     @property
     def members(self) -> tuple[Bank, ...]:
@@ -228,7 +244,7 @@ class Bank:
         return (
             (builtin_bank, ())
             if self is builtin_bank()
-            else (_open_bank, (self.root, self.trusted))
+            else (_open_bank, (self.root, self.trusted, dict(self.left_out)))
         )
 
     def __repr__(self) -> str:
@@ -241,7 +257,11 @@ class Bank:
 
         If several folders share a name, the first stands here; ``rules`` refuses it.
         """
-        return {name: folders[0] for name, folders in self._template_folders.items()}
+        return {
+            name: folders[0]
+            for name, folders in self._template_folders.items()
+            if name not in self.left_out
+        }
 
     @cached_property
     def _template_folders(self) -> dict[str, list[Path]]:
@@ -252,9 +272,13 @@ class Bank:
         """Return the same bank, its files, figures and solvers to be read again."""
         unload_modules(self._figure_folder)
         for folder in self.template_paths.values():
-            if any((folder / f"{own}.py").is_file() for own in (OWN_FIGURE, OWN_DATA)):
+            if any((folder / f"{own}.py").is_file() for own in OWN_MODULES):
                 unload_modules(folder)
         return Bank(self.root, trusted=self.trusted)
+
+    def without(self, broken: Mapping[str, QuizgenError]) -> Bank:
+        """Return the same bank without some templates, given what is wrong with each."""
+        return Bank(self.root, trusted=self.trusted, left_out=broken)
 
     def solver(self, name: str) -> ModuleType:
         """Return a solver module, imported: the bank's own, else the built-in one of this name.
@@ -362,6 +386,12 @@ class Bank:
             return None
         return self._find_module_beside(name, OWN_DATA, "there is [data]", "data")
 
+    def _find_check_file(self, name: str) -> Path | None:
+        """Return the module that judges answers of a template; None if no part asks for it."""
+        if not _has_checked_part(self.rules(name)):
+            return None
+        return self._find_module_beside(name, OWN_CHECK, 'there is kind = "checked"', "part")
+
     def _find_module_beside(self, name: str, stem: str, because: str, table: str) -> Path:
         """Return the module of a name in a template's folder, which its rules call for.
 
@@ -460,8 +490,11 @@ class Bank:
         Raises
         ------
         BankError
-            If there is none of this name; suggests similar ones.
+            If there is none of this name; suggests similar ones. One that is left out raises what
+            is wrong with it.
         """
+        if name in self.left_out:
+            raise self.left_out[name]
         if name not in self.template_paths:
             raise BankError(f"unknown template {name!r}{self._suggest_template(name)}")
         return self.template_paths[name]
@@ -472,7 +505,7 @@ class Bank:
         It gives the present name of a renamed template, else up to three similar ones, else where
         all are listed.
         """
-        renamed = [known for known in self.template_paths if self.rules(known).formerly == name]
+        renamed = [known for known in self.template_paths if self._has_been_called(known, name)]
         if renamed:
             return f"; it is now called {renamed[0]!r}"
         from difflib import get_close_matches
@@ -481,6 +514,12 @@ class Bank:
         if close:
             return f"; did you mean {', '.join(close)}?"
         return f" (there are {len(self.template_paths)}; quizgen templates lists them)"
+
+    def _has_been_called(self, known: str, name: str) -> bool:
+        """Return whether a template had a name before; False where its rules cannot be read."""
+        with suppress(BankError):
+            return self.rules(known).formerly == name
+        return False
 
     def template_files(self, name: str) -> tuple[bytes, ...]:
         """Return the bytes of the files that make a template; none of them is run.
@@ -508,6 +547,7 @@ class Bank:
         """What draws figure and data beside a template, and the tables that it reads."""
         rules, folder = self.rules(name), self.folder_of(name)
         own = {OWN_FIGURE: rules.figure and not rules.figure.name, OWN_DATA: rules.data}
+        own[OWN_CHECK] = _has_checked_part(rules)
         files = [folder / f"{module}.py" for module, used in own.items() if used]
         files += sorted({folder / table for table in list_table_files(rules)})
         return [file for file in files if file.is_file()]
@@ -543,9 +583,12 @@ class Bank:
         ordered: dict[str, LanguageFile] = {lang: texts[lang] for lang in order}
         quantities = self.quantities.get(rules.solver, QuantityNames())
         figure, data = self._find_figure_file(name), self._find_data_file(name)
+        check = self._find_check_file(name)
         template = Template(
             name, rules, chain, ordered, digest, folder, self.metadata, quantities, figure,
-            self._solver_file(rules.solver), data, read_pictures(folder, ordered),
+            self._solver_file(rules.solver), data,
+            compute_digest(read_bytes(check, BankError)) if check else "",
+            read_pictures(folder, ordered),
         )  # fmt: skip
         check_against_chain(template)
         return template
@@ -559,9 +602,14 @@ class Bank:
         return len(self.template_paths)
 
 
-def _open_bank(root: Path, trusted: bool) -> Bank:
+def _has_checked_part(rules: Rules) -> bool:
+    """Return whether ``check.py`` judges an answer."""
+    return any(part.answer.get("kind") == "checked" for part in rules.part)
+
+
+def _open_bank(root: Path, trusted: bool, left_out: Mapping[str, QuizgenError]) -> Bank:
     """Return a bank; ``pickle`` calls it by name, as it cannot pass ``trusted`` by keyword."""
-    return Bank(root, trusted=trusted)
+    return Bank(root, trusted=trusted, left_out=left_out)
 
 
 def _make_title_from_name(name: str) -> str:

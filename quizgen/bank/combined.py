@@ -83,7 +83,11 @@ class CombinedBank(Bank):
 
         Their names must be identifiers: they stand in front of template names that two banks share.
         """
-        super().__init__(parts[0].root, trusted=all(part.trusted for part in parts))
+        super().__init__(
+            parts[0].root,
+            trusted=all(part.trusted for part in parts),
+            left_out={name: error for part in parts for name, error in part.left_out.items()},
+        )
         self._parts = parts
         for part in parts:
             require_identifier(part.name, f"{part.folder / 'bank.toml'}: name", BankError)

@@ -14,7 +14,13 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 from flint import fmpq
 
-from quizgen.bank.drawn_lists import MOST_VALUES, RationalList, round_float
+from quizgen.bank.drawn_lists import (
+    MOST_VALUES,
+    RationalList,
+    is_number,
+    number_texts,
+    round_float,
+)
 from quizgen.bank.frozen_random import FrozenGenerator
 from quizgen.bank.rules import DataRule
 from quizgen.bank.solvers import author_error_context
@@ -86,7 +92,8 @@ def _convert_data(given: object, rules: Mapping[str, DataRule]) -> DrawnData:
         if name not in rules:
             raise BankError(f"draw(rng) gives {name!r}, which [data] does not list", rule="QG123")
         _add_value(found, name, value, rules[name])
-    lacking = sorted({*rules} - {*found.numbers, *found.lists, *found.texts})
+    texts = {name.partition("[")[0] for name in found.texts}
+    lacking = sorted({*rules} - {*found.numbers, *found.lists, *texts})
     if lacking:
         raise BankError(f"draw(rng) does not give {lacking}, listed in [data]", rule="QG123")
     return found
@@ -121,22 +128,16 @@ def _add_value(found: DrawnData, name: str, value: Any, rule: DataRule) -> None:
         if not 1 <= len(value) <= MOST_VALUES:
             what = f"{name}: a list of {len(value)} values (allowed: 1 to {MOST_VALUES})"
             raise BankError(what, rule="QG133")
+        if all(isinstance(one, str) and not is_number(one) for one in map(_to_plain, value)):
+            found.texts.update(number_texts(name, value))
+            return
         found.lists[name] = NumberList(_convert_number(name, _to_plain(one), rule) for one in value)
-    elif isinstance(value, str) and not _is_number(value):
+    elif isinstance(value, str) and not is_number(value):
         if len(value) > LONGEST_TEXT:
             raise BankError(f"{name}: a text of more than {LONGEST_TEXT} letters", rule="QG133")
         found.texts[name] = value
     else:
         found.numbers[name] = _convert_number(name, value, rule)
-
-
-def _is_number(text: str) -> bool:
-    """Return whether a text reads as a rational number."""
-    try:
-        to_rational(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _convert_number(name: str, value: Any, rule: DataRule) -> fmpq:

@@ -86,6 +86,11 @@ def _iter_unit_errors(template: Template) -> Iterator[BankError]:
             file = template.solver_file or template.file
             yield BankError(problem, rule="QG203", file=file, place=("Step", step.name))
         known[step.name] = _parse_unit_dimension(units, step.unit)
+    for other in template.chain.alternatives:
+        step = ChainStep(other.name, other.expr, template.chain.by_name[other.name].unit)
+        for problem in _check_step(units, step, known):
+            file, at = template.solver_file or template.file, ("alternatives", step.name)
+            yield BankError(problem, rule="QG203", file=file, place=at)
     for index, part in enumerate(template.rules.part):
         asked = part.answer.get("unit")
         for name in asked_quantities(part.answer) if isinstance(asked, str) else ():

@@ -1,8 +1,9 @@
 """Banks that are installed, and whose Python may run.
 
 A package brings a bank by an entry point of the group ``quizgen.banks``: a name, and the package
-that holds ``templates/``. Nothing of it is imported to find it. Whose Python a person has allowed
-to run is remembered by what it says, so that a bank that changes is asked for again.
+that holds ``templates/``. The bank is called as its ``bank.toml`` says. Nothing of it is imported
+to find it. Whose Python a person has allowed to run is remembered by what it says, so that a bank
+that changes is asked for again.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from pathlib import Path
 import msgspec
 
 from quizgen.bank.bank import SOLVERS, TEMPLATES, Bank, builtin_bank, builtin_root
+from quizgen.bank.metadata import read_metadata
 from quizgen.core.cache import compute_digest
 from quizgen.core.errors import BankError
 from quizgen.core.files import write_all
@@ -26,7 +28,7 @@ _FILE = "trusted.json"
 
 @cache
 def installed_banks() -> dict[str, Path]:
-    """Return the folder of each bank that a package brings, by the bank's name."""
+    """Return the folder of each bank that a package brings, by the name of its entry point."""
     from importlib.metadata import entry_points  # it brings the parser of e-mail along
 
     found: dict[str, Path] = {}
@@ -38,25 +40,41 @@ def installed_banks() -> dict[str, Path]:
 
 
 def available_banks() -> dict[str, Path]:
-    """Return the folder of the built-in bank, and of each that a package brings, by name."""
-    return {builtin_bank().name: builtin_root(), **installed_banks()}
+    """Return the folder of the built-in bank, and of each that a package brings, by name.
+
+    That is the ``name`` in ``bank.toml``. The entry point's name stands for a bank that has none,
+    that cannot be read, or whose name another one has taken.
+    """
+    found = {builtin_bank().name: builtin_root()}
+    for entry, place in installed_banks().items():
+        own = ""
+        with suppress(BankError):
+            own = read_metadata(place / TEMPLATES / "bank.toml").name
+        found[own if own and own not in found else entry] = place
+    return found
 
 
 def resolve_bank(named: Path) -> Path:
     """Return the folder of a bank: the given one, or that of a bank of this name.
+
+    A folder that happens to have the name of an installed bank, such as that of a project, is one
+    only if it holds templates.
 
     Raises
     ------
     BankError
         If there is neither; it tells the names there are.
     """
+    if (named / TEMPLATES).is_dir():
+        return named
+    known = {**installed_banks(), **available_banks()}
+    if str(named) in known:
+        return known[str(named)]
     if named.exists():
         return named
-    if str(named) not in available_banks():
-        raise BankError(
-            f"{named}: no such folder, and no bank of this name ({', '.join(available_banks())})"
-        )
-    return available_banks()[str(named)]
+    raise BankError(
+        f"{named}: no such folder, and no bank of this name ({', '.join(available_banks())})"
+    )
 
 
 def python_files(root: Path) -> list[Path]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -23,6 +23,7 @@ MOST_VALUES = 1000
 MOST_DECIMALS = 12
 
 RationalList: TypeAlias = tuple[fmpq, ...]
+TextList: TypeAlias = tuple[str, ...]
 ListDraw: TypeAlias = Callable[[str, int, Mapping[str, Any]], RationalList]
 """From stem, try and what is drawn before to the values of a list."""
 
@@ -140,11 +141,11 @@ class ListPlan(msgspec.Struct, frozen=True):
 
     name: str
     rule: DrawRule
-    pool: RationalList
+    pool: RationalList | TextList
     formulas: dict[str, CompiledFormula]
 
-    def draw(self, stem: str, attempt: int, env: Mapping[str, Any]) -> RationalList:
-        """Return the values of one try.
+    def draw(self, stem: str, attempt: int, env: Mapping[str, Any]) -> RationalList | TextList:
+        """Return the values of one try: numbers, or texts if that is what there are.
 
         Raises
         ------
@@ -167,7 +168,7 @@ class ListPlan(msgspec.Struct, frozen=True):
         count = self._count(env) if rule.sample else len(order)
         if count > len(order):
             raise BankError(f"a sample of {count} out of {len(order)} values", rule="QG110")
-        return tuple(self.pool[place] for place in order[:count])
+        return tuple([self.pool[place] for place in order[:count]])
 
     def _count(self, env: Mapping[str, Any]) -> int:
         """Return how many values the list has, a number or a formula of values drawn before.
@@ -180,7 +181,7 @@ class ListPlan(msgspec.Struct, frozen=True):
             raise BankError(f"size is no whole number from 1 to {MOST_VALUES}", rule="QG109")
         return int(value.p)
 
-    def _take_rows(self, stem: str, attempt: int) -> RationalList:
+    def _take_rows(self, stem: str, attempt: int) -> RationalList | TextList:
         """Return rows of a file, the same for each of its columns that takes as many, in order."""
         take = self.rule.take
         if take is None or take >= len(self.pool):
@@ -189,7 +190,7 @@ class ListPlan(msgspec.Struct, frozen=True):
         ranked = sorted(
             range(len(self.pool)), key=lambda row: hashlib.sha256(f"{key}/{row}".encode()).digest()
         )
-        return tuple(self.pool[row] for row in sorted(ranked[:take]))
+        return tuple([self.pool[row] for row in sorted(ranked[:take])])
 
 
 def plan_list(
@@ -210,8 +211,33 @@ def plan_list(
             what = f"take is {rule.take}, and {rule.table} has {table.height} rows"
             raise BankError(what, rule="QG110")
     formulas = [*map(str, rule.normal), *([rule.size] if isinstance(rule.size, str) else [])]
-    pool = tuple(map(_parse_cell, cells))
+    pool = _parse_cells(cells)
     return ListPlan(name, rule, pool, {text: compile_formula(text) for text in formulas})
+
+
+def is_number(cell: Scalar) -> bool:
+    """Whether a cell of a table or a list reads as a rational number."""
+    try:
+        to_rational(str(cell))
+    except FormulaError:
+        return False
+    return True
+
+
+def number_texts(name: str, texts: Iterable[str]) -> dict[str, str]:
+    """Return a list of texts as the phrases ``name[1]``, ``name[2]``, ..., as words name them."""
+    return {f"{name}[{place}]": str(text) for place, text in enumerate(texts, 1)}
+
+
+def _parse_cells(cells: Iterable[Scalar]) -> RationalList | TextList:
+    """Return cells as exact numbers; as texts if none is a number.
+
+    Raises ``BankError`` for numbers and texts in one list: one of them is a slip.
+    """
+    written = tuple(cells)
+    if written and not any(map(is_number, written)):
+        return tuple(map(str, written))
+    return tuple(map(_parse_cell, written))
 
 
 def _parse_cell(cell: Scalar) -> fmpq:
@@ -226,18 +252,18 @@ class LookupPlan(msgspec.Struct, frozen=True):
     """How a value is looked up, by a drawn phrase or by a number."""
 
     rule: DrawRule
-    table: dict[str, fmpq]
+    table: dict[str, fmpq | str]
     place: CompiledFormula | None
 
-    def look_up(self, env: Mapping[str, Any], words: Mapping[str, str]) -> fmpq:
-        """Return the value.
+    def look_up(self, env: Mapping[str, Any], words: Mapping[str, str]) -> fmpq | str:
+        """Return the value, a number or a text.
 
         Raises
         ------
         BankError
             If there is none of this key.
         """
-        if self.place is None:
+        if self.place is None or self.rule.at in words:
             key = words[self.rule.at]
         else:
             place = self.place(env)
@@ -245,7 +271,8 @@ class LookupPlan(msgspec.Struct, frozen=True):
                 raise BankError("at is no rational number", rule="QG120")
             key = str(place)
         if not self.table:
-            return self._pick_from_list(key, env)
+            listed = f"{self.rule.of}[{key}]"
+            return words[listed] if listed in words else self._pick_from_list(key, env)
         if key not in self.table:
             raise BankError(f"of has no value for {key!r}", rule="QG120")
         return self.table[key]
@@ -255,7 +282,7 @@ class LookupPlan(msgspec.Struct, frozen=True):
 
         Raises ``BankError`` if there is no such place.
         """
-        listed = env[str(self.rule.of)]
+        listed = env.get(str(self.rule.of))
         if not isinstance(listed, tuple) or not key.isdecimal() or not 1 <= int(key) <= len(listed):
             what = f"{self.rule.of} has no place {key} (the first is 1)"
             raise BankError(what, rule="QG120")
@@ -287,7 +314,7 @@ def plan_lookup(
         pairs = dict(zip(keys, table.get_column(column), strict=True))
     else:
         pairs = {}
-    return LookupPlan(rule, {key: _parse_cell(cell) for key, cell in pairs.items()}, place)
+    return LookupPlan(rule, dict(zip(pairs, _parse_cells(pairs.values()), strict=True)), place)
 
 
 def find_list_problems(rule: DrawRule) -> Iterator[tuple[str, str, str]]:

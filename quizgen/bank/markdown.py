@@ -179,8 +179,10 @@ _POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?[eE][-+]?\d+)(?![\w.]*\w)")
 _EQUALS = re.compile(r"=(?=\s*$)")
 TABLE_MARK = "table:"
 """Begins a slot that is a table of lists: ``{{ table: x y }}``."""
+FIELD_MARK = "?"
+"""Begins a slot that is the field of a part: ``{{ ?b }}``."""
 _SLOT = re.compile(
-    r"\{\{\s*([A-Za-z_][\w']*(?:\[[0-9]{1,4}\])?|table:(?:\s+[A-Za-z_][\w']*){1,12})\s*\}\}"
+    r"\{\{\s*([A-Za-z_][\w']*(?:\[[0-9]{1,4}\]|:(?:0?[0-9]{1,2}[dboxX]?|[boxX]|\.[0-9]{1,2}f))?|table:(?:\s+[A-Za-z_][\w']*){1,12}|\?[a-j])\s*\}\}"
 )
 _MATH = re.compile(r"\$([^$\n]+|[^$]*\\[^$]*)\$")
 """Mathematics; LaTeX may go over several lines."""
@@ -511,15 +513,20 @@ def slot_names(parts: Iterable[Block | Inline]) -> Iterator[str]:
     for part in leaves(parts):
         match part:
             case Slot(name):
-                yield name
+                yield _drop_format(name)
             case LaidOutFormula(node):
                 yield from sorted(list_leaf_names(node))
             case CodeBlock(text) | InlineCode(text):
-                yield from _SLOT.findall(text)
+                yield from map(_drop_format, _SLOT.findall(text))
             case PictureLink(_, alt):
                 yield from slot_names(alt)
             case _:
                 pass
+
+
+def _drop_format(slot: str) -> str:
+    """Return the name in ``h:02``, which prints ``h`` as Python does."""
+    return slot if slot.startswith(TABLE_MARK) else slot.partition(":")[0]
 
 
 def fill_inlines(

@@ -10,6 +10,8 @@ import msgspec
 from quizgen.bank.levels import DerivedLevel
 from quizgen.maths.numbers import parse_written_number
 
+PART_LABELS = "abcdefghij"
+"""Labels of the parts of a question; a sole part has none."""
 Scalar = int | float | str
 Source = Scalar | tuple[Scalar | tuple[Scalar, ...], ...]
 """What a figure's parameter is made of: a number, a formula or a phrase, a list or a table."""
@@ -92,12 +94,20 @@ class FigureRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     reads: tuple[str, ...] = ()
 
 
+class ExampleRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """An answer that ``check.py`` must judge, and the points that it earns."""
+
+    answer: str
+    points: Scalar
+
+
 class PartRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """One sub-question: its marks and its answer."""
 
     answer: dict[str, Any]
     points: Scalar = 1
     show: tuple[str, ...] | None = None
+    example: tuple[ExampleRule, ...] = ()
 
 
 class ClaimRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
@@ -148,6 +158,15 @@ TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}
 def suggested_minutes(rules: Rules) -> int:
     """Return the suggested working time of a template in minutes."""
     return rules.minutes or TIER_MINUTES[rules.tier]
+
+
+def part_points(rules: Rules) -> dict[str, float]:
+    """Return what each part is worth, by its label; the label of a sole part is empty."""
+    labels = PART_LABELS if len(rules.part) > 1 else ("",)
+    return {
+        label: float(parse_written_number(part.points))
+        for label, part in zip(labels, rules.part, strict=False)
+    }
 
 
 def total_points(rules: Rules) -> Fraction:

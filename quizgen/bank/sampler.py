@@ -17,8 +17,10 @@ from quizgen.bank.drawn_lists import (
     ListPlan,
     LookupPlan,
     RationalList,
+    TextList,
     is_list_rule,
     list_rule_formulas,
+    number_texts,
     plan_list,
     plan_lookup,
 )
@@ -59,6 +61,13 @@ class DrawnValues(NamedTuple):
         """Numbers and lists, as formulas take them."""
         return {**self.shown, **self.lists} if self.lists else self.shown
 
+    def add_list(self, name: str, values: RationalList | TextList) -> None:
+        """Add a list: of numbers as one value, of texts as a phrase for each of its places."""
+        if isinstance(values[0], str):
+            self.words.update(number_texts(name, map(str, values)))
+        else:
+            self.lists[name] = NumberList(values)
+
 
 REJECTED_DATA = "data.py: draw(rng) gives None"
 """Why a try was rejected whose data an author's Python refused."""
@@ -89,13 +98,16 @@ class _Variable(msgspec.Struct, frozen=True):
         with error_context(self.file):
             try:
                 if self.listed is not None:
-                    env = drawn.environment
-                    drawn.lists[self.name] = NumberList(self.listed.draw(stem, attempt, env))
+                    drawn.add_list(self.name, self.listed.draw(stem, attempt, drawn.environment))
                 elif self.lookup is not None:
-                    drawn.shown[self.name] = self.lookup.look_up(drawn.environment, drawn.words)
+                    found = self.lookup.look_up(drawn.environment, drawn.words)
+                    if isinstance(found, str):
+                        drawn.words[self.name] = found
+                    else:
+                        drawn.shown[self.name] = found
             except BankError as error:
                 raise self._fault(str(error)) from error
-            except (MathError, TypeError, ZeroDivisionError, OverflowError) as error:
+            except (MathError, TypeError, KeyError, ZeroDivisionError, OverflowError) as error:
                 raise self._fault(describe_list_fault(error)) from error
 
     def derive(
@@ -123,7 +135,7 @@ class _Variable(msgspec.Struct, frozen=True):
         """
         try:
             return self.formula(env) if self.formula else fmpq(0)
-        except (MathError, TypeError, ZeroDivisionError, OverflowError) as error:
+        except (MathError, TypeError, KeyError, ZeroDivisionError, OverflowError) as error:
             raise self._fault(describe_list_fault(error)) from error
 
     def _fault(self, what: str) -> BankError:
@@ -134,6 +146,8 @@ class _Variable(msgspec.Struct, frozen=True):
 
 def describe_list_fault(error: Exception) -> str:
     """Return what is wrong in a formula; Python's word for a sum with a list names only types."""
+    if isinstance(error, KeyError):
+        return f"{error.args[0]} is a text, where a number is needed"
     return "a list stands where a number is needed" if isinstance(error, TypeError) else str(error)
 
 
@@ -407,8 +421,8 @@ def solve_candidate(
         traps = _usable_traps(plan, shown, values, lenient=lenient)
     except (MathError, ZeroDivisionError, OverflowError) as error:
         return f"no value: {error}"
-    except TypeError as error:
-        if not lists:
+    except (TypeError, KeyError) as error:
+        if isinstance(error, TypeError) and not lists:
             raise
         what = f"a formula of this question: {describe_list_fault(error)}"
         raise BankError(what, rule="QG120", file=plan.template.file) from error

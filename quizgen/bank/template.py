@@ -18,10 +18,11 @@ import msgspec
 from flint import fmpq
 
 from quizgen.bank.compile_cache import CompileCache
+from quizgen.bank.markdown import FIELD_MARK, slot_names
 from quizgen.bank.metadata import BankMetadata
 from quizgen.bank.pictures import PictureFile
 from quizgen.bank.quantities import QuantityNames
-from quizgen.bank.rules import WAYS, Rules, get_draw_way, suggested_minutes
+from quizgen.bank.rules import PART_LABELS, WAYS, Rules, get_draw_way, suggested_minutes
 from quizgen.bank.solvers import import_module_file
 from quizgen.bank.validation import find_malformed_answers, find_problems
 from quizgen.core.complaints import complaint_of, written_place
@@ -33,7 +34,6 @@ from quizgen.maths.chain import Chain
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.tree import Expr, names_in
 
-PART_LABELS = "abcdefghij"
 QUOTED = 60
 """Letters of a formula by which an author knows it."""
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}\.0")
@@ -64,6 +64,8 @@ class Template:
         ``digest`` leaves it out.
     figure_file, solver_file, data_file : pathlib.Path, optional
         What draws its figure, what its chain was read from, and what draws its data.
+    check_digest : str
+        Of its ``check.py``; empty without one.
     pictures : mapping of str to PictureFile
         The files that its words show, by their names.
     """
@@ -79,6 +81,7 @@ class Template:
     figure_file: Path | None = None
     solver_file: Path | None = None
     data_file: Path | None = None
+    check_digest: str = ""
     pictures: Mapping[str, PictureFile] = field(default_factory=dict)
 
     def __getstate__(self) -> dict[str, object]:
@@ -145,6 +148,16 @@ class Template:
         """Return the labels of the parts: ``a``, ``b``, ...; a single part has an empty one."""
         count = len(self.rules.part)
         return tuple(PART_LABELS[:count]) if count > 1 else ("",)
+
+    @cached_property
+    def places_fields(self) -> bool:
+        """Return whether fields of parts stand inside the words of a section."""
+        return any(
+            name.startswith(FIELD_MARK)
+            for text in self.texts.values()
+            for section in text.sections.values()
+            for name in slot_names(section)
+        )
 
     @cached_property
     def _parsed_formulas(self) -> dict[str, Expr]:

@@ -12,8 +12,13 @@ from fractions import Fraction
 
 import msgspec
 
-from quizgen.bank.drawn_lists import MOST_DECIMALS, find_list_problems, is_list_rule
-from quizgen.bank.rules import DrawRule, KeepRule, Rules, Source
+from quizgen.bank.drawn_lists import (
+    MOST_DECIMALS,
+    find_list_problems,
+    is_list_rule,
+    is_number,
+)
+from quizgen.bank.rules import LISTED, DrawRule, KeepRule, Rules, Source
 from quizgen.core.complaints import complaint_of, written_place
 from quizgen.core.decoding import convert
 from quizgen.core.diagnostics import CODES, can_be_ignored
@@ -152,8 +157,12 @@ def _check_draw_rule(rule: DrawRule) -> FieldProblems:
         if len(getattr(rule, field)) > MOST_CHOICES:
             yield (field,), "QG110", f"more than {MOST_CHOICES} entries"
     fields = ("pick", "range", "skip", "values", "sample", "permutation")
+    listed = {field: getattr(rule, field) for field in fields}
     wrong = [
-        one for field in fields for one in _check_numbers_readable((field,), getattr(rule, field))
+        one
+        for field, cells in listed.items()
+        if field not in LISTED or any(map(is_number, cells))  # else it is a list of texts
+        for one in _check_numbers_readable((field,), cells)
     ]
     yield from wrong
     if rule.range and not wrong:

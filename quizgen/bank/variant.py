@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import count, takewhile
 
 import msgspec
 from flint import fmpq
@@ -163,11 +164,11 @@ class Variant:
         Raises ``BankError`` if a list stands where a number is needed, or the other way round.
         """
         compiled = self.sampler.compile_formula(formula)
-        if not self.lists:
-            return compiled(self.shown_values)
         try:
-            return compiled({**self.shown_values, **self.lists})
-        except TypeError as error:
+            return compiled(
+                {**self.shown_values, **self.lists} if self.lists else self.shown_values
+            )
+        except (TypeError, KeyError) as error:
             what = f"formula {formula!r}: {describe_list_fault(error)}"
             file, place = self.template.file, (TEXT, formula)
             raise BankError(what, rule="QG120", file=file, place=place) from error
@@ -175,10 +176,19 @@ class Variant:
     def format_list(self, name: str) -> tuple[str, ...]:
         """Return the numbers of a drawn list as they are shown, all with as many decimals."""
         values = self.lists[name]
-        count = count_common_decimals(values)
-        if count is not None and count <= MOST_LIST_DECIMALS:
-            return tuple(format_decimal(value, count) for value in values)
+        places = count_common_decimals(values)
+        if places is not None and places <= MOST_LIST_DECIMALS:
+            return tuple(format_decimal(value, places) for value in values)
         return tuple(format_exact(v) or format_rounded(v, figures=SHOWN_FIGURES) for v in values)
+
+    def text_list(self, name: str) -> tuple[str, ...]:
+        """Return a drawn list of texts; empty if there is none of this name."""
+        places = takewhile(self.words.__contains__, (f"{name}[{place}]" for place in count(1)))
+        return tuple(self.words[place] for place in places)
+
+    def list_texts(self, name: str) -> tuple[str, ...]:
+        """Return a drawn list as it is shown, of numbers or of texts; empty if there is none."""
+        return self.format_list(name) if name in self.lists else self.text_list(name)
 
     def form(self, name: str) -> Expr:
         """Return a form of the solver with the drawn numbers in place, tidied.

@@ -35,6 +35,7 @@ from quizgen.cards.versions import template_version
 from quizgen.core.decoding import convert
 from quizgen.core.errors import KeyFileError, PaperCodeError
 from quizgen.core.untrusted import error_context, parse_json, read_text
+from quizgen.grading.feedback import format_read_back
 from quizgen.paper.blueprint import load_blueprint
 from quizgen.paper.code import parse_code
 from quizgen.paper.paper import Paper, rebuild_paper
@@ -221,7 +222,8 @@ def _build_front(pair: Pair, index: int, part: GradedPart, lang: str) -> CardBlo
     asks = front_blocks(question, index)
     if not part.typed.strip():
         return (*asks, CardLabel(said["start"]))
-    typed = Paragraph((PlainText(part.read_as or part.typed),))
+    read = format_read_back(pair[1].specs[index].kind, part.read_as, lang)
+    typed = Paragraph((PlainText(read or part.typed),))
     return (*asks, CardLabel(said["answered"]), typed, CardLabel(said["wrongly"]))
 
 

@@ -27,7 +27,7 @@ from quizgen.bank.markdown import (
     leaves,
 )
 from quizgen.figures import Figure
-from quizgen.question.inlines import PlacedPicture, TypesetMaths
+from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
 from quizgen.question.interpolation import unbreakable_groups
 from quizgen.typeset.nodes import RELATION, MathRow, Node
 
@@ -211,6 +211,13 @@ def _format_plain_text_html(part: PlainText, lang: str, *, ask: bool | None = No
 
 
 @to_card_html.register
+def _format_field_html(part: PlacedField, lang: str, *, ask: bool | None = None) -> str:
+    """Return the field of a part as a blank."""
+    del lang, ask
+    return escape_words(part.text)
+
+
+@to_card_html.register
 def _format_typeset_maths_html(part: TypesetMaths, lang: str, *, ask: bool | None = None) -> str:
     """Return a formula as HTML."""
     del lang, ask
@@ -363,8 +370,10 @@ def _format_plain_text_text(part: PlainText | InlineCode, *, ask: bool = False) 
 
 
 @to_card_text.register
-def _format_typeset_maths_text(part: TypesetMaths | PlacedPicture, *, ask: bool = False) -> str:
-    """Return a formula or a picture of the prose as plain text."""
+def _format_typeset_maths_text(
+    part: TypesetMaths | PlacedPicture | PlacedField, *, ask: bool = False
+) -> str:
+    """Return a formula, a picture of the prose or a blank as plain text."""
     del ask
     return part.text
 

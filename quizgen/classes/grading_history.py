@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 from collections.abc import Iterable, Iterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -18,10 +19,10 @@ import msgspec
 from quizgen.classes.grading import GradedClassPart, StudentMarks
 from quizgen.core.decoding import json_decoder
 from quizgen.core.errors import ClassError
-from quizgen.core.files import open_private
+from quizgen.core.files import open_private, sync_folder
 from quizgen.core.untrusted import format_csv
 
-FOLDER, CHANGES = "marks", "changes.csv"
+FOLDER, CHANGES, STAGED = "marks", "changes.csv", ".changes"
 HEAD = ("run", "when", "student", "part", "item", "answer", "before", "after", "why")
 
 _ENCODE = msgspec.json.Encoder().encode
@@ -112,6 +113,7 @@ class GradingHistory:
         """
         places, number = self.places(), len(self.runs()) + 1
         (self.folder / FOLDER).mkdir(mode=0o700, exist_ok=True)
+        self._settle_changes()
         final = self.folder / FOLDER / f"{number:03}.jsonl"
         fresh = final.with_suffix(".part")
         students = new = undecided = written = 0
@@ -128,23 +130,43 @@ class GradingHistory:
                 written += 1
                 new += not before
                 changes += _iter_changed_parts(_decode_marks(old, final), one) if before else []
+            _sync(stream)
         if written:
+            self._stage_changes(changes, number)
             fresh.replace(final)
-            self._append_changes(changes, number)
+            sync_folder(final.parent)
+            self._settle_changes()
         else:
             fresh.unlink()
         return GradingOutcome(students, new, undecided, changes)
 
-    def _append_changes(self, changes: list[MarkChange], number: int) -> None:
-        """Append the changed marks of a run to ``changes.csv``."""
+    def _stage_changes(self, changes: list[MarkChange], number: int) -> None:
+        """Write what ``changes.csv`` is to be as soon as the marks of a run are there."""
         if not changes:
             return
         now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
         path = self.folder / CHANGES
+        before = path.read_bytes() if path.exists() else format_csv([HEAD]).encode()
         rows = [[str(number), now, *map(_format_cell, change)] for change in changes]
-        lines = format_csv(rows if path.exists() else [HEAD, *rows])
-        with open_private(path) as stream:
-            stream.write(lines.encode())
+        staged = self.folder / FOLDER / f"{number:03}{STAGED}"
+        with open_private(staged, truncate=True) as stream:
+            stream.write(before + format_csv(rows).encode())
+            _sync(stream)
+
+    def _settle_changes(self) -> None:
+        """Bring ``changes.csv`` up to the last run, whether or not that one came to its end."""
+        for staged in (self.folder / FOLDER).glob(f"*{STAGED}"):
+            if staged.with_suffix(".jsonl").exists():
+                staged.replace(self.folder / CHANGES)
+                sync_folder(self.folder)
+            else:  # of a run that was killed before there were any marks of it
+                staged.unlink()
+
+
+def _sync(stream: io.BufferedWriter) -> None:
+    """Wait until what was written is on the disk."""
+    stream.flush()
+    os.fsync(stream.fileno())
 
 
 class _Lines(contextlib.AbstractContextManager["_Lines"]):

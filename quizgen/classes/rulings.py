@@ -33,8 +33,14 @@ import msgspec
 
 from quizgen.classes.lock import lock_folder
 from quizgen.core.errors import ClassError, FormulaError
-from quizgen.core.files import open_private
-from quizgen.core.untrusted import format_csv, parse_csv, read_text, unescape_csv_formula
+from quizgen.core.files import PRIVATE, write_all
+from quizgen.core.untrusted import (
+    format_csv,
+    parse_csv,
+    read_bytes,
+    read_text,
+    unescape_csv_formula,
+)
 from quizgen.maths.numbers import parse_written_number
 from quizgen.paper.grading import QUARTERS
 
@@ -201,9 +207,9 @@ def note_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
         one.check()
     path = folder / FILE
     rows = [[getattr(one, name) for name in COLUMNS] for one in added]
-    lines = format_csv(rows if path.exists() else [COLUMNS, *rows])
-    with open_private(path) as stream:  # one write at the end: two at once do not mix
-        stream.write(lines.encode())
+    before = read_bytes(path, ClassError) if path.exists() else format_csv([COLUMNS]).encode()
+    end = b"" if before.endswith(b"\n") else b"\n"  # somebody has edited it
+    write_all(folder, {FILE: before + end + format_csv(rows).encode()}, PRIVATE)
     return added
 
 

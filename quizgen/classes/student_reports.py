@@ -22,6 +22,7 @@ from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context, escape_control_characters
 from quizgen.figures.inks import write_theme_css
+from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
 from quizgen.kinds.grade import show_key
 from quizgen.locale import (
@@ -216,8 +217,9 @@ def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion
 
 def _iter_report_rows(question: KeyQuestion, marks: StudentMarks) -> Iterator[ReportPart]:
     """Yield each part with its feedback in the student's language."""
-    words = load_words(fallback_language(marks.lang), "classes")["report"]
-    marker = QuestionGrader(question, GradingOptions(fallback_language(marks.lang), marks.decimal))
+    lang = fallback_language(marks.lang)
+    words = load_words(lang, "classes")["report"]
+    marker = QuestionGrader(question, GradingOptions(lang, marks.decimal))
     given = {part.item: part for part in marks.parts}
     for part in question.parts:
         found = given.get(item_name(question, part))
@@ -227,9 +229,9 @@ def _iter_report_rows(question: KeyQuestion, marks: StudentMarks) -> Iterator[Re
         message = "" if again.is_blank or found.marks == found.points else again.verdict.message
         yield ReportPart(
             part.id.removeprefix(question.number),
-            _format_typed_answer(found.typed, part.spec["kind"], words),
-            _format_right_answer(part, fallback_language(marks.lang)),
-            _format_points(found, fallback_language(marks.lang)),
+            _format_typed_answer(found.typed, part.spec["kind"], words, lang),
+            _format_right_answer(part, lang),
+            _format_points(found, lang),
             message,
             _format_remark(found, words),
         )
@@ -244,11 +246,13 @@ def _format_right_answer(part: KeyPart, lang: str) -> str:
     return right if kind == "code" else localise_numbers(lang, right)
 
 
-def _format_typed_answer(typed: str, kind: str, words: Mapping[str, str]) -> str:
-    """Return the student's answer for a cell: a blank or a drawing in words."""
+def _format_typed_answer(typed: str, kind: str, words: Mapping[str, str], lang: str) -> str:
+    """Return the student's answer for a cell: a blank, a tick or a drawing in words."""
     if not typed.strip():
         return words["blank"]
-    return words["drawn"] if kind == "sketch" else escape_control_characters(typed, "")
+    if kind == "sketch":
+        return words["drawn"]
+    return escape_control_characters(name_truth(kind, typed, lang), "")
 
 
 def _format_points(part: GradedClassPart, lang: str) -> str:

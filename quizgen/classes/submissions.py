@@ -13,6 +13,7 @@ from pathlib import Path
 from quizgen.classes.class_folder import ANSWERS
 from quizgen.classes.grading import Submission
 from quizgen.classes.key_index import KeyIndex
+from quizgen.classes.lock import lock_folder
 from quizgen.classes.roster import clean_cell
 from quizgen.core.errors import KeyFileError, QuizgenError
 from quizgen.core.files import PRIVATE, write_all
@@ -37,7 +38,12 @@ ABOUT = ("id", "name", "lang", "decimal", "minutes", "code")
 def store_submissions(folder: Path, paths: Iterable[Path]) -> list[str]:
     """Copy files into the class's folder of answers; return what could not be read.
 
-    A file of the same name is never overwritten.
+    A file of the same name is never overwritten, not by another command at the same time either.
+
+    Raises
+    ------
+    ClassError
+        If another command still writes there.
     """
     problems = []
     for path in paths:
@@ -46,9 +52,10 @@ def store_submissions(folder: Path, paths: Iterable[Path]) -> list[str]:
         except KeyFileError as error:
             problems.append(str(error))
             continue
-        name = _find_free_name(folder / ANSWERS, path, data)
-        if name:
-            write_all(folder / ANSWERS, {name: data}, PRIVATE)
+        with lock_folder(folder):
+            name = _find_free_name(folder / ANSWERS, path, data)
+            if name:
+                write_all(folder / ANSWERS, {name: data}, PRIVATE)
     return problems
 
 

@@ -18,13 +18,31 @@ if TYPE_CHECKING:
 HEAD = ("bank", "version", "languages", "templates", "Python", "licence", "folder")
 
 
+class BanksOptions(BankOptions):
+    """Options of ``quizgen banks``."""
+
+    remember: bool
+
+
 @click.command()
+@click.option("--remember", is_flag=True,
+              help="Let the Python of every --bank run from now on, until it changes.")  # fmt: skip
 @bank_options
-def banks(**options: Unpack[BankOptions]) -> None:
+def banks(**options: Unpack[BanksOptions]) -> None:
     """List the banks there are: the built-in one, those of packages, and --bank."""
     from quizgen.bank.combined import open_banks
-    from quizgen.bank.discovery import available_banks, describe_bank
+    from quizgen.bank.discovery import (
+        available_banks,
+        describe_bank,
+        remember_trust,
+        resolve_bank,
+    )
 
+    if options["remember"]:
+        if not options["bank"]:
+            raise click.BadParameter("name a bank by --bank", param_hint="--remember")
+        for named in options["bank"]:
+            remember_trust(resolve_bank(named))
     found = {name: open_banks([(str(root), False)]) for name, root in available_banks().items()}
     if options["bank"]:
         found |= {own.name: own for own in open_bank(options).members}

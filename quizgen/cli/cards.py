@@ -16,7 +16,7 @@ from quizgen.cli.options import (
     bank_options,
     jobs_option,
     match_choice,
-    open_bank,
+    open_sound_bank,
     split_names,
     worthwhile_processes,
 )
@@ -81,7 +81,7 @@ def _build_requested_deck(options: CardsOptions) -> Deck:
     """Return the deck that the options ask for: of graded mistakes, or of the bank."""
     from quizgen.cards import build_deck
 
-    bank = open_bank(options)
+    bank = open_sound_bank(options)
     lang = options["lang"] or default_language(bank.languages)
     if options["marks"] is not None:
         from quizgen.cards.error_deck import deck_from_grades

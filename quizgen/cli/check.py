@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, Unpack
 
 import click
 
-from quizgen.cli.options import BankOptions, LanguageParam, bank_options
+from quizgen.cli.options import BankOptions, LanguageParam, bank_options, open_bank
 from quizgen.cli.terminal import print_message
 from quizgen.core.errors import KeyFileError
 from quizgen.core.untrusted import error_context
@@ -79,9 +79,12 @@ def check(**options: Unpack[CheckOptions]) -> None:
     marked. Exit codes: 0 every form was marked, 1 some were, 2 none.
 
     A key holds all that marking needs. With --bank it is also said whether the bank is still
-    the one that the paper or the export was made from.
+    the one that the paper or the export was made from, and with --trust its check.py may run.
     """
     from quizgen.paper.answer_key import read_answer_key
+
+    if options["trust"] or options["trust_bank"]:
+        open_bank(options)  # so that answers are judged by its check.py
 
     key, answers, lang = options["key"], options["answers"], options["lang"]
     if key.name.endswith(MANIFEST_SUFFIX):

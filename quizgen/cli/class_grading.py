@@ -42,8 +42,8 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
 
     found = ClassFolder(folder)
     found.settings  # noqa: B018 - no answers are copied into a folder that is none of a class
-    lost = store_submissions(folder, files)
     with open_executor(jobs, scheduler) as (executor, ahead):
+        lost = store_submissions(folder, files)
         run = grade_class(found, executor, ahead)
     _report_run(folder, run, lost)
 

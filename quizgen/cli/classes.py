@@ -15,6 +15,7 @@ from quizgen.cli.options import (
     bank_options,
     jobs_option,
     open_bank,
+    open_sound_bank,
     split_names,
     worthwhile_processes,
 )
@@ -84,13 +85,11 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     unread: list[str] = []
     students = read_roster(options["roster"], _parse_columns(options["columns"]), unread.append)
     folder = ClassFolder(options["out"])
-    blueprint = _open_class_blueprint(folder, students, options)
     count = worthwhile_processes(options["jobs"], len(students) * A_PAPER)
-    with (
-        ProgressLine("paper", len(students)) as progress,
-        open_executor(count, options["scheduler"]) as (executor, ahead),
-    ):
-        report = generate_papers(folder, students, blueprint, executor, ahead, progress)
+    with open_executor(count, options["scheduler"]) as (executor, ahead):  # before any folder
+        blueprint = _open_class_blueprint(folder, students, options)
+        with ProgressLine("paper", len(students)) as progress:
+            report = generate_papers(folder, students, blueprint, executor, ahead, progress)
     if options["one_file"]:
         write_print_file(folder, students)
     _report_papers(folder, report)
@@ -150,7 +149,7 @@ def _open_class_blueprint(
     from quizgen.paper.blueprint import default_blueprint_name, load_blueprint
 
     if folder.is_new:
-        bank = open_bank(options)
+        bank = open_sound_bank(options)
         blueprint = load_blueprint(options["blueprint"] or default_blueprint_name(bank), bank)
         name = folder.path.resolve().name
         lang = options["lang"] or default_language(bank.languages)

@@ -221,7 +221,7 @@ class Conversation:
                 return
         lang = self.session.state.wish.lang
         self._print_sentence("read", read_as=format_read_back(task.kind, verdict.read_as, lang))
-        word = self.words[verdict.verdict]
+        word = self.words[verdict.word]
         repeated = verdict.message.startswith(word.rstrip(".।"))  # "Not right: gap 1."
         said = verdict.message if repeated else f"{word} {verdict.message}".strip()
         print_wrapped(said, fg=COLOURS[verdict.verdict])

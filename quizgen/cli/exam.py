@@ -24,6 +24,7 @@ from quizgen.cli.options import (
     jobs_option,
     match_choice,
     open_bank,
+    open_sound_bank,
     split_names,
     worthwhile_processes,
 )
@@ -128,7 +129,7 @@ def _make_many_papers(options: ExamOptions, formats: list[str]) -> None:
         raise InvalidChoiceError(
             "--count makes papers of many seeds; leave --code and --reference out"
         )
-    bank, count = open_bank(options), options["count"]
+    bank, count = open_sound_bank(options), options["count"]
     name = f"answers.{options['form']}"
     lang = options["lang"] or default_language(bank.languages)
     make = partial(
@@ -235,7 +236,7 @@ def _build_requested_paper(options: ExamOptions, tell: ProgressLine) -> Paper:
     from quizgen.paper.paper import build_paper, build_reference_paper, rebuild_paper
     from quizgen.paper.provenance import bank_difference_context
 
-    bank = open_bank(options)
+    bank = open_sound_bank(options)
     if options["code"]:
         if options["seed"] is not None or options["lang"]:
             raise PaperCodeError(
@@ -342,6 +343,19 @@ def _report_paper(
     if "exam.html" in written:
         page = build_command_line("check", folder / KEY, folder / "answers.json")
         click.echo(f"  or fill in {folder / 'exam.html'}, save answers.json there, then: {page}")
+    _report_short_exam(options)
+
+
+def _report_short_exam(options: ExamOptions) -> None:
+    """Print how to get the trial exam, where nothing was said and the long paper was made."""
+    from quizgen.paper.blueprint import TRIAL, find_blueprint, longest_minutes
+
+    if any(options[name] for name in ("code", "blueprint", "topic", "minutes")):
+        return
+    short = find_blueprint(TRIAL, open_bank(options))
+    if short is not None and short.minutes:
+        command = build_command_line("exam", "--blueprint", TRIAL, *_list_rebuild_options(options))
+        click.echo(f"Shorter, as long as the real one ({longest_minutes(short)} min): {command}")
 
 
 def _report_variety(paper: Paper, asked: int | None) -> None:

@@ -17,7 +17,7 @@ from quizgen.cli.options import (
     IntRangeParam,
     LanguageParam,
     bank_options,
-    open_bank,
+    open_sound_bank,
     resolve_topic,
     split_names,
 )
@@ -87,7 +87,7 @@ def export(**options: Unpack[ExportOptions]) -> None:
     path = options["out"] or Path("export") / FORMATS[target]
     exporter = get_exporter(target)
     with ProgressLine("export") as tell, formula_dialect(options["maths"]):
-        bank = open_bank(options)
+        bank = open_sound_bank(options)
         items = list(_iter_requested_items(bank, options, tell))
         data = exporter.write(items)
         banks = record_banks(bank, {item.key.template for item in items})

@@ -14,6 +14,7 @@ from quizgen.bank.scaffold import (
     english_translation_files,
     scaffold_bank,
     scaffold_language,
+    scaffold_package,
     scaffold_template,
 )
 from quizgen.cli.options import LanguageParam
@@ -52,7 +53,10 @@ def new() -> None:
     show_default=True,
     help="A language that it is to be written in (may be repeated).",
 )
-def bank(folder: Path, langs: tuple[str, ...]) -> None:
+@click.option(
+    "--package", is_flag=True, help="As a package to be installed and published, with a CI file."
+)
+def bank(folder: Path, langs: tuple[str, ...], package: bool) -> None:
     """Write a bank with one question into FOLDER."""
     name = folder.resolve().name
     if not is_identifier(name):
@@ -60,8 +64,11 @@ def bank(folder: Path, langs: tuple[str, ...]) -> None:
             f"{name!r} is no name for a bank (allowed: {NAMES}); make it in a folder that has one,"
             " and call the folder as you like afterwards"
         )
-    _write_new_files(folder, scaffold_bank(name, langs))
-    _print_next_steps(folder, FIRST[1])
+    inside, found = scaffold_package(name, langs) if package else ("", scaffold_bank(name, langs))
+    _write_new_files(folder, found)
+    _print_next_steps(folder / inside, FIRST[1])
+    if package:
+        click.echo(f"  pip install -e {folder}    (then --bank {name} finds it)")
 
 
 @new.command()

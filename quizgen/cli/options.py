@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ParamSpec, TypedDict, TypeVar
 import click
 
 from quizgen.bank.levels import CHOICES, EXAM
-from quizgen.cli.terminal import format_count
+from quizgen.cli.terminal import format_count, print_message
 from quizgen.core.untrusted import escape_control_characters
 from quizgen.locale import FIRST, list_language_choices, list_languages
 from quizgen.locale.custom import is_language_tag, normalise_language_tag
@@ -98,6 +98,22 @@ def open_bank(options: BankOptions) -> Bank:
     roots = [resolve_bank(named) for named in options["bank"]]
     allowed = _find_trusted_roots(roots, options)
     return open_banks([(str(root), is_trusted(root, allowed)) for root in roots])
+
+
+def open_sound_bank(options: BankOptions) -> Bank:
+    """Return the bank that the options name, without what cannot be asked; that is named once."""
+    from quizgen.bank.bank import builtin_bank
+
+    bank = open_bank(options)
+    if bank is builtin_bank():
+        return bank
+    from quizgen.lint.broken_templates import leave_out_broken
+
+    sound, broken = leave_out_broken(bank)
+    for said in dict.fromkeys(map(str, broken.values())):
+        names = ", ".join(name for name, error in broken.items() if str(error) == said)
+        print_message(f"{said}; left out: {names}")
+    return sound
 
 
 def _find_trusted_roots(roots: Sequence[Path], options: BankOptions) -> set[Path]:

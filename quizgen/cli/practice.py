@@ -16,7 +16,7 @@ from quizgen.cli.options import (
     language_option,
     level_option,
     match_choice,
-    open_bank,
+    open_sound_bank,
     resolve_topic,
 )
 from quizgen.core.errors import MissingExtraError, has_extra
@@ -71,7 +71,7 @@ def practice(**options: Unpack[PracticeOptions]) -> None:
     from quizgen.practice.session_store import SessionStore
 
     shelf = SessionStore(state_folder())
-    bank = open_bank(options)
+    bank = open_sound_bank(options)
     wish = _build_request(options, bank)
     learning = _open_learning(bank, options["database"])
     session = _open_session(bank, learning, wish, shelf, fresh=options["fresh"])
@@ -190,10 +190,29 @@ def _print_summary(
     if len(past) > len(session.state.outcomes):
         print_heading(words["so-far"])
         _print_topic_results(session, results, words)
+    if learning is not None:
+        _print_estimate(session, learning, words)
     weak = weak_topics(results)
     named = ", ".join(f"{_get_topic_title(session, topic)} (--topic {topic})" for topic in weak)
     click.echo()
     print_wrapped(words["next"].format(topics=named) if weak else words["all-right"])
+
+
+def _print_estimate(session: Session, learning: LearnerProgress, words: dict[str, str]) -> None:
+    """Print the points to expect in the exam; nothing before there is evidence."""
+    from quizgen.cli.conversation import print_wrapped
+    from quizgen.locale import format_amount
+
+    estimate = learning.plan(session.templates).estimate()
+    if estimate is None:
+        return
+    lang, known = session.state.wish.lang, estimate.expected
+    told = {"low": estimate.low, "high": estimate.high, "of": estimate.of}
+    if known is not None:
+        told["points"] = round(2 * known) / 2
+    said = {name: format_amount(value, lang) for name, value in told.items()}
+    click.echo()
+    print_wrapped(words["estimate-range" if known is None else "estimate"].format(**said))
 
 
 def _print_topic_results(

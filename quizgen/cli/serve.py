@@ -15,7 +15,7 @@ from quizgen.cli.options import (
     IntRangeParam,
     bank_options,
     database_option,
-    open_bank,
+    open_sound_bank,
 )
 from quizgen.core.errors import require_extra
 
@@ -144,7 +144,7 @@ def serve(**options: Unpack[ServeOptions]) -> None:
 
     settings = ServerSettings(
         options["database"],
-        open_bank(options),
+        open_sound_bank(options),
         host=options["host"],
         names=tuple(name.lower() for name in options["names"]),
         behind_proxy=options["behind_proxy"],

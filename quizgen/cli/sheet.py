@@ -13,7 +13,7 @@ from quizgen.cli.options import (
     LanguageParam,
     bank_options,
     match_choice,
-    open_bank,
+    open_sound_bank,
     resolve_topic,
     split_names,
 )
@@ -54,7 +54,7 @@ def sheet(**options: Unpack[SheetOptions]) -> None:
         raise click.BadParameter(
             f"no format (allowed: {', '.join(RENDERERS)})", param_hint="--format"
         )
-    bank = open_bank(options)
+    bank = open_sound_bank(options)
     topics = [resolve_topic(bank, name) for name in split_names(options["topics"])]
     made = compose_sheet(bank, options["lang"] or default_language(bank.languages), topics)
     folder = options["out"]

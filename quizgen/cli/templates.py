@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, TypedDict, Unpack
 import click
 
 from quizgen.cli.options import BankOptions, bank_options, match_choice, open_bank, resolve_topic
-from quizgen.cli.terminal import is_interactive, print_table, to_one_line
+from quizgen.cli.terminal import is_interactive, print_message, print_table, to_one_line
+from quizgen.core.errors import BankError
 
 if TYPE_CHECKING:
     from quizgen.bank.bank import Bank
@@ -47,16 +48,18 @@ def templates(**options: Unpack[TemplatesOptions]) -> None:
     if options["coverage"]:
         _print_coverage(bank)
         return
-    names = list(_iter_matching_templates(bank, options))
-    _print_templates(HEAD, [_build_template_row(bank, name) for name in names])
-    if not names and options["covers"] is not None:
+    rows = list(_iter_matching_rows(bank, options))
+    _print_templates(HEAD, rows)
+    if not rows and options["covers"] is not None:
         click.echo(f"no template covers {options['covers']!r}", err=True)
-    elif is_interactive() or not names:
-        click.echo(f"{len(names)} templates", err=True)
+    elif is_interactive() or not rows:
+        click.echo(f"{len(rows)} templates", err=True)
 
 
-def _iter_matching_templates(bank: Bank, filters: TemplateFilters) -> Iterator[str]:
-    """Yield the names of the templates that meet every condition.
+def _iter_matching_rows(bank: Bank, filters: TemplateFilters) -> Iterator[tuple[str, ...]]:
+    """Yield the rows of the templates that meet every condition.
+
+    One that cannot be read is named on the error stream, and the others go on.
 
     Raises
     ------
@@ -73,14 +76,17 @@ def _iter_matching_templates(bank: Bank, filters: TemplateFilters) -> Iterator[s
         (part, own) for part in bank.members if covers for own in templates_covering(part, covers)
     }
     for name in bank.template_paths:
-        rules = bank.rules(name)
-        if (
-            topic in {None, rules.topic}
-            and (kind is None or kind in {part.answer["kind"] for part in rules.part})
-            and (covers is None or bank.owner_of(name) in covered)
-            and (search is None or _is_mentioned(bank, name, search))
-        ):
-            yield name
+        try:
+            rules = bank.rules(name)
+            if (
+                topic in {None, rules.topic}
+                and (kind is None or kind in {part.answer["kind"] for part in rules.part})
+                and (covers is None or bank.owner_of(name) in covered)
+                and (search is None or _is_mentioned(bank, name, search))
+            ):
+                yield _build_template_row(bank, name)
+        except BankError as error:
+            print_message(str(error))
 
 
 def _is_mentioned(bank: Bank, name: str, search: str) -> bool:

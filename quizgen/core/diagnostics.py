@@ -208,6 +208,8 @@ _CODES = {
                   "use a name of [draw] or of the solver's steps"),
     "QG159": Rule("LaTeX in the words cannot be read, or cannot be said in every output.",
                   "use what docs/formulas.md lists"),
+    "QG160": Rule("The field of a part stands where it cannot.",
+                  "write {{ ?b }} once, in section b or in that of a part before it"),
     # Proofs over many draws: soundness of units, answers, languages.
     "QG201": Rule("A drawn unit is of another kind than the solver's.",
                   "give it a unit of the kind that the solver works with"),
@@ -241,6 +243,12 @@ _CODES = {
                   "say it in other words, or name the other template in apart"),
     "QG219": Rule("A quantity is drawn, and nothing uses it.",
                   "show it, ask for it or compute with it, or take it out"),
+    "QG220": Rule("Words are in another language than their file.",
+                  "translate them, or leave the language out of languages in bank.toml"),
+    "QG221": Rule("An example of an answer is not judged as it says, or ``check.py`` fails.",
+                  "mend check.py or the points of the example"),
+    "QG222": Rule("An alternative formula of a step gives another value.",
+                  "mend it, or leave it out of alternatives"),
     # Item writing: whether a question teaches and cannot be guessed.
     "QG301": Rule("The answer hardly varies.",
                   "let other options, statements or pairs be right in turn"),

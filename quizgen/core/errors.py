@@ -40,7 +40,8 @@ if TYPE_CHECKING:
     from quizgen.core.positions import Place
 
 # Extra of pyproject.toml to the modules that are imported of it. Without "image" the same pictures
-# are computed, only more slowly; "lms" and "anki" need no packages yet.
+# are computed, only more slowly; "lms" and "anki" need no packages yet; "circuits" is for figures
+# of banks.
 EXTRA_MODULES = {
     "web": (
         "starlette", "uvicorn", "python_multipart", "sqlalchemy", "alembic", "fsrs", "argon2",
@@ -52,6 +53,7 @@ EXTRA_MODULES = {
     "postgres": ("psycopg",),
     "cluster": ("distributed",),
     "image": ("cv2",),
+    "circuits": ("schemdraw",),
 }  # fmt: skip
 
 

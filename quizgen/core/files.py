@@ -53,6 +53,22 @@ def open_private(path: Path, *, truncate: bool = False) -> io.BufferedWriter:
     return os.fdopen(number, "wb")
 
 
+def sync_folder(folder: Path) -> None:
+    """Wait until the names in a folder are on the disk: else a power cut may take them back.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+    """
+    if os.name == "nt":  # where folders cannot be opened
+        return
+    number = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(number)
+    finally:
+        os.close(number)
+
+
 def restrict_folder(folder: Path) -> None:
     """Let nobody but its owner look into a folder, nor read what is in it.
 
@@ -179,12 +195,15 @@ def _move_staged_files(
     """
     if new:
         stage.rename(folder)
+        sync_folder(folder.parent)
         return
     if len(names) > 1:
         (folder / names[-1]).unlink(missing_ok=True)
     for name in names:
         _make_folder((folder / name).parent, mode)
         (stage / name).replace(folder / name)
+    for place in {(folder / name).parent for name in names}:
+        sync_folder(place)
 
 
 def _remove_stale_stages(folder: Path) -> None:

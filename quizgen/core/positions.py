@@ -280,11 +280,14 @@ def _find_in_python(text: str, place: Place) -> Span | None:
     inside, name = str(place[0]), str(place[-1])
     variables = {name, *_iter_symbol_variables(tree, name)}
     keywords = [node for node in ast.walk(tree) if isinstance(node, ast.keyword)]
-    # A mistake replaces a step by another one of the same name.
-    replaced = {id(n) for word in keywords if word.arg == "traps" for n in ast.walk(word)}
-    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and id(n) not in replaced]
+    # What replaces a step is another one of the same name.
+    others = [word for word in keywords if word.arg in {"traps", "alternatives"}]
+    replaced = {id(n) for word in others for n in ast.walk(word)}
+    here = [n for word in others if word.arg == inside for n in ast.walk(word)]
+    right = [n for n in ast.walk(tree) if id(n) not in replaced]
+    calls = [n for n in (here or right) if isinstance(n, ast.Call)]
     found: list[ast.AST] = [
-        call for call in calls if _get_callee_name(call) == inside
+        call for call in calls if _get_callee_name(call) == ("Step" if here else inside)
         and call.args and isinstance(call.args[0], ast.Name) and call.args[0].id in variables
     ]  # fmt: skip
     found += [

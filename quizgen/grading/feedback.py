@@ -6,7 +6,13 @@ import re
 from collections.abc import Mapping
 
 from quizgen.grading.echo import safe_echo
-from quizgen.locale import fallback_language, load_words, localise_numbers
+from quizgen.locale import (
+    fallback_language,
+    get_language,
+    load_words,
+    localise_numbers,
+    translate,
+)
 from quizgen.maths.notation import pretty
 
 _CLAUSE = re.compile("⟨([^⟩]*)⟩")
@@ -54,7 +60,8 @@ def feedback_sentence(lang: str, note: str, fields: Mapping[str, object]) -> str
             shown[key] = f"“{shown[key]}”"
     if "⟨" in sentence:
         sentence = _CLAUSE.sub(lambda clause: _keep_filled_clause(clause[1], shown), sentence)
-    return sentence.format_map(shown)
+    marks = str.maketrans("“”", get_language(fallback_language(lang)).quotes)
+    return sentence.format_map(shown).translate(marks)
 
 
 AS_TYPED = frozenset({"code", "gap", "text"})
@@ -62,8 +69,19 @@ AS_TYPED = frozenset({"code", "gap", "text"})
 
 
 def format_read_back(kind: str, read_as: str, lang: str) -> str:
-    """Return what was read of an answer of a kind, with the decimal sign of a language."""
+    """Return what was read of an answer of a kind, with words and decimal sign of a language."""
+    if kind == "tf":
+        return name_truth(kind, read_as, lang)
     return read_as if kind in AS_TYPED else localise_numbers(lang, read_as)
+
+
+def name_truth(kind: str, answer: str, lang: str) -> str:
+    """Return the answer to a statement in the words it was asked in; any other answer as it is.
+
+    Pages and forms hold ``true`` and ``false``, whatever the language.
+    """
+    told = kind == "tf" and answer in {"true", "false"}
+    return translate(fallback_language(lang), f"ask.{answer}") if told else answer
 
 
 ECHOED = frozenset({"found", "typed"})

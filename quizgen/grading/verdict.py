@@ -17,8 +17,8 @@ WRONG = "wrong"
 UNREADABLE = "unreadable"
 AMBIGUOUS = "ambiguous"
 
-SELF_MARKED = frozenset({"self-mark", "self-mark-none"})
-"""Notes on free text, which a person marks."""
+SELF_MARKED = frozenset({"self-mark", "self-mark-none", "unchecked"})
+"""Notes on what a person marks: free text, and what only its bank could check."""
 
 FULL, NONE = Fraction(1), Fraction(0)
 HALF = Fraction(1, 2)
@@ -67,6 +67,11 @@ class Verdict(msgspec.Struct, frozen=True):
     def needs_self_marking(self) -> bool:
         """Whether a person has to decide: key points are only suggested."""
         return self.note in SELF_MARKED
+
+    @property
+    def word(self) -> str:
+        """The key of the word it is shown by: an error carried forward is not partly right."""
+        return "carried" if (self.verdict, self.credit) == (PARTIAL, FULL) else self.verdict
 
     def __repr__(self) -> str:
         """Return verdict, what was read and note, for a terminal."""

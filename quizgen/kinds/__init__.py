@@ -14,6 +14,7 @@ from typing import Any
 from quizgen.grading.spec import NumericSpec
 from quizgen.kinds import (
     angle,
+    checked,
     choice,
     code,
     complex_number,
@@ -43,7 +44,7 @@ KINDS: dict[str, AnswerKind[Any]] = {
     for module in (
         number, quantity, angle, point, sets, table, interval, expression, equation, complex_number,
         matrix, vector, choice, multi,
-        true_false, match, order, gap, witness, code, text, sketch,
+        true_false, match, order, gap, witness, code, text, sketch, checked,
     )
 }  # fmt: skip
 """Name to kind, in the order of the manual."""

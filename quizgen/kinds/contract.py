@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import (
     TYPE_CHECKING,
     Any,
@@ -351,6 +352,10 @@ class PartContext(Protocol):
     """Every quantity, drawn or solved, in the unit it is shown in."""
     words: Mapping[str, str]
     """Drawn phrases, by their name in the language files."""
+    lists: Mapping[str, Sequence[Any]]
+    """Drawn lists in the units they are shown in."""
+    check_digest: str
+    """The digest of ``check.py`` beside the template; empty without one."""
     units: Mapping[str, str]
     """The unit that each quantity is shown in."""
     defined_units: Sequence[str]
@@ -429,6 +434,9 @@ class PartContext(Protocol):
 
     def fill_program(self, text: str) -> str:
         """Return program text or its output with the drawn values in place."""
+
+    def examples(self) -> Sequence[tuple[str, Fraction]]:
+        """Return the answers that an author gives as examples, and the share that each earns."""
 
 
 @dataclass(frozen=True)

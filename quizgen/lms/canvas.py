@@ -102,7 +102,8 @@ class CanvasQuestion(CourseQuestion):
     def html(self) -> Markup:
         """Everything that stands above its fields."""
         item, (part, found) = self.item, self.parts[0]
-        text = stem_html(item, _file_address) + part_html(part, found, item.lang, _file_address)
+        body = part_html(part, found, item.lang, _file_address, alone=True)
+        text = stem_html(item, _file_address) + body
         if len(found) > 1:
             text = Markup(text.replace("[", "&#91;"))  # noqa: S704 - the same page
             blanks = (f"{place}. [blank{place}]" for place, _ in enumerate(found, 1))

@@ -114,16 +114,25 @@ def stem_html(item: ExportItem, source: FigureAddress) -> Markup:
 
 
 def part_html(
-    part: QuestionPart, interactions: Sequence[Interaction], lang: str, source: FigureAddress
+    part: QuestionPart,
+    interactions: Sequence[Interaction],
+    lang: str,
+    source: FigureAddress,
+    *,
+    alone: bool = False,
 ) -> Markup:
-    """Return a part, with its options if a person grades it, and how its answer is to be typed."""
+    """Return a part, with its options if a person grades it, and how its answer is to be typed.
+
+    ``alone`` says that no other part stands before it, which may hold the text of its field.
+    """
     label = Markup("<p><strong>({})</strong></p>").format(part.label) if part.label else Markup("")
     options = _options_list(part, lang) if needs_manual_grading(interactions) else Markup("")
     advice = Markup(" ").join(_typing_advice(part, interactions, lang))
     hint = Markup("<p><small>{}</small></p>").format(advice) if advice else Markup("")
     drawing = part.field.drawing
     field = image_tag(drawing.figure if drawing else None, source)
-    return label + _blocks_html(part.body, lang) + field + options + hint
+    body = part.body or (part.shared if alone else ())
+    return label + _blocks_html(body, lang) + field + options + hint
 
 
 def _options_list(part: QuestionPart, lang: str) -> Markup:

@@ -90,8 +90,10 @@ class MoodleQuestion(CourseQuestion):
         before, token = stem_html(self.item, _file_address), question_mark(self.item, self.suffix)
         if self.type == "cloze":
             return _escape_braces(before) + _cloze_html(self) + token
-        lang = self.item.lang
-        parts = [part_html(part, found, lang, _file_address) for part, found in self.parts]
+        lang, alone = self.item.lang, len(self.parts) == 1
+        parts = [
+            part_html(part, found, lang, _file_address, alone=alone) for part, found in self.parts
+        ]
         return before + Markup("").join(parts) + token
 
     @property

@@ -32,7 +32,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
 
@@ -71,7 +71,9 @@ class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     ``name`` is the language in itself, ``english`` in English, ``order`` its place in lists,
     ``script`` the ISO 15924 code of its letters, ``line_height`` the lines that its letters need on
-    pages where they need other lines than the page has, ``decimal`` the sign in its numbers.
+    pages where they need other lines than the page has, ``decimal`` the sign in its numbers,
+    ``quotes`` the two quotation marks around what a learner typed, ``common`` words that every page
+    in it has and pages in other languages have not, by which lint knows it.
     """
 
     name: str
@@ -80,6 +82,8 @@ class Language(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     script: str = "Latn"
     line_height: float | None = None
     decimal: str = "."
+    quotes: Annotated[str, msgspec.Meta(min_length=2, max_length=2)] = "“”"
+    common: tuple[str, ...] = ()
 
 
 def list_languages() -> tuple[str, ...]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
+from itertools import zip_longest
 from pathlib import Path
 from string import Formatter
 from typing import Any
@@ -91,28 +92,9 @@ def merge_translation(english: Translation, own: Mapping[str, Any]) -> Translati
         there = english.get(key)
         if isinstance(there, dict) and isinstance(value, dict):
             found[key] = merge_translation(there, value)
-        elif _can_be_filled(there, value):
+        elif not any(_iter_misfits(there, value)):
             found[key] = value
     return found
-
-
-def _can_be_filled(english: object, own: object) -> bool:
-    """Return whether a value can replace the English one: same type, no other blanks.
-
-    ``english`` is None where English has nothing there.
-    """
-    if english is not None and type(english) is not type(own):
-        return False
-    if isinstance(own, dict):
-        return all(_can_be_filled(None, value) for value in own.values())
-    if isinstance(own, list):
-        texts = english if isinstance(english, list) else []
-        few = len(texts) - len(own)
-        pairs = zip([*texts, *[None] * -few], own, strict=False)
-        return all(_can_be_filled(there, value) for there, value in pairs)
-    if not isinstance(own, str):
-        return True
-    return not any(_iter_placeholder_errors(english if isinstance(english, str) else "", own))
 
 
 def check_translation(
@@ -134,13 +116,30 @@ def check_translation(
         if there is None:
             close = " or ".join(map(repr, get_close_matches(key, english, 2)))
             yield key, "quizgen has no such word" + (f"; did you mean {close}?" if close else "")
-        elif type(there) is not type(value):
-            yield key, f"is to be {_name_type(there)}, and not {_name_type(value)}"
-        elif isinstance(value, dict) and key not in open_lists:
+        elif isinstance(there, dict) and isinstance(value, dict) and key not in open_lists:
             inner = check_translation(there, value, frozenset())
             yield from ((f"{key}.{name}", what) for name, what in inner)
-        elif isinstance(value, str):
-            yield from ((key, what) for what in _iter_placeholder_errors(there, value))
+        else:
+            yield from ((key, what) for what in _iter_misfits(there, value))
+
+
+def _iter_misfits(english: object, own: object) -> Iterator[str]:
+    """Yield why a value cannot replace the English one: another type, or other blanks in a text.
+
+    ``english`` is None where English has nothing there.
+    """
+    if english is not None and type(english) is not type(own):
+        yield f"is to be {_name_type(english)}, and not {_name_type(own)}"
+    elif isinstance(own, str):
+        yield from _iter_placeholder_errors(english if isinstance(english, str) else "", own)
+    elif isinstance(own, list):
+        texts = english if isinstance(english, list) else []
+        for there, value in zip_longest(texts[: len(own)], own):
+            yield from _iter_misfits(there, value)
+    elif isinstance(own, dict):
+        known = english if isinstance(english, dict) else {}
+        for name, value in own.items():
+            yield from _iter_misfits(known.get(name), value)
 
 
 def _name_type(value: object) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
 from functools import cached_property
+from itertools import islice, product
 from typing import TypeAlias
 
 import msgspec
@@ -32,6 +33,10 @@ from quizgen.maths.values import Value, Values
 
 CompiledSteps: TypeAlias = tuple[tuple[str, CompiledFormula], ...]
 """Quantities to compute, in order, each from the ones given and before it."""
+
+
+MOST_WAYS = 64
+"""Choices among other right formulas that are tried with a student's own values."""
 
 
 class ChainStep(msgspec.Struct, frozen=True):
@@ -62,6 +67,8 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         Trap name to the wrong forms put in place of the right ones.
     free : tuple of str
         Names in forms that no draw gives.
+    alternatives : tuple of ChainStep
+        Other right formulas of steps: the ways that a student may go from an own earlier value.
     """
 
     given: Mapping[str, str]
@@ -71,6 +78,7 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
     forms: tuple[ChainStep, ...] = ()
     form_traps: Mapping[str, tuple[ChainStep, ...]] = msgspec.field(default_factory=dict)
     free: tuple[str, ...] = ()
+    alternatives: tuple[ChainStep, ...] = ()
 
     @cached_property
     def by_name(self) -> dict[str, ChainStep]:
@@ -81,6 +89,15 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
     def form_by_name(self) -> dict[str, ChainStep]:
         """Name of a form to its step."""
         return {step.name: step for step in self.forms}
+
+    @cached_property
+    def right_ways(self) -> tuple[Chain, ...]:
+        """The chain as it is written, then with each choice of alternatives; ``MOST_WAYS``."""
+        formulas = {step.name: [step] for step in self.steps}
+        for other in self.alternatives:
+            formulas[other.name].append(other)
+        ways = islice(product(*formulas.values()), 1, MOST_WAYS)
+        return (self, *(Chain(self.given, steps) for steps in ways))
 
     def bind_form(
         self, expr: Expr, values: Values, wrong: Mapping[str, Expr] | None = None
@@ -226,6 +243,18 @@ class Chain(msgspec.Struct, frozen=True, dict=True):
         return _run_steps(
             self.compile_affected_steps(wrong, exact_system()), dict(solved), PRECISION
         )
+
+    def solve_from(self, own: Values, solved: Values) -> dict[str, Value]:
+        """Return the quantities with some values replaced, given ones too, and what follows.
+
+        Raises
+        ------
+        MathError
+            If a step has no finite real value.
+        """
+        plan = self.compile_affected_steps((), exact_system(), changed=own)
+        steps = [step for step in plan if step[0] not in own]
+        return _run_steps(steps, {**solved, **own}, PRECISION)
 
     def required_steps(self, name: str, known: Iterable[str] = ()) -> frozenset[str]:
         """Return the names of the steps that ``name`` rests on, itself included.

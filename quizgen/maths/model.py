@@ -65,6 +65,8 @@ class Model:
         Mistake name to the wrong step (or steps) put in place of the right one.
     formulas : mapping of str to str
         Name of a step to the formula of the bank that it applies (``cards/formulas.toml``).
+    alternatives : tuple of Step
+        Other right formulas of steps, which a student may use with an own earlier value.
     """
 
     given: Mapping[sympy.Symbol, str]
@@ -72,6 +74,7 @@ class Model:
     free: tuple[str, ...] = ()
     traps: Mapping[str, Step | tuple[Step, ...]] = field(default_factory=dict)
     formulas: Mapping[str, str] = field(default_factory=dict)
+    alternatives: tuple[Step, ...] = ()
 
     def chain(self) -> Chain:
         """Return the model as a chain of formula trees, without SymPy.
@@ -79,8 +82,8 @@ class Model:
         Raises
         ------
         BankError
-            If a step uses a quantity that is neither given nor defined before it, or a formula is
-            given for what is no step.
+            If a step uses a quantity that is neither given nor defined before it, or a formula or
+            an alternative is given for what is no step.
         """
         from quizgen.maths.symbolic import FormResolver
 
@@ -104,7 +107,11 @@ class Model:
             raise BankError(what, rule="QG116", place=("traps", rest[0][0]))
         numeric = {name: tuple(found) for name, found in traps.items() if found}
         of_forms = {name: tuple(found) for name, found in form_traps.items() if found}
-        _check_order(given, tuple(steps), numeric)
+        others = tuple(_convert_step(step, resolver)[0] for step in self.alternatives)
+        before = _check_order(given, tuple(steps), numeric)
+        for other in others:
+            what, place = f"the alternative of {other.name!r}", ("alternatives", other.name)
+            _check_replacement(what, place, other, before)
         _check_forms({*given, *(step.name for step in steps), *self.free}, forms, of_forms)
         strangers = set(self.formulas) - {step.name for step in (*steps, *forms)}
         if strangers:
@@ -112,7 +119,9 @@ class Model:
             raise BankError(
                 f"formulas: {sorted(strangers)} are not steps", rule="QG116", place=place
             )
-        return Chain(given, tuple(steps), numeric, self.formulas, tuple(forms), of_forms, self.free)
+        return Chain(
+            given, tuple(steps), numeric, self.formulas, tuple(forms), of_forms, self.free, others
+        )
 
 
 def _name_step(step: Step) -> str:
@@ -158,8 +167,8 @@ def _check_order(
     given: Mapping[str, str],
     steps: tuple[ChainStep, ...],
     traps: Mapping[str, tuple[ChainStep, ...]],
-) -> None:
-    """Check that each step uses what is given or defined before it, wrong steps too.
+) -> dict[str, set[str]]:
+    """Return what each step may use: what is given or defined before it; wrong steps are checked.
 
     Raises
     ------
@@ -177,10 +186,18 @@ def _check_order(
         known.add(step.name)
     for trap, wrong in traps.items():
         for step in wrong:
-            if step.name not in before:
-                what = f"trap {trap!r} replaces {step.name!r}, which is not a step"
-                raise BankError(what, rule="QG116", place=("traps", trap))
-            missing = names_in(step.expr) - before[step.name]
-            if missing:
-                what = f"trap {trap!r} uses {sorted(missing)}, not defined before it"
-                raise BankError(what, rule="QG130", place=("traps", trap))
+            _check_replacement(f"trap {trap!r}", ("traps", trap), step, before)
+    return before
+
+
+def _check_replacement(
+    said: str, place: tuple[str, str], step: ChainStep, before: Mapping[str, set[str]]
+) -> None:
+    """Raise ``BankError`` if what stands in for a step is of none, or uses what comes after it."""
+    if step.name not in before:
+        what = f"{said} replaces {step.name!r}, which is not a step"
+        raise BankError(what, rule="QG116", place=place)
+    missing = names_in(step.expr) - before[step.name]
+    if missing:
+        what = f"{said} uses {sorted(missing)}, not defined before it"
+        raise BankError(what, rule="QG130", place=place)

@@ -1,4 +1,4 @@
-"""Fractions times pi or a square root, as a person writes them: ``3*sqrt(2)/2``.
+"""Constants that are a fraction times pi or a root, as a person writes them: ``3*sqrt(2)/2``.
 
 Sine, cosine and tangent of multiples of 30° and 45° are such constants, and so are the angles that
 belong to them.
@@ -25,22 +25,17 @@ def split_constant(expr: Expr) -> tuple[Fraction, Expr] | None:
         return None
     if expr == PI or (expr.op == "sqrt" and isinstance(expr.args[0], Num)):
         return Fraction(1), expr
-    factor, body = _split_factor(expr)
-    inner = split_constant(body) if factor else None
-    return inner and (inner[0] * factor, inner[1])
-
-
-def _split_factor(expr: Call) -> tuple[Fraction, Expr]:
-    """Return the number before or below a product, and the rest; 0 if there is none."""
-    none = Fraction(0), expr
     if expr.op == "neg":
-        return Fraction(-1), expr.args[0]
-    if expr.op not in {"mul", "div"} or len(expr.args) != len(("one", "other")):
-        return none
-    first, second = expr.args
-    if expr.op == "mul":
-        return (first.value, second) if isinstance(first, Num) else none
-    return (1 / second.value, first) if isinstance(second, Num) and second.value else none
+        inner = split_constant(expr.args[0])
+        return inner and (-inner[0], inner[1])
+    match expr:
+        case Call("mul", (Num(value=factor), other)) if inner := split_constant(other):
+            return inner[0] * factor, inner[1]
+        case Call("div", (other, Num(value=divisor))) if divisor and (
+            inner := split_constant(other)
+        ):
+            return inner[0] / divisor, inner[1]
+    return None
 
 
 def write_multiple(number: Fraction, rest: Expr) -> Expr:

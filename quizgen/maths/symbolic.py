@@ -94,9 +94,8 @@ class FormResolver:
             *(condition for _, condition in whole.args)
         ):
             return self._convert_cases(whole)
-        found = _convert_structure(whole)
-        if found is not None:
-            return found, True
+        if (several := _convert_several(whole)) is not None:
+            return several, True
         if _has_complex(whole):
             return self._convert_complex(whole)
         free = [s for s in getattr(whole, "free_symbols", ()) if s.name in self.free]
@@ -137,19 +136,6 @@ class FormResolver:
         if parts[1] == 0:
             return from_sympy(parts[0]), bool(names & self.free)
         return Call("complex", tuple(map(from_sympy, parts))), True
-
-
-def _convert_structure(whole: sympy.Basic) -> Expr | None:
-    """Return the tree of a matrix, a set, a vector, an equation or inequality, else None."""
-    if isinstance(whole, sympy.MatrixBase | MatrixExpr):
-        return _convert_matrix(whole)
-    if isinstance(whole, sympy.Set):
-        return _convert_set(whole.doit())
-    if isinstance(whole, sympy.Tuple | list | tuple):
-        return Call("vector", tuple(map(from_sympy, whole)))
-    if isinstance(whole, sympy.Eq | sympy.Lt | sympy.Le | sympy.Gt | sympy.Ge):
-        return from_sympy(whole)
-    return None
 
 
 def _has_complex(whole: sympy.Basic) -> bool:
@@ -218,6 +204,18 @@ def _is_written(whole: sympy.Basic) -> bool:
 def _is_infinite(part: sympy.Basic) -> bool:
     """Return whether a sum, a product or an integral has an infinite bound."""
     return any(not bound.is_finite for limit in part.limits for bound in limit[1:])
+
+
+def _convert_several(whole: sympy.Basic) -> Expr | None:
+    """Return the tree of a matrix, set, vector or equation; None for a number or a formula."""
+    if isinstance(whole, sympy.MatrixBase | MatrixExpr):
+        return _convert_matrix(whole)
+    if isinstance(whole, sympy.Set):
+        return _convert_set(whole.doit())
+    if isinstance(whole, sympy.Tuple | list | tuple):
+        return Call("vector", tuple(map(from_sympy, whole)))
+    relations = sympy.Eq | sympy.Lt | sympy.Le | sympy.Gt | sympy.Ge
+    return from_sympy(whole) if isinstance(whole, relations) else None
 
 
 def _convert_matrix(whole: sympy.Basic) -> Expr:

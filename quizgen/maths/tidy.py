@@ -183,8 +183,8 @@ def _tidy_product(args: tuple[Expr, ...]) -> Expr:
     if constants and number.denominator > 1:
         rest = constants[0] if len(constants) == 1 else Call("mul", tuple(constants))
         others = (factor for factor in factors if factor not in constants)
-        whole = Call("mul", (write_multiple(abs(number), rest), *others))
-        return whole if number > 0 else Call("neg", (whole,))
+        scaled = Call("mul", (write_multiple(abs(number), rest), *others))
+        return scaled if number > 0 else Call("neg", (scaled,))
     if abs(number) != 1:
         factors.insert(0, _make_number(abs(number)))
     product = factors[0] if len(factors) == 1 else Call("mul", tuple(factors))

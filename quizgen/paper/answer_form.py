@@ -26,6 +26,7 @@ from quizgen.locale import translate
 
 if TYPE_CHECKING:
     from quizgen.paper.paper import Paper, PaperItem
+    from quizgen.question.compose import AnswerField
 
 FORMS = ("toml", "csv")
 """What a form can be printed as; the page ``exam.html`` saves JSON."""
@@ -130,8 +131,13 @@ def _iter_question_lines(item: PaperItem) -> Iterator[str]:
     question = item.questions[0]
     yield f"# {item.number}. {question.title}"
     for part in question.parts:
-        hint = " ".join(part.field.hints)
+        hint = _get_hint(part.field)
         yield f'"{part.field.id}" = ""' + (f"   # {hint}" if hint else "")
+
+
+def _get_hint(field: AnswerField) -> str:
+    """Return what to type in a field, after the words around it if it stands in a text."""
+    return ": ".join(filter(None, [field.near, " ".join(field.hints)]))
 
 
 def _format_csv_form(paper: Paper) -> str:
@@ -165,7 +171,7 @@ def _iter_csv_rows(paper: Paper) -> Iterator[tuple[str, ...]]:
         question = item.questions[0]
         for part in question.parts:
             title = f"{item.number}. {question.title}"
-            yield part.field.id, title, " ".join(part.field.hints), ""
+            yield part.field.id, title, _get_hint(part.field), ""
 
 
 def read_filled_form(path: Path) -> FilledForm:

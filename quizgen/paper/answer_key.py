@@ -59,17 +59,19 @@ class KeyChain(msgspec.Struct, omit_defaults=True):
     """The chain of a question as plain formulas.
 
     ``define`` holds units of the bank's own. ``checked`` are steps whose values were computed
-    twice and compared, but are not proved.
+    twice and compared, but are not proved. ``alternatives`` are other right formulas of steps.
     """
 
     given: dict[str, KeyGiven]
     steps: list[tuple[str, str, str]]
     define: list[str] = []
     checked: list[str] = []
+    alternatives: list[tuple[str, str]] = []
 
     def units(self) -> dict[str, str]:
-        """Return the shown unit of each step, by name."""
-        return {name: unit for name, _, unit in self.steps}
+        """Return the shown unit of each quantity, by name."""
+        given = {name: given.unit for name, given in self.given.items()}
+        return given | {name: unit for name, _, unit in self.steps}
 
     def context(self, earlier: Mapping[str, fmpq]) -> QuestionContext:
         """Return the question around a part, with the student's earlier values.
@@ -80,20 +82,26 @@ class KeyChain(msgspec.Struct, omit_defaults=True):
             If a formula cannot be read.
         """
         units = tuple((name, given.unit) for name, given in self.given.items())
-        chain = _build_chain(units, tuple(map(tuple, self.steps)))
+        others = tuple((name, formula, "") for name, formula in self.alternatives)
+        chain = _build_chain(units, tuple(map(tuple, self.steps)), others)
         values = {name: given.parse_value() for name, given in self.given.items()}
         return QuestionContext(chain, values, earlier)
 
 
 @lru_cache(maxsize=512)
 def _build_chain(
-    units: tuple[tuple[str, str], ...], steps: tuple[tuple[str, str, str], ...]
+    units: tuple[tuple[str, str], ...],
+    steps: tuple[tuple[str, str, str], ...],
+    alternatives: tuple[tuple[str, str, str], ...],
 ) -> Chain:
     """Return a chain, built once for all students of a paper."""
     from quizgen.maths.notation import parse_formula
 
-    built = tuple(ChainStep(name, parse_formula(formula), unit) for name, formula, unit in steps)
-    return Chain(dict(units), built)
+    right, others = (
+        tuple(ChainStep(name, parse_formula(formula), unit) for name, formula, unit in rows)
+        for rows in (steps, alternatives)
+    )
+    return Chain(dict(units), right, alternatives=others)
 
 
 @lru_cache(maxsize=256)

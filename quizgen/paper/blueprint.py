@@ -95,6 +95,14 @@ class Blueprint(BlueprintFile, frozen=True):
 
 EVERYTHING = "all"
 MOCK = "mock"
+TRIAL = "trial"
+"""Name of the blueprint that mirrors the real exam."""
+
+
+def longest_minutes(blueprint: Blueprint) -> int:
+    """Return the minutes that a blueprint states, the upper bound of two; 0 for none."""
+    stated = blueprint.minutes
+    return max(stated) if isinstance(stated, tuple) else stated or 0
 
 
 def default_blueprint_name(bank: Bank) -> str:

@@ -39,7 +39,7 @@ def result_rows(result: PaperResult, lang: str) -> list[tuple[str, list[str]]]:
 
 def _format_result_row(part: PartResult, lang: str) -> list[str]:
     """Return the cells of one part: label, verdict, marks, how it was read, remark."""
-    shown = load_words_inside(lang).get(part.status, part.status)
+    shown = load_words_inside(lang).get(part.word, part.word)
     marks = localise_numbers(lang, f"{format_points(part.marks)} / {format_points(part.points)}")
     remark = "" if part.is_blank else part.verdict.message
     read_as = format_read_back(part.kind, part.verdict.read_as, lang) or safe_echo(part.typed)

@@ -51,6 +51,11 @@ class PartResult(msgspec.Struct, frozen=True):
             return "blank"
         return "open" if self.marks is None else self.verdict.verdict
 
+    @property
+    def word(self) -> str:
+        """Return the key of the word that the status is shown by."""
+        return self.verdict.word if self.status == self.verdict.verdict else self.status
+
     def as_json(self) -> dict[str, Any]:
         """Return plain values for JSON."""
         return {

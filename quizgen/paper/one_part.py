@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from quizgen.bank.rules import PART_LABELS
 from quizgen.bank.template import Template
 from quizgen.core.errors import require_one_of
 from quizgen.grading.options import DECIMALS, GradingOptions
@@ -12,8 +13,6 @@ from quizgen.locale import list_languages
 from quizgen.paper.answer_key import make_key_question
 from quizgen.paper.grading import QuestionGrader
 from quizgen.paper.paper import single_question_paper
-
-PART_LETTERS = "abcdefghij"
 
 
 def mark_part(  # noqa: PLR0913 - which part, and how it is read, by name
@@ -67,7 +66,7 @@ def mark_part(  # noqa: PLR0913 - which part, and how it is read, by name
     )
     paper = single_question_paper(template, seed, lang, figures=False)
     keyed = make_key_question(paper.items[0])
-    letters = list(PART_LETTERS[: len(keyed.parts)])
+    letters = list(PART_LABELS[: len(keyed.parts)])
     asked = dict(zip(letters, keyed.parts, strict=True))
     grader = QuestionGrader(keyed, options)
     wanted = require_one_of("part", part, letters)

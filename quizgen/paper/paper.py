@@ -121,6 +121,12 @@ class Paper(msgspec.Struct, frozen=True):
         return any(one.field.drawing for item in self.items for one in item.questions[0].parts)
 
     @property
+    def has_placed_fields(self) -> bool:
+        """Return whether the field of a part stands inside a sentence or a cell."""
+        parts = (part for item in self.items for part in item.questions[0].parts)
+        return any(part.field.near is not None for part in parts)
+
+    @property
     def digest(self) -> str:
         """Return a short digest of what is asked and marked; page, form and key must share it.
 

@@ -132,6 +132,8 @@ class PartAttempt(Generic[P, S]):
 
     def give_up(self) -> None:
         """End the part as wrong; raise ``AttemptFinishedError`` if it has ended."""
+        if not self.state.tries:
+            self.state.helped = bool(self.state.hints)
         self._finish_part(right=False)
 
     def skip(self) -> None:
@@ -150,6 +152,8 @@ class PartAttempt(Generic[P, S]):
         self._require_unfinished()
         verdict = self._marker.judge_part(self._keyed, typed).verdict
         then = self._decide_next_step(verdict)
+        if self.state.tries == 1 and then is not NextStep.ASK_BACK:
+            self.state.credit, self.state.helped = float(verdict.credit), bool(self.state.hints)
         if then is not NextStep.ASK_BACK:
             self.state.typed, self.verdict = typed, verdict
         if then in {NextStep.AGAIN, NextStep.OUT_OF_TRIES}:
@@ -179,6 +183,9 @@ class PartAttempt(Generic[P, S]):
 
     def self_mark(self, *, right: bool) -> None:
         """End the part as right or wrong by the learner's own judgement."""
+        self._require_unfinished()
+        if self.state.tries == 1:
+            self.state.credit = float(right)
         self._finish_part(right=right)
 
     def _require_unfinished(self) -> None:

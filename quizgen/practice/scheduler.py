@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     import fsrs
 
 DAY = 86400.0
-LEARNING = 1
-"""State of a card that was asked on its first day."""
 NAMED = "trap:"
 """How the note of a mistake begins that a template gives a name to; slips of the pen have none."""
 Kind: TypeAlias = Literal["template", "mistake"]

@@ -45,6 +45,29 @@ class PartOutcome(msgspec.Struct, frozen=True):
     skipped: bool = False
 
 
+class Attempt(msgspec.Struct, frozen=True):
+    """One attempt at a template.
+
+    Parameters
+    ----------
+    template : str
+    credit : float
+        Share of its points that the first tries were worth, 0 to 1.
+    at : float
+        When it ended, in seconds since 1970.
+    helped : bool
+        Whether help came before a first try: that says nothing of what is known, but it teaches.
+    taught : bool
+        Whether its solution was seen.
+    """
+
+    template: str
+    credit: float
+    at: float
+    helped: bool = False
+    taught: bool = True
+
+
 class PartState(msgspec.Struct):
     """Progress of one part of the open question.
 
@@ -58,6 +81,10 @@ class PartState(msgspec.Struct):
         How it went, once it is done.
     wrong, note : str
         The last answer that was not right, and which mistake it was.
+    credit : float
+        Share of the points that the first try was worth, 0 to 1.
+    helped : bool
+        Whether a hint came before that try.
     """
 
     typed: str = ""
@@ -66,6 +93,8 @@ class PartState(msgspec.Struct):
     outcome: PartOutcome | None = None
     wrong: str = ""
     note: str = ""
+    credit: float = 0.0
+    helped: bool = False
 
 
 class SessionState(msgspec.Struct):

@@ -52,6 +52,8 @@ class AnswerField(msgspec.Struct, frozen=True):
         The right side of a matching.
     drawing : FieldPicture, optional
         The empty field, if the answer is drawn.
+    near : str, optional
+        The words around the field, if it stands inside a sentence or a cell (``PlacedField``).
     """
 
     id: str
@@ -60,6 +62,7 @@ class AnswerField(msgspec.Struct, frozen=True):
     options: tuple[Choice, ...] = ()
     targets: tuple[Choice, ...] = ()
     drawing: FieldPicture | None = None
+    near: str | None = None
 
     @property
     def hints(self) -> tuple[str, ...]:
@@ -78,12 +81,16 @@ class AnswerField(msgspec.Struct, frozen=True):
 
 
 class QuestionPart(msgspec.Struct, frozen=True):
-    """One sub-question as the learner sees it."""
+    """One sub-question as the learner sees it.
+
+    ``shared`` is the text of a part before it that its field stands in, for what shows it alone.
+    """
 
     label: str
     points: Fraction
     body: tuple[Block, ...]
     field: AnswerField
+    shared: tuple[Block, ...] = ()
 
     def to_html(self, lang: str) -> Markup:
         """Return the part with its options and hints as HTML."""
@@ -249,15 +256,18 @@ def _build_question_and_key(
 
 def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
     """Return one part as the learner sees it; its field is named by number and label."""
+    hints = KINDS[asked.spec.kind].input_hints(asked.spec, lang)
+    is_plain = asked.near is not None and asked.control.form == "gaps"  # a word in its sentence
     field = AnswerField(
         id=f"{number}{asked.label}",
         control=asked.control,
-        asks=tuple(map(to_inlines, KINDS[asked.spec.kind].input_hints(asked.spec, lang))),
+        asks=() if is_plain else tuple(map(to_inlines, hints)),
         options=asked.options,
         targets=asked.targets,
         drawing=FieldPicture(asked.control.board, lang) if asked.control.board else None,
+        near=asked.near,
     )
-    return QuestionPart(asked.label, asked.points, asked.body, field)
+    return QuestionPart(asked.label, asked.points, asked.body, field, asked.shared)
 
 
 def _format_given_for_key(drawn: Variant, name: str) -> str | list[str]:
@@ -274,6 +284,7 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
     if not chain.steps:
         return None
     units, own = drawn.template.units, drawn.template.about.units
+    others = [[other.name, format_tree(other.expr)] for other in chain.alternatives]
     checked = [name for name, grade in chain.certainties.items() if grade == "checked"]
     return {
         **({"define": list(own)} if own else {}),
@@ -286,4 +297,5 @@ def chain_as_json(drawn: Variant) -> dict[str, Any] | None:
             for name in chain.given
         },
         "steps": [[step.name, format_tree(step.expr), step.unit] for step in chain.steps],
+        **({"alternatives": others} if others else {}),
     }

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import base64
+import csv
+import io
 from collections.abc import Iterator
 from itertools import zip_longest
 
 from quizgen.bank.markdown import InlineCode, Paragraph
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
+from quizgen.core.untrusted import escape_csv_formula
 from quizgen.maths.numbers import MINUS
 from quizgen.question.inlines import translate_inlines
 
@@ -41,16 +44,26 @@ def iter_data_files(drawn: Variant, number: str) -> Iterator[tuple[str, bytes]]:
     units = drawn.template.units
     for name, columns in drawn.template.rules.files.items():
         for column in columns:
-            if column not in drawn.lists:
+            if not drawn.list_texts(column):
                 what = f"files: {column!r} is not a drawn list"
                 file, place = drawn.template.file, ("files", name)
                 raise BankError(what, rule="QG116", file=file, place=place)
         heads = [f"{c} / {units[c]}" if units.get(c) else c for c in columns]
-        cells = [[text.replace(MINUS, "-") for text in drawn.format_list(c)] for c in columns]
+        cells = [list(_iter_cells(drawn, column)) for column in columns]
+        out = io.StringIO()
         rows = zip_longest(*cells, fillvalue="")
-        # Letters, units and numbers alone: a minus sign must not be guarded from spreadsheets.
-        lines = (",".join(row) for row in (heads, *rows))
-        yield f"{number}-{name}", "".join(f"{line}\n" for line in lines).encode()
+        csv.writer(out, lineterminator="\n").writerows((heads, *rows))
+        yield f"{number}-{name}", out.getvalue().encode()
+
+
+def _iter_cells(drawn: Variant, name: str) -> Iterator[str]:
+    """Return the cells of a list, as a spreadsheet reads them: no text is a formula there.
+
+    The minus sign of a number must not be guarded from spreadsheets.
+    """
+    if name in drawn.lists:
+        return (text.replace(MINUS, "-") for text in drawn.format_list(name))
+    return map(escape_csv_formula, drawn.text_list(name))
 
 
 def build_file_paragraphs(drawn: Variant, lang: str, number: str) -> tuple[Paragraph, ...]:

@@ -5,7 +5,8 @@ Pieces are escaped one by one and joined as plain text; only what is handed out 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 from functools import singledispatch
 from html import escape
 from typing import NamedTuple
@@ -16,7 +17,7 @@ from quizgen import typeset
 from quizgen.bank import markdown
 from quizgen.bank.pictures import PictureFile
 from quizgen.question.data_files import DataFileLink
-from quizgen.question.inlines import PlacedPicture, TypesetMaths
+from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
 from quizgen.question.interpolation import NBSP, unbreakable_groups
 
 
@@ -136,6 +137,22 @@ def _render_picture(part: PlacedPicture, _lang: str, way: HtmlDialect) -> str:
     size = f'width="{file.width_pt * 4 / 3:.0f}" height="{file.height_pt * 4 / 3:.0f}"'
     named = ' class="picture"' if way.ours else ""
     return f'<img{named} src="{way.source(file)}" alt="{_escape_html(part.alt)}" {size}/>'
+
+
+@_render_piece.register
+def _render_field(part: PlacedField, _lang: str, way: HtmlDialect) -> str:
+    """Return a blank; a page that is answered puts the field itself there (``put_fields``)."""
+    if not way.ours:
+        return part.text
+    return f'<span class="blank" data-field="{part.label}">{part.text}</span>'
+
+
+_BLANK = re.compile(r'<span class="blank" data-field="([a-j]?)">[^<]*</span>')
+
+
+def put_fields(page: str, fields: Mapping[str, str]) -> Markup:
+    """Return HTML made here with the fields of parts, by their labels, for the blanks in it."""
+    return Markup(_BLANK.sub(lambda found: fields.get(found[1], found[0]), page))
 
 
 @singledispatch

@@ -69,6 +69,31 @@ class PlacedPicture(msgspec.Struct, frozen=True):
         return self.text
 
 
+class PlacedField(msgspec.Struct, frozen=True):
+    """The field of a part in a sentence or a cell: a blank on paper, an input on a page.
+
+    Parameters
+    ----------
+    label : str
+        Of the part; empty where there is only one.
+    options : tuple of (str, inlines)
+        What there is to choose from, each after its mark; none where something is typed.
+    """
+
+    label: str
+    options: tuple[tuple[str, tuple[Inline, ...]], ...] = ()
+
+    @property
+    def text(self) -> str:
+        """Return the blank in plain text."""
+        return f"({self.label})\u00a0____" if self.label else "____"
+
+    @property
+    def typed_text(self) -> str:
+        """Return the same as ``text``: what is typed there stands elsewhere."""
+        return self.text
+
+
 TextOrInlines = str | tuple[Inline, ...]
 """A text for people, or pieces of a sentence."""
 

@@ -7,8 +7,11 @@ from collections import deque
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
+from flint import fmpq
+
 from quizgen import typeset
 from quizgen.bank.markdown import (
+    FIELD_MARK,
     TABLE_MARK,
     Block,
     ConditionalSentence,
@@ -28,16 +31,18 @@ from quizgen.bank.markdown import (
     fill_text,
     slot_names,
 )
+from quizgen.bank.rules import PART_LABELS
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.core.positions import TEXT
 from quizgen.kinds.contract import VALUE_OPTION, LabelledName, asked_form
 from quizgen.maths.notation import format_tree, pretty
-from quizgen.maths.numbers import MINUS, format_exact, format_rounded
+from quizgen.maths.numbers import MINUS, format_exact, format_rounded, to_float
 from quizgen.maths.tree import Expr
 from quizgen.maths.units import format_unit
-from quizgen.maths.values import Values
+from quizgen.maths.values import Value, Values
 from quizgen.question.inlines import (
+    PlacedField,
     PlacedPicture,
     TypesetLayout,
     TypesetMaths,
@@ -51,6 +56,8 @@ from quizgen.typeset.nodes import MathRow, Node, Phrase
 NBSP = "\u00a0"
 LIST_SEPARATOR = "; "
 """Between the numbers of a list: a comma would be a decimal sign in some languages."""
+TEXT_SEPARATOR = ", "
+"""Between the texts of a list."""
 SHORT = 16
 """Characters up to which a formula is held together with what stands beside it."""
 _TAIL = re.compile(r"[^ \n]*(?: [=≈<>≤≥≠] [^ \n]*)?")
@@ -75,6 +82,7 @@ class Interpolator:
         """
         self.drawn, self.lang, self.hidden = drawn, lang, hidden
         self.own: dict[str, LabelledName] = {}
+        self.fields: dict[str, PlacedField] = {}
         self.known: Values = drawn.shown if hidden else drawn.shown_values
         self.text = drawn.template.texts[lang]
 
@@ -86,7 +94,7 @@ class Interpolator:
         BankError
             If a slot names nothing that may stand there.
         """
-        if self.drawn.lists:
+        if self.drawn.lists or any(name.endswith("]") for name in self.drawn.words):
             parts = tuple(map(self._build_data_table, parts))
         return fill_blocks(parts, self._fill_value, self._fill_program)
 
@@ -99,11 +107,14 @@ class Interpolator:
                 return block
         for name in names:
             self._require_list(name, text)
-        columns = [self.drawn.format_list(name) for name in names]
+        columns = [self.drawn.list_texts(name) for name in names]
         if len({len(column) for column in columns}) != 1:
-            raise self._format_problem("the lists differ in length", "QG158", TEXT, text)
+            raise self.format_problem("the lists differ in length", "QG158", TEXT, text)
         rows = tuple(
-            tuple(to_inlines(pretty.format_number(cell)) for cell in row)
+            tuple(
+                to_inlines(pretty.format_number(cell) if name in self.drawn.lists else cell)
+                for name, cell in zip(names, row, strict=True)
+            )
             for row in zip(*columns, strict=True)
         )
         return TableBlock(tuple(self._name_column(name) for name in names), rows)
@@ -115,9 +126,9 @@ class Interpolator:
 
     def _require_list(self, name: str, blank: str) -> None:
         """Raise the problem QG158 if a blank names a list that is not drawn."""
-        if name not in self.drawn.lists:
+        if not self.drawn.list_texts(name):
             what = f"{{{{ {blank} }}}}: {name} is not a drawn list"
-            raise self._format_problem(what, "QG158", TEXT, f"{{{{ {blank} }}}}")
+            raise self.format_problem(what, "QG158", TEXT, f"{{{{ {blank} }}}}")
 
     def section(self, name: str) -> tuple[Block, ...]:
         """Return a section of the language file, filled; empty if there is none."""
@@ -154,7 +165,7 @@ class Interpolator:
         found = self._choose_sentence(cases) if cases else self.text.sentence(section, name)
         if found is None:
             lacks = "has no case of" if cases else "lacks"
-            raise self._format_problem(
+            raise self.format_problem(
                 f"section {section!r} {lacks} {name!r}", "QG157", section, name
             )
         return found
@@ -166,9 +177,15 @@ class Interpolator:
                 return sentence
         return None
 
+    def with_fields(self, fields: Iterable[PlacedField]) -> Interpolator:
+        """Return a copy that knows the fields of parts, which may then stand in its blocks."""
+        filler = Interpolator(self.drawn, self.lang, hidden=self.hidden)
+        filler.fields = {FIELD_MARK + (field.label or PART_LABELS[0]): field for field in fields}
+        return filler
+
     def with_sentence(self, name: str, section: str, sentence: str) -> Interpolator:
         """Return a copy with a slot that a named sentence fills."""
-        filler = Interpolator(self.drawn, self.lang, hidden=self.hidden)
+        filler = self.with_fields(self.fields.values())
         filler.own[name] = (section, sentence)
         return filler
 
@@ -211,23 +228,47 @@ class Interpolator:
         drawn = self.drawn
         if name in self.own:
             return self.sentence(*self.own[name])
+        if name.startswith(FIELD_MARK):
+            return (self._get_field(name),)
+        if (said := self._find_words(name)) is not None:
+            return said
         if name in drawn.lists or name.startswith(TABLE_MARK) or name.endswith("]"):
             return self._fill_list_slot(name)
-        if name in drawn.words:
-            own = name in drawn.template.rules.data  # a text of data.py stands for itself
-            text = drawn.words[name]
-            return to_inlines(text) if own else self.sentence("words", text)
-        if not self.hidden and ("words", name) in self.text.cases:
-            return self.sentence("words", name)
         if (formula := self._find_formula(name)) is not None:
             return (_inline_maths(formula),)
         return self._fill_number(name)
 
+    def _find_words(self, name: str) -> tuple[Inline, ...] | None:
+        """Return the text, phrase or case of a phrase that a slot stands for, if it is one."""
+        drawn = self.drawn
+        if (text := _get_own_text(drawn, name)) is not None:
+            return to_inlines(text)
+        if name in drawn.words:
+            return self.sentence("words", drawn.words[name])
+        if not self.hidden and name not in drawn.lists and ("words", name) in self.text.cases:
+            return self.sentence("words", name)
+        return None
+
+    def _get_field(self, name: str) -> PlacedField:
+        """Return the field of a part; raise the problem QG160 where none can stand."""
+        if name in self.fields:
+            return self.fields[name]
+        blank = f"{{{{ {name} }}}}"
+        what = f"{blank} is the field of a part, and stands in the section of a part alone"
+        if self.fields:
+            what = f"{blank}: there is no such part, or its field is more than a line or a choice"
+        raise self.format_problem(what, "QG160", TEXT, blank)
+
     def _fill_number(self, name: str) -> tuple[Inline, ...]:
-        """Return a quantity with its unit; ≈ goes before a rounded value."""
+        """Return a quantity with its unit; ≈ goes before a rounded value.
+
+        One with a format, as ``{{ h:02 }}``, is the number alone, as Python prints it.
+        """
+        if ":" in name:
+            return to_inlines(pretty.format_number(self._format_as_python(name)))
         if name not in self.known:
             what, blank = f"{{{{ {name} }}}} is not a drawn quantity", f"{{{{ {name} }}}}"
-            raise self._format_problem(what, "QG158", TEXT, blank)
+            raise self.format_problem(what, "QG158", TEXT, blank)
         if not self.drawn.is_rounded(name):
             return to_inlines(format_quantity(self.drawn, name))
         rounded = format_rounded(self.known[name])
@@ -236,17 +277,28 @@ class Interpolator:
             *to_inlines(join_unit(rounded, self.drawn.template.units.get(name, ""))),
         )
 
+    def _format_as_python(self, slot: str) -> str:
+        """Return a quantity as Python's ``format`` prints it, such as ``{{ h:02 }}``."""
+        name, _, spec = slot.partition(":")
+        if name not in self.known:
+            self._fill_number(name)  # which raises
+        try:
+            return format_as_python(self.known[name], spec)
+        except ValueError as error:
+            blank = f"{{{{ {slot} }}}}"
+            raise self.format_problem(f"{blank}: {error}", "QG158", TEXT, blank) from error
+
     def _fill_list_slot(self, name: str) -> tuple[Inline, ...]:
         """Return a list with its unit once, or one of its values."""
         drawn, (listed, _, place) = self.drawn, name.partition("[")
         if name.startswith(TABLE_MARK):
             what = "stands alone in a paragraph, in a question that draws lists"
             blank = f"{{{{ {name} }}}}"
-            raise self._format_problem(f"{blank} {what}", "QG158", TEXT, blank)
+            raise self.format_problem(f"{blank} {what}", "QG158", TEXT, blank)
         if place:
             return to_inlines(join_unit(*self._find_list_value(name)))
         self._require_list(listed, name)
-        numbers = LIST_SEPARATOR.join(map(pretty.format_number, drawn.format_list(listed)))
+        numbers = LIST_SEPARATOR.join(map(pretty.format_number, drawn.list_texts(listed)))
         shown = format_unit(drawn.template.units.get(listed, ""))
         return to_inlines(f"{numbers}{NBSP}{shown}" if shown else numbers)
 
@@ -254,10 +306,10 @@ class Interpolator:
         """Return one value of a list, ``x[3]``, as it is shown, and its unit."""
         listed, _, place = name.partition("[")
         self._require_list(listed, name)
-        texts, index = self.drawn.format_list(listed), int(place.rstrip("]"))
+        texts, index = self.drawn.list_texts(listed), int(place.rstrip("]"))
         if not 1 <= index <= len(texts):
             what = f"{{{{ {name} }}}}: the list has {len(texts)} values, and the first is 1"
-            raise self._format_problem(what, "QG158", TEXT, f"{{{{ {name} }}}}")
+            raise self.format_problem(what, "QG158", TEXT, f"{{{{ {name} }}}}")
         return texts[index - 1], self.drawn.template.units.get(listed, "")
 
     def _find_formula(self, name: str) -> Expr | None:
@@ -276,7 +328,7 @@ class Interpolator:
         """Return program text with the known values in place."""
         return fill_program(text, self.drawn, self.known)
 
-    def _format_problem(self, what: str, rule: str, *place: str) -> BankError:
+    def format_problem(self, what: str, rule: str, *place: str) -> BankError:
         """Return an error at a place of the language file."""
         file = self.drawn.template.path / f"{self.lang}.md"
         return BankError(what, rule=rule, file=file, place=place)
@@ -363,6 +415,15 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
     def value(name: str) -> str:
         """Return a value as a program writes it; raise ``BankError`` if it is not exact."""
         listed, _, place = name.partition("[")
+        if (text := _get_own_text(drawn, name)) is not None:
+            return text
+        bare, _, spec = name.partition(":")
+        if spec and bare in known:
+            try:
+                return format_as_python(known[bare], spec)
+            except ValueError as error:
+                what, file = f"{{{{ {name} }}}}: {error}", drawn.template.file
+                raise BankError(what, rule="QG158", file=file) from error
         if listed in drawn.lists:
             texts = [text.replace(MINUS, "-") for text in drawn.format_list(listed)]
             if not place:
@@ -378,6 +439,29 @@ def fill_program(text: str, drawn: Variant, known: Values) -> str:
         return written
 
     return fill_text(text, value)
+
+
+def format_as_python(value: Value, spec: str) -> str:
+    """Return a number as Python's ``format`` prints it.
+
+    Raises
+    ------
+    ValueError
+        If it is no whole number, where only these can be printed so.
+    """
+    if spec.endswith("f"):
+        return format(to_float(value), spec)
+    if not isinstance(value, fmpq) or value.q != 1:
+        raise ValueError(f"{spec} prints whole numbers")
+    return format(int(value.p), spec)
+
+
+def _get_own_text(drawn: Variant, name: str) -> str | None:
+    """Return a text of a table or of ``data.py``, or such a list, as it stands; else None."""
+    rule = drawn.template.rules.draw.get(name)
+    if name in drawn.words and not (rule and rule.words):
+        return drawn.words[name]
+    return TEXT_SEPARATOR.join(drawn.text_list(name)) or None
 
 
 def format_quantity(drawn: Variant, name: str) -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
@@ -20,7 +22,12 @@ from quizgen.kinds.contract import (
     asked_quantities,
 )
 from quizgen.locale import localise_numbers
-from quizgen.maths.numbers import format_exact, format_rounded, is_readable_exactly
+from quizgen.maths.numbers import (
+    format_exact,
+    format_rounded,
+    is_readable_exactly,
+    parse_written_number,
+)
 from quizgen.maths.tree import Expr
 from quizgen.maths.values import Value
 from quizgen.question.interpolation import (
@@ -31,6 +38,8 @@ from quizgen.question.interpolation import (
     join_unit,
 )
 
+_UNFILLED = re.compile(r"\{\{[^{}]*\}\}")
+"""What stays of a blank with a slip in it."""
 OPTION_FIGURES = 4
 """Significant figures of a value to choose that has no short exact form."""
 
@@ -53,6 +62,7 @@ class VariantPart(PartContext):
         self.shown, self.shown_values, self.words = drawn.shown, drawn.shown_values, drawn.words
         self.units, self.defined_units = template.units, template.about.units
         self.terms = template.about.terms
+        self.lists, self.check_digest = drawn.lists, template.check_digest
 
     def error(self, what: str, rule: str = "QG112") -> BankError:
         """Return an error that stands at the part's ``answer`` table; the caller raises it.
@@ -175,7 +185,7 @@ class VariantPart(PartContext):
         """
         found: list[str] = []
         for lang in self.drawn.template.texts:
-            words = inlines_as_typed(Interpolator(self.drawn, lang).raw_sentence("gaps", name))
+            words = inlines_as_typed(Interpolator(self.drawn, lang).sentence("gaps", name))
             found += [word.strip() for word in words.split("|")]
         return list(dict.fromkeys(found))
 
@@ -214,7 +224,19 @@ class VariantPart(PartContext):
 
     def fill_program(self, text: str) -> str:
         """Return program text, or its output, with the drawn values in place."""
-        return fill_program(text, self.drawn, self.drawn.shown_values)
+        filled = fill_program(text, self.drawn, self.drawn.shown_values)
+        if found := _UNFILLED.search(filled):
+            raise self.error(f"{found[0]} is no blank that can be filled", "QG154")
+        return filled
+
+    def examples(self) -> tuple[tuple[str, Fraction], ...]:
+        """Return the answers of ``[[part.example]]`` filled, and the share that each earns."""
+        rule = self.drawn.template.rules.part[self.index]
+        worth = parse_written_number(rule.points)
+        return tuple(
+            (self.fill_program(one.answer), parse_written_number(one.points) / worth)
+            for one in rule.example
+        )
 
 
 @lru_cache(maxsize=128)

@@ -17,7 +17,9 @@ from quizgen.question.html import (
     blocks_to_html,
     display_to_html,
     inlines_to_html,
+    put_fields,
 )
+from quizgen.question.interpolation import inlines_to_text
 from quizgen.render import fonts
 from quizgen.render.layouts import answer_rows, jinja_environment
 
@@ -37,6 +39,8 @@ def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
         amount=format_amount,
         decimal=lambda lang: get_language(lang).decimal,
         squares=answer_rows,
+        plain=inlines_to_text,
+        put_fields=put_fields,
         drawing=_read_board_file,
         svg=lambda figure: Markup(figure.inline_svg.decode()),
     )

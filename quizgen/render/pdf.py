@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 from quizgen.locale import format_amount, format_marks, translate
@@ -242,22 +243,52 @@ class _TypstPaper:
         )
         texts = [blocks_to_typst(q.parts[index].body, q.lang) for q in questions]
         body = f"{worth}\n{stack_languages(self.langs, texts)}"
+        if first.field.near is not None and self.kind == "exam":
+            text = stack_languages(self.langs, texts)
+            return self._typeset_placed_part(questions, index, text, worth)
         rows = self._typeset_options(questions, index)
         if self.kind == "solutions":
             return f"#whole[{body}]\n{rows}\n{self._typeset_part_solution(item, index)}"
         field = self._typeset_answer_space(questions, index)
         return f"#part[{body}\n{rows}\n{field}]\n{_typeset_notes_area(first)}"
 
+    def _typeset_placed_part(
+        self, questions: tuple[Question, ...], index: int, text: str, worth: str
+    ) -> str:
+        """Return a part whose field stands in a text: one line below it, with points and hints.
+
+        The last of those in one text has room to work in.
+        """
+        parts = questions[0].parts
+        is_typed = parts[index].field.control.form not in {"one", "truth"}
+        hints = [inlines_to_typst(q.parts[index].field.hint, q.lang) for q in questions]
+        said = f"#hint[{join_languages(self.langs, hints)}]" if is_typed else ""
+        body = "\n\n".join(filter(None, [text, f"{worth} #h(0.6em); {said}"]))
+        if any(part.shared for part in parts[index + 1 : index + 2]):
+            return f"#part[{body}]"
+        begin = max(place for place in range(index + 1) if not parts[place].shared)
+        group = parts[begin : index + 1]
+        if not any(part.field.control.needs_working for part in group):
+            return f"#part[{body}]\n#rest"
+        points = sum((part.points for part in group), Fraction(0))
+        room = f"#room({answer_rows(points)})"
+        return f"#part[{body}\n{room}]\n#more-room({float(points):g})"
+
+    def _typeset_hints(self, fields: list[AnswerField]) -> str:
+        """Return how the answer of a part is typed, in all languages; "" if nothing is said."""
+        hints = [inlines_to_typst(f.hint, lang) for f, lang in zip(fields, self.langs, strict=True)]
+        return f"#hint[{stack_languages(self.langs, hints)}]" if any(hints) else ""
+
     def _typeset_answer_space(self, questions: tuple[Question, ...], index: int) -> str:
         """Return what stands below a part and its options: hints, room to work in, answer lines."""
         part = questions[0].parts[index]
         control = part.field.control
         fields = [q.parts[index].field for q in questions]
-        hints = [inlines_to_typst(f.hint, lang) for f, lang in zip(fields, self.langs, strict=True)]
+        hints = self._typeset_hints(fields)
         if control.form == "truth":
             ways = [f"[{translate_all(self.langs, f'ask.{way}')}]" for way in ("true", "false")]
             return f"#truth({', '.join(ways)})"
-        shown = [f"#hint[{stack_languages(self.langs, hints)}]"] if any(hints) else []
+        shown = [hints] if hints else []
         if control.form == "pairs":
             return "\n".join(shown)
         if control.board:

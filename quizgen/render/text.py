@@ -11,7 +11,7 @@ from quizgen.locale import translate
 from quizgen.paper.paper import PaperItem
 from quizgen.question.compose import QuestionKey
 from quizgen.question.figure import describe_question_figure
-from quizgen.question.inlines import PlacedPicture, TypesetMaths
+from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
 from quizgen.question.solution import PartSolution
 
 
@@ -40,8 +40,8 @@ def _format_styled(part: markdown.Emphasis) -> str:
 
 
 @inlines_to_plain_text.register
-def _get_printed_text(part: TypesetMaths | PlacedPicture) -> str:
-    """Return the plain text of a formula, or the description of a picture."""
+def _get_printed_text(part: TypesetMaths | PlacedPicture | PlacedField) -> str:
+    """Return the plain text of a formula, the description of a picture, or a blank."""
     return part.text
 
 

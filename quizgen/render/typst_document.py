@@ -14,7 +14,7 @@ from quizgen import typeset
 from quizgen.bank import markdown
 from quizgen.core.errors import RenderError
 from quizgen.locale import languages_in_script, translate
-from quizgen.question.inlines import PlacedPicture, TypesetMaths
+from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
 from quizgen.question.interpolation import unbreakable_groups
 from quizgen.render import fonts
 
@@ -83,6 +83,32 @@ def _format_picture(part: PlacedPicture, _lang: str) -> str:
     return f"#box(baseline: 40%, image({file}, alt: {typst_literal(part.alt)}));"
 
 
+@inlines_to_typst.register
+def _format_field(part: PlacedField, lang: str) -> str:
+    """Return the field of a part as Typst markup: a ruled blank, or a box before each option."""
+    label = f'#text(0.85em, fill: rgb("#4b5563"), {typst_literal(f"({part.label})")});#h(0.25em);'
+    label = label if part.label else ""
+    if not part.options:
+        return f"#box[{label}{_RULED}];"
+    boxed = [
+        f"#box[{_BOX}#h(0.3em);{_format_mark(mark)}{inlines_to_typst(said, lang)}];"
+        for mark, said in part.options
+    ]
+    first, *rest = boxed
+    return " #h(0.4em); ".join([f"#box[{label}{first}];", *rest])
+
+
+def _format_mark(mark: str) -> str:
+    """Return the letter of an option in Typst; nothing where its words are its mark."""
+    return f"#strong({typst_literal(mark)}) " if len(mark) == 1 else ""
+
+
+_RULED = (
+    '#box(width: 6.5em, height: 1.5em, baseline: 0.25em, stroke: (bottom: 0.5pt + rgb("#555")));'
+)
+_BOX = '#box(width: 0.75em, height: 0.75em, stroke: 0.5pt + rgb("#555"));'
+
+
 def typst_passage(body: str) -> str:
     """Return Typst that evaluates the markup of one passage from a string.
 
@@ -137,7 +163,9 @@ def _format_table(part: markdown.TableBlock, lang: str) -> str:
     cells = [cell for row in (part.head, *part.rows) for cell in row]
     head = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in part.head)
     rest = ", ".join(f"[{inlines_to_typst(cell, lang)}]" for cell in cells[len(part.head) :])
-    return f"#table(columns: {len(part.head)}, table.header({head}), {rest});"
+    placed = any(isinstance(one, PlacedField) for cell in cells for one in cell)
+    align = "align: horizon, " if placed else ""
+    return f"#table(columns: {len(part.head)}, {align}table.header({head}), {rest});"
 
 
 def in_language(lang: str, body: str) -> str:

@@ -34,7 +34,7 @@ Typed: TypeAlias = Annotated[str, msgspec.Meta(max_length=10_000, pattern=TEXT)]
 Id: TypeAlias = Annotated[str, msgspec.Meta(pattern="^[A-Za-z0-9_-]{8,32}$")]
 
 
-Wish: TypeAlias = dict[Literal["topic", "tier"], Short]
+Wish: TypeAlias = dict[Literal["topic", "tier", "repair"], Short]
 Settings: TypeAlias = dict[Literal["lang", "exam"], Part]
 
 
@@ -82,6 +82,9 @@ class ArchivedOutcome(StrictStruct, frozen=True):
     right: bool
     first: bool
     at: Moment
+    credit: Annotated[float, msgspec.Meta(ge=0, le=1)] | None = None
+    helped: bool | None = None
+    attempt: Annotated[str, msgspec.Meta(max_length=50, pattern=TEXT)] | None = None
 
 
 class ArchivedAnswer(StrictStruct, frozen=True):
@@ -161,7 +164,7 @@ class ArchiveStore:
                     ).scalar_one(),
                 ),
                 "attempts": [
-                    {**row, "wish": _select_columns(("topic", "tier"), row["wish"])}
+                    {**row, "wish": _select_columns(("topic", "tier", "repair"), row["wish"])}
                     for row in _iter_learner_rows(connection, ATTEMPT, learner)
                 ],
                 "seen": list(_iter_learner_rows(connection, SEEN, learner, "id")),

@@ -5,16 +5,28 @@ from __future__ import annotations
 import hashlib
 import secrets
 import time
-from collections.abc import Iterable, Mapping, Sequence
-from datetime import date
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from datetime import date, datetime, timedelta
+from datetime import time as day_time
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from quizgen.bank.bank import Bank
+from quizgen.bank.levels import GUIDED
+from quizgen.bank.rules import Rules, part_points, suggested_minutes
 from quizgen.practice.agenda import Agenda
 from quizgen.practice.scheduler import ReviewEvent, days_left, local_date, make_review_event
-from quizgen.practice.session_state import PartOutcome, PartState
+from quizgen.practice.session_state import Attempt, PartOutcome, PartState
 from quizgen.store import AttemptRecord, Learner, OutcomeRecord, QuestionRef, Store
+
+if TYPE_CHECKING:
+    from quizgen.practice.exam_plan import ExamPlan
+
+TOGETHER = 1800.0
+"""Seconds within which parts of a template belong to one attempt, where none is named."""
+EXAM_BEGINS = day_time(10)
+"""When an exam is assumed to begin."""
 
 
 class LearnerProgress(msgspec.Struct, frozen=True):
@@ -43,18 +55,57 @@ class LearnerProgress(msgspec.Struct, frozen=True):
             for one in self.store.list_outcomes(self.learner.id)
         ]
 
-    def next_question(self, names: Sequence[str]) -> QuestionRef:
-        """Return which of these templates is due next, with seed and level."""
-        latest = self.store.latest(self.learner.id, 1)
-        seed = _choose_next_seed(latest)
-        template = self.agenda().choose_next(
+    def attempts(self) -> list[Attempt]:
+        """Return what the learner's attempts say, the earliest first; equal numbers count once."""
+        repeated = self.store.list_repeated(self.learner.id)
+        outcomes = self.store.list_outcomes(self.learner.id)
+        return group_attempts(self.bank, [one for one in outcomes if one.attempt not in repeated])
+
+    def plan(self, names: Collection[str]) -> ExamPlan:
+        """Return the plan until the exam, with questions of some templates."""
+        from quizgen.practice.ability import read_practice_items  # NumPy, only where it is asked
+        from quizgen.practice.exam_plan import SPACING, ExamPlan, read_exam_goal
+
+        now = time.time()
+        latest = self.store.latest(self.learner.id, SPACING)
+        return ExamPlan(
+            read_exam_goal(self.bank),
+            read_practice_items(self.bank),
+            self.attempts(),
+            now,
+            exam_time(self.exam, now),
             names,
-            self.outcomes(),
-            self.store.count_asked(self.learner.id),
-            latest[0].template if latest else "",
-            seed,
+            [one.template for one in latest],
         )
-        return QuestionRef(template, seed)
+
+    def next_question(self, names: Sequence[str]) -> QuestionRef:
+        """Return which of these templates to ask next, with seed and level."""
+        return QuestionRef(self.plan(names).choose_next(), self.seed_of_next())
+
+    def list_repairs(self, sitting: str) -> list[str]:
+        """Return the templates that cost points in an exam and were not asked again since.
+
+        Those that cost most per minute come first.
+
+        Parameters
+        ----------
+        sitting : str
+            Id of the exam.
+        """
+        lost: dict[str, float] = {}
+        for one in self.store.list_outcomes(self.learner.id):
+            if one.template not in self.bank.template_paths:
+                continue
+            if (one.attempt or "").startswith(f"{sitting}/"):
+                worth = part_points(self.bank.rules(one.template)).get(one.part, 1.0)
+                lost[one.template] = lost.get(one.template, 0.0) + worth * (1 - (one.credit or 0))
+            else:
+                lost.pop(one.template, None)
+        minutes = {name: suggested_minutes(self.bank.rules(name)) for name in lost}
+        return sorted(
+            (name for name, points in lost.items() if points),
+            key=lambda name: (-lost[name] / minutes[name], name),
+        )
 
     def seed_of_next(self) -> str:
         """Return the seed of the question that will be begun next."""
@@ -75,7 +126,7 @@ class LearnerProgress(msgspec.Struct, frozen=True):
         names = {f"1{label}": {"state": msgspec.to_builtins(one)} for label, one in parts.items()}
         attempt.state = {"parts": names, "ended": list(names)}
         seen = (
-            outcome_record(which, topic, *one) for one in parts.items() if not _is_skipped(one[1])
+            outcome_record(attempt, topic, *one) for one in parts.items() if not _is_skipped(one[1])
         )
         self.store.save_attempt(attempt, tuple(seen))
         self.finish_attempt(attempt, list(parts.values()))
@@ -93,11 +144,63 @@ class LearnerProgress(msgspec.Struct, frozen=True):
         self.store.cards.review(self.learner.id, asked, now, left)
 
 
-def outcome_record(which: QuestionRef, topic: str, label: str, part: PartState) -> OutcomeRecord:
+def group_attempts(bank: Bank, outcomes: Iterable[OutcomeRecord]) -> list[Attempt]:
+    """Return attempts from how their parts went; parts that help came before say nothing.
+
+    Parameters
+    ----------
+    bank : Bank
+        Says what each part is worth; attempts at templates that it does not have are left out.
+    outcomes : iterable of OutcomeRecord
+        The earliest first. Rows of earlier versions name no attempt: those of one template within
+        ``TOGETHER`` seconds are one.
+    """
+    groups: dict[tuple[str, str], list[OutcomeRecord]] = {}
+    open_since: dict[str, tuple[float, str]] = {}
+    for one in outcomes:
+        name = one.attempt
+        if name is None:
+            since, name = open_since.get(one.template, (-TOGETHER, ""))
+            if one.at - since > TOGETHER or not name:
+                since, name = one.at, f"{one.at}"
+            open_since[one.template] = since, name
+        groups.setdefault((one.template, name), []).append(one)
+    known = [rows for (template, _), rows in groups.items() if template in bank.template_paths]
+    found = [_read_attempt(bank.rules(rows[0].template), rows) for rows in known]
+    return sorted(found, key=lambda attempt: attempt.at)
+
+
+def _read_attempt(rules: Rules, rows: Sequence[OutcomeRecord]) -> Attempt:
+    """Return one attempt from how its parts went."""
+    points = part_points(rules)
+    alone = [row for row in rows if not row.helped]
+    worth = [points.get(row.part, 1.0) for row in alone]
+    got = (
+        weight * (float(row.first) if row.credit is None else row.credit)
+        for row, weight in zip(alone, worth, strict=True)
+    )
+    credit = sum(got) / sum(worth) if alone else 0.0
+    return Attempt(rows[0].template, credit, rows[-1].at, helped=not alone)
+
+
+def exam_time(exam: date | None, now: float) -> float:
+    """Return when the points are to be earned, in seconds since 1970: tomorrow if no day is set."""
+    today = local_date(now)
+    day = exam if exam is not None and exam > today else today + timedelta(days=1)
+    return datetime.combine(day, EXAM_BEGINS).astimezone().timestamp()
+
+
+def outcome_record(
+    attempt: AttemptRecord, topic: str, label: str, part: PartState
+) -> OutcomeRecord:
     """Return the record of how a part went, dated now; ``label`` names the part."""
     outcome = part.outcome
     right, first = (outcome.right, outcome.first) if outcome else (False, False)
-    return OutcomeRecord(which.template, topic, label, part.note, right, first, time.time())
+    helped = part.helped or attempt.level == GUIDED
+    return OutcomeRecord(
+        attempt.template, topic, label, part.note, right, first, time.time(), part.credit, helped,
+        attempt.id,
+    )  # fmt: skip
 
 
 def _is_skipped(part: PartState) -> bool:

@@ -91,7 +91,25 @@ class AttemptRecord(msgspec.Struct):
 
 
 class OutcomeRecord(msgspec.Struct, frozen=True):
-    """How one part went, as a row of the database; ``at`` in seconds since 1970."""
+    """How one part went, as a row of the database.
+
+    Parameters
+    ----------
+    template, topic, part : str
+        ``part`` is its label.
+    note : str
+        The last mistake.
+    right, first : bool
+        Whether it went right at all, and right at once.
+    at : float
+        Seconds since 1970.
+    credit : float or None
+        Share of its points that the first try was worth; None if an earlier version wrote the row.
+    helped : bool or None
+        Whether help came before that try.
+    attempt : str or None
+        What the parts of one attempt have in common.
+    """
 
     template: str
     topic: str
@@ -100,6 +118,9 @@ class OutcomeRecord(msgspec.Struct, frozen=True):
     right: bool
     first: bool
     at: float
+    credit: float | None = None
+    helped: bool | None = None
+    attempt: str | None = None
 
 
 class Packed(msgspec.Struct, frozen=True):

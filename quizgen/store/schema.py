@@ -57,9 +57,13 @@ SEEN = Table(
     Column("right", Boolean, nullable=False),
     Column("first", Boolean, nullable=False),
     Column("at", Float, nullable=False),
+    Column("credit", Float),
+    Column("helped", Boolean),
+    Column("attempt", String(50)),
     Index("seen_of", "learner", "at"),
 )
-"""How a part went: right, right at once, and the note of the last mistake."""
+"""How a part went: right, right at once, the note of the last mistake, what the first try was worth
+and which attempt it belonged to; the last three are null where an earlier version wrote the row."""
 
 PAPER = Table(
     "paper",

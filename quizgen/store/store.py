@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import msgspec
-from sqlalchemy import Connection, func, insert, select, update
+from sqlalchemy import Connection, insert, select, update
 
 from quizgen.store.accounts import ALONE, Accounts
 from quizgen.store.archive import ArchiveStore
@@ -160,6 +160,17 @@ class Store:
             rows = connection.execute(query).all()
         return [OutcomeRecord(*row) for row in reversed(rows)]
 
+    def list_repeated(self, learner: int) -> set[str]:
+        """Return the ids of attempts at numbers that the learner had been asked before."""
+        query = select(ATTEMPT.c.id, ATTEMPT.c.template, ATTEMPT.c.seed)
+        query = query.where(ATTEMPT.c.learner == learner).order_by(ATTEMPT.c.begun)
+        with self.database.reading() as connection:
+            rows = connection.execute(query).all()
+        first: dict[tuple[str, str], str] = {}
+        for name, template, seed in rows:
+            first.setdefault((template, seed), name)
+        return {str(name) for name, _, _ in rows} - {*first.values()}
+
     def was_finished(self, attempt: AttemptRecord) -> bool:
         """Return whether a learner has finished the same question with the same numbers before."""
         query = select(ATTEMPT.c.id).where(
@@ -171,16 +182,6 @@ class Store:
         )
         with self.database.reading() as connection:
             return connection.execute(query.limit(1)).first() is not None
-
-    def count_asked(self, learner: int) -> dict[str, int]:
-        """Return how often each template was begun by a learner."""
-        query = (
-            select(ATTEMPT.c.template, func.count())
-            .where(ATTEMPT.c.learner == learner)
-            .group_by(ATTEMPT.c.template)
-        )
-        with self.database.reading() as connection:
-            return {str(name): int(count) for name, count in connection.execute(query)}
 
 
 def _get_learner(connection: Connection, name: str) -> Learner:

@@ -29,6 +29,7 @@ from quizgen.web import (
     formula_sheet,
     practice,
     progress,
+    questions,
     tradeoff,
 )
 from quizgen.web.auth import AuthMiddleware
@@ -41,7 +42,7 @@ from quizgen.web.state import QuotaError, ServerState
 from quizgen.web.views import page_language_css, page_response, redirect, safe_redirect_target
 
 PAGES = (*practice.ROUTES, *exam.ROUTES, *progress.ROUTES, *formula_sheet.ROUTES, *camera.ROUTES,
-         *error_cards.ROUTES, *tradeoff.ROUTES)  # fmt: skip
+         *error_cards.ROUTES, *tradeoff.ROUTES, *questions.ROUTES)  # fmt: skip
 
 
 def create_app(settings: ServerSettings) -> Starlette:

@@ -16,6 +16,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
+from quizgen.bank.rules import suggested_minutes
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import BlueprintError, PaperCodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, find_blueprint
@@ -23,13 +24,13 @@ from quizgen.paper.code import LARGEST_SEED, parse_code
 from quizgen.practice.input_fields import is_complete
 from quizgen.store import ExamRecord
 from quizgen.store.exam_attempts import GRACE, ExamStore
-from quizgen.web.due import progress_of
 from quizgen.web.exam_results import ExamResults, grade_exam, outcome_records, review_events
 from quizgen.web.forms import field_text, field_texts, read_answer, read_form
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.papers import MakePaper
 from quizgen.web.question_view import PaperView, PartView, QuestionView
 from quizgen.web.state import ServerState
+from quizgen.web.tonight import progress_of
 from quizgen.web.views import (
     page_response,
     redirect,
@@ -210,9 +211,13 @@ async def show_exam(request: Request) -> Response:
     answers = await run_in_threadpool(store.answers, sitting)
     if sitting.handed is not None:
         results = await _count(request, sitting, paper, answers)
+        learning = progress_of(request)
+        repairs = await run_in_threadpool(learning.list_repairs, sitting.id)
+        minutes = sum(suggested_minutes(learning.bank.rules(name)) for name in repairs)
         return page_response(
-            request, "results.html.j2", sitting=sitting, paper=paper, results=results
-        )
+            request, "results.html.j2", sitting=sitting, paper=paper, results=results,
+            repairs=repairs, minutes=minutes,
+        )  # fmt: skip
     flags = await run_in_threadpool(store.flags, sitting)
     return page_response(request, "exam.html.j2", sitting=sitting, paper=paper, answers=answers,
                 flags=flags, now=now)  # fmt: skip
@@ -329,7 +334,7 @@ async def _count(
     results = await grade_exam(site.workers, paper, answers, sitting.marks, sitting.learner)
     if not sitting.counted:
         first = await run_in_threadpool(
-            site.store.sittings.count, sitting, outcome_records(results)
+            site.store.sittings.count, sitting, outcome_records(results, sitting.id)
         )
         if first:
             learning = progress_of(request)

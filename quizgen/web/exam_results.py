@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from quizgen.bank.bank import Bank
 from quizgen.core.decoding import decode_json
+from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.verdict import Verdict
 from quizgen.paper.answer_key import KeyQuestion
@@ -46,6 +47,11 @@ class ExamPartResult:
         return self.result.verdict
 
     @property
+    def typed(self) -> str:
+        """Return what was typed or ticked, in the words of the page."""
+        return name_truth(self.result.kind, self.result.typed, self.lang)
+
+    @property
     def unread(self) -> ReadErrorView | None:
         """Return why the answer could not be read; None if it could."""
         if self.verdict.is_graded or self.verdict.needs_self_marking:
@@ -67,6 +73,11 @@ class ExamPartResult:
         if self.result.status == "open":
             return "open" if self.own is None else "judged"
         return self.result.status
+
+    @property
+    def word(self) -> str:
+        """Return the key of the word that the status is shown by."""
+        return self.result.word if self.status == self.result.status else self.status
 
 
 @dataclass(frozen=True)
@@ -112,6 +123,11 @@ class ExamResults:
     def to_judge(self) -> int:
         """Return the number of sentences that the learner has yet to grade."""
         return sum(part.status == "open" for q in self.questions for part in q.parts)
+
+    def losses(self) -> list[ExamQuestionResult]:
+        """Return the questions that cost points, the most first."""
+        weak = [question for question in self.questions if question.weak]
+        return sorted(weak, key=lambda question: question.marks - question.points)
 
     def mistakes(self) -> list[tuple[str, list[QuestionView]]]:
         """Return each feedback on wrong parts with its questions, the most frequent first."""
@@ -217,8 +233,11 @@ def review_events(bank: Bank, results: ExamResults) -> list[ReviewEvent]:
     return found
 
 
-def outcome_records(results: ExamResults) -> tuple[OutcomeRecord, ...]:
-    """Return the outcome of each part, for progress; blank parts count as not right."""
+def outcome_records(results: ExamResults, sitting: str) -> tuple[OutcomeRecord, ...]:
+    """Return the outcome of each part, for progress; blank parts count as not right.
+
+    ``sitting`` is the id of the exam.
+    """
     now = time.time()
     return tuple(
         OutcomeRecord(
@@ -229,8 +248,11 @@ def outcome_records(results: ExamResults) -> tuple[OutcomeRecord, ...]:
             part.verdict.verdict == "correct",
             part.verdict.verdict == "correct",
             now,
+            float(part.verdict.credit),
+            helped=False,
+            attempt=f"{sitting}/{number}",
         )
-        for question in results.questions
+        for number, question in enumerate(results.questions, start=1)
         for part in question.parts
         if part.status != "open"
     )

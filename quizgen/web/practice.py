@@ -6,6 +6,7 @@ from typing import Any
 
 from starlette.background import BackgroundTask
 from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import FormData
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
@@ -15,34 +16,47 @@ from quizgen.bank.levels import GUIDED
 from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
 from quizgen.store import AttemptRecord, QuestionRef
-from quizgen.web.due import due_today, progress_of
 from quizgen.web.forms import field_text, read_answer, read_form
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.question_attempt import AttemptInBrowser, AttemptPart
 from quizgen.web.question_view import QuestionRequest, QuestionView
 from quizgen.web.state import ServerState
+from quizgen.web.tonight import MINUTES, look_at_tonight, progress_of
 from quizgen.web.views import page_response, redirect, request_language, translate_page
 
-TIERS = tuple("ABCD")
+PLACED = "a-"
+"""Before the name of a part whose field stands inside a text."""
 
 
 async def show_practice(request: Request) -> Response:
-    """Return the start page: what is due, and topics to choose from."""
+    """Return the start page: where one stands, what to do now, and topics to choose from."""
     site: ServerState = request.app.state.site
     lang = request_language(request)
     topics = [(name, site.bank.topic_title(name, lang)) for name in site.bank.topics]
     latest = await run_in_threadpool(site.store.latest, request.state.learner.id, 1)
     going_on = latest[0] if latest and latest[0].ended is None else None
-    plan = await run_in_threadpool(due_today, request)
+    tonight = await run_in_threadpool(look_at_tonight, request)
     return page_response(
-        request, "home.html.j2", topics=topics, tiers=TIERS, going_on=going_on, plan=plan
-    )
+        request, "home.html.j2", topics=topics, going_on=going_on, tonight=tonight,
+        lengths=MINUTES, exam_set=progress_of(request).exam is not None,
+    )  # fmt: skip
+
+
+async def set_minutes(request: Request) -> Response:
+    """Store how many minutes the learner has now."""
+    minutes = field_text(await read_form(request), "minutes")
+    site: ServerState = request.app.state.site
+    if minutes in map(str, MINUTES):
+        await run_in_threadpool(
+            site.store.update_settings, request.state.learner.id, {"minutes": minutes}
+        )
+    return redirect("/")
 
 
 async def start_question(request: Request) -> Response:
-    """Choose a question by topic, tier or template, and redirect to it."""
+    """Choose a question by topic, template or an exam to repair, and redirect to it."""
     form = await read_form(request)
-    wish = {name: field_text(form, name) for name in ("topic", "tier")}
+    wish = {name: field_text(form, name) for name in ("topic", "tier", "repair")}
     template = field_text(form, "template")
     site: ServerState = request.app.state.site
     if template in site.bank.template_paths:
@@ -72,7 +86,11 @@ async def _find_next_question(request: Request, wish: dict[str, str]) -> Questio
             tier=wish.get("tier") or None,
         ),
     )
-    return await run_in_threadpool(progress_of(request).next_question, names) if names else None
+    learning, sitting = progress_of(request), wish.get("repair")
+    if names and sitting:
+        repairs = await run_in_threadpool(learning.list_repairs, sitting)
+        names = tuple(name for name in repairs if name in names)[:1] or names
+    return await run_in_threadpool(learning.next_question, names) if names else None
 
 
 async def _begin_attempt(request: Request, which: QuestionRef, wish: dict[str, Any]) -> Response:
@@ -124,8 +142,14 @@ def _get_part_attempt(request: Request, question: AttemptInBrowser) -> AttemptPa
 async def show_question(request: Request) -> Response:
     """Return the page of a question with the learner's progress in it."""
     question = await _get_question_attempt(request)
-    shown = page_response(request, "question.html.j2", turn=question, made=question.made,
-                 said_last=question.find_part(request.query_params.get("said", "")))  # fmt: skip
+    said = question.find_part(request.query_params.get("said", ""))
+    shown = page_response(
+        request,
+        "question.html.j2",
+        turn=question,
+        made=question.made,
+        said_last=question.find_group(said) if said else [],
+    )
     shown.background = BackgroundTask(_prepare_likely_next, request, question.attempt)
     return shown
 
@@ -161,8 +185,21 @@ async def submit_answer(request: Request) -> Response:
     async with site.attempt_lock(request.path_params["attempt"]):
         question = await _get_question_attempt(request)
         part = _get_part_attempt(request, question)
-        _perform_action(question, part, field_text(form, "do"), read_answer(form, "a"))
+        group, (action, _, named) = question.find_group(part), field_text(form, "do").partition(":")
+        for place in group:
+            values, checks = _read_part(form, place.name), action in {"", "answer"}
+            if len(group) > 1 and (place.is_finished or (checks and place.has_checked(values))):
+                continue  # one button checks all: what has been checked costs no further try
+            if checks or place.name == (named or part.name):
+                _perform_action(question, place, action, values)
+            else:
+                place.progress.values = values
         return await _store_attempt(request, question, part)
+
+
+def _read_part(form: FormData, name: str) -> list[str]:
+    """Return what stands in the fields of a part: its own, or those inside a text."""
+    return read_answer(form, f"{PLACED}{name}") or read_answer(form, "a")
 
 
 def _perform_action(
@@ -190,7 +227,7 @@ async def preview_practice_answer(request: Request) -> Response:
     if field is None:
         raise HTTPException(404)
     lang = request_language(request)
-    read = preview_reading(field, made.key, read_answer(form, "a"), lang)
+    read = preview_reading(field, made.key, _read_part(form, name), lang)
     return HTMLResponse(translate_page(lang, "practice.read", value=read) if read else "")
 
 
@@ -228,6 +265,7 @@ async def next_question(request: Request) -> Response:
 
 ROUTES = [
     Route("/", show_practice),
+    Route("/tonight", set_minutes, methods=["POST"]),
     Route("/practice", start_question, methods=["POST"]),
     Route("/q/{attempt}", show_question),
     Route("/q/{attempt}/again", repeat_question, methods=["POST"]),

@@ -30,10 +30,10 @@ from quizgen.question.inlines import typeset_layout
 from quizgen.store.archive import read_archive
 from quizgen.typeset.leaves import LeafValue, fill_leaves, list_leaf_names
 from quizgen.typeset.nodes import Phrase
-from quizgen.web.due import due_today, progress_of
 from quizgen.web.forms import field_text, read_form, read_upload
 from quizgen.web.question_view import Html
 from quizgen.web.state import ServerState
+from quizgen.web.tonight import progress_of
 from quizgen.web.views import (
     page_response,
     redirect,
@@ -82,7 +82,6 @@ def _render_progress_page(request: Request, status: int = 200, problem: str = ""
         request,
         "progress.html.j2",
         status,
-        plan=due_today(request),
         begun=bool(agenda.cards),
         exam=learning.exam or "",
         problem=problem,
@@ -181,7 +180,7 @@ async def set_exam(request: Request) -> Response:
         return await run_in_threadpool(_render_progress_page, request, 400, problem)
     site: ServerState = request.app.state.site
     await run_in_threadpool(site.store.update_settings, request.state.learner.id, {"exam": day})
-    return redirect("/progress")
+    return redirect("/")
 
 
 async def download_archive(request: Request) -> Response:

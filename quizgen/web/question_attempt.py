@@ -56,6 +56,15 @@ class AttemptPart:
         return self.task.outcome is not None
 
     @property
+    def is_placed(self) -> bool:
+        """Whether its field stands inside a sentence or a cell."""
+        return self.part.field.near is not None
+
+    def has_checked(self, values: list[str]) -> bool:
+        """Return whether these texts are those that the last verdict is on."""
+        return self.verdict is not None and self.progress.values == values
+
+    @property
     def explained_verdict(self) -> Verdict | None:
         """The verdict with its message: for pages, since an answer sent is only stored."""
         return self.task.explain_verdict(self.verdict) if self.verdict else None
@@ -115,6 +124,21 @@ class AttemptInBrowser:
         return next((place for place in self.places if place.name == name), None)
 
     @property
+    def groups(self) -> list[list[AttemptPart]]:
+        """The parts in order, those together whose fields stand in one text."""
+        found: list[list[AttemptPart]] = []
+        for place in self.places:
+            if place.is_placed and not place.part.body:
+                found[-1].append(place)
+            else:
+                found.append([place])
+        return found
+
+    def find_group(self, part: AttemptPart) -> list[AttemptPart]:
+        """Return the parts whose fields are sent together with those of a part."""
+        return next(group for group in self.groups if part in group)
+
+    @property
     def is_finished(self) -> bool:
         """Whether every part has ended."""
         return all(place.is_finished for place in self.places)
@@ -154,9 +178,7 @@ class AttemptInBrowser:
 
     def _build_review_event(self, place: AttemptPart) -> OutcomeRecord:
         """Return the outcome of a part, for progress."""
-        return outcome_record(
-            self.attempt.which, self.made.topic, place.part.label, place.task.state
-        )
+        return outcome_record(self.attempt, self.made.topic, place.part.label, place.task.state)
 
 
 def _is_fully_filled(part: PartView, values: list[str]) -> bool:

@@ -55,10 +55,12 @@ class FieldView(msgspec.Struct, frozen=True):
     options: list[tuple[str, Html]]
     targets: list[tuple[str, Html]]
     words: list[str]
-    """The targets in plain text, for lists that hold no markup."""
+    """The targets in plain text, for lists that hold no markup; options of a field in a text."""
     hint: Html
     board: Html
     """The field that is drawn in, if the answer is a drawing."""
+    near: str | None = None
+    """The words around the field, if it stands inside a sentence or a cell."""
 
     @property
     def marks(self) -> list[str]:
@@ -329,9 +331,13 @@ def _render_field(field: AnswerField, names: list[Html], lang: str) -> FieldView
         names,
         [(mark, _render_inline(text, lang)) for mark, text in field.options],
         [(mark, _render_inline(text, lang)) for mark, text in field.targets],
-        [inlines_to_text(text) for _, text in field.targets],
+        [
+            inlines_to_text(text)
+            for _, text in (field.targets if field.near is None else field.options)
+        ],
         _render_inline(field.hint_in_fields, lang),
         _render_board(field.drawing),
+        field.near,
     )
 
 

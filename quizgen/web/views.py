@@ -11,6 +11,7 @@ from markupsafe import Markup
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
+from quizgen.bank.bank import builtin_bank
 from quizgen.figures.inks import write_theme_css
 from quizgen.grading.drawing.strokes import read_strokes
 from quizgen.kinds.contract import DrawingField
@@ -25,6 +26,7 @@ from quizgen.locale import (
 )
 from quizgen.maths.notation import FormulaReadError
 from quizgen.practice.scheduler import local_date
+from quizgen.question.html import put_fields
 from quizgen.render.layouts import jinja_environment
 from quizgen.store import Learner
 from quizgen.web.auth import csrf_token
@@ -36,7 +38,9 @@ def _build_environment() -> jinja2.Environment:
     """Return the Jinja environment with the page layouts."""
     layouts = jinja_environment("quizgen.web", "quizgen.render")
     layouts.filters["html"] = Markup  # of what was made here, see ``made.Html``
-    layouts.globals.update(language=get_language, strokes=strokes_to_svg, word=translate)
+    layouts.globals.update(
+        language=get_language, put_fields=put_fields, strokes=strokes_to_svg, word=translate
+    )
     return layouts
 
 
@@ -67,7 +71,9 @@ def _build_menu(site: ServerState, learner: Learner) -> list[tuple[str, str]]:
         return []
     shown = [("/", "practice"), ("/exam", "exam"), ("/progress", "progress")]
     shown += [("/formulas", "formulas")] if "formulas" in site.bank.cards else []
-    shown += [("/camera", "camera"), ("/tradeoff", "tradeoff")]
+    # Its scenes and measurements are of the built-in bank's chapter.
+    if builtin_bank() in site.bank.members:
+        shown += [("/camera", "camera"), ("/tradeoff", "tradeoff")]
     shown += [("/author", "author")] if here.examine else []
     shown += [("/class", "class")] if here.classroom else []
     shown += [("/people", "people")] if learner.manages else []

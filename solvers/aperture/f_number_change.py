@@ -23,6 +23,10 @@ with evaluate(False):
             Step(t_2, Piecewise((t_1 * q**2, D_1 > D_2), (t_1 / q**2, True)), "s"),
         ),
         formulas={"D_1": "F31", "D_2": "F31", "e": "F32", "k": "F34", "t_2": "F35"},
+        alternatives=(
+            Step(t_2, Piecewise((t_1 * e, D_1 > D_2), (t_1 / e, True))),
+            Step(t_2, Piecewise((t_1 * 2**k, D_1 > D_2), (t_1 / 2**k, True))),
+        ),
         traps={
             "radius": (Step(D_1, f / N_1 / 2), Step(D_2, f / N_2 / 2)),
             "multiplied": (Step(D_1, f * N_1), Step(D_2, f * N_2)),

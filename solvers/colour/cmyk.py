@@ -23,6 +23,7 @@ with evaluate(False):
             Step(Y, (Y_0 - K) / (1 - K)),
             Step(saved, Add(C_0, M_0, Y_0) - Add(C, M, Y, K)),
         ),
+        alternatives=(Step(K, Min(C_0, M_0, Y_0)),),
         traps={
             "not-complement": (Step(C_0, R), Step(M_0, G), Step(Y_0, B)),
             "black-of-least": Step(K, 1 - Min(R, G, B)),

@@ -20,6 +20,7 @@ with evaluate(False):
             Step(r_e, r_c * (1 + k_1 * r_c**2)),
         ),
         formulas={"r_f": "F22", "r_m": "F20", "r_e": "F20"},
+        alternatives=(Step(r_m, r_f * 2 / 3),),
         traps={
             "factor-zero": Step(r_f, 1 / sqrt(-k_1)),
             "no-root": Step(r_f, 1 / (-3 * k_1)),

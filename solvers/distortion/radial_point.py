@@ -22,6 +22,10 @@ with evaluate(False):
             Step(q, L - 1),
         ),
         formulas={"R": "F21", "x_d": "F20", "y_d": "F20"},
+        alternatives=(
+            Step(q, u / x - 1),
+            Step(q, v / y - 1),
+        ),
         traps={
             "sign-flipped": Step(L, 1 - delta),
             "r-for-square": Step(R, sqrt(x**2 + y**2)),

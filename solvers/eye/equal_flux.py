@@ -20,6 +20,7 @@ with evaluate(False):
             Step(there, here + width, "nm"),
         ),
         formulas={"Phi": "F03", "P_2": "F03"},
+        alternatives=(Step(P_2, flux / (K * h_2)),),
         traps={
             "other-height": Step(flux, K * P_1 * h_2),
             "no-height": Step(flux, K * P_1),

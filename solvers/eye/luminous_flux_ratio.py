@@ -18,6 +18,7 @@ with evaluate(False):
             Step(Q, P_1 * (V_1 / V_2), "mW"),
         ),
         formulas={"r": "F03", "Q": "F03"},
+        alternatives=(Step(Q, r * P_2),),
         traps={
             "only-power": Step(r, P_1 / P_2),
             "only-luminosity": Step(r, V_1 / V_2),

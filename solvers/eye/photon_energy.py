@@ -17,6 +17,7 @@ with evaluate(False):
             Step(energy, k / wavelength, "eV"),
             Step(longest, k / gap, "nm"),
         ),
+        alternatives=(Step(longest, wavelength * energy / gap),),
         traps={
             "multiplied": Step(energy, k * wavelength * 10**18),
             "upside-down": Step(energy, wavelength / k),

@@ -19,6 +19,7 @@ with evaluate(False):
             Step(t, S / raw, "s"),
         ),
         formulas={"q_r": "F01", "q_c": "F01"},
+        alternatives=(Step(colour, raw * 3 * 8 / b),),
         traps={
             "three-for-raw": Step(raw, 3 * W * H * b * f),
             "bytes-for-bits": Step(raw, W * H * b * f / 8),

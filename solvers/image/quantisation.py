@@ -22,6 +22,10 @@ with evaluate(False):
             Step(worst, step / 2),
         ),
         formulas={"n": "F01"},
+        alternatives=(
+            Step(k, floor(x * (n - 1) + 1 / 2)),
+            Step(worst, 1 / (2 * (n - 1))),
+        ),
         traps={
             "too-few-levels": Step(n, 2**b - 1),
             "bits-times-two": Step(n, 2 * b),

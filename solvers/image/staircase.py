@@ -20,6 +20,7 @@ with evaluate(False):
             Step(worst, h / c),
         ),
         formulas={"b": "F01"},
+        alternatives=(Step(q, k / (2**b - 1)),),
         traps={
             "levels-for-bits": Step(b, n),
             "halved": Step(b, n / 2),

@@ -22,6 +22,7 @@ with evaluate(False):
             Step(N_b, e + N_min),
         ),
         formulas={"N_a": "F12", "e": "F11", "N_b": "F11"},
+        alternatives=(Step(e, (N_max - N_min) * N_a),),
         traps={
             "one-more": Step(w, I_max - I_min + 1),
             "min-not-subtracted": Step(d, I),

@@ -18,6 +18,10 @@ with evaluate(False):
             Step(n, d / p),
             Step(N_2, 2 * p / (k * wave)),
         ),
+        alternatives=(
+            Step(N_2, 2 * p * N / d),
+            Step(N_2, 2 * N / n),
+        ),
         traps={
             "radius": Step(d, k / 2 * wave * N),
             "no-constant": Step(d, wave * N),

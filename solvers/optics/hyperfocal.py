@@ -18,6 +18,7 @@ with evaluate(False):
             Step(near, H / 2, "m"),
             Step(N_2, f**2 / (c * (2 * q - f))),
         ),
+        alternatives=(Step(N_2, N * (H - f) / (2 * q - f)),),
         traps={
             "not-squared": Step(H, f / (N * c)),
             "number-forgotten": Step(H, f**2 / c + f),

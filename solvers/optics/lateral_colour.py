@@ -19,6 +19,10 @@ with evaluate(False):
             Step(d_x, q * x, "px"),
             Step(r_1, 1 / q, "px"),
         ),
+        alternatives=(
+            Step(d_x, d * x / r),
+            Step(r_1, r / d),
+        ),
         traps={
             "sum-of-sides": Step(r, x + y, "px"),
             "magnified": Step(d, (1 + q) * r, "px"),

@@ -20,6 +20,7 @@ with evaluate(False):
             Step(z_2, f * (1 + 1 / second), "mm"),
         ),
         formulas={"m": "F42", "z'": "F42", "z_2": "F42"},
+        alternatives=(Step(image, m * z),),
         traps={
             "pinhole": Step(m, f / z),
             "inverted": Step(m, (z - f) / f),

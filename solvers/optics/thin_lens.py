@@ -22,6 +22,7 @@ with evaluate(False):
             Step(travel, image - f, "mm"),
         ),
         formulas={"q": "F42", "z'": "F42", "m": "F42"},
+        alternatives=(Step(travel, f * m),),
         traps={
             "image-at-f": Step(image, f),
             "signs-added": Step(image, 1 / (1 / f + 1 / z)),

@@ -22,6 +22,7 @@ with evaluate(False):
             Step(d, sqrt(Add(X**2, Y**2, Z**2)), "m"),
         ),
         formulas={"x": "F09", "y": "F09", "X": "F10", "Y": "F10"},
+        alternatives=(Step(d, Z * sqrt(Add(1, x**2, y**2))),),
         traps={
             "no-principal-point": (Step(x, u / f_x), Step(y, v / f_y)),
             "y-up": Step(y, (o_y - v) / f_y),

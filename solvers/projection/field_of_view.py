@@ -4,7 +4,7 @@ Source: R. Szeliski, Computer Vision, 2nd ed. (2022), section 2.1.4, eq. 2.60:
 tan(theta/2) = W/(2 f).
 """
 
-from sympy import atan, evaluate, pi, sqrt, symbols
+from sympy import atan, evaluate, pi, sqrt, symbols, tan
 
 from quizgen.maths.model import Model, Step
 
@@ -21,6 +21,10 @@ with evaluate(False):
             Step(w, Z * W / f, "m"),
         ),
         formulas={"w": "F10"},
+        alternatives=(
+            Step(delta, 2 * (180 / pi) * atan(tan(pi / 360 * alpha) * D / W)),
+            Step(w, 2 * Z * tan(pi / 360 * alpha)),
+        ),
         traps={
             "whole-width": (
                 Step(alpha, 180 / pi * atan(W / f)),

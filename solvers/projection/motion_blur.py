@@ -19,6 +19,7 @@ with evaluate(False):
             Step(t_1, Z / (f * v), "ms"),
         ),
         formulas={"b": "F05", "t_1": "F10"},
+        alternatives=(Step(t_1, t / b),),
         traps={
             "depth-left-out": Step(b, f * s),
             "depth-multiplies": Step(b, f * s * Z),

@@ -20,6 +20,7 @@ with evaluate(False):
             Step(q, p_z / z_1),
         ),
         formulas={"p'_y": "F05", "z_1": "F10", "n": "F08"},
+        alternatives=(Step(z_1, p_z * h / S),),
         traps={
             "size-distance-swapped": Step(h, f * p_z / p_y),
             "forgot-f": Step(h, p_y / p_z / 1000),

@@ -21,6 +21,7 @@ with evaluate(False):
             Step(epsilon, (s_1 - s) / s_1),
         ),
         formulas={"s": "F43", "epsilon": "F44", "s_1": "F05", "s_2": "F05"},
+        alternatives=(Step(s, 2 * s_1 * s_2 / (s_1 + s_2)),),
         traps={
             "ends-exchanged": (Step(s_1, f / z_2), Step(s_2, f / z_1)),
             "ratio-inverted": (Step(s_1, z_1 / f), Step(s_2, z_2 / f), Step(s, zbar / f)),

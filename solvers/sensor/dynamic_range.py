@@ -20,6 +20,7 @@ with evaluate(False):
             Step(n, ceiling(E), "bit"),
         ),
         formulas={"E": "F34", "L": "F45"},
+        alternatives=(Step(L, 20 * log(2, 10) * E),),
         traps={
             "read-noise-ignored": Step(R, Q),
             "read-noise-squared": Step(R, Q / sigma_r**2),

@@ -21,6 +21,10 @@ with evaluate(False):
             Step(x, s_i / s, "%"),
             Step(T_2, T_1 * (s_g / s), "ms"),
         ),
+        alternatives=(
+            Step(x, 1 - s_g / s),
+            Step(T_2, T_1 * (1 - x)),
+        ),
         traps={
             "silicon-left-out": (Step(s_g, P_g * t_g, "mW"), Step(s_i, P_i * t_i, "mW")),
             "dye-left-out": (Step(s_g, P_g * e_g, "mW"), Step(s_i, P_i * e_i, "mW")),

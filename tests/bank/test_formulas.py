@@ -7,6 +7,7 @@ import re
 import shutil
 
 import pytest
+from sweep import together
 
 from quizgen.bank.bank import Bank, builtin_root
 from quizgen.bank.entries import load_entries
@@ -87,7 +88,7 @@ def test_letters_with_a_unit_stand_in_the_formula(bank):
             assert set(letters) <= written, entry.id
 
 
-@pytest.mark.parametrize(
+@together(
     ("formula", "condition"),
     [
         ("F05", "p_z > 0"), ("F11", "I_max != I_min"), ("F12", "I_max != I_min"),

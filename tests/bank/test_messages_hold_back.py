@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import pytest
-from sweep import spread
+from sweep import spread, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.grading.judge import explain_verdict, judge_answer
@@ -32,7 +31,7 @@ def wanted_words(spec) -> set[str]:
     return {shown} if len(shown) >= SHORTEST else set()
 
 
-@pytest.mark.parametrize("name", [*WITH_GAPS, *spread(OTHERS, 24)])
+@together("name", [*WITH_GAPS, *spread(OTHERS, 24)])
 def test_nonsense_is_answered_without_the_answer(name):
     template = builtin_bank().template(name)
     for spec in compose_question(template, "1", "en")[1].specs:

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from sweep import together
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -38,7 +39,7 @@ def test_a_unit_is_defined_as_pint_defines_it():
     assert units.unit("hu/kcr").dimension == units.unit("m/s^2").dimension
 
 
-@pytest.mark.parametrize(
+@together(
     ("line", "said"),
     [
         ("haul", "expected"),
@@ -60,7 +61,7 @@ def test_a_definition_that_cannot_be_meant_is_refused(line, said):
 FORCE = {"kind": "quantity", "value": "6", "unit": "hu", "rel": "0.01", "define": list(LINES)}
 
 
-@pytest.mark.parametrize(
+@together(
     "typed",
     [
         "6 hu",

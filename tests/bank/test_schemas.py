@@ -14,7 +14,7 @@ from random import Random
 import msgspec
 import pytest
 from jsonschema import Draft202012Validator
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.bank.json_schema import build_json_schema
 from quizgen.bank.metadata import read_metadata
@@ -179,7 +179,7 @@ MADE = {
 """What a draw, the bank or the words give to the key of a part, and nobody writes in an answer."""
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@together("kind", KINDS)
 def test_editors_know_what_a_key_of_the_kind_may_hold(kind):
     """All that marking goes by is authored, or made."""
     authored = {field.encode_name for field in msgspec.structs.fields(KINDS[kind].authored)}

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import ast
-import re
 from pathlib import Path
 
 import pytest
@@ -104,64 +102,3 @@ def test_a_bad_bank_toml_is_located(root, text, said):
 def test_the_topics_of_the_built_in_bank_are_those_of_its_templates():
     bank = builtin_bank()
     assert {bank.rules(name).topic for name in bank.template_paths} == set(bank.topics)
-
-
-SUBJECT = {"arrays", "camera", "tradeoff"}
-"""What pictures are made with: an effect or a formula may be called as a topic or a figure is."""
-OTHERWISE = {"code", "camera", "colour", "image", "projection"}
-"""An answer kind, a command's word, a spelling, an element of SVG, and a parameter of matplotlib."""
-
-
-def test_the_engine_names_no_topic_and_no_title():
-    about = builtin_bank().metadata
-    titles = {text for topic in about.topics.values() for text in topic.values()}
-    named = {*about.topics, *titles, *about.title.values()} - OTHERWISE - {"Code", "কোড"}
-    for path in PACKAGE.rglob("*"):
-        if path.relative_to(PACKAGE).parts[0] in SUBJECT | {"builtin"}:
-            continue
-        if path.suffix == ".py":
-            assert not _texts(path) & named, path
-        elif path.suffix == ".toml":
-            text = path.read_text(encoding="utf-8")
-            assert not [name for name in named if f'"{name}"' in text], path
-
-
-def _chapter() -> set[str]:
-    """Names of the built-in bank's templates, present and former, and of its solvers."""
-    bank = builtin_bank()
-    solvers = {path.relative_to(bank.root / "solvers").with_suffix("").as_posix()
-               for path in (bank.root / "solvers").rglob("[a-z]*.py")}  # fmt: skip
-    return {
-        *bank.template_paths,
-        *(bank.rules(name).formerly for name in bank.template_paths),
-        *solvers,
-    } - {""}
-
-
-EXAMPLE = {"point-to-image-plane"}
-"""The question that the examples of the Python interface ask."""
-
-
-SCENES = {"pinhole", "defocus"}
-"""A scene and an effect of the camera's own page, which a figure and a solver are called as well."""
-
-
-def _texts(path: Path) -> set[object]:
-    """Texts, numbers and the like of a program."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    return {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)}
-
-
-def test_the_engine_names_no_template_no_solver_and_no_figure():
-    """A name of a single word (``noise``) may stand in a sentence, but is no text of a program."""
-    figures = builtin_bank().figures
-    word = re.compile(r"[\w/-]+")
-    named = {name for name in {*_chapter(), *figures} - EXAMPLE if re.search("[-_/]", name)}
-    single = {name.rpartition("/")[2] for name in {*_chapter(), *figures}} - SCENES
-    for path in PACKAGE.rglob("*"):
-        if path.relative_to(PACKAGE).parts[0] in SUBJECT | {"builtin"}:
-            continue
-        if path.suffix in {".py", ".toml", ".j2", ".js"}:
-            assert not {*word.findall(path.read_text("utf-8"))} & named, path
-        if path.suffix == ".py":
-            assert not _texts(path) & single, path

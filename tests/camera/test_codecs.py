@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from PIL import ExifTags, Image, ImageOps
+from sweep import together
 
 from quizgen.camera import SceneError
 from quizgen.camera.pixels import codecs
@@ -31,8 +32,8 @@ def held(how, kind):
     return stream.getvalue()
 
 
-@pytest.mark.parametrize("how", range(1, 9))
-@pytest.mark.parametrize("kind", ["JPEG", "PNG"])
+@together("how", range(1, 9))
+@together("kind", ["JPEG", "PNG"])
 def test_photographs_stand_upright(how, kind):
     data = held(how, kind)
     theirs = ImageOps.exif_transpose(Image.open(io.BytesIO(data)))

@@ -8,6 +8,7 @@ import colour
 import numpy as np
 import pytest
 from scipy import constants, ndimage
+from sweep import together
 
 from quizgen.camera import Camera, PreparedScene, Scene, SceneError, View
 from quizgen.camera.effects import axial_colour, colour_filters
@@ -160,8 +161,8 @@ def reference(temperature, *, filtered):
     return np.array(rows)
 
 
-@pytest.mark.parametrize("temperature", [2000.0, 2856.0, 5500.0, 12000.0])
-@pytest.mark.parametrize("filtered", [True, False])
+@together("temperature", [2000.0, 2856.0, 5500.0, 12000.0])
+@together("filtered", [True, False])
 def test_sites_see_what_the_integral_says(temperature, filtered):
     made = colour_filters.mixing_matrix(temperature, infrared_filter=filtered)
     assert made == pytest.approx(reference(temperature, filtered=filtered), rel=3e-3, abs=1e-4)

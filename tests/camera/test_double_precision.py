@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import scenes_at_random as at_random
 from click.testing import CliRunner
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.camera import Camera, PreparedScene, Scene, SceneError
 from quizgen.camera.effects import EFFECTS
@@ -201,7 +201,7 @@ EXPECTED = {
 }
 
 
-@pytest.mark.parametrize("name", EXPECTED)
+@together("name", EXPECTED)
 def test_an_effect_in_float64_is_its_formula(name):
     settings, expected = EXPECTED[name]
     camera = Camera(0.05, 0.05 / FOCAL, **settings)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from sweep import together
 
 from quizgen.camera import Camera, Length, Scene, SceneObject, View
 from quizgen.camera.raster import rasterizer
@@ -155,7 +156,7 @@ def plainly(points, x, y):
     return np.where(inside, -distance, distance)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@together("seed", range(12))
 def test_polygons_are_what_their_sides_say(seed):
     """Also twisted ones, turned ones and ones larger than the picture, half covered at the edge."""
     source = np.random.default_rng(seed)

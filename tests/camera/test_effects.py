@@ -5,7 +5,7 @@ from importlib import import_module
 from pathlib import Path
 
 import numpy as np
-import pytest
+from sweep import together
 
 from quizgen.camera import Camera, Scene, View, effects
 from quizgen.camera.effects import EFFECTS, distortion, motion_blur
@@ -15,7 +15,7 @@ from quizgen.camera.setup.settings import BODY
 NAMES = [effect.name for effect in EFFECTS]
 
 
-@pytest.mark.parametrize("effect", EFFECTS, ids=NAMES)
+@together("effect", EFFECTS)
 def test_an_effect_is_called_as_its_module(effect):
     module = import_module(f"quizgen.camera.effects.{effect.name.replace(' ', '_')}")
     assert module.EFFECT is effect
@@ -35,7 +35,7 @@ def test_every_setting_belongs_to_one_effect_or_the_body():
     assert len(named) == len(set(named)) == len(effects.all_settings())
 
 
-@pytest.mark.parametrize("setting", effects.all_settings().values(), ids=effects.all_settings())
+@together("setting", effects.all_settings().values())
 def test_the_identity_calls_for_nothing_and_breaks_no_rule(setting):
     look = View(Scene(), Camera(**{setting.name: setting.identity}))
     assert effects.present_effects(look) == ()
@@ -83,7 +83,7 @@ def test_a_turning_spot_becomes_an_arc_without_gaps():
     assert min(near) > 0.4 * float(np.mean(near))
 
 
-@pytest.mark.parametrize("effect", EFFECTS, ids=NAMES)
+@together("effect", EFFECTS)
 def test_an_effect_says_what_it_does_with_the_verb_first(effect):
     if effect.size is not None:
         assert effect.size.says.split()[0] in VERBS

@@ -4,7 +4,7 @@ import random
 from dataclasses import replace
 
 import numpy as np
-import pytest
+from sweep import together
 
 from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject, run_plan
 from quizgen.camera.picture_sets import make_focused
@@ -35,8 +35,8 @@ def lens(rng):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("precision", ["float32", "float64"])
-@pytest.mark.parametrize("seed", range(12))
+@together("precision", ["float32", "float64"])
+@together("seed", range(12))
 def test_they_are_the_pixels_of_the_simulator(seed, precision):
     rng = random.Random(seed)
     scene = Scene(60, 40, tuple(things(rng)), (0.1, 0.2, 0.3), precision=precision)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy import special
 from skimage.measure import block_reduce
+from sweep import together
 
 from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneError, SceneObject, View
 from quizgen.camera.effects import binning, diffraction, exposure
@@ -121,7 +122,7 @@ def test_the_sunny_sixteen_rule():
     assert math.log2(exposure.exposure_factor(look)) == pytest.approx(0.0, abs=0.04)
 
 
-@pytest.mark.parametrize(
+@together(
     ("change", "stops"),
     [
         ({"f_number": 4.0}, 2), ({"f_number": 16.0}, -2), ({"shutter": 1 / 32}, 2),

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from sweep import together
 
 from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject, View
 from quizgen.camera.padding import crop_in_place
@@ -42,7 +43,7 @@ CAMERAS = {
 }
 
 
-@pytest.mark.parametrize("name", CAMERAS)
+@together("name", CAMERAS)
 def test_a_larger_sensor_sees_the_same_in_its_middle(name):
     """Lens, blur and movement do not know how large the sensor is."""
     camera = CAMERAS[name]

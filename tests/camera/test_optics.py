@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 from scipy.integrate import quad
+from sweep import together
 
 from quizgen.camera import (
     Camera,
@@ -39,7 +40,7 @@ def edge_behind_a_disc(position, radius):
     return 0.5 + (math.asin(x) + x * math.sqrt(1 - x * x)) / math.pi
 
 
-@pytest.mark.parametrize("diameter", [0.02, 0.3, 0.7, 1.0, 1.9, 3.3, 7.0, 15.0, 31.0])
+@together("diameter", [0.02, 0.3, 0.7, 1.0, 1.9, 3.3, 7.0, 15.0, 31.0])
 def test_disc_blur_has_the_analytic_edge_profile(diameter):
     blurred = convolve(edge(), disc_kernel(diameter))[4, :, 0]
     for pixel in range(40 - 18, 40 + 18):

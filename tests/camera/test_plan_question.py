@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import pytest
+from sweep import together
 
 from quizgen.bank.variant import draw_variant
 from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject, run_plan
@@ -44,7 +44,7 @@ def _camera(given) -> Camera:
     )
 
 
-@pytest.mark.parametrize("seed", range(0, SEEDS, 5))
+@together("seed", range(0, SEEDS, 5))
 def test_what_the_key_leaves_out_changes_no_more_than_two_levels(bank, seed):
     drawn = draw_variant(bank.template("which-effects-to-simulate"), seed)
     given = {name: float(value) for name, value in drawn.shown.items()}

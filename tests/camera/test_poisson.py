@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy import stats
+from sweep import together
 
 from quizgen.camera.pixels.noise import (
     _COLUMNS,
@@ -16,7 +17,7 @@ from quizgen.camera.pixels.noise import (
 )
 
 
-@pytest.mark.parametrize("mean", [1e-3, 0.3, 3.0, 16.1, 16.2, 25.5, 400.0, 1e6])
+@together("mean", [1e-3, 0.3, 3.0, 16.1, 16.2, 25.5, 400.0, 1e6])
 def test_the_distribution_function_is_that_of_scipy(mean):
     normal = np.linspace(-4.4, 4.4, 300_001)
     counts = poisson_quantiles(np.full_like(normal, mean), normal)
@@ -38,7 +39,7 @@ def test_few_electrons_are_counted_one_by_one(kind, wrong):
     assert apart.max() <= 1
 
 
-@pytest.mark.parametrize("mean", [0.01, 0.3, 3.0, 16.1, 16.2, 25.5, 400.0])
+@together("mean", [0.01, 0.3, 3.0, 16.1, 16.2, 25.5, 400.0])
 def test_far_out_counts_are_right_within_one_electron(mean):
     for kind in (np.float32, np.float64):
         normal = np.linspace(-FARTHEST, FARTHEST, 2001).astype(kind)

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from PIL import Image
+from sweep import together
 
 from quizgen.camera import PreparedScene, SceneError, plan_budget
 from quizgen.camera.comparison import amplify_difference
@@ -231,7 +232,7 @@ EXPECTED = {
 }
 
 
-@pytest.mark.parametrize("name", EXPECTED)
+@together("name", EXPECTED)
 def test_only_what_a_scene_asks_about_runs(name):
     assert json.loads(invoke(name, "--json"))["ran"] == EXPECTED[name]
 
@@ -254,7 +255,7 @@ def test_effects_are_chosen_by_name():
     assert "distortion" in ran("--budget", "0.5", "--with", "distortion")
 
 
-@pytest.mark.parametrize(
+@together(
     ("options", "message"),
     [
         (["flat", "--asks", "distortion"], "distortion cannot be seen: moves points by up to 0.06"),

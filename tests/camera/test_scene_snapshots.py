@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sweep import together
 
 from quizgen.camera import PreparedScene, SceneError, plan_budget
 from quizgen.camera.effects import EFFECTS
@@ -106,7 +107,7 @@ def test_every_shipped_scene_has_its_picture(snapshots):
     snapshots.check_names("camera", [*(f"{name}.txt" for name in NAMES), "wrong-files.txt"])
 
 
-@pytest.mark.parametrize("name", NAMES)
+@together("name", NAMES)
 def test_every_effect_runs_is_left_out_or_is_absent(name):
     made = plan_budget(PreparedScene(*load_scene(SCENES / f"{name}.toml")))
     told = [*(choice.effect for choice in (*made.steps, *made.left_out)), *made.absent]

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 import pytest
 from scipy import stats
+from sweep import together
 
 from quizgen.camera import Camera, PreparedScene, Scene, View, picture_sets, simulate_question
 from quizgen.camera.effects import (
@@ -106,8 +107,8 @@ def many_normals():
     return np.concatenate([source.draw_normal(tile, 24_576, np.float64) for tile in range(400)])
 
 
-@pytest.mark.parametrize("deviations", [3.0, 3.5, 4.0, 4.3, 4.5])
-@pytest.mark.parametrize("side", [-1, 1])
+@together("deviations", [3.0, 3.5, 4.0, 4.3, 4.5])
+@together("side", [-1, 1])
 def test_noise_has_its_true_tail(many_normals, deviations, side):
     """As many of 9.8 million values lie beyond as the normal law says."""
     beyond = int((side * many_normals > deviations).sum())
@@ -273,7 +274,7 @@ def test_flat_field_undoes_vignetting():
     )
 
 
-@pytest.mark.parametrize(
+@together(
     ("gamma", "linear", "encoded"),
     [
         ("srgb", 0.5, 0.7353569830524495),

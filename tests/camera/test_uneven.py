@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 from scipy.ndimage import maximum_filter, minimum_filter
-from sweep import spread
+from sweep import spread, together
 
 from quizgen.camera import Camera, Length, PreparedScene, Scene, SceneObject
 from quizgen.camera.effects import get_effect
@@ -52,8 +52,8 @@ def range_nearby(values, rows, columns):
     return (most - least).max(axis=2)
 
 
-@pytest.mark.parametrize("covered", [False, True])
-@pytest.mark.parametrize("seed", spread(range(60), 12))
+@together("covered", [False, True])
+@together("seed", spread(range(60), 12))
 def test_elsewhere_a_layer_is_even_as_far_as_an_effect_looks(seed, covered):
     source = np.random.default_rng([seed, covered])
     layer = patches(source, covered=covered)

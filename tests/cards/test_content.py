@@ -12,6 +12,7 @@ from fractions import Fraction
 
 import pytest
 from fontTools.ttLib import TTFont
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.entries import load_entries
@@ -70,7 +71,7 @@ def test_the_terms_are_those_of_the_chapter():
         assert terms[number - 1].term["en"] == name
 
 
-@pytest.mark.parametrize("name", list(KINDS))
+@together("name", list(KINDS))
 def test_topics_and_references_exist(name):
     formulas = {entry.id for entry in entries("formulas")}
     for entry in entries(name):
@@ -78,7 +79,7 @@ def test_topics_and_references_exist(name):
         assert {ref for ref in entry.refs if re.fullmatch(r"F\d\d", ref)} <= formulas
 
 
-@pytest.mark.parametrize("name", list(KINDS))
+@together("name", list(KINDS))
 def test_both_languages_are_written_in_themselves(name, glyphs):
     for row in tomllib.loads(read(name))["entry"]:
         for key, value in row.items():
@@ -238,7 +239,7 @@ def test_every_note_type_is_in_the_list_of_versions(form):
 GOOD = 'id = "x"\ntopic = "noise"\ntier = "A"\nsection = "1"\n'
 
 
-@pytest.mark.parametrize(
+@together(
     ("source", "kind", "words"),
     [
         ("[[entry]\n", CheatSheetEntry, ["f.toml", "line 1"]),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 
 import pytest
+from sweep import together
 
 from quizgen.classes.grading import Submission, grade_submission
 from quizgen.classes.manual_grading import (
@@ -52,7 +53,7 @@ def test_equal_answers_are_one_and_similar_ones_stand_with_it():
     ]
 
 
-@pytest.mark.parametrize(("one", "other"), [
+@together(("one", "other"), [
     ("There is noise where there is light", "There is no noise where there is light"),
     ("The light is collected for long enough here", "The light is not collected for long enough here"),
     ("Twice the light gives 2 times the noise", "Twice the light gives 4 times the noise"),

@@ -6,6 +6,7 @@ import csv
 from fractions import Fraction
 
 import pytest
+from sweep import together
 
 from quizgen.classes.grading import Submission, grade_submission
 from quizgen.classes.rulings import Ruling, RulingBook, append_rulings, read_rulings
@@ -59,7 +60,7 @@ RULED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("rulings", "typed", "expected"), RULED)
+@together(("rulings", "typed", "expected"), RULED)
 def test_later_lines_count(rulings, typed, expected):
     found, _ = marks(rulings, **typed)
     assert {item: found[item] for item in expected} == expected

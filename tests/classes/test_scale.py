@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+from sweep import together
 
 from quizgen.classes.grade_scale import GradeScale, read_grade_scale
 from quizgen.core.errors import ClassError
@@ -14,7 +15,7 @@ GERMAN = {0: "5.0", 49.75: "5.0", 50: "4.0", 54.75: "4.0", 55: "3.7", 60: "3.3",
           80: "2.0", 85: "1.7", 90: "1.3", 94.75: "1.3", 95: "1.0", 100: "1.0"}  # fmt: skip
 
 
-@pytest.mark.parametrize(("points", "grade"), GERMAN.items())
+@together(("points", "grade"), GERMAN.items())
 def test_the_german_scale(points, grade):
     assert GradeScale().grade(Fraction(points), Fraction(100)) == grade
     assert GradeScale().passes(grade) == (grade != "5.0")

@@ -110,18 +110,50 @@ def package(root, tmp_path, monkeypatch):
     info = site / "mechanics-1.2.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mechanics\nVersion: 1.2\n")
-    (info / "entry_points.txt").write_text("[quizgen.banks]\nmechanics = bank_of_mechanics\n")
+    (info / "entry_points.txt").write_text("[quizgen.banks]\nforces101 = bank_of_mechanics\n")
     monkeypatch.syspath_prepend(site)
     discovery.installed_banks.cache_clear()
     yield site / "bank_of_mechanics"
     discovery.installed_banks.cache_clear()
 
 
-def test_a_package_brings_a_bank_by_its_name(package, tmp_path, monkeypatch):
+@pytest.mark.parametrize("name", ["mechanics", "forces101"], ids=["bank.toml", "entry point"])
+def test_a_package_brings_a_bank_by_its_name(package, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path / "site")
-    done = run("preview", "push", "--bank", "mechanics", "--trust")
+    (tmp_path / "site" / name).mkdir()  # a folder of that name, and no bank
+    done = run("preview", "push", "--bank", name, "--trust")
     assert done.exit_code == 0
     assert "A push" in done.output
+
+
+def test_a_package_cannot_take_the_name_of_another_bank(package, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path / "site")
+    about = package / "templates/bank.toml"
+    for said in ('name = "image-acquisition"', 'name = ""', "name = ["):
+        about.write_text(said, "utf-8")
+        assert discovery.available_banks() == {
+            "image-acquisition": discovery.builtin_root(), "forces101": package}  # fmt: skip
+
+
+def test_an_installed_bank_stays_trusted_until_its_python_changes(package, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path / "site")
+    assert run("preview", "push", "--bank", "mechanics").exit_code != 0
+    done = run("banks", "--bank", "mechanics", "--remember")
+    assert done.exit_code == 0, done.output
+    assert "  runs  " in done.stdout.splitlines()[-1]
+    assert run("preview", "push", "--bank", "mechanics").exit_code == 0
+    # Another version in another environment, with the same Python.
+    moved = shutil.copytree(package, tmp_path / "elsewhere")
+    (moved / "templates/bank.toml").write_text(FILES["templates/bank.toml"].replace("1.2", "1.3"))
+    assert run("preview", "push", "--bank", moved).exit_code == 0
+    (moved / SOLVER).write_text(FILES[SOLVER] + "\n# changed\n", "utf-8")
+    assert run("preview", "push", "--bank", moved).exit_code != 0
+
+
+def test_there_is_nothing_to_remember_without_a_bank(root):
+    done = run("banks", "--remember")
+    assert done.exit_code == 2
+    assert "--bank" in done.output
 
 
 def test_banks_are_listed_with_what_they_are(package):

@@ -94,3 +94,37 @@ def test_two_installed_banks_make_a_paper_together(quizgen, install, tmp_path):
     install("dynamics", "2.1")
     told = quizgen(*check, *BOTH).stderr
     assert told == "quizgen: dynamics: version 2.1 here, 2.0 on the paper; marked by the key\n"
+
+
+def test_a_package_begins_sound_and_is_used_by_its_name(tmp_path):
+    """As its own CI does: build it, install it, prove it, print a paper."""
+    uv = shutil.which("uv")
+    if uv is None:
+        pytest.skip("uv is not installed")
+    site = tmp_path / "site"
+    around = os.environ | {"PYTHONPATH": str(site), "XDG_DATA_HOME": str(tmp_path / "home")}
+
+    def run(*words: str | Path) -> str:
+        return subprocess.run([*map(str, words)], check=True, cwd=tmp_path, env=around, text=True,
+                              stdout=subprocess.PIPE).stdout  # fmt: skip
+
+    quizgen = (sys.executable, "-m", "quizgen")
+    run(*quizgen, "new", "bank", "Heat-1", "--package", "--lang", "en", "--lang", "de")
+    project = tmp_path / "Heat-1"
+    workflow = (project / ".github/workflows/lint.yml").read_text("utf-8")
+    steps = [
+        line.partition("run: ")[2].split() for line in workflow.splitlines() if "run: " in line
+    ]
+    assert [step[:2] for step in steps] == [
+        ["pip", "install"], ["quizgen", "lint"], ["quizgen", "exam"],
+    ]  # fmt: skip
+    run(uv, "build", "--quiet", "--wheel", project)
+    (wheel,) = (project / "dist").glob("bank_of_heat_1-0.1-*.whl")
+    run(uv, "pip", "install", "--quiet", "--no-deps", "--target", site, wheel)
+    shutil.rmtree(project)
+    for _, *words in steps[1:]:
+        run(*quizgen, *words)
+    (listed,) = [line for line in run(*quizgen, "banks").splitlines() if "Heat-1" in line]
+    assert str(site / "bank_of_heat_1") in listed
+    (paper,) = (tmp_path / "exam").glob("*/key.json")
+    assert json.loads(paper.read_text("utf-8"))["banks"][0]["name"] == "Heat-1"

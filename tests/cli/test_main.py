@@ -8,6 +8,7 @@ import sys
 
 import pytest
 from click.testing import CliRunner
+from sweep import together
 
 from quizgen.cli.main import COMMANDS, root_group
 
@@ -113,7 +114,7 @@ def test_control_characters_in_messages_are_named(tmp_path, arguments):
     assert not {c for c in done.stderr if c != "\n" and (ord(c) < 32 or 127 <= ord(c) < 160)}
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@together("name", COMMANDS)
 def test_help_fits_80_columns(name):
     done = CliRunner().invoke(root_group, [name, "--help"], terminal_width=80)
     assert done.exit_code == 0

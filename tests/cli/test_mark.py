@@ -6,13 +6,14 @@ import json
 
 import pytest
 from click.testing import CliRunner
+from sweep import together
 
 import quizgen
 from quizgen.cli.mark import mark
 from quizgen.core.errors import InvalidChoiceError
 
 
-@pytest.mark.parametrize("typed", ["-0.3", "-3/10", "-.3", "-0,3", "- 0.3", "−0.3"])
+@together("typed", ["-0.3", "-3/10", "-.3", "-0,3", "- 0.3", "−0.3"])
 def test_a_negative_answer_is_no_option(typed):
     result = CliRunner().invoke(mark, ['{kind="number", value="-0.3"}', typed])
     assert result.exit_code == 0, result.output

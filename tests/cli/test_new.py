@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -34,6 +36,39 @@ def test_what_is_written_is_sound_and_teaches(root):
     for template in Bank(root, trusted=True):
         found = [one for one in review_template(template, 200) if one.level == "error"]
         assert not found, template.id
+
+
+@pytest.mark.parametrize(
+    ("lang", "own"), [("de", ("der ", "die ", "das ")), ("bn", ("ে", "র"))], ids=["de", "bn"]
+)
+def test_what_is_written_in_another_language_is_in_that_language(tmp_path, lang, own):
+    here = tmp_path / "mine"
+    assert run("new", "bank", here, "--lang", lang).exit_code == 0
+    for kind in KINDS:
+        made = run("new", "template", f"example/some-{kind}", f"--{kind}", "--bank", here)
+        assert made.exit_code == 0, made.output
+    done = run("lint", "--bank", here, "--trust", "--seeds", "20", "--jobs", "1")
+    assert done.exit_code == 0, done.output
+    assert "Example" not in (here / "templates/bank.toml").read_text("utf-8")
+    pages = [path.read_text("utf-8") for path in here.rglob("*.md")]
+    assert len(pages) == len(KINDS) + 1
+    for page in pages:
+        prose = page.partition("\n")[2].lower()
+        assert any(word in prose for word in own)
+        assert not {"the", "you", "is", "of", "are"} & set(re.findall(r"[a-z]+", prose))
+    made = run(
+        "exam",
+        "--seed",
+        "1",
+        "--format",
+        "html",
+        "--bank",
+        here,
+        "--trust",
+        "--out",
+        tmp_path / "p",
+    )
+    assert made.exit_code == 0, made.output
 
 
 def test_what_is_written_can_be_printed_and_carded(root, tmp_path):
@@ -86,6 +121,23 @@ def test_without_a_kind_something_is_computed(root, tmp_path):
     ]
     assert written[0]
     assert written[0] == written[1]
+
+
+@pytest.mark.parametrize("name", ["mechanics", "My-Physics.2"])
+def test_a_package_says_where_its_bank_is(tmp_path, name):
+    made = run("new", "bank", tmp_path / name, "--package")
+    assert made.exit_code == 0, made.output
+    table = tomllib.loads((tmp_path / name / "pyproject.toml").read_text("utf-8"))
+    ((entry, module),) = table["project"]["entry-points"]["quizgen.banks"].items()
+    assert module == f"bank_of_{entry}"
+    assert module.isidentifier()
+    bank = Bank(tmp_path / name / module)
+    assert bank.name == name
+    assert f"--bank {tmp_path / name / module}" in made.output
+    about = tmp_path / name / table["tool"]["hatch"]["version"]["path"]
+    pattern = table["tool"]["hatch"]["version"]["pattern"]
+    found = re.search(pattern, about.read_text("utf-8"), re.MULTILINE)
+    assert found["version"] == bank.metadata.version
 
 
 def test_nothing_is_overwritten(root, capsys):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import time
 from functools import cache
 from pathlib import Path
@@ -17,7 +18,6 @@ from quizgen.core.text_width import text_width
 from quizgen.grading.feedback import load_practice_words
 from quizgen.kinds.grade import show_key
 from quizgen.locale import list_languages
-from quizgen.practice.scheduler import ReviewEvent, ReviewRating
 from quizgen.practice.selection import matching_templates, question_seed, template_at
 from quizgen.practice.session_state import PracticeRequest
 from quizgen.practice.session_store import SessionStore
@@ -191,7 +191,6 @@ def test_what_is_practised_here_shows_in_the_browser(browser_side):
     assert run(lines, "--seed", "s", "--count", "1").exit_code == 0
     card = browser_side.agenda().card(key.template)
     assert card.stability == 2.3065, "FSRS: right at once"
-    assert browser_side.store.count_asked(browser_side.learner.id) == {key.template: 1}
     (attempt,) = browser_side.store.latest(browser_side.learner.id)
     assert attempt.ended is not None
     question, _ = compose_question(
@@ -218,13 +217,14 @@ def test_a_skipped_part_says_nothing(browser_side):
     )
 
 
-def test_what_went_wrong_in_the_browser_is_asked_here_first(browser_side):
-    browser_side.store.cards.review(
-        browser_side.learner.id, [ReviewEvent("A3", ReviewRating.AGAIN)], time.time() - 30 * 86400
-    )
-    done = run(["quit"], "--count", "1")
-    title = compose_question(builtin_bank().template(POINT), figures=False)[0].title
-    assert f"Question 1 of 1: {title}" in done.output
+def test_what_was_done_in_the_browser_is_known_here(browser_side):
+    asked = browser_side.plan(builtin_bank().template_paths).choose_next()
+    title = compose_question(builtin_bank().template(asked), figures=False)[0].title
+    assert f"Question 1 of 1: {title}" in run(["quit"], "--count", "1").output
+    done = OutcomeRecord(asked, "any", "a", "", right=True, first=True, at=time.time(), credit=1.0)
+    attempt = browser_side.store.start_attempt(browser_side.learner.id, QuestionRef(asked, "1"), {})
+    browser_side.store.save_attempt(attempt, (done,))
+    assert f"Question 1 of 1: {title}" not in run(["quit"], "--count", "1", "--fresh").output
     seen = OutcomeRecord("rgb-to-hsv", "colour", "a", "", right=False, first=False, at=time.time())
     attempt = browser_side.store.start_attempt(
         browser_side.learner.id, QuestionRef("rgb-to-hsv", "1"), {}
@@ -233,6 +233,16 @@ def test_what_went_wrong_in_the_browser_is_asked_here_first(browser_side):
     done = run(["!"] * 9, "--count", "1", "--seed", "s")
     assert "So far, here and in the browser" in done.output
     assert "Colour: 0 of 1 parts right at once" in done.output
+
+
+def test_the_summary_says_which_points_to_expect(browser_side):
+    assert "In the exam" not in run(["!"] * 30, "--count", "3").output
+    done = run(["!"] * 60, "--count", "7").output
+    said = re.search(
+        r"In the exam about ([\d.]+) of 10 points; in 8 of 10 cases ([\d.]+) to ([\d.]+)\.", done
+    )
+    low, high = float(said[2]), float(said[3])
+    assert low <= float(said[1]) <= high < 8, "nothing was known"
 
 
 def test_a_database_of_ones_own(tmp_path):

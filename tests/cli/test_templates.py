@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from click.testing import CliRunner
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.cli.main import COMMANDS, root_group
@@ -105,7 +106,7 @@ def test_titles_are_shown_as_they_are(odd_bank, monkeypatch, title, columns):
     assert max(map(len, done.stdout.splitlines())) <= columns
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@together("name", COMMANDS)
 def test_every_command_stands_in_the_module_of_its_name(name):
     module, line = COMMANDS[name]
     # No module can be imported by a keyword's name.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 
 import pytest
+from sweep import together
 
 from quizgen.core.positions import TEXT, Span, TomlPositions, find_span
 
@@ -35,7 +36,7 @@ def find(place, text=TOML):
     return TomlPositions(text).find(place)
 
 
-@pytest.mark.parametrize(
+@together(
     ("place", "line", "column"),
     [
         (("title",), 2, 1),

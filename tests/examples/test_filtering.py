@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sweep import together
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.variant import draw_variant
@@ -22,14 +23,14 @@ BANK = Bank(ROOT, trusted=True)
 SEEDS = range(8)
 
 
-@pytest.mark.parametrize("name", BANK.template_paths)
+@together("name", BANK.template_paths)
 def test_every_template_is_clean(name):
     report = lint_template(BANK.template(name), 60, BANK.languages)
     assert not report.problems
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", BANK.template_paths)
+@together("name", BANK.template_paths)
 def test_every_template_is_clean_in_many_draws(name):
     assert not lint_template(BANK.template(name), 1000, BANK.languages).problems
 
@@ -43,20 +44,20 @@ def nine(v, letter):
     return np.array([v[f"{letter}_{k}"] for k in range(1, 10)]).reshape(3, 3)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_convolution_turns_the_kernel(seed):
     v = values("convolve-by-hand", seed)
     assert v["g"] == np.sum(nine(v, "f") * np.rot90(nine(v, "w"), 2))
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_mean_and_median(seed):
     v = values("mean-and-median-with-outlier", seed)
     seen = [v[f"f_{k}"] for k in (1, 2, 3, 4, 6, 7, 8, 9)] + [v["c"]]
     assert (v["m"], v["r"]) == (pytest.approx(np.mean(seen)), np.median(seen))
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_corner_with_zeros_and_with_repeated_pixels(seed):
     v = values("mean-in-the-corner", seed)
     picture = np.array([[v["a"], v["b"]], [v["c"], v["d"]]])
@@ -64,7 +65,7 @@ def test_the_corner_with_zeros_and_with_repeated_pixels(seed):
     assert v["r"] == pytest.approx(np.pad(picture, ((1, 0), (1, 0)), mode="edge").mean())
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_derivatives(seed):
     v = values("sobel-gradient", seed)
     across = np.array([[-1, 0, 1], [-2, 0, 2], [-1, 0, 1]])
@@ -76,7 +77,7 @@ def test_derivatives(seed):
     assert v["h"] == np.sum(nine(v, "f") * sharp)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_frequencies(seed):
     v = values("spectrum-of-a-mean", seed)
     assert v["f_0"] * v["n"] == pytest.approx(1)
@@ -88,7 +89,7 @@ def test_frequencies(seed):
     assert (v["u_a"] <= 0.5, v["f_N"] * v["p"]) == (True, pytest.approx(500))
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_histograms(seed):
     v = values("equalise-one-level", seed)
     pixels = np.repeat(np.arange(8), [int(v[f"h_{k}"]) for k in range(8)])
@@ -100,7 +101,7 @@ def test_histograms(seed):
         assert v[f"B_{t}"] == pytest.approx(pixels.var() - inside / pixels.size)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_shapes(seed):
     v = values("erode-dilate-open", seed)
     m, n, k = (int(v[name]) for name in "mnk")
@@ -118,7 +119,7 @@ def grown(picture, together):
     return together.reduce(around)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_components_by_flooding(seed):
     v = values("count-components", seed)
     cells = {(1, x) for x in range(0, 9, 2)}
@@ -169,7 +170,7 @@ READ = {
 }
 
 
-@pytest.mark.parametrize("name", sorted(READ | {"erode-dilate-open"}))
+@together("name", sorted(READ | {"erode-dilate-open"}))
 def test_what_is_read_in_a_figure_is_asked_step_by_step_and_turned_round(name):
     """The figure stays on the page."""
     for seed in SEEDS:
@@ -180,7 +181,7 @@ def test_what_is_read_in_a_figure_is_asked_step_by_step_and_turned_round(name):
             assert (item.questions[0].figure is not None) is (name in READ)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_first_step_of_the_mean_is_the_sum_of_what_is_drawn(seed):
     v = values("mean-and-median-with-outlier", seed)
     seen = [v[f"f_{k}"] for k in (1, 2, 3, 4, 6, 7, 8, 9)] + [v["c"]]

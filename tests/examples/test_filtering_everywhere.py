@@ -128,7 +128,7 @@ def test_a_class_of_one(here, banks):
 @pytest.mark.parametrize(
     "bank", [Bank(ROOT, trusted=True), open_banks([("", True), (str(ROOT), True)])]
 )
-def test_the_first_question_in_the_browser(here, bank):
+def test_the_first_question_in_the_browser(here, bank, jobs_in_this_process):
     app = create_app(ServerSettings("sqlite:///l.sqlite3", bank, workers=1))
     with TestClient(app, "http://127.0.0.1:8000") as client:
         key = app.state.site.settings.token

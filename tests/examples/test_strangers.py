@@ -12,6 +12,7 @@ import pytest
 import sympy
 from click.testing import CliRunner
 from scipy import stats
+from sweep import together
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.variant import Variant, draw_variant
@@ -27,13 +28,13 @@ BANK = Bank(ROOT, trusted=True)
 X = sympy.Symbol("x")
 
 
-@pytest.mark.parametrize("name", BANK.template_paths)
+@together("name", BANK.template_paths)
 def test_every_template_is_clean(name):
     assert not lint_template(BANK.template(name), 8, BANK.languages).problems
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", BANK.template_paths)
+@together("name", BANK.template_paths)
 def test_every_template_is_clean_in_many_draws(name):
     assert not lint_template(BANK.template(name), 300, BANK.languages).problems
 
@@ -326,8 +327,9 @@ ANSWERS: dict[str, Callable[[Any], list[Any]]] = {
     "vowels": vowel,
 }
 WORDS = {"facts-on-iceland", "name-of-a-function", "odd-squares", "products-of-a-reaction",
-         "reading-a-regression"}  # fmt: skip
-"""Questions whose answer is not computed from what is drawn."""
+         "reading-a-regression", "general-solution", "three-properties", "expression-of-a-table",
+         "capital-of-a-region", "shape-of-a-sample"}  # fmt: skip
+"""Questions of words, of a program that judges, or of cells, which have tests of their own."""
 
 
 def type_choice(part: AskedPart[Any], answer: Any) -> str:
@@ -418,7 +420,7 @@ def test_all_of_them_make_a_paper(tmp_path):
     assert made.exit_code == 0, made.output
     found = {path.name for path in (tmp_path / "paper").iterdir()}
     assert {"exam.html", "key.json"} <= found
-    assert sum(name.endswith(".csv") for name in found) == len(("lengths", "sample"))
+    assert sum(name.endswith(".csv") for name in found) == len(("lengths", "sample", "shape"))
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from sweep import together
 
 from quizgen.core.errors import BankError
 from quizgen.figures.kit import (
@@ -16,7 +17,7 @@ from quizgen.figures.kit import (
 )
 
 
-@pytest.mark.parametrize(
+@together(
     ("value", "text"),
     [
         (200 / 3, "66.67"),

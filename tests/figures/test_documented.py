@@ -12,6 +12,7 @@ import pytest
 from click.testing import CliRunner
 from documented import PAGE, read_blocks
 from figure_cases import FIGURES, module
+from sweep import together
 
 from quizgen.bank.bank import Bank
 from quizgen.cli.main import root_group
@@ -68,7 +69,7 @@ def run(root, *arguments):
     return result.output
 
 
-@pytest.mark.parametrize("name", [*NEWCOMERS, SHARED[5]])
+@together("name", [*NEWCOMERS, SHARED[5]])
 def test_a_figure_of_the_page_is_short(name):
     lines = [line for line in BLOCKS[name].splitlines() if line.strip()]
     assert len(lines) <= 15
@@ -179,7 +180,7 @@ def test_it_is_a_kind_of_figure_by_itself_in_a_paper(root):
 # The table of the built-in ones
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@together("name", FIGURES)
 def test_every_parameter_of_a_built_in_figure_is_documented(name):
     lines = PAGE.read_text(encoding="utf-8").splitlines()
     row = next(line for line in lines if line.startswith(f"| `{name}`"))

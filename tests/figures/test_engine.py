@@ -25,6 +25,7 @@ from matplotlib.patches import Circle
 from matplotlib.transforms import Affine2D
 from PIL import Image
 from svg_reader import SVG, read_labels, read_parts, read_pictures
+from sweep import together
 
 from quizgen import figures
 from quizgen.bank.solvers import import_module_file, unload_modules
@@ -183,7 +184,7 @@ def fill(rule, **values):
     return fill_defaults("line", {"x": rule}, values)["x"]
 
 
-@pytest.mark.parametrize(
+@together(
     ("rule", "value", "message"),
     [
         (Parameter("mm", "width"), "3", "x = '3' is not a number"),
@@ -489,7 +490,7 @@ def test_what_matplotlib_draws_stands_in_pages_and_pdf(function, tmp_path):
     assert "nan" not in re.sub(r"base64,[^\"]*", "", svg)
 
 
-@pytest.mark.parametrize("function", [*ON_AXES, *ON_SHEETS], ids=lambda one: one.__name__)
+@together("function", [*ON_AXES, *ON_SHEETS])
 def test_numbers_have_two_digits_behind_the_point(function):
     figure = plot(function) if function in ON_AXES else on_sheet(function)
     geometry = re.findall(

@@ -19,6 +19,7 @@ import html5lib
 import pytest
 from figure_cases import FIGURES, HIDDEN, REFERENCE, draw, draws, module
 from svg_reader import SVG, read_labels
+from sweep import together
 
 from quizgen import figures
 from quizgen.bank.bank import builtin_bank
@@ -185,7 +186,7 @@ def test_there_is_no_kept_drawing_without_a_figure(snapshots):
 # Markup
 
 
-@pytest.mark.parametrize(("name", "quiz"), BOTH)
+@together(("name", "quiz"), BOTH)
 def test_svg_stands_inside_html(name, quiz):
     figure = draw(name, REFERENCE[name], quiz=quiz, lang="bn")
     text = figure.inline_svg.decode()
@@ -204,7 +205,7 @@ def test_svg_stands_inside_html(name, quiz):
     assert b"currentColor" not in figure.standalone_svg
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@together("name", FIGURES)
 def test_a_figure_fits_a_column_and_a_page(name):
     figure = draw(name, REFERENCE[name])
     assert figure.width_pt <= 420
@@ -224,7 +225,7 @@ def labels(figure):
     return "\n".join(read_labels(figure))
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@together("name", FIGURES)
 def test_quiz_hides_the_answer(name):
     values = REFERENCE[name]
     solved, asked = (draw(name, values, quiz=quiz) for quiz in (False, True))
@@ -238,7 +239,7 @@ def test_quiz_hides_the_answer(name):
         assert not word.search(hidden), answer
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@together("name", FIGURES)
 def test_a_quiz_and_its_solution_differ_where_something_is_asked(name):
     asked, solved = (draw(name, REFERENCE[name], quiz=quiz) for quiz in (True, False))
     assert (asked != solved) == bool(HIDDEN[name])
@@ -276,7 +277,7 @@ def numbers(texts):
     return [sorted(NUMBER.findall(text)) for text in plain.values()]
 
 
-@pytest.mark.parametrize(("name", "quiz"), BOTH)
+@together(("name", "quiz"), BOTH)
 def test_alt_texts_hold_the_same_numbers(name, quiz):
     texts = described(name, REFERENCE[name], quiz)
     first, *others = numbers(texts)
@@ -346,7 +347,7 @@ def test_labels_of_all_draws_are_inside_apart_and_large_enough(fifth):
     check_labels(CASES[fifth::5])
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@together("name", FIGURES)
 def test_no_line_is_thinner_than_print_can_hold(name):
     for quiz in (False, True):
         svg = draw(name, REFERENCE[name], quiz=quiz).inline_svg.decode()
@@ -361,7 +362,7 @@ def test_labels_are_told_as_they_are_read():
 # Errors
 
 
-@pytest.mark.parametrize(
+@together(
     ("name", "values", "message"),
     [
         ("pinhol", {}, "unknown figure 'pinhol'"),

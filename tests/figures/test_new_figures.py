@@ -10,6 +10,7 @@ import pytest
 from figure_cases import REFERENCE, draw, module
 from scipy.stats import multivariate_normal
 from svg_reader import read_labels, read_parts
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.formulas import read_formulas
@@ -253,8 +254,8 @@ def test_the_pipeline_speaks_the_language_of_the_question():
 # Bayer -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("phase", range(4))
-@pytest.mark.parametrize(("columns", "rows"), [(5, 5), (4, 7), (12, 3)])
+@together("phase", range(4))
+@together(("columns", "rows"), [(5, 5), (4, 7), (12, 3)])
 def test_the_counts_are_those_of_the_sites_that_are_drawn(phase, columns, rows):
     pattern = ("RGGB", "BGGR", "GRBG", "GBRG")[phase]
     sites = [pattern[2 * (y % 2) + x % 2] for y in range(rows) for x in range(columns)]

@@ -15,7 +15,7 @@ import pytest
 from figure_cases import draw, module
 from skimage.color import hsv2rgb, rgb2hsv, rgb2lab
 from svg_reader import read_labels, read_parts, read_pictures
-from sweep import spread
+from sweep import spread, together
 
 from quizgen.bank.variant import draw_variant
 from quizgen.camera import picture_sets
@@ -65,7 +65,7 @@ def test_question_and_solution_pack_a_photograph_once():
 # Colours
 
 
-@pytest.mark.parametrize(
+@together(
     ("name", "values", "needed"),
     [
         *(("artefacts", {"kind": kind}, kind in (4, 9)) for kind in range(12)),
@@ -187,8 +187,8 @@ def test_photographs_keep_their_brightness():
 # Artefacts
 
 
-@pytest.mark.parametrize("kind", range(12))
-@pytest.mark.parametrize("variant", range(4))
+@together("kind", range(12))
+@together("variant", range(4))
 def test_every_artefact_is_seen(kind, variant):
     ideal, photo = read_photos("artefacts", {"kind": kind, "variant": variant})
     changed = np.abs(photo - ideal).max(axis=2) > 12
@@ -269,7 +269,7 @@ def test_no_artefact_is_named_in_the_question():
 # Noise and grey levels
 
 
-@pytest.mark.parametrize("order", range(6))
+@together("order", range(6))
 def test_noise_stands_where_the_order_says(order):
     sigma, share = 0.05, 0.1
     shown = read_photos("noise", {"order": order, "sigma": sigma, "p": share})
@@ -362,9 +362,7 @@ def test_edits_are_those_of_scikit_image(order):
         assert got[edit] == pytest.approx(hsv2rgb(change) * 255, abs=0.6)
 
 
-@pytest.mark.parametrize(
-    ("scene", "delta"), spread(itertools.product(range(8), (60, 90, 120, 180, 240)), 12)
-)
+@together(("scene", "delta"), spread(itertools.product(range(8), (60, 90, 120, 180, 240)), 12))
 def test_edits_can_be_told_apart(scene, delta):
     """Curriculum Q1a: V kept within 1 % by S and H edits, 12 grey levels RMS between any two."""
     for a, b in itertools.product((0.35, 0.55), (0.1, 0.3)):
@@ -385,7 +383,7 @@ def test_order_of_edits_is_not_told():
     assert len({figure.inline_svg for figure in drawn}) == 24
 
 
-@pytest.mark.parametrize("scene", range(8))
+@together("scene", range(8))
 def test_scene_has_hues_greys_and_whites(scene):
     indices, palette = _scene.paint_scene(scene)
     assert len(palette) <= 256
@@ -458,13 +456,13 @@ def draw_key(bank, name, seed, part=0):
     return {key: float(value) for key, value in drawn.shown.items()}, right
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_named_artefact_is_the_one_shown(bank, seed):
     given, key = draw_key(bank, "name-artefact-from-photo", seed)
     assert artefacts.KINDS[int(given["k"])] == NAMES[key]
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_noise_asked_for_stands_where_the_key_says(bank, seed):
     given, key = draw_key(bank, "recognise-noise-from-histograms", seed)
     place = ("left", "middle", "right").index(key)
@@ -472,7 +470,7 @@ def test_the_noise_asked_for_stands_where_the_key_says(bank, seed):
     assert noise.order_noises(given["order"])[place] == asked
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_wide_aperture_stands_where_the_key_says(bank, seed):
     given, key = draw_key(bank, "which-photo-which-f-number", seed)
     shown = {"N_1": given["N_b"], "N_2": given["N_a"], "order": given["order"]}
@@ -480,7 +478,7 @@ def test_the_wide_aperture_stands_where_the_key_says(bank, seed):
     assert pair[("left", "right").index(key)] == min(pair) == given["N_a"]
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_object_in_focus_is_the_one_of_the_key(bank, seed):
     given, key = draw_key(bank, "which-photo-which-f-number", seed, part=1)
     objects = [given[name] for name in ("z_1", "z_2", "z_3")]
@@ -488,7 +486,7 @@ def test_the_object_in_focus_is_the_one_of_the_key(bank, seed):
     assert objects[("nearer", "middle", "farther").index(key)] == given["s"]
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_edits_stand_where_the_key_says(bank, seed):
     drawn = draw_variant(bank.template("edit-from-photo-and-histogram"), seed)
     given = {key: float(value) for key, value in drawn.shown.items()}
@@ -500,7 +498,7 @@ def test_the_edits_stand_where_the_key_says(bank, seed):
     ]
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_each_photo_was_taken_with_the_setting_of_the_key(bank, seed):
     drawn = draw_variant(bank.template("which-photo-which-focus"), seed)
     given = {key: float(value) for key, value in drawn.shown.items()}

@@ -8,7 +8,7 @@ import pytest
 from figure_cases import draw, module
 from scipy.stats import norm
 from svg_reader import read_labels, read_parts, read_pictures
-from sweep import spread
+from sweep import spread, together
 
 from quizgen.bank.variant import draw_variant
 from quizgen.camera import picture_sets
@@ -122,7 +122,7 @@ def test_a_learners_value_far_outside_is_an_arrow_at_the_edge():
 # luminosity --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@together(
     ("wavelength", "night", "value"),
     # CIE 1924 and 1951 tables
     [(530, False, 0.862), (655, False, 0.0816), (650, False, 0.107), (700, False, 0.004102),
@@ -169,8 +169,8 @@ def test_a_learners_height_is_ringed_at_its_mark():
 # distorted grid ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("k1", "k2"), [(-0.15, 0.0), (0.15, 0.0), (-0.3, 0.04), (0.05, 0.02)])
-@pytest.mark.parametrize("c", [(0.0, 0.0), (0.2, -0.1)])
+@together(("k1", "k2"), [(-0.15, 0.0), (0.15, 0.0), (-0.3, 0.04), (0.05, 0.02)])
+@together("c", [(0.0, 0.0), (0.2, -0.1)])
 def test_grid_is_opencvs_distortion(k1, k2, c):
     values = {"k1": k1, "k2": k2, "c_x": c[0], "c_y": c[1]}
     got = parts("distorted_grid", **values)
@@ -190,7 +190,7 @@ def test_grid_is_opencvs_distortion(k1, k2, c):
         assert distances(expected, after).max() < 0.15
 
 
-@pytest.mark.parametrize("k1", [-0.3, -0.25, -0.2, -0.15, -0.1, -0.05, 0.1, 0.3])
+@together("k1", [-0.3, -0.25, -0.2, -0.15, -0.1, -0.05, 0.1, 0.3])
 def test_grid_never_folds(k1):
     for line in parts("distorted_grid", quiz=True, k1=k1)["distorted"]:
         way = np.diff(line[:, int(np.ptp(line[:, 1]) > np.ptp(line[:, 0]))])
@@ -363,8 +363,8 @@ ROUNDINGS = (
 )
 
 
-@pytest.mark.parametrize("rule", range(4))
-@pytest.mark.parametrize("n", [2, 4, 8, 16])
+@together("rule", range(4))
+@together("n", [2, 4, 8, 16])
 def test_the_treads_are_those_of_the_rounding(rule, n):
     got = parts("staircase", quiz=True, n=n, rule=rule)
     treads = [line for line in got["staircase"] if len(line) == 2]
@@ -403,7 +403,7 @@ def _draw_question(bank, name, seed, part=0):
     return {key: float(value) for key, value in drawn.shown.items()}, right
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_brighter_laser_is_the_higher_on_the_curve(bank, seed):
     given, key = _draw_question(bank, "two-lasers-from-curves", seed)
     curve = luminosity.NIGHT if given["dark"] else luminosity.DAY
@@ -412,7 +412,7 @@ def test_the_brighter_laser_is_the_higher_on_the_curve(bank, seed):
     assert heights[("first", "second").index(key)] == max(heights)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_spikes_stand_where_the_limits_cut(bank, seed):
     given, key = _draw_question(bank, "normalisation-from-histograms", seed)
     cuts = given["low"] > given["a"], given["b"] > given["high"]
@@ -421,7 +421,7 @@ def test_spikes_stand_where_the_limits_cut(bank, seed):
     assert key == seen.get(cuts, "fits" if touches else "wide")
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_order_of_five_lights_is_that_of_the_curves(bank, seed):
     given, key = _draw_question(bank, "order-wavelengths-by-brightness", seed, part=1)
     by_day = [float(luminosity.luminous_efficiency(given[f"n_{k}"])) for k in range(1, 6)]
@@ -435,7 +435,7 @@ def test_the_order_of_five_lights_is_that_of_the_curves(bank, seed):
     assert by_night[("short", "long").index(key)] == max(by_night)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_lamps_have_the_heights_of_both_curves(bank, seed):
     drawn = draw_variant(bank.template("two-lamps-by-day-and-by-night"), seed)
     given = {k: float(v) for k, v in drawn.shown.items()}
@@ -447,7 +447,7 @@ def test_the_lamps_have_the_heights_of_both_curves(bank, seed):
         assert given[f"V'_{k}"] == pytest.approx(by_night, abs=0.001)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_curve_is_as_high_at_the_wavelength_beyond_the_peak(bank, seed):
     drawn = draw_variant(bank.template("power-for-equal-brightness"), seed)
     given = {k: float(v) for k, v in drawn.shown.items()}
@@ -462,7 +462,7 @@ def test_the_curve_is_as_high_at_the_wavelength_beyond_the_peak(bank, seed):
         assert float(luminosity.luminous_efficiency(at, curve)) == pytest.approx(height, abs=off)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_the_staircase_rises_where_the_key_says(bank, seed):
     given, key = _draw_question(bank, "quantiser-from-staircase", seed, part=1)
     drawn = draw_variant(bank.template("quantiser-from-staircase"), seed)

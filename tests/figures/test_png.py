@@ -6,6 +6,7 @@ import zlib
 import numpy as np
 import pytest
 from PIL import Image
+from sweep import together
 
 from quizgen.figures.svg import encode_png
 
@@ -55,7 +56,7 @@ def test_the_bytes_are_pinned():
     assert zlib.crc32(encode_png(indices, palette)) == 649943326
 
 
-@pytest.mark.parametrize("run", [*range(1, 14), *range(257, 264), 516, 517, 518, 519, 600, 2000])
+@together("run", [*range(1, 14), *range(257, 264), 516, 517, 518, 519, 600, 2000])
 def test_runs_of_any_length_are_read(run):
     """Deflate repeats 3 to 258 bytes at a time; bytes from 144 on take 9 bits instead of 8."""
     row = np.repeat(np.array([0, 7, 143, 144, 255, 0], np.uint8), run)[None]

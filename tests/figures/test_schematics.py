@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from figure_cases import MOSAIC, draw, module
 from svg_reader import read_labels, read_parts
+from sweep import together
 
 from quizgen.camera import Camera, Scene, View
 from quizgen.camera.effects import demosaicing
@@ -90,9 +91,7 @@ def test_questions_that_name_a_thing_show_no_tree():
 # thin lens ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("f", "z"), [(50, 200), (20, 25), (30, 45), (85, 255), (24, 60), (50, 250), (50, 300)]
-)
+@together(("f", "z"), [(50, 200), (20, 25), (30, 45), (85, 255), (24, 60), (50, 250), (50, 300)])
 def test_rays_meet_at_the_real_image(f, z):
     got = parts("thin_lens", f=f, z=z, quiz=True)
     rays = [got[f"ray-{name}"][0] for name in ("parallel", "central", "focal")]
@@ -219,8 +218,8 @@ def test_neighbours_are_those_of_opencv(phase):
                 assert colours[y, x, index] == pytest.approx(mean, abs=0.5)
 
 
-@pytest.mark.parametrize("phase", range(4))
-@pytest.mark.parametrize("site", [(2, 2), (3, 2), (2, 3), (3, 3)])
+@together("phase", range(4))
+@together("site", [(2, 2), (3, 2), (2, 3), (3, 3)])
 def test_the_bayer_diagram_averages_the_sites_that_the_camera_does(phase, site):
     """The figure's neighbours give what the simulator's demosaicing gives at the same site."""
     raw = np.random.Generator(np.random.SFC64(7)).integers(20, 236, (6, 6)).astype(np.float32)

@@ -6,6 +6,7 @@ import time
 
 import pytest
 from flint import fmpq
+from sweep import together
 
 from quizgen.grading.diagnosis.mutations import mutate_formula
 from quizgen.grading.feedback import load_sentences
@@ -47,7 +48,7 @@ STOP = {"kind": "number", "value": "6", "decimals": 2, "of": ["e"]}
 ANGLE = {"kind": "number", "value": "39.5977527", "decimals": 1, "of": ["a"]}
 
 
-@pytest.mark.parametrize(
+@together(
     ("spec", "typed", "model", "given", "note"),
     [
         (IMAGE, "40 mm", LENS, LENS_GIVEN, "operator"),  # 1/f + 1/z
@@ -98,13 +99,17 @@ def test_nothing_is_carried_where_it_would_be_a_gift(earlier, typed):
 
 
 def test_an_own_value_that_makes_the_question_trivial_is_not_carried():
-    """With q = 1 the stops are 0; a result that is the own value again is no method either."""
+    """With q = 1 the stops are 0."""
     context = QuestionContext(STOPS, STOPS_GIVEN, {"q": fmpq(1)})
     assert grade_answer(STOP, "0", context=context).credit == 0
+
+
+def test_an_own_value_that_a_step_leaves_as_it_is_is_carried():
+    """A clamp at 0 leaves 7 as it is, and it is not what makes 7 wrong."""
     model = chain({"x": ""}, ("a", "2*x", ""), ("b", "max(a, 0)", ""))
     spec = {"kind": "number", "value": "6", "exact": True, "of": ["b"]}
     same = QuestionContext(model, {"x": fmpq(3)}, {"a": fmpq(7)})
-    assert grade_answer(spec, "7", context=same).note != "carried-forward"
+    assert grade_answer(spec, "7", context=same).note == "carried-forward"
 
 
 def test_an_own_value_equal_to_the_later_key_is_not_carried():

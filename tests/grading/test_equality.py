@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 import pytest
+from sweep import together
 
 from quizgen.grading.judging.algebraic_equality import prove_equal
 from quizgen.grading.judging.sympy_equality import decide_by_sympy
@@ -47,14 +48,14 @@ DIFFERENT = [
 ]
 
 
-@pytest.mark.parametrize(("key", "typed", "symbols"), EQUAL)
+@together(("key", "typed", "symbols"), EQUAL)
 def test_equal(key, typed, symbols):
     for first, second in ((key, typed), (typed, key)):
         spec = {"kind": "expression", "value": first, "symbols": symbols}
         assert grade_answer(spec, second).verdict == "correct"
 
 
-@pytest.mark.parametrize(("key", "typed", "symbols"), DIFFERENT)
+@together(("key", "typed", "symbols"), DIFFERENT)
 def test_different(key, typed, symbols):
     spec = {"kind": "expression", "value": key, "symbols": symbols}
     assert grade_answer(spec, typed).verdict == "wrong"

@@ -10,6 +10,7 @@ import pytest
 from answer_tables import rows
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from sweep import together
 
 from quizgen.kinds.grade import grade_answer
 
@@ -79,14 +80,14 @@ def timed(kind, text):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", SPECS)
+@together("kind", SPECS)
 def test_hostile_input_costs_next_to_nothing(kind):
     """The best of three: the first loads what is needed, and another may meet the collector."""
     for text in HOSTILE.values():
         assert min(timed(kind, text)[1] for _ in range(3)) < LIMIT, text[:40]
 
 
-@pytest.mark.parametrize("kind", SPECS)
+@together("kind", SPECS)
 def test_hostile_input_is_answered_quickly_and_never_right(kind):
     for name, text in HOSTILE.items():
         verdict, seconds = timed(kind, text)
@@ -96,7 +97,7 @@ def test_hostile_input_is_answered_quickly_and_never_right(kind):
         assert len(verdict.read_as) < 700, name
 
 
-@pytest.mark.parametrize("kind", SPECS)
+@together("kind", SPECS)
 def test_memory_stays_small(kind):
     tracemalloc.start()
     for text in HOSTILE.values():

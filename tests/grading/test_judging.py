@@ -7,6 +7,7 @@ from fractions import Fraction
 import flint
 import pytest
 from flint import arb, fmpq
+from sweep import together
 
 from quizgen.core.errors import UndecidedError
 from quizgen.grading.diagnosis.carry_forward import recompute_from_earlier
@@ -18,7 +19,7 @@ from quizgen.maths.notation import parse_formula
 from quizgen.maths.number_systems import compile_expr, exact_system
 
 
-@pytest.mark.parametrize(
+@together(
     ("value", "typed", "note"),
     [
         ("1.25", "1.3", "decimals-asked"),
@@ -86,10 +87,10 @@ GIVEN = {"a": fmpq(2), "b": fmpq(3)}
 @pytest.mark.parametrize(
     ("own", "carried"),
     [
-        (fmpq(7), fmpq(73)),
-        (fmpq(0), None),
-        (fmpq(5), None),
-        (fmpq(-3, 10), None),
+        (fmpq(7), [fmpq(73)]),
+        (fmpq(0), []),
+        (fmpq(5), []),
+        (fmpq(-3, 10), []),
     ],
     ids=["7 gives 73", "zero gives nothing", "the right 5", "a result of zero"],
 )
@@ -171,7 +172,7 @@ def nearly(points: int) -> str:
     return f"x + {factors}" if factors else "x + 1"
 
 
-@pytest.mark.parametrize("points", range(8))
+@together("points", range(8))
 def test_formulas_that_agree_at_fewer_than_eight_points_differ(points):
     found = compare_by_sampling(
         parse_formula("x"), parse_formula(nearly(points)), {"x": "positive"}

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
 from answer_tables import Row, rows
+from sweep import together
 
 from quizgen.kinds import KINDS
 from quizgen.kinds.grade import grade_answer
@@ -37,7 +37,7 @@ def wrong(row: Row) -> str:
     return "" if right else f"{row}: {verdict}"
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@together("kind", KINDS)
 def test_rows_of_a_kind(kind: str):
     assert list(filter(None, map(wrong, of_kind(kind)))) == []
 
@@ -50,6 +50,6 @@ def differs(row: Row) -> bool:
     return told[0] != told[1] or bool(english.message and english.message == bangla.message)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@together("kind", KINDS)
 def test_bangla_gives_the_same_verdicts_in_other_words(kind: str):
     assert list(map(str, filter(differs, of_kind(kind)))) == []

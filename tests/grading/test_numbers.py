@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 from flint import fmpq
+from sweep import together
 
 from quizgen.grading.diagnosis.numeric_slips import (
     agrees_within_half_percent,
@@ -24,7 +25,7 @@ FIGURES = {"kind": "number", "value": "12.25", "sigfigs": 4}
 PLACES = {"kind": "number", "value": "12.25", "decimals": 2}
 
 
-@pytest.mark.parametrize(
+@together(
     ("spec", "typed", "note", "credit", "fields"),
     [
         (FIGURES, "12.25", "", 1, {}),
@@ -90,7 +91,7 @@ def test_both_readings_are_echoed(typed):
     assert found.read_as == f"{first} | {second}"
 
 
-@pytest.mark.parametrize(
+@together(
     ("key", "typed", "note"),
     [
         ("3", "-3", "sign"),
@@ -108,7 +109,7 @@ def test_a_slip_in_one_number_alone_is_named(key, typed, note):
     assert (found.note, found.credit, found.read_as) == (note, 0, typed.replace("-", "−"))
 
 
-@pytest.mark.parametrize(
+@together(
     ("value", "power"),
     [(fmpq(10) ** 18, 18), (fmpq(10) ** -18, -18), (fmpq(10) ** 19, 0), (fmpq(1001, 10), 2),
      (fmpq(1006, 10), 0), (fmpq(1), 0), (fmpq(0), 0), (fmpq(-100), 0)],
@@ -142,7 +143,7 @@ def cells(*said):
 TWICE, THRICE = {"factor": "2"}, {"factor": "3"}
 
 
-@pytest.mark.parametrize(
+@together(
     ("said", "shared"),
     [
         ([(0, "factor", TWICE), (0, "factor", TWICE)], ("factor", TWICE)),
@@ -156,8 +157,6 @@ TWICE, THRICE = {"factor": "2"}, {"factor": "3"}
         ([(1, "factor", TWICE), (0, "factor", TWICE)], ("", {})),
         ([(0, "", {}), (0, "", {})], ("", {})),
     ],
-    ids=["the same", "other factors", "one of two fields", "one without", "half right", "other slips",
-         "one right", "one right though noted", "unexplained"],
 )  # fmt: skip
 def test_what_all_cells_share_is_said_once(said, shared):
     """Fields that differ are left out: no cell's factor stands for the others."""
@@ -183,7 +182,7 @@ def test_a_step_rounded_in_its_own_unit_is_seen_to_half_the_last_place(typed, no
     assert found.credit == {"rounded-too-early": HALF, "": 0, None: 1}[note]
 
 
-@pytest.mark.parametrize(
+@together(
     ("rule", "value", "typed"),
     [
         ({"decimals": 1, "within": "1/4"}, "5/4", "1.3"),
@@ -193,8 +192,6 @@ def test_a_step_rounded_in_its_own_unit_is_seen_to_half_the_last_place(typed, no
         ({"exact": True}, "sqrt(2)", "1.5"),
         ({"decimals": 3}, "123456", "123.456"),
     ],
-    ids=["places given", "figures given", "one figure", "not asked exactly",
-         "irrational", "three places asked"],
 )  # fmt: skip
 def test_digits_excuse_nothing_where_they_are_not_the_matter(rule, value, typed):
     found = grade_answer({"kind": "number", "value": value, **rule}, typed)

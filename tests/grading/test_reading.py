@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from sweep import together
 
 from quizgen.core.errors import KeyFileError
 from quizgen.grading.echo import safe_echo
@@ -59,7 +60,7 @@ ONE_BY_ONE = [
 ]
 
 
-@pytest.mark.parametrize(("name", "typed", "wanted"), ONE_BY_ONE)
+@together(("name", "typed", "wanted"), ONE_BY_ONE)
 def test_rewrite(name, typed, wanted):
     assert apply_rewrite(name, typed) == wanted
 
@@ -68,7 +69,7 @@ def test_every_rewrite_is_tested_alone():
     assert {name for name, _, _ in ONE_BY_ONE} == set(REWRITES)
 
 
-@pytest.mark.parametrize(
+@together(
     ("name", "typed", "same"),
     [
         ("function synonyms", "arctan(x) + lg(x)", "atan(x) + log10(x)"),
@@ -85,7 +86,7 @@ def test_formula_rewrite(name, typed, same):
     assert read_formula(typed, ["x"]).tree == read_formula(same, ["x"]).tree
 
 
-@pytest.mark.parametrize(
+@together(
     ("typed", "decimal", "text", "other"),
     [
         ("12,5", "auto", "12.5", ""),
@@ -113,7 +114,7 @@ def test_literals_that_are_none(typed):
         read_literal(typed)
 
 
-@pytest.mark.parametrize(
+@together(
     ("typed", "column"),
     [
         ("1\u00072", 2),
@@ -129,7 +130,7 @@ def test_errors_point_into_what_was_typed(typed, column):
     assert grade_answer(spec, typed).fields["column"] == column
 
 
-@pytest.mark.parametrize(
+@together(
     ("kind", "typed", "column"),
     [
         ("point", "1; 1/0", 4),
@@ -176,7 +177,7 @@ def test_every_listed_unit_word_is_a_listed_unit():
         )
 
 
-@pytest.mark.parametrize(
+@together(
     ("typed", "listed"),
     [
         ("µm/px", "um/px"),
@@ -213,7 +214,7 @@ TERMS = [
 ]
 
 
-@pytest.mark.parametrize(
+@together(
     ("typed", "meant"),
     [
         ("far sighted", "far-sighted"), ("nearsighted", "near-sighted"), ("farsigted", "far-sighted"), ("demosaicng", "demosaicing"),
@@ -240,8 +241,8 @@ def test_the_cap_stands_before_everything_else():
     assert caught.value.code == "too-long"
 
 
-@pytest.mark.parametrize("separator", ["\u2028", "\u2029", "\x85", "\x0b", "\x0c", "\x1c"])
-@pytest.mark.parametrize("kind", ["number", "gap", "choice", "code", "text", "order", "match"])
+@together("separator", ["\u2028", "\u2029", "\x85", "\x0b", "\x0c", "\x1c"])
+@together("kind", ["number", "gap", "choice", "code", "text", "order", "match"])
 def test_separators_of_lines_are_named_and_never_echoed(separator, kind):
     specs = {
         "number": {"value": "1"}, "gap": {"accept": ["a"]}, "code": {"output": "1"},
@@ -272,7 +273,7 @@ def test_slips_allowed_grow_with_the_word():
     assert [typo_distance("hue", "cat", most) for most in (1, 2, 3)] == [2, 3, 3]
 
 
-@pytest.mark.parametrize(("typed", "term", "counted"), [
+@together(("typed", "term", "counted"), [
     ("gamma", "gamma", 0), ("gmama", "gamma", 1), ("gama", "gamma", 1), ("gammaa", "gamma", 1),
     ("gamna", "gamma", 1), ("gmmaa", "gamma", 2), ("aberation", "aberrations", 2),
     ("binnign", "bining", 2), ("retina", "cornea", 3), ("tertiary", "whitepaper", 3),

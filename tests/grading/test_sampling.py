@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 from flint import arb, fmpq
+from sweep import together
 
 from quizgen.grading.judging.algebraic_equality import prove_equal
 from quizgen.grading.judging.sampled_equality import (
@@ -63,7 +64,7 @@ def test_a_real_domain_has_both_signs():
 WIDE = arb(1, "0.001")
 
 
-@pytest.mark.parametrize(
+@together(
     ("first", "second", "same"),
     [
         (fmpq(1, 3), fmpq(1, 3), True),
@@ -77,15 +78,13 @@ WIDE = arb(1, "0.001")
         (arb(0, "1.1e-50"), fmpq(0), None),
         (arb(0, "0.9e-50"), fmpq(0), True),
     ],
-    ids=["equal", "apart", "one apart", "exact ball", "zeros", "wide", "a little too wide",
-         "just sharp", "too wide around 0", "sharp around 0"],
 )  # fmt: skip
 def test_values_agree_as_sharp_balls_only(first, second, same):
     """Sharp is less than 10^-20 of both sizes together, 2 here; around nothing, 10^-50."""
     assert values_agree(first, second) is same
 
 
-@pytest.mark.parametrize(
+@together(
     ("key", "typed", "equal", "points", "ground"),
     [
         ("2", "4/2", True, 1, "proved"),
@@ -153,7 +152,7 @@ def test_no_factor_is_named_where_a_formula_vanishes():
     assert compared("x + 1233/250112", "x + 1").ratio is None
 
 
-@pytest.mark.parametrize(
+@together(
     ("first", "second", "proved"),
     [
         ("(x + 1)^2", "x^2 + 2*x + 1", True),

@@ -7,6 +7,7 @@ from fractions import Fraction
 from random import Random
 
 import pytest
+from sweep import together
 
 from quizgen.core.errors import KeyFileError
 from quizgen.kinds.grade import grade_answer, load_spec, show_key
@@ -147,7 +148,7 @@ HOSTILE = {
 }
 
 
-@pytest.mark.parametrize("typed", HOSTILE, ids=range(len(HOSTILE)))
+@together("typed", HOSTILE)
 def test_what_is_no_drawing_is_asked_back(typed):
     verdict = grade_answer(BARREL, typed)
     assert (verdict.verdict, verdict.note) == HOSTILE[typed]
@@ -187,7 +188,7 @@ TOP = {"reads": "curve", "of": ["l"], "top": True}
 ABOVE = {"features": {"a": TOP}, "view": [-1, 1, 0, 1]}
 
 
-@pytest.mark.parametrize(
+@together(
     ("change", "said"),
     [
         ({"view": [1, -1, 0, 1]}, "view"),

@@ -6,6 +6,7 @@ import json
 
 import msgspec
 import pytest
+from sweep import together
 
 from quizgen.core.errors import KeyFileError
 from quizgen.kinds import KINDS, choice, number
@@ -15,6 +16,8 @@ from quizgen.maths.tolerance import Tolerance
 NOTES = {"en": {"half": "You took half."}, "bn": {"half": "অর্ধেক নিয়েছ।"}}
 
 FULL = [
+    {"kind": "checked", "check": "abc", "example": "1 6", "function": "judge",
+     "values": {"n": "6", "x": ["1", "2"]}},
     {"kind": "number", "decimals": 3, "within": "1/2", "accept": ["1", "2"], "strict": True,
      "value": "20/3", "traps": {"half": "10/3", "two": ["1", "2"]}, "notes": NOTES, "of": ["x"],
      "form": "decimal", "percent": True, "notation": "f-number"},
@@ -73,14 +76,14 @@ def test_every_field_of_every_kind_is_looked_at():
         assert {*shape.__struct_fields__} - common - {"accept"} <= looked_at, shape
 
 
-@pytest.mark.parametrize("table", FULL, ids=named)
+@together("table", FULL)
 def test_a_specification_as_a_table_and_back_is_the_same(table):
     spec = load_spec(table)
     assert json.loads(json.dumps(msgspec.to_builtins(spec))) == table
     assert load_spec(json.loads(json.dumps(msgspec.to_builtins(spec)))) == spec
 
 
-@pytest.mark.parametrize("table", FULL, ids=named)
+@together("table", FULL)
 def test_a_struct_is_marked_and_shown_as_its_table(table):
     spec = load_spec(table)
     typed = show_key(table)
@@ -106,7 +109,7 @@ def test_a_specification_cannot_be_changed():
         spec.value = "2"  # type: ignore[misc]
 
 
-@pytest.mark.parametrize(
+@together(
     ("table", "said"),
     [
         ({"kind": "number", "value": "1", "traps": {"half": {"a": 1}}}, "traps"),

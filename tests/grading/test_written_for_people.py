@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from sweep import together
 
 from quizgen.grading.feedback import feedback_sentence
 from quizgen.kinds.grade import grade_answer, show_key
@@ -13,8 +14,8 @@ NAMED = {"kind": "table", "values": {"N_b": "16000", "p'_x": "-12345.5", "n_1": 
 POINT = {"kind": "point", "values": ["27000", "-12345.25"]}
 
 
-@pytest.mark.parametrize("decimal", ["auto", "point", "comma"])
-@pytest.mark.parametrize("gap", [GAP, "\N{NO-BREAK SPACE}", " ", "\N{THIN SPACE}"])
+@together("decimal", ["auto", "point", "comma"])
+@together("gap", [GAP, "\N{NO-BREAK SPACE}", " ", "\N{THIN SPACE}"])
 def test_groups_of_digits_are_read(gap, decimal):
     assert grade_answer(BYTES, f"1{gap}228{gap}800 B", decimal=decimal).verdict == "correct"
     assert (
@@ -22,15 +23,15 @@ def test_groups_of_digits_are_read(gap, decimal):
     )
 
 
-@pytest.mark.parametrize("decimal", ["auto", "point", "comma"])
-@pytest.mark.parametrize("typed", ["2.2·10⁻⁴¹", "2,2·10⁻⁴¹", "2.2 · 10⁻⁴¹"])
+@together("decimal", ["auto", "point", "comma"])
+@together("typed", ["2.2·10⁻⁴¹", "2,2·10⁻⁴¹", "2.2 · 10⁻⁴¹"])
 def test_powers_of_ten_are_read(typed, decimal):
     verdict = grade_answer({"kind": "number", "value": "2.2e-41"}, typed, decimal=decimal)
     assert (verdict.verdict, verdict.read_as) == ("correct", "2.2·10⁻⁴¹")
 
 
-@pytest.mark.parametrize("decimal", ["auto", "point"])
-@pytest.mark.parametrize("kind", [BYTES, NAMED, POINT], ids=["quantity", "table", "point"])
+@together("decimal", ["auto", "point"])
+@together("kind", [BYTES, NAMED, POINT])
 def test_what_is_shown_is_read_back(kind, decimal):
     assert grade_answer(kind, show_key(kind), decimal=decimal).verdict == "correct"
 

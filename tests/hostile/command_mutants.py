@@ -621,9 +621,12 @@ def find_failures(
 
 
 def spread_mutants(count: int, first: int = 0) -> Iterator[tuple[FileCommand, int]]:
-    """Yield commands and numbers, each command as often as its share says and at least once."""
+    """Yield commands and numbers, each command as often as its share says and at least once.
+
+    Of fewer mutants than commands, every second command has one.
+    """
     whole = sum(one.share for one in COMMANDS)
-    for command in COMMANDS:
+    for command in COMMANDS[:: 1 if count >= len(COMMANDS) else 2]:
         for number in range(max(1, round(count * command.share / whole))):
             yield command, first + number
 

@@ -16,7 +16,7 @@ from quizgen.web.settings import ServerSettings
 
 
 @pytest.fixture
-def app(tmp_path):
+def app(tmp_path, jobs_in_this_process):
     app = create_app(ServerSettings(f"sqlite:///{tmp_path / 'learning.sqlite3'}", workers=1))
     with TestClient(app, "http://127.0.0.1:8000"):
         yield app

@@ -18,7 +18,7 @@ from command_mutants import BASES, COMMANDS, LARGEST, LONGEST, try_mutants_of_ba
 from quizgen.cli.classes import class_
 from quizgen.cli.main import COMMANDS as ALL
 
-FEW, MANY = 60, int(os.environ.get("QUIZGEN_MUTANTS", "300"))
+FEW, MANY = 30, int(os.environ.get("QUIZGEN_MUTANTS", "300"))
 NO_FILE = {"doctor", "schema", "tradeoff"}
 """Commands that read no file of a user."""
 

@@ -1,7 +1,12 @@
-"""What was acknowledged is there after a kill and after a power cut."""
+"""What was acknowledged is there after a kill and after a power cut.
+
+``QUIZGEN_KILLS=100 uv run pytest -m slow tests/hostile/test_power.py`` kills 100 times and cuts the
+power 20 times.
+"""
 
 from __future__ import annotations
 
+import json
 import os
 import random
 import shutil
@@ -17,12 +22,16 @@ from pathlib import Path
 import pytest
 from needed import absent
 from sqlalchemy import event
+from test_long_import import long_file
 
 from quizgen.store import Store
+from quizgen.store.archive import read_archive
 
 HERE = Path(__file__).parent / "power"
 FILE = "learning.sqlite3"
 THREADS = 8
+KILLS = int(os.environ.get("QUIZGEN_KILLS", "5"))
+CUTS = max(2, KILLS // 5)
 
 
 @pytest.fixture(scope="session")
@@ -36,13 +45,13 @@ def synced(tmp_path_factory):
     return made
 
 
-def run(folder: Path, library: Path, seconds: float) -> list[list[str]]:
+def run(folder: Path, library: Path, seconds: float, *archive: Path) -> list[list[str]]:
     """Write for some time and be killed; what was acknowledged, and ``folder/synced``."""
     left = folder / "synced"
     left.mkdir()
     with (folder / "said").open("wb") as said:
         writer = subprocess.Popen(
-            [sys.executable, HERE / "writer.py", folder / FILE, str(THREADS)],
+            [sys.executable, HERE / "writer.py", folder / FILE, str(THREADS), *archive],
             stdout=said, env={**os.environ, "LD_PRELOAD": str(library), "SYNCED": str(left)},
         )  # fmt: skip
         while not (folder / "said").stat().st_size:
@@ -72,26 +81,66 @@ def rounds(few: int, many: int):
     return [pytest.param(n, marks=[pytest.mark.slow] if n >= few else []) for n in range(many)]
 
 
-@pytest.mark.parametrize("number", rounds(2, 100))
+def cut_power(folder: Path, chance: random.Random, *, torn: bool) -> Path:
+    """The database as a power cut leaves it."""
+    left = folder / "synced"
+    log, now = left / f"{FILE}-wal", folder / f"{FILE}-wal"
+    if torn and log.read_bytes() == now.read_bytes()[: log.stat().st_size]:
+        # some of what was written after the last sync may have reached the disk
+        with log.open("ab") as end:
+            tail = now.read_bytes()[log.stat().st_size :]
+            end.write(tail[: chance.randrange(len(tail) + 1)])
+    return left / FILE
+
+
+@pytest.mark.parametrize("number", rounds(2, KILLS))
 def test_a_killed_server_has_lost_nothing(tmp_path, synced, number):
     acknowledged = run(tmp_path, synced, random.Random(number).uniform(0.05, 0.6))
     assert acknowledged
     assert lost(tmp_path / FILE, acknowledged) == []
 
 
-@pytest.mark.parametrize("number", rounds(2, 20))
+@pytest.mark.parametrize("number", rounds(2, CUTS))
 def test_a_power_cut_has_lost_nothing(tmp_path, synced, number):
     chance = random.Random(number)
     acknowledged = run(tmp_path, synced, chance.uniform(0.05, 0.6))
-    left = tmp_path / "synced"
-    log, now = left / f"{FILE}-wal", tmp_path / f"{FILE}-wal"
-    if number % 2 and log.read_bytes() == now.read_bytes()[: log.stat().st_size]:
-        # some of what was written after the last sync may have reached the disk
-        with log.open("ab") as end:
-            tail = now.read_bytes()[log.stat().st_size :]
-            end.write(tail[: chance.randrange(len(tail) + 1)])
     assert acknowledged
-    assert lost(left / FILE, acknowledged) == []
+    assert lost(cut_power(tmp_path, chance, torn=bool(number % 2)), acknowledged) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("number", "power"), [
+    *((number, False) for number in range(KILLS)), *((number, True) for number in range(CUTS)),
+])  # fmt: skip
+def test_an_import_that_was_killed_has_left_nothing_half_and_is_ended_by_another(
+    tmp_path, synced, number, power
+):
+    chance = random.Random(number)
+    file = tmp_path / "me.json"
+    file.write_bytes(long_file(1))
+    acknowledged = run(tmp_path, synced, chance.uniform(0.05, 3.0), file)
+    imported = ["imported"] in acknowledged
+    saved = [line for line in acknowledged if line != ["imported"]]
+    place = cut_power(tmp_path, chance, torn=bool(number % 2)) if power else tmp_path / FILE
+    assert saved
+    assert lost(place, saved) == []
+    store, archive = Store(f"sqlite:///{place}"), read_archive(file.read_bytes())
+    reader = store.learner("reader").id
+    there = json.loads(store.archives.write(reader))
+    whole = json.loads(file.read_bytes())
+    assert all(len(one["answers"]) == len(whole["sittings"][0]["answers"])
+               for one in there["sittings"])  # fmt: skip
+    for name in ("attempts", "sittings"):
+        assert {one["id"] for one in there[name]} <= {one["id"] for one in whole[name]}
+    rows = len(archive.attempts) + len(archive.sittings)
+    before = len(there["attempts"]) + len(there["sittings"])
+    assert before == rows or not imported
+    assert store.archives.import_archive(reader, archive) == rows - before
+    again = json.loads(store.archives.write(reader))
+    assert [len(again[name]) for name in ("attempts", "seen", "sittings")] == [
+        len(whole[name]) for name in ("attempts", "seen", "sittings")]  # fmt: skip
+    store.close()
+    assert lost(place, saved) == []
 
 
 def test_all_that_wait_are_committed_together(tmp_path):

@@ -20,7 +20,7 @@ from by_hand import SOLVERS, WITH_FIGURE
 from printed_key import OWED, agrees
 from printed_numbers import APERTURE, numbers
 from printed_page import Page, pages
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.bank.bank import Bank
 from quizgen.paper.answer_key import write_answer_key
@@ -188,7 +188,7 @@ def test_no_solver_is_left_over(bank):
     assert {*SOLVERS, *LISTED} <= set(bank.template_paths)
 
 
-@pytest.mark.parametrize("path", sorted(HERE.glob("[bhp]*.py")), ids=lambda path: path.stem)
+@together("path", sorted(HERE.glob("[bhp]*.py")))
 def test_solvers_and_readers_share_no_code_with_the_product(path):
     tree = ast.parse(path.read_text(encoding="utf-8"))
     named = {node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.variant import draw_variant
@@ -17,7 +18,7 @@ COLOUR = {"kind": "point", "of": ["R_H", "G_H", "B_H"], "values": ["0.42", "0.56
 INKS = {"kind": "table", "values": {"C_0": "0.1", "M_0": "0.2", "Y_0": "0"}, "exact": True}
 
 
-@pytest.mark.parametrize(
+@together(
     ("spec", "typed"),
     [
         (IMAGE_POINT, "p'_y = 6, p'_x = -2"),
@@ -77,7 +78,7 @@ POINTS = [
 ]
 
 
-@pytest.mark.parametrize(("name", "index"), POINTS)
+@together(("name", "index"), POINTS)
 def test_every_point_of_the_bank_goes_by_its_names(name, index):
     """Typed from the last to the first, each with its name; the key says which is which."""
     spec = ask_part(draw_variant(builtin_bank().template(name), 3), index).spec

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-import pytest
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.lint.coverage import curriculum_coverage
@@ -26,7 +26,7 @@ def test_no_template_claims_what_is_not_there(bank):
     assert {re.sub(r"\d+$", "", item) for item in claims} <= {*bank.curriculum.beyond}
 
 
-@pytest.mark.parametrize("group", list(builtin_bank().curriculum.inventory))
+@together("group", list(builtin_bank().curriculum.inventory))
 def test_nothing_is_left_out(bank, group):
     (row,) = [row for row in curriculum_coverage(bank) if row.group == group]
     assert row.holes == ()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from click.testing import CliRunner
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.bank.bank import Bank
 from quizgen.cli.lint import lint
@@ -142,7 +142,7 @@ def test_what_a_question_prints_itself_is_no_secret(tmp_path):
     assert find_paper_leaks(paper(tmp_path, asker, stem("Again $x = f*X/Z$."))) == []
 
 
-@pytest.mark.parametrize(
+@together(
     ("one", "other", "same"),
     [
         ("f*p_y/p_z", "f_x*x/z", True),
@@ -160,7 +160,7 @@ def test_formulas_are_the_same_in_another_order(one, other, same):
     )
 
 
-@pytest.mark.parametrize("plain", ["a + b", "2*x", "x^2 + y^2", "x/2", "max(R, G, B)", "f"])
+@together("plain", ["a + b", "2*x", "x^2 + y^2", "x/2", "max(R, G, B)", "f"])
 def test_formulas_of_everybody_have_no_form(plain):
     assert list(canonical_forms(parse_formula(plain))) == []
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-import pytest
 from click.testing import CliRunner
+from sweep import together
 
 from quizgen.bank.bank import Bank
 from quizgen.cli.lint import lint
@@ -32,7 +32,7 @@ def found(folder, rules, prose=WORDS + REASONS):
     return [(one.label, one.level, one.what) for one in said]
 
 
-@pytest.mark.parametrize(
+@together(
     ("counts", "bits"),
     [((5,), 0), ((5, 5), 1), ((3, 1), 0.8113), ((1, 1, 1, 1), 2), ((2, 1, 1, 0), 1.5), ((), 0)],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from sweep import together
 
 from quizgen.lms.manifest import ManifestQuestion, ResponseField
 from quizgen.lms.moodle_summaries import parse_summary
@@ -22,7 +23,7 @@ def read(text, *asks, embedded=False):
     return [one.code if isinstance(one, FormulaReadError) else one for one in found]
 
 
-@pytest.mark.parametrize(
+@together(
     ("text", "values"),
     [
         ("3.5", ["3.5 mm"]),
@@ -40,7 +41,7 @@ def test_the_unit_behind_a_field_is_added_to_a_bare_number(text, values):
     assert read(text, NUMBER) == [values]
 
 
-@pytest.mark.parametrize(
+@together(
     ("text", "values"),
     [
         ("light", ["B"]),

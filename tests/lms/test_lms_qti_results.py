@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import msgspec
 import pytest
+from sweep import together
 
 from quizgen.lms.manifest import ManifestQuestion, ResponseField
 from quizgen.lms.qti.results import qti_field_values
@@ -66,7 +67,7 @@ def test_what_was_given_and_by_whom(attempt):
 ABC = {"A": ["a"], "B": ["b"], "C": ["c"]}
 
 
-@pytest.mark.parametrize(
+@together(
     ("ask", "given", "values"),
     [
         (ResponseField("number", "1", unit="mm"), ["3,5"], ["3,5 mm"]),

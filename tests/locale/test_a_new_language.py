@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import ast
 import csv
 import io
 import json
-import re
 import sqlite3
 import subprocess
 import sys
@@ -162,20 +160,6 @@ def test_the_tradeoff_page_has_the_language(known):
     assert f'<label for="{LANG}" lang="{LANG}">Áccénts</label>' in page
 
 
-def strings(path):
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    return {node.value for node in ast.walk(tree)
-            if isinstance(node, ast.Constant) and isinstance(node.value, str)}  # fmt: skip
-
-
-def test_no_python_file_names_a_language_but_english():
-    others = set(list_languages()) - {"en"}
-    for path in (ROOT / "quizgen").rglob("*.py"):
-        assert not strings(path) & others, path
-    for path in (*(ROOT / "quizgen").rglob("*.css"), *(ROOT / "quizgen").rglob("*.j2")):
-        assert not re.findall(rf"\b(?:{'|'.join(others)})\b", path.read_text("utf-8")), path
-
-
 @pytest.mark.parametrize("lang", [lang for lang in list_languages() if lang != "en"])
 def test_every_language_has_every_file_and_every_word(lang):
     def keys(table, path=""):
@@ -194,4 +178,4 @@ def test_every_language_has_every_file_and_every_word(lang):
             }
             for one in ("en", lang)
         )
-        assert english ^ other <= {"line_height", "decimal"}, path.name
+        assert english ^ other <= {"line_height", "decimal", "quotes", "common"}, path.name

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from sweep import together
 
 from quizgen import locale
 from quizgen.kinds.grade import show_key
@@ -27,7 +28,7 @@ def test_a_gap_shows_the_word_in_the_letters_of_the_language(lang, word):
     assert show_key(TERM, lang) == word
 
 
-@pytest.mark.parametrize(
+@together(
     ("lang", "text", "own"),
     [
         ("en", "CCD", True),

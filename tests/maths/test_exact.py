@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 from flint import arb, fmpq
+from sweep import together
 
 from quizgen.core.errors import MathError, UndecidedError
 from quizgen.maths.notation import parse_formula
@@ -19,14 +20,14 @@ def value(text: str):
     return evaluate(parse_formula(text), {})
 
 
-@pytest.mark.parametrize("sign", ["<", "<=", ">", ">=", "=", "!="])
-@pytest.mark.parametrize("sides", [(TWO, "2"), ("2", TWO), (TWO, TWO)])
+@together("sign", ["<", "<=", ">", ">=", "=", "!="])
+@together("sides", [(TWO, "2"), ("2", TWO), (TWO, TWO)])
 def test_what_cannot_be_certified_is_neither_true_nor_false(sign, sides):
     with pytest.raises(UndecidedError):
         value(f"{sides[0]} {sign} {sides[1]}")
 
 
-@pytest.mark.parametrize("text", [
+@together("text", [
     f"min({TWO}, 2)", f"max({TWO}, 2)", f"floor({TWO})", f"ceil({TWO})", f"round({TWO} + 1/2)",
     f"sign({TWO} - 2)", f"piecewise(1, {TWO} < 2, 0)", f"mod({TWO}, 2)", f"not {TWO} = 2",
     f"({TWO} - 2)^(1/3)", f"ln({TWO} - 2)",
@@ -36,7 +37,7 @@ def test_nor_is_anything_that_rests_on_it(text):
         value(text)
 
 
-@pytest.mark.parametrize(("text", "expected"), [
+@together(("text", "expected"), [
     ("sqrt(2) < 3/2", True), ("sqrt(2) > 3/2", False), ("sqrt(2) <= 3/2", True),
     ("3/2 >= sqrt(2)", True), ("sqrt(2) >= 3/2", False), ("sqrt(2) = 3/2", False),
     ("sqrt(2) != 3/2", True), ("2/3 < 2/3", False), ("2/3 <= 2/3", True), ("2/3 = 4/6", True),
@@ -45,7 +46,7 @@ def test_what_is_certain_is_decided(text, expected):
     assert value(text) is expected
 
 
-@pytest.mark.parametrize(("text", "expected"), [
+@together(("text", "expected"), [
     ("sqrt(4/9)", "2/3"), ("sqrt(0)", "0"), ("(9/4)^(1/2)", "3/2"), ("(2/3)^-3", "27/8"),
     ("log2(8)", "3"), ("log2(1/8)", "-3"), ("log10(1000)", "3"), ("log10(1)", "0"), ("exp(0)", "1"),
     ("erf(0)", "0"), ("erfc(0)", "1"), ("mod(-7/2, 2)", "1/2"), ("floor(-sqrt(2))", "-2"),
@@ -57,7 +58,7 @@ def test_rational_values_stay_rational(text, expected):
     assert Fraction(int(found.p), int(found.q)) == Fraction(expected)
 
 
-@pytest.mark.parametrize("text", ["sqrt(2)", "sqrt(4/3)", "sqrt(3/4)", "sqrt(8/9)", "2^(1/2)",
+@together("text", ["sqrt(2)", "sqrt(4/3)", "sqrt(3/4)", "sqrt(8/9)", "2^(1/2)",
                                   "log2(6)", "log10(2)", "log2(8/3)", "exp(1)", "pi"])  # fmt: skip
 def test_irrational_values_are_balls_of_the_working_precision(text):
     found = value(text)
@@ -73,7 +74,7 @@ def test_a_root_is_the_number_whose_square_it_is(text, square):
     assert 0 < abs(found - Fraction(square)) < Fraction(1, 10**40)
 
 
-@pytest.mark.parametrize("text", ["1/0", "sqrt(-1)", "0^-1", "ln(0)", "log2(-1)", "(-2)^(1/3)",
+@together("text", ["1/0", "sqrt(-1)", "0^-1", "ln(0)", "log2(-1)", "(-2)^(1/3)",
                                   "asin(2)", "(-sqrt(2))^(1/2)", "sqrt(-sqrt(2))"])  # fmt: skip
 def test_what_has_no_real_value_is_an_error(text):
     with pytest.raises(MathError):

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import pytest
 import sympy as sp
+from sweep import together
 
 from quizgen.core.errors import BankError
 from quizgen.maths.from_sympy import from_sympy
@@ -97,9 +98,7 @@ def _plain(tree):
     return Call(tree.op, tuple(args))
 
 
-@pytest.mark.parametrize(
-    ("written", "text"), [pair for pair in WRITTEN if pair[1]], ids=[t for _, t in WRITTEN if t]
-)
+@together(("written", "text"), [pair for pair in WRITTEN if pair[1]])
 def test_order_is_kept(written, text):
     assert _same(from_sympy(written), parse_formula(text))
 
@@ -112,9 +111,7 @@ VALUES = {
 }
 
 
-@pytest.mark.parametrize(
-    "written", [written for written, _ in WRITTEN if isinstance(written, sp.Expr)], ids=str
-)
+@together("written", [written for written, _ in WRITTEN if isinstance(written, sp.Expr)])
 def test_value_is_what_sympy_computes(written):
     with sp.evaluate(True):
         point = {symbol: VALUES[symbol.name] for symbol in written.free_symbols}
@@ -147,7 +144,7 @@ def test_conditions():
     ]
 
 
-@pytest.mark.parametrize(
+@together(
     "bad",
     [
         sp.Function("g")(x),
@@ -168,7 +165,6 @@ def test_conditions():
         True,
         sp.Float("inf"),
     ],
-    ids=repr,
 )
 def test_everything_else_is_refused(bad):
     with pytest.raises(BankError):

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import sympy
 from flint import fmpq
+from sweep import together
 
 from quizgen.core.errors import FormulaError, MathError
 from quizgen.maths import lists
@@ -38,7 +39,7 @@ EXPECTED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("text", EXPECTED)
+@together("text", EXPECTED)
 def test_values_are_those_of_numpy(text):
     tree = parse_formula(text, symbols=["x", "y"])
     assert to_float(evaluate(tree, EXACT)) == pytest.approx(EXPECTED[text], rel=1e-12)
@@ -60,7 +61,7 @@ def test_what_is_rational_is_exact(text, exactly):
     assert to_fraction(found) == exactly([Fraction(one) for one in X])
 
 
-@pytest.mark.parametrize("text", EXPECTED)
+@together("text", EXPECTED)
 def test_a_formula_is_written_as_it_is_read_and_printed_everywhere(text):
     tree = parse_formula(text)
     assert parse_formula(format_tree(tree)) == tree
@@ -70,7 +71,7 @@ def test_a_formula_is_written_as_it_is_read_and_printed_everywhere(text):
     assert all(to_speech(node, lang) for lang in ("en", "bn", "de"))
 
 
-@pytest.mark.parametrize(
+@together(
     ("text", "what"),
     [
         ("x[0]", "the first is 1"),
@@ -113,7 +114,7 @@ def test_a_letter_has_a_bar_for_its_mean():
     assert to_latex(lay_out(parse_formula("mean(x)"))) == r"\bar{x}"
 
 
-@pytest.mark.parametrize("text", ["mean(x + y)", "2*x", "x*2", "x < y", "max(x, y)", "x + 1", "-x"])
+@together("text", ["mean(x + y)", "2*x", "x*2", "x < y", "max(x, y)", "x + 1", "-x"])
 def test_no_sum_joins_lists_and_no_sign_orders_them(text):
     for system, env in ((exact_system(), EXACT), (float64_system(), FLOATS)):
         with pytest.raises(TypeError):

@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sweep import together
 
 from quizgen.maths.notation import FUNCTIONS, FormulaReadError, format_tree, parse_formula
 from quizgen.maths.operators import BINDERS
@@ -49,7 +50,7 @@ TREES = {
 }
 
 
-@pytest.mark.parametrize("text", TREES)
+@together("text", TREES)
 def test_author_notation(text):
     assert parse_formula(text) == TREES[text]
 
@@ -69,7 +70,7 @@ def test_juxtaposition_of_declared_names(text, same):
     assert parse_formula(text, symbols=declared) == parse_formula(same, symbols=declared)
 
 
-@pytest.mark.parametrize(
+@together(
     ("text", "code", "column"),
     [
         ("", "empty", 1),
@@ -101,7 +102,7 @@ SIGNS = ["AND", "JOIN", "MINUS", "OR", "PLUS", "POWER", "RELATION", "SLASH", "TI
 TERM = ["CONSTANT", "FUNCTION", "LBAR", "LPAR", "NAME", "NUMBER", "ROOT"]
 
 
-@pytest.mark.parametrize(
+@together(
     ("text", "expected"),
     [
         ("a +", [*TERM, "MINUS", "PLUS"]),
@@ -124,7 +125,7 @@ def test_errors_name_what_could_have_stood_there(text, expected):
     assert list(caught.value.expected) == sorted(expected)
 
 
-@pytest.mark.parametrize(
+@together(
     ("text", "same"),
     [
         ("-a^-b^c", "-(a^(-(b^c)))"),

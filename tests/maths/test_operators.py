@@ -8,6 +8,7 @@ import sys
 
 import pytest
 import sympy
+from sweep import together
 
 from quizgen.maths import number_systems
 from quizgen.maths.from_sympy import from_sympy
@@ -96,7 +97,7 @@ def test_a_system_knows_what_the_table_says(system):
     assert set(BUILT[system].ops) == declared
 
 
-@pytest.mark.parametrize(
+@together(
     ("name", "system"),
     [(name, system) for name in OPERATORS for system in SYSTEMS if runs(name, system)],
 )
@@ -109,8 +110,8 @@ def test_every_system_finds_the_same_value(name, system):
     assert close(number_systems.compile_expr(example(name), built)(env), VALUES[name])
 
 
-@pytest.mark.parametrize("name", ["add", "mul", "min", "max"])
-@pytest.mark.parametrize("system", SYSTEMS)
+@together("name", ["add", "mul", "min", "max"])
+@together("system", SYSTEMS)
 def test_operators_of_many_arguments_fold(name, system):
     built = BUILT[system]
     args = tuple(make_number(text) for text in ("3", "-2", "0.5"))
@@ -118,16 +119,16 @@ def test_operators_of_many_arguments_fold(name, system):
     assert close(number_systems.compile_expr(Call(name, args), built)({}), expected)
 
 
-@pytest.mark.parametrize("name", ["min", "max"])
-@pytest.mark.parametrize("system", SYSTEMS)
+@together("name", ["min", "max"])
+@together("system", SYSTEMS)
 def test_the_least_of_one_is_itself(name, system):
     assert close(
         number_systems.compile_expr(Call(name, (make_number("0.5"),)), BUILT[system])({}), 0.5
     )
 
 
-@pytest.mark.parametrize("system", SYSTEMS)
-@pytest.mark.parametrize(("text", "expected"), [("-2.5", -3), ("2.5", 3), ("-0.4", 0)])
+@together("system", SYSTEMS)
+@together(("text", "expected"), [("-2.5", -3), ("2.5", 3), ("-0.4", 0)])
 def test_rounding_is_half_away_from_zero_everywhere(system, text, expected):
     assert close(
         number_systems.compile_expr(Call("round", (make_number(text),)), BUILT[system])({}),
@@ -135,14 +136,12 @@ def test_rounding_is_half_away_from_zero_everywhere(system, text, expected):
     )
 
 
-@pytest.mark.parametrize("name", OPERATORS)
+@together("name", OPERATORS)
 def test_what_is_written_reads_as_the_same_tree(name):
     assert parse_formula(format_tree(example(name)), symbols=("x", "y")) == example(name)
 
 
-@pytest.mark.parametrize(
-    ("name", "sign"), [(name, sign) for name, row in OPERATORS.items() for sign in row.signs]
-)
+@together(("name", "sign"), [(name, sign) for name, row in OPERATORS.items() for sign in row.signs])
 def test_every_sign_is_read(name, sign):
     row = OPERATORS[name]
     text = {0: sign, 1: f"{sign} x"}.get(row.most, f"x {sign} y")
@@ -152,7 +151,7 @@ def test_every_sign_is_read(name, sign):
     assert read.op == name
 
 
-@pytest.mark.parametrize("name", OPERATORS)
+@together("name", OPERATORS)
 def test_every_printer_writes_it(name):
     laid_out = lay_out(example(name))
     printed = [to_latex(laid_out), to_mathml(laid_out), to_typst(laid_out)]
@@ -162,7 +161,7 @@ def test_every_printer_writes_it(name):
     assert spoken_both[0] != spoken_both[1] or name in {"log2", "log10"}
 
 
-@pytest.mark.parametrize("name", OPERATORS)
+@together("name", OPERATORS)
 def test_sympy_reads_back_what_it_was_given(name):
     if name == "piecewise":
         x, y = sympy.symbols("x y")

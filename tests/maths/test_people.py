@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import pytest
+from sweep import together
 
 from quizgen.maths.notation import format_tree, parse_formula, pretty
 
 GAP = "\N{NARROW NO-BREAK SPACE}"
 
 
-@pytest.mark.parametrize(
+@together(
     ("machine", "person"),
     [
         ("0", "0"),
@@ -40,7 +40,7 @@ def test_a_number(machine, person):
     assert pretty.format_number(person.replace(GAP, "")) == person
 
 
-@pytest.mark.parametrize(
+@together(
     ("symbol", "person"),
     [
         ("f", "f"),
@@ -70,7 +70,7 @@ def test_a_name(symbol, person):
     assert pretty.format_name(symbol) == person
 
 
-@pytest.mark.parametrize(
+@together(
     ("typed", "person"),
     [
         ("f*X/Z", "f·X/Z"),
@@ -96,7 +96,7 @@ def test_constants_that_need_braces_get_brackets():
     )
 
 
-@pytest.mark.parametrize(
+@together(
     ("text", "person"),
     [
         ("between -1 and 1", "between −1 and 1"),

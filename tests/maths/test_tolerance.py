@@ -7,6 +7,7 @@ from fractions import Fraction
 import msgspec
 import pytest
 from flint import arb, fmpq
+from sweep import together
 
 from quizgen.maths.tolerance import AngleTolerance, Tolerance, parse_tolerance
 
@@ -25,7 +26,7 @@ WIDTHS = [
 ]
 
 
-@pytest.mark.parametrize(("rule", "key", "width"), WIDTHS)
+@together(("rule", "key", "width"), WIDTHS)
 def test_the_bounds_are_closed(rule, key, width):
     tolerance, value, half = Tolerance(**rule), Fraction(key), Fraction(width)
     least = Fraction(1, 10**12)
@@ -39,7 +40,7 @@ def rational(value: Fraction) -> fmpq:
     return fmpq(value.numerator, value.denominator)
 
 
-@pytest.mark.parametrize(("rule", "key", "width"), WIDTHS)
+@together(("rule", "key", "width"), WIDTHS)
 def test_around_a_float_the_width_is_a_little_more(rule, key, width):
     found, half = Tolerance(**rule).outer_width(float(Fraction(key))), Fraction(width)
     assert half < Fraction(found) < half * (1 + Fraction(1, 10**8))
@@ -65,7 +66,7 @@ def test_a_ball_on_the_bound_is_near():
     assert not Tolerance(abs=1).is_within(arb("2.1", "1e-9"), fmpq(1))
 
 
-@pytest.mark.parametrize(
+@together(
     ("value", "accepted"),
     [("10", True), ("10.05", True), ("10.06", False), ("20", True), ("30", True), ("19.99", False),
      ("30.01", False)],
@@ -75,7 +76,7 @@ def test_an_interval_is_accepted_besides(value, accepted):
     assert tolerance.accepts(rational(Fraction(value)), fmpq(10)) is accepted
 
 
-@pytest.mark.parametrize(
+@together(
     ("rule", "said"),
     [
         ({"decimals": 1, "rel": "0.1"}, "only one of decimals, sigfigs, rel, abs, exact"),
@@ -99,7 +100,7 @@ def test_what_cannot_be_meant_is_refused(rule, said):
         Tolerance(**rule).validate()
 
 
-@pytest.mark.parametrize(
+@together(
     "rule",
     [{}, {"decimals": 0}, {"decimals": 40}, {"sigfigs": 1}, {"sigfigs": 40}, {"exact": True},
      {"rel": "1/3"}, {"accept": ["1", "2"]}],

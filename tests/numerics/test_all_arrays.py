@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from functions import FUNCTIONS, function
 from oracle import reference
+from sweep import together
 from ulp import ulps
 
 from quizgen import numerics
@@ -111,7 +112,7 @@ def test_no_public_function_is_left_out():
     assert FUNCTIONS.keys() == DRAWN.keys() == SUBNORMAL.keys()
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
+@together("name", FUNCTIONS)
 def test_subnormal_numbers(name):
     for args in SUBNORMAL[name]:
         values = function(name)(*[np.array([arg, arg]) for arg in args])
@@ -120,8 +121,8 @@ def test_subnormal_numbers(name):
         assert_right(name, values[1], args)
 
 
-@pytest.mark.parametrize("kinds", [("f4", "f8"), ("f8", "f2"), ("f2", "f4"), ("g", "f4", "O")])
-@pytest.mark.parametrize("name", FUNCTIONS)
+@together("kinds", [("f4", "f8"), ("f8", "f2"), ("f2", "f4"), ("g", "f4", "O")])
+@together("name", FUNCTIONS)
 def test_mixed_types_of_floats(name, kinds):
     """Each argument in another precision, long double and objects included."""
     columns = drawn(name)
@@ -137,8 +138,8 @@ def test_mixed_types_of_floats(name, kinds):
     assert is_defined(values).mean() > 0.8
 
 
-@pytest.mark.parametrize("kind", ["i1", "u1", "i4", "u4", "i8", "u8", ">i4", ">f8"])
-@pytest.mark.parametrize("name", WHOLE)
+@together("kind", ["i1", "u1", "i4", "u4", "i8", "u8", ">i4", ">f8"])
+@together("name", WHOLE)
 def test_whole_numbers_of_any_type(name, kind):
     args = WHOLE[name]
     if name == "distortion.fold_radius" and kind != "u1":
@@ -147,7 +148,7 @@ def test_whole_numbers_of_any_type(name, kind):
     assert_all_right(name, function(name)(*columns), columns, [0, 1])
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
+@together("name", FUNCTIONS)
 def test_masks_of_any_argument(name):
     columns, whole = drawn(name), function(name)(*drawn(name))
     for hidden in range(len(columns)):
@@ -162,7 +163,7 @@ def test_masks_of_any_argument(name):
         assert given[hidden].mask.sum() == len(range(3, COUNT, 7))
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
+@together("name", FUNCTIONS)
 def test_arrays_without_a_dimension(name):
     for place in range(0, COUNT, 7):
         args = [column[place] for column in drawn(name)]
@@ -185,8 +186,8 @@ STRIDES = {
 }
 
 
-@pytest.mark.parametrize("stride", STRIDES)
-@pytest.mark.parametrize("name", FUNCTIONS)
+@together("stride", STRIDES)
+@together("name", FUNCTIONS)
 def test_strides_of_what_may_not_be_written(name, stride):
     columns = [STRIDES[stride](column) for column in drawn(name)]
     before = [column.tobytes() for column in columns]
@@ -201,7 +202,7 @@ def test_strides_of_what_may_not_be_written(name, stride):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", FUNCTIONS)
+@together("name", FUNCTIONS)
 def test_ten_million_elements(name):
     """A result of eight bytes an element, and no more than a few blocks besides."""
     columns = [np.resize(column, MILLIONS) for column in drawn(name, 100_003)]

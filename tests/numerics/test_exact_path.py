@@ -11,6 +11,7 @@ from pathlib import Path
 
 import mpmath as mp
 import pytest
+from sweep import together
 from test_rows import ROWS, rows_of
 from ulp import ulps
 
@@ -89,7 +90,7 @@ def exactly(name, args):
     return evaluate(parse_formula(formula), given_of(name, args))
 
 
-@pytest.mark.parametrize("name", FORMULAS)
+@together("name", FORMULAS)
 def test_hard_rows_are_answered_or_refused(name):
     for args, truth, tolerance in rows_of(name):
         if abs(truth) == math.inf:
@@ -192,7 +193,7 @@ def test_the_policy_has_every_kind_of_case():
     assert kinds == {"refused", "undecided", "unreadable", "answered"}
 
 
-@pytest.mark.parametrize(("typed", "said"), list(policy()))
+@together(("typed", "said"), list(policy()))
 def test_the_policy_is_what_happens(typed, said):
     kind, _, reason = said.partition(": ")
     if kind == "answered":

@@ -14,6 +14,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 from functions import FUNCTIONS, function
+from sweep import together
 from ulp import ulps
 
 from quizgen.numerics.domain import DomainError, is_defined
@@ -37,7 +38,7 @@ def read(row):
     return name, tuple(map(float.fromhex, args.split())), truth, float(tolerance)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@together("name", NAMES)
 def test_alone_and_in_an_array(name):
     """Arrays of ordinary values take shorter ways than scalars and mixed arrays do."""
     wrong = []
@@ -72,7 +73,7 @@ def mixtures(args):
         ]
 
 
-@pytest.mark.parametrize("name", NAMES)
+@together("name", NAMES)
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")  # the other element may overflow
 def test_some_arguments_as_numbers(name):
     """Whatever is an array and whatever one number for all, the answer stays."""
@@ -119,7 +120,7 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("name", "args", "reason"), REFUSED)
+@together(("name", "args", "reason"), REFUSED)
 def test_no_answer(name, args, reason):
     with pytest.raises(DomainError) as caught:
         function(name)(*args)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from find_worst import SPACES
 from functions import function
+from sweep import together
 
 from quizgen.numerics import ufunc
 
@@ -30,7 +31,7 @@ def filled(result):
     return np.ma.filled(result, 0.0)
 
 
-@pytest.mark.parametrize("name", SPACES)
+@together("name", SPACES)
 def test_any_shape(name):
     call, columns = function(name), drawn(name)
     base = filled(call(*columns))

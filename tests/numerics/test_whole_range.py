@@ -15,6 +15,7 @@ import pytest
 from functions import COUNTS, FUNCTIONS, function
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from sweep import together
 from ulp import ulps
 
 from quizgen.numerics import distortion, gamma, hsv, projection
@@ -55,8 +56,8 @@ def test_any_finite_input(name, data):
     assert float(value[0]) == scalar or abs(float(value[0]) - scalar) <= 8 * math.ulp(scalar)
 
 
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, 10**400, np.longdouble("1e4000")])
-@pytest.mark.parametrize("name", FUNCTIONS)
+@together("value", [math.nan, math.inf, -math.inf, 10**400, np.longdouble("1e4000")])
+@together("name", FUNCTIONS)
 def test_what_is_not_finite_is_named(name, value):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -65,7 +66,7 @@ def test_what_is_not_finite_is_named(name, value):
         assert not is_defined(function(name)(*[[value, value]] * COUNTS.get(name, 1))).any()
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
+@together("name", FUNCTIONS)
 def test_a_mask_stays(name):
     first = np.ma.MaskedArray([0.5, 0.5, 0.5], mask=[False, True, False])
     others = [0.75] * (COUNTS.get(name, 1) - 1)
@@ -73,7 +74,7 @@ def test_a_mask_stays(name):
     assert is_defined(values).tolist() == [True, False, True]
 
 
-@pytest.mark.parametrize(
+@together(
     "number", [np.float64, np.float32, np.float16, np.int64, np.uint8, bool, np.array, Fraction]
 )
 def test_any_number_type(number):
@@ -81,8 +82,8 @@ def test_any_number_type(number):
     assert gamma.srgb_decode(number(1)) == 1
 
 
-@pytest.mark.parametrize("value", [1j, [1j], np.array([1j, 2]), np.complex64(1), np.ma.array([1j])])
-@pytest.mark.parametrize("name", FUNCTIONS)
+@together("value", [1j, [1j], np.array([1j, 2]), np.complex64(1), np.ma.array([1j])])
+@together("name", FUNCTIONS)
 def test_complex_numbers_are_refused(name, value):
     """NumPy would drop what is imaginary, with a warning."""
     with pytest.raises(TypeError, match="real numbers"):
@@ -164,9 +165,9 @@ def test_undistorting_in_any_unit():
         assert above >= 0 or value >= distortion.fold_radius(*row[1:]) * (1 - 1e-7)
 
 
-@pytest.mark.parametrize("k", [2.0**-61, 1e-25, 1e-40, 1e-300, 5e-324])
-@pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize("of_fourth", [False, True])
+@together("k", [2.0**-61, 1e-25, 1e-40, 1e-300, 5e-324])
+@together("sign", [1, -1])
+@together("of_fourth", [False, True])
 def test_undistorting_with_next_to_no_distortion(k, sign, of_fourth):
     """The root lies within one unit in the last place, by exact fractions; alone and in an array."""
     radii = np.array([5e-324, 1e-300, 1e-3, 0.3, 1.0, 1e3])
@@ -231,7 +232,7 @@ SLOW = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", SLOW)
+@together("case", SLOW)
 def test_no_element_takes_long(case):
     """At most 50 microseconds of a processor at its best; allowed are six times as many."""
     name, args = SLOW[case]
@@ -322,8 +323,8 @@ def test_pixels_of_tiny_depths_keep_their_digits():
     assert values.tolist() == pytest.approx([4e5, 1.2e6, 2e5], rel=2**-51)
 
 
-@pytest.mark.parametrize("odd", [-math.inf, math.inf, math.nan])
-@pytest.mark.parametrize(
+@together("odd", [-math.inf, math.inf, math.nan])
+@together(
     ("name", "place", "args"),
     [
         ("distortion.fold_radius", 0, (-0.2, 0.0)),

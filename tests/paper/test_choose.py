@@ -7,6 +7,7 @@ from itertools import combinations
 
 import pytest
 from shelf import Shelf
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.core.errors import BlueprintError
@@ -66,7 +67,7 @@ def test_a_time_is_filled_and_never_exceeded():
         select_templates(shelf, timed("optics", 6), 1)
 
 
-@pytest.mark.parametrize(
+@together(
     ("pools", "count"), [((3,), 1), ((3,), 2), ((3, 4), 1), ((3, 4), 2), ((2, 3, 4), 2),
                          ((2, 3), 3), ((3, 3), 5), ((1, 1, 5), 3)],
 )  # fmt: skip

@@ -6,6 +6,7 @@ import hashlib
 
 import pytest
 from small_bank import NAME, ONE, copied, fresh
+from sweep import together
 
 from quizgen.bank.variant import draw_variant
 from quizgen.core.errors import InvalidChoiceError, PaperCodeError, QuizgenError
@@ -23,7 +24,7 @@ def test_a_code_is_taken_apart_and_put_together():
     assert parse_code("mock-reference-en-0a1b2c").is_reference
 
 
-@pytest.mark.parametrize(
+@together(
     "text",
     ["", "hello", "mock-12-en", "mock-12-en-0a1b2", "mock-12-en-0a1b2C", "mock-x-en-0a1b2c",
      "mock--1-en-0a1b2c x", "mock-12345678901-en-0a1b2c", "-12-en-0a1b2c"],
@@ -33,8 +34,8 @@ def test_what_is_no_code_is_refused(text):
         parse_code(text)
 
 
-@pytest.mark.parametrize("choice", ["en", "both", "fr", "pt-BR", "sr-Latn", "es-419"])
-@pytest.mark.parametrize("level", ["", "-guided"])
+@together("choice", ["en", "both", "fr", "pt-BR", "sr-Latn", "es-419"])
+@together("level", ["", "-guided"])
 def test_a_code_holds_any_language_and_its_bank_says_whether_it_has_it(bank, choice, level):
     code = parse_code(f"mock-12-{choice}{level}-0a1b2c")
     assert (code.blueprint, code.seed, code.choice) == ("mock", "12", choice)
@@ -90,7 +91,7 @@ def test_a_value_is_the_documented_hash(bank):
             assert one.shown[name] == values[first % len(values)], (seed, name)
 
 
-@pytest.mark.parametrize("seed", [-1, 10**9 + 1, "x", "5", 1.0, True, None])
+@together("seed", [-1, 10**9 + 1, "x", "5", 1.0, True, None])
 def test_a_wrong_seed_is_named_with_what_is_allowed(bank, seed):
     with pytest.raises(InvalidChoiceError, match=r"seed: .*whole numbers from 0 to 1000000000"):
         build_paper(bank, load_blueprint("trial"), seed)

@@ -7,7 +7,7 @@ from fractions import Fraction
 import msgspec
 import pytest
 from road import Desk, all_templates, fields, typed
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.levels import CHOICES, EXAM
@@ -64,8 +64,8 @@ def test_a_code_holds_its_level_and_makes_the_paper_again(level):
             rebuild_paper(builtin_bank(), paper.code.replace(f"-{level}", ""), figures=False)
 
 
-@pytest.mark.parametrize("level", LEVELS)
-@pytest.mark.parametrize(("name", "seed"), PAPERS)
+@together("level", LEVELS)
+@together(("name", "seed"), PAPERS)
 def test_no_question_of_a_paper_tells_what_another_one_asks(level, name, seed):
     paper = build_paper(builtin_bank(), at(level, name), seed, "both", figures=False)
     assert find_paper_leaks(paper) == []

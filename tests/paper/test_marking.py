@@ -9,6 +9,7 @@ from fractions import Fraction
 
 import pytest
 from click.testing import CliRunner
+from sweep import together
 
 from quizgen.cli.check import check as check_command
 from quizgen.cli.mark import mark as mark_command
@@ -195,7 +196,7 @@ def test_missing_and_binary_files(tmp_path):
         read_filled_form(tmp_path / "a.json")
 
 
-@pytest.mark.parametrize(
+@together(
     ("spec", "message"),
     [
         ({"kind": "numbr", "value": "1"}, "unknown kind 'numbr'"),

@@ -12,6 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.core.errors import BlueprintError, PaperCodeError
@@ -141,7 +142,7 @@ def test_adding_a_template_changes_no_number_of_another(bank, tmp_path):
     assert [i.keys[0].draw.shown for i in small.items] == [i.keys[0].draw.shown for i in big.items]
 
 
-@pytest.mark.parametrize("name", ["mock", "trial", "all", "code", "colour", "noise"])
+@together("name", ["mock", "trial", "all", "code", "colour", "noise"])
 def test_no_question_gives_the_answer_of_another(bank, name):
     for seed in range(2):
         paper = build_paper(bank, load_blueprint(name), seed, figures=False)

@@ -9,8 +9,7 @@ import re
 from fractions import Fraction
 from functools import cache
 
-import pytest
-from sweep import spread
+from sweep import spread, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.grading.options import GradingOptions
@@ -121,22 +120,22 @@ def marked(name: str, part: str, typed: str, lang: str = "en"):
     return QuestionGrader(table_of_key, GradingOptions(lang)).grade_part(one, typed)
 
 
-@pytest.mark.parametrize("lang", ["en", "bn"])
-@pytest.mark.parametrize("where", FULL, ids=" ".join)
+@together("lang", ["en", "bn"])
+@together("where", FULL)
 def test_a_right_unit_is_never_refused(where, lang):
     for typed in FULL[where].split("|"):
         result = marked(*where, typed.replace("¦", "|"), lang)
         assert result.marks == result.points, (typed, result.verdict)
 
 
-@pytest.mark.parametrize("where", MISSING, ids=" ".join)
+@together("where", MISSING)
 def test_a_missing_unit_costs_half_a_point_at_most(where):
     result = marked(*where)
     assert result.verdict.note == "unit-missing"
     assert result.marks == Fraction(MISSING[where])
 
 
-@pytest.mark.parametrize("where", sorted(OTHER), ids=" ".join)
+@together("where", sorted(OTHER))
 def test_another_unit_is_told_as_such(where):
     result = marked(*where)
     assert (result.marks, result.verdict.note) == (0, "unit-wrong"), result.verdict
@@ -157,8 +156,8 @@ def _asks(question, label: str, lang: str) -> str:
     return re.sub(r"<[^>]+>", " ", bold[-1] if bold else text)
 
 
-@pytest.mark.parametrize("lang", ["en", "bn"])
-@pytest.mark.parametrize("name", spread(MEASURED, 16))
+@together("lang", ["en", "bn"])
+@together("name", spread(MEASURED, 16))
 def test_where_the_question_names_the_unit_a_bare_number_has_full_marks(name, lang):
     question, key, _ = keyed(name, lang)
     for part, spec in zip(question.parts, key.specs, strict=True):
@@ -189,8 +188,8 @@ def _answers(printed: str) -> list[str]:
     return [exact, words, bangla, bare]
 
 
-@pytest.mark.parametrize("lang", ["en", "bn"])
-@pytest.mark.parametrize("name", spread(MEASURED, 16))
+@together("lang", ["en", "bn"])
+@together("name", spread(MEASURED, 16))
 def test_every_printed_number_with_its_unit_without_and_in_words(name, lang):
     _, key, question_key = keyed(name, lang)
     marker = QuestionGrader(question_key, GradingOptions(lang))

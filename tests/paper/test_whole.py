@@ -8,7 +8,7 @@ from itertools import combinations, product
 
 import pytest
 from shelf import Shelf
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.bank.rules import suggested_minutes
 from quizgen.core.errors import BlueprintError
@@ -76,7 +76,7 @@ def test_who_is_past_the_syllabus_must_be_listed():
     assert {select_templates(shelf, plan(("a", "b")), s)[0] for s in range(20)} == {"a", "b"}
 
 
-@pytest.mark.parametrize(
+@together(
     ("demands", "said"),
     [
         ({"total": 100}, "total = 100 cannot be met: the slots together can make 3 to 7"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import pytest
+from sweep import together
 
 from quizgen.kinds.contract import LINE, InputBox, InputControl
 from quizgen.practice.input_fields import is_complete, join_fields, locate_in_fields
@@ -10,7 +10,7 @@ from quizgen.practice.input_fields import is_complete, join_fields, locate_in_fi
 TWO = InputControl("line", boxes=(InputBox(""), InputBox("")))
 
 
-@pytest.mark.parametrize(
+@together(
     ("control", "values", "marks", "right"),
     [
         (LINE, ["1"], (), True),
@@ -34,7 +34,7 @@ def test_filled(control, values, marks, right):
 NAMED = InputControl("line", boxes=(InputBox("V"), InputBox("S"), InputBox("H")), named=True)
 
 
-@pytest.mark.parametrize(
+@together(
     ("control", "values", "marked"),
     [
         (TWO, ["1", "?"], (1, 1)),

@@ -6,6 +6,7 @@ from datetime import UTC, date, datetime, timedelta
 
 import fsrs
 import pytest
+from sweep import together
 
 from quizgen.practice.agenda import Agenda
 from quizgen.practice.scheduler import (
@@ -38,7 +39,7 @@ def theirs(reviews, most=36500):
     return card
 
 
-@pytest.mark.parametrize("grades", ["3", "1", "33", "3331", "2323", "1133", "333333"])
+@together("grades", ["3", "1", "33", "3331", "2323", "1133", "333333"])
 def test_a_card_goes_the_way_of_fsrs(grades):
     reviews = [(3 * place, int(grade)) for place, grade in enumerate(grades)]
     card = None
@@ -86,7 +87,7 @@ def test_days_left():
     assert days_left(None, today) is None
 
 
-@pytest.mark.parametrize(
+@together(
     ("outcomes", "grade"),
     [
         ([RIGHT, RIGHT], ReviewRating.GOOD), ([RIGHT, LATER], ReviewRating.HARD), ([RIGHT, WRONG], ReviewRating.AGAIN),
@@ -133,46 +134,6 @@ def agenda(bank, cards, now=NOW, exam=None):
 def card(bank, name, grade, now):
     return {("template", bank.origin(name)): review_card(
         None, ("template", bank.origin(name)), grade, now)}  # fmt: skip
-
-
-def test_what_is_due_comes_first_the_longest_due_before(bank, names):
-    early = card(bank, names[3], ReviewRating.AGAIN, NOW - 2 * DAY)
-    late = card(bank, names[5], ReviewRating.AGAIN, NOW - DAY)
-    todo = agenda(bank, late | early)
-    assert todo.due_templates(names) == [names[3], names[5]]
-    assert todo.choose_next(names, [], {}) == names[3]
-    assert todo.choose_next(names, [], {}, latest=names[3]) == names[5], "not twice in a row"
-
-
-def test_a_mistake_that_is_due_brings_its_template(bank, names):
-    origin = bank.origin(names[4])
-    name = ("mistake", f"{origin}/trap:any")
-    cards = {name: review_card(None, name, ReviewRating.AGAIN, NOW - DAY)}
-    assert agenda(bank, cards).choose_next(names, [], {}) == names[4]
-
-
-def test_then_weak_topics_then_what_was_never_asked(bank, names):
-    noise = PartOutcome("noise", right=False, first=False)
-    todo = agenda(bank, {})
-    assert bank.rules(todo.choose_next(names, [noise], {})).topic == "noise"
-    begun = {name: 1 for name in names if name != names[2]}
-    assert todo.choose_next(names, [RIGHT], begun) == names[2]
-
-
-def test_in_the_end_what_is_due_soonest(bank, names):
-    cards = {}
-    for place, name in enumerate(names):
-        cards |= card(bank, name, ReviewRating.GOOD, NOW - 60 + (place != 6))
-    assert agenda(bank, cards).choose_next(names, [], {}) == names[6]
-
-
-def test_new_templates_of_a_day(bank, names):
-    assert agenda(bank, {}).new_per_day(names) == 5
-    begun = card(bank, names[0], ReviewRating.GOOD, NOW - 60)
-    assert agenda(bank, begun).new_per_day(names) == 4
-    left = -(-len(names) // 4)
-    assert agenda(bank, {}, exam=date(2026, 11, 26)).new_per_day(names) == left
-    assert agenda(bank, begun, exam=date(2026, 11, 26)).new_per_day(names) == left - 1
 
 
 def test_how_far_a_topic_is_known(bank, names):

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import msgspec
 import pytest
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.core.errors import AttemptFinishedError, InvalidChoiceError
@@ -138,8 +139,8 @@ ENDINGS = {
 }
 
 
-@pytest.mark.parametrize("then", ENDINGS)
-@pytest.mark.parametrize("ended", ENDINGS)
+@together("then", ENDINGS)
+@together("ended", ENDINGS)
 def test_a_part_that_has_ended_cannot_end_otherwise(ended, then):
     """Else a learner reads the solution, sends the answer again, and it counts as right."""
     task, spec = numeric_task()

@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from sweep import together
 
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.markdown import InlineCode, Paragraph, PlainText
@@ -121,7 +122,7 @@ def test_points_of_a_paper_and_of_its_report_have_it(tmp_path):
         assert list(format_table(result, lang, 80, paint=False))[-1].endswith(f"0 / 2{half[1]}5")
 
 
-@pytest.mark.parametrize(
+@together(
     ("written", "german"),
     [
         ("27.25 mm, -0.5; (1.5; 2.25).", "27,25 mm, -0,5; (1,5; 2,25)."),

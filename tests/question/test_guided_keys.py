@@ -26,7 +26,7 @@ UNITS_ALONE = [1, 180 / sympy.pi]
 """Between two values of one formula in different units; powers of ten also come by chance."""
 
 
-@pytest.fixture(scope="module", params=spread(CALCULATING, 12))
+@pytest.fixture(scope="module", params=spread(CALCULATING, 12, slow=32))
 def template(request):
     return builtin_bank().template(request.param)
 

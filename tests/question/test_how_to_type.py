@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from sweep import together
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "grading"))
 
@@ -24,8 +25,8 @@ TOLD = {
 }
 
 
-@pytest.mark.parametrize("lang", ["en", "bn", "de"])
-@pytest.mark.parametrize("table", FULL, ids=lambda table: table["kind"])
+@together("lang", ["en", "bn", "de"])
+@together("table", FULL)
 def test_every_kind_says_how_it_is_answered(table, lang):
     kind = table["kind"]
     told = [

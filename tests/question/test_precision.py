@@ -7,6 +7,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from sweep import together
 
 from quizgen.bank.variant import draw_variant
 from quizgen.question.solution import precision_table
@@ -18,7 +19,7 @@ def shown(text: str) -> float:
     return float(mantissa) * 10.0 ** int(digits or 0)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@together("seed", range(12))
 def test_the_far_tail_in_three_number_systems(bank, seed):
     one = draw_variant(bank.template("gaussian-far-tail-in-float64"), seed)
     k = int(one.shown["k"].p) / int(one.shown["k"].q)
@@ -40,7 +41,7 @@ def given(one, name):
     return int(one.values[name].p) / int(one.values[name].q)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@together("seed", range(12))
 def test_a_source_next_to_the_focal_plane(bank, seed):
     one = draw_variant(bank.template("source-near-focus-in-float32"), seed)
     f, d = given(one, "f"), given(one, "d")
@@ -55,7 +56,7 @@ def test_a_source_next_to_the_focal_plane(bank, seed):
     assert lost / 300 < abs(single / exact - 1) < 4 * lost
 
 
-@pytest.mark.parametrize("seed", range(12))
+@together("seed", range(12))
 def test_the_hue_next_to_gray(bank, seed):
     one = draw_variant(bank.template("hue-near-grey-in-float32"), seed)
     u, v = given(one, "u"), given(one, "v")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import pytest
+from sweep import together
 
 from quizgen import typeset
 from quizgen.bank.markdown import PlainText
@@ -15,7 +15,7 @@ def maths(text):
     return TypesetMaths(typeset.lay_out(parse_formula(text)), text)
 
 
-@pytest.mark.parametrize(
+@together(
     ("parts", "pieces"),
     [
         (

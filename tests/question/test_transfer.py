@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 import sympy
 from models import DIGITS, model, near, solved, symbols
-from sweep import spread
+from sweep import spread, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.markdown import ListBlock, Paragraph
@@ -33,7 +33,7 @@ CALCULATING = [
 SEEDS = [range(2), pytest.param(range(2, 4), marks=pytest.mark.slow)]
 
 
-@pytest.fixture(scope="module", params=spread(CALCULATING, 16))
+@pytest.fixture(scope="module", params=spread(CALCULATING, 12, slow=24))
 def template(request):
     return builtin_bank().template(request.param)
 
@@ -174,7 +174,7 @@ POWERS = [
 ]
 
 
-@pytest.mark.parametrize(("target", "formula", "before", "expected"), POWERS)
+@together(("target", "formula", "before", "expected"), POWERS)
 def test_a_power_is_what_the_formulas_prove(target, formula, before, expected):
     steps = {name: parse_formula(text) for name, text in {**before, target: formula}.items()}
     for quantity, power in expected.items():

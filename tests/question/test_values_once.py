@@ -11,6 +11,7 @@ from functools import cache, cached_property
 import flint
 import mpmath
 import pytest
+from sweep import together
 
 from quizgen.bank.bank import Bank, builtin_bank
 from quizgen.bank.variant import draw_variant
@@ -92,7 +93,7 @@ def test_a_paper_is_the_same_at_any_precision_and_in_threads():
             build_paper(BANK, load_blueprint("mock"), 11, "en", figures=False)), range(3))) == {found}  # fmt: skip
 
 
-@pytest.mark.parametrize("seed", range(6))
+@together("seed", range(6))
 def test_decibels_hold_forty_certified_digits(seed):
     """N photons have a ratio of sqrt N to one, 20 log10 of which is in decibels."""
     one = draw_variant(BANK.template("photon-snr-and-decibels"), seed)
@@ -104,7 +105,7 @@ def test_decibels_hold_forty_certified_digits(seed):
         digits(made.items[0].keys[0].specs[1].value, level)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@together("seed", range(6))
 def test_tails_hold_forty_certified_digits(seed):
     """Outside k standard deviations lies erfc(k / sqrt 2); megapixels times it is a count."""
     template = BANK.template("gaussian-peak-and-tail-shares")

@@ -6,6 +6,7 @@ import ast
 from pathlib import Path
 
 import pytest
+from sweep import together
 
 import quizgen.grading
 from quizgen.bank.language_file import parse_language_file
@@ -39,7 +40,7 @@ def test_a_gap_takes_the_terms_that_could_be_its_own_misspelt():
     assert spec({"kind": "gap", "gaps": ["light"]}).terms == ["proton", "phonon"]
 
 
-@pytest.mark.parametrize(
+@together(
     ("answer", "counts"),
     [
         ({"kind": "number", "of": "n", "counts": "sheep"}, ["sheep", "ভেড়া"]),

@@ -6,7 +6,7 @@ import html
 import re
 
 import pytest
-from sweep import spread
+from sweep import spread, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.markdown import InlineCode
@@ -75,8 +75,8 @@ def unreadable(text: str) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("lang", LANGS)
-@pytest.mark.parametrize("name", spread(builtin_bank().template_paths, 16))
+@together("lang", LANGS)
+@together("name", spread(builtin_bank().template_paths, 12, slow=60))
 def test_a_page_is_written_for_people(name, lang):
     for seed in SEEDS:
         question, key = compose_question(builtin_bank().template(name), seed, lang, figures=False)
@@ -87,8 +87,8 @@ def test_a_page_is_written_for_people(name, lang):
             assert NAME.findall(text) == []
 
 
-@pytest.mark.parametrize("lang", LANGS)
-@pytest.mark.parametrize("name", spread(builtin_bank().template_paths, 16))
+@together("lang", LANGS)
+@together("name", spread(builtin_bank().template_paths, 12, slow=60))
 def test_a_terminal_is_written_for_people(name, lang):
     template = builtin_bank().template(name)
     for seed in SEEDS:
@@ -105,8 +105,8 @@ def without_code(run):
     return tuple(part for part in run if not isinstance(part, InlineCode))
 
 
-@pytest.mark.parametrize("lang", LANGS)
-@pytest.mark.parametrize("name", spread(builtin_bank().template_paths, 16))
+@together("lang", LANGS)
+@together("name", spread(builtin_bank().template_paths, 12, slow=60))
 def test_what_is_said_of_mistakes_is_written_for_people(name, lang):
     """Each mistake of a question typed back: what was read, and what is said."""
     _, key = compose_question(builtin_bank().template(name), 1, lang, figures=False)

@@ -8,6 +8,7 @@ import sys
 import cv2
 import numpy as np
 import pytest
+from sweep import together
 
 from quizgen.bank.markdown import CodeBlock
 from quizgen.maths.numbers import to_float
@@ -44,7 +45,7 @@ def pairs(bank, name, part=0):
     return answer["pairs"]
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_k06_only_widening_before_the_sum_gives_255(bank, seed):
     source, truth, key, part = asked(bank, "uint8-sum-repair", seed)
     scope = run(source)
@@ -54,7 +55,7 @@ def test_k06_only_widening_before_the_sum_gives_255(bank, seed):
     assert key.specs[0].kind == "choice"
 
 
-@pytest.mark.parametrize("seed", ["reference", *range(24)])
+@together("seed", ["reference", *range(24)])
 def test_k08_wrong_order_of_indices(bank, seed):
     source, truth, key, _ = asked(bank, "pixel-indexing-outcome", seed)
     scope = run(source)
@@ -69,7 +70,7 @@ def test_k08_wrong_order_of_indices(bank, seed):
     assert [name for name, right in truth.items() if right] == [happened]
 
 
-@pytest.mark.parametrize("seed", range(8))
+@together("seed", range(8))
 def test_k12_repairs_exchange_red_and_blue(bank, seed):
     _, truth, _, part = asked(bank, "opencv-image-in-matplotlib", seed, part=1)
     texts = dict(zip(truth, [words[0].text for _, words in part.field.options], strict=True))
@@ -91,7 +92,7 @@ LOOKS = {
 }
 
 
-@pytest.mark.parametrize("seed", range(24))
+@together("seed", range(24))
 def test_k12_the_picture_looks_as_the_key_says(bank, seed):
     _, truth, key, _ = asked(bank, "opencv-image-in-matplotlib", seed)
     (look,) = [name for name, right in truth.items() if right]
@@ -137,7 +138,7 @@ def test_k09_the_colour_is_where_opencv_puts_it(bank, tmp_path, seed):
     assert [name for name, right in truth.items() if right] == [place]
 
 
-@pytest.mark.parametrize("seed", range(24))
+@together("seed", range(24))
 def test_s02_an_index_outside_stops_and_a_negative_one_counts_from_below(bank, seed):
     _, truth, key, _ = asked(bank, "pixel-index-and-shape", seed, part=2)
     rows, columns, i, j = (int(key.draw.shown[name].p) for name in ("H", "W", "i", "j"))
@@ -173,7 +174,7 @@ def called(source, point, f, optimised):
     return done.stdout.strip() or done.stderr.strip().splitlines()[-1].split(":")[0]
 
 
-@pytest.mark.parametrize("name", POINTS)
+@together("name", POINTS)
 def test_k20_each_call_does_what_the_key_says(bank, name):
     source, _, key, _ = asked(bank, "projection-non-positive-depth", 3)
     drawn = {k: int(key.draw.shown[k].p) for k in ("x", "y", "m", "f", "u", "v")}
@@ -201,7 +202,7 @@ def test_k21_the_order_gives_a_clean_uint8_image(bank):
     assert scope["x"].max() == 255
 
 
-@pytest.mark.parametrize("seed", range(24))
+@together("seed", range(24))
 def test_k21_the_pixel_is_what_the_program_stores(bank, seed):
     template = bank.template("add-noise-to-uint8-order")
     words, answer = template.texts["en"].named["options"], template.rules.part[0].answer
@@ -218,7 +219,7 @@ def test_k21_the_pixel_is_what_the_program_stores(bank, seed):
     assert key.specs[1].output == str(scope["x"][0, 0])
 
 
-@pytest.mark.parametrize("seed", range(24))
+@together("seed", range(24))
 def test_k22_what_two_calls_and_two_runs_give(bank, seed):
     source, truth, key, _ = asked(bank, "random-generator-default-argument", seed)
     head, line = (
@@ -255,7 +256,7 @@ def test_k23_types_and_ranges(bank):
         assert right != "uint8-unit" or set(np.unique(got)) == {0, 1}
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@together("seed", SEEDS)
 def test_k26_borders(bank, seed):
     source, _, key, _ = asked(bank, "demosaic-at-border", seed)
     neighbours = run(source)["neighbours"]
@@ -274,7 +275,7 @@ def test_k26_borders(bank, seed):
 CUT = {"whole": (0, 0), "row": (1, 0), "column": (0, 1), "both": (1, 1)}
 
 
-@pytest.mark.parametrize("seed", range(24))
+@together("seed", range(24))
 def test_k27_the_constant_keeps_a_red_scene_red(bank, seed):
     _, truth, key, part = asked(bank, "opencv-bayer-constant", seed)
     tile = key.draw.words["tile"].upper()

@@ -12,7 +12,7 @@ import re
 import warnings
 from fractions import Fraction
 
-import pytest
+from sweep import together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.markdown import CodeBlock
@@ -57,7 +57,7 @@ PRINTING = [
 ]
 
 
-@pytest.mark.parametrize("name", PRINTING)
+@together("name", PRINTING)
 def test_the_key_is_what_the_program_prints(bank, name):
     template = bank.template(name)
     for seed in SEEDS:
@@ -70,7 +70,7 @@ def test_the_key_is_what_the_program_prints(bank, name):
             assert numbers(output) == [Fraction(value) for value in values(spec)]
 
 
-@pytest.mark.parametrize("name", CODE)
+@together("name", CODE)
 def test_both_languages_show_the_same_program(bank, name):
     sources = [programs(bank.template(name), 4, lang)[0] for lang in ("en", "bn")]
     assert sources[0] == sources[1]

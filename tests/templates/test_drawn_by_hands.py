@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import pytest
 from grading.hands import Line, drawings, waved
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.kinds.grade import grade_answer, show_key
@@ -242,8 +242,8 @@ def by_hand(board, lines: Lines, seed: int) -> str:
     )
 
 
-@pytest.mark.parametrize("hands", HANDS)
-@pytest.mark.parametrize("name", TASKS)
+@together("hands", HANDS)
+@together("name", TASKS)
 def test_hands_that_draw_it_right_earn_all(name, hands):
     failed = {}
     for seed in range(hands):
@@ -258,8 +258,8 @@ def said(verdict) -> set[str]:
     return {verdict.note, *verdict.fields.get("because", ())}
 
 
-@pytest.mark.parametrize("hands", WRONG_HANDS)
-@pytest.mark.parametrize(
+@together("hands", WRONG_HANDS)
+@together(
     ("name", "shape"), [(name, shape) for name, task in TASKS.items() for shape in task.wrong]
 )
 def test_wrong_shapes_are_named_and_never_right(name, shape, hands):

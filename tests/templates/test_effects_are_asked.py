@@ -1,6 +1,6 @@
 """Every effect of the camera has a question that is answered by a number of that effect."""
 
-import pytest
+from sweep import together
 
 from quizgen.camera.effects import EFFECTS
 
@@ -45,7 +45,7 @@ def test_no_effect_is_left_out():
     assert list(ASKED) == [effect.name for effect in EFFECTS]
 
 
-@pytest.mark.parametrize("name", sorted(set(ASKED.values())))
+@together("name", sorted(set(ASKED.values())))
 def test_it_asks_for_a_number_of_its_computation(bank, name):
     template = bank.template(name)
     kinds = {part.answer["kind"] for part in template.rules.part}

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import mpmath
 import pytest
+from sweep import together
 
 ROOT = Path(__file__).parents[2]
 CONTENT = ROOT / "templates" / "cards"
@@ -57,7 +58,7 @@ def test_every_erratum_stands_on_the_page_once():
     assert set(listed) == known - {"E45", "E52"}
 
 
-@pytest.mark.parametrize("row", ROWS.values(), ids=ROWS)
+@together("row", ROWS.values())
 def test_what_a_row_names_exists(row):
     assert len(row) == 6
     assert names(row[5])
@@ -185,7 +186,7 @@ SAID = [
 ]
 
 
-@pytest.mark.parametrize(("erratum", "name", "words"), SAID)
+@together(("erratum", "name", "words"), SAID)
 def test_it_says_what_the_page_claims(erratum, name, words):
     assert name in names(ROWS[erratum][5])
     assert words in " ".join(wording(name).split())
@@ -302,7 +303,7 @@ NUMBERS = [
 ]
 
 
-@pytest.mark.parametrize(("erratum", "words", "value", "stated", "within"), NUMBERS)
+@together(("erratum", "words", "value", "stated", "within"), NUMBERS)
 def test_a_stated_number_is_right(erratum, words, value, stated, within):
     assert words in " ".join(ROWS[erratum])
     assert abs(float(value) - stated) <= within

@@ -6,8 +6,7 @@ import itertools
 import math
 
 import mpmath
-import pytest
-from sweep import draws, spread
+from sweep import draws, spread, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.pools import count_pool_variants
@@ -25,7 +24,7 @@ QUICKLY_COUNTED, MOST_COUNTED = 200, 60_000
 """Largest number of candidates that the default tests, and any tests, walk through for a pool."""
 
 
-@pytest.mark.parametrize("name", spread(NAMES, 16))
+@together("name", spread(NAMES, 16))
 def test_lint_finds_nothing(bank, name):
     report = lint_template(bank.template(name), SEEDS, bank.languages)
     assert report.problems == []
@@ -68,7 +67,7 @@ def by_mpmath(expr: Expr, env):
     return MPMATH[expr.op](*(by_mpmath(arg, env) for arg in expr.args))
 
 
-@pytest.mark.parametrize("name", spread([n for n in NAMES if builtin_bank().rules(n).solver], 20))
+@together("name", spread([n for n in NAMES if builtin_bank().rules(n).solver], 20))
 def test_values_agree_with_mpmath_at_sixty_digits(bank, name):
     template = bank.template(name)
     with mpmath.workdps(60):
@@ -93,13 +92,13 @@ def tried(name):
 
 
 COUNTED = [
-    pytest.param(name, marks=[pytest.mark.slow] * (tried(name) > QUICKLY_COUNTED))
-    for name in NAMES
-    if builtin_bank().rules(name).pool and tried(name) <= MOST_COUNTED
+    name for name in NAMES if builtin_bank().rules(name).pool and tried(name) <= MOST_COUNTED
 ]
+QUICKLY = [name for name in COUNTED if tried(name) <= QUICKLY_COUNTED]
+LONG = spread((name for name in COUNTED if name not in QUICKLY), 0, slow=27)
 
 
-@pytest.mark.parametrize("name", COUNTED)
+@together("name", [*QUICKLY, *LONG])
 def test_the_pool_is_as_large_as_stated(bank, name):
     template = bank.template(name)
     plan = sampler_for(template)
@@ -116,9 +115,7 @@ def test_the_pool_is_as_large_as_stated(bank, name):
     assert count == template.rules.pool
 
 
-@pytest.mark.parametrize(
-    "name", spread([n for n in NAMES if 1 < builtin_bank().rules(n).pool < DRAWS], 6)
-)
+@together("name", spread([n for n in NAMES if 1 < builtin_bank().rules(n).pool < DRAWS], 6))
 def test_no_more_draws_differ_than_the_pool_holds(bank, name):
     template = bank.template(name)
     seen = {draw_variant(template, seed).identity for seed in range(DRAWS)}
@@ -132,7 +129,7 @@ def choices():
                 yield name, index
 
 
-@pytest.mark.parametrize(("name", "index"), spread(choices(), 12))
+@together(("name", "index"), spread(choices(), 8, slow=24))
 def test_the_right_choice_stands_anywhere(bank, name, index):
     """Position of the right option over seeds: no place more than five deviations off its share."""
     template = bank.template(name)

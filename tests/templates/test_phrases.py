@@ -6,6 +6,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from sweep import together
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.sampler import sampler_for, solve_candidate
@@ -137,7 +138,7 @@ def test_any_other_point_of_the_ray_in_front_of_the_camera_counts(bank, typed, v
     assert grade_answer(spec, typed).verdict == verdict
 
 
-@pytest.mark.parametrize("seed", range(12))
+@together("seed", range(12))
 def test_the_numbers_asked_for_are_those_of_the_picture(bank, seed):
     """The figure's own table of permutations decides where each edit stands."""
     one = draw_variant(bank.template("hsv-edit-from-pictures"), seed)

@@ -9,8 +9,8 @@ import tomllib
 from fractions import Fraction
 from pathlib import Path
 
-import pytest
 from msgspec import to_builtins
+from sweep import together
 
 from quizgen.bank.variant import reference_variant
 from quizgen.question.part_context import ask_part
@@ -29,7 +29,7 @@ def flat(spec):
     return values if isinstance(values, list) else [values]
 
 
-@pytest.mark.parametrize("row", ROWS, ids=lambda r: f"{r['template']}-{r['part']}")
+@together("row", ROWS)
 def test_the_notes_are_reproduced(bank, row):
     spec = to_builtins(
         ask_part(reference_variant(bank.template(row["template"])), row["part"] - 1).spec

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.lint.item_quality import review_template
@@ -15,12 +15,12 @@ def errors(template, seeds):
     return [str(one) for one in review_template(template, seeds) if one.level == "error"]
 
 
-@pytest.mark.parametrize("name", NAMES[::12])
+@together("name", NAMES[::12])
 def test_it_teaches(bank, name):
     assert errors(bank.template(name), 200) == []
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
+@together("name", NAMES)
 def test_it_teaches_in_many_draws(bank, name):
     assert errors(bank.template(name), draws(100)) == []

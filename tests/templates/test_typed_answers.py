@@ -4,33 +4,29 @@ from __future__ import annotations
 
 from collections import Counter
 from fractions import Fraction
+from functools import cache
 
 import pytest
 from msgspec import to_builtins
-from sweep import draws
+from sweep import draws, together
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.kinds.grade import grade_answer, load_spec, show_key
 from quizgen.question.compose import draw_instance
 from quizgen.question.part_context import ask_part
 
-EVERY_WAY = 20
+EVERY_WAY = 6
 """Draws whose answers are typed in every way; those of the others in one way in turn."""
-SEEDS = [3, pytest.param(draws(25), marks=pytest.mark.slow)]
+SEEDS = [3, pytest.param(draws(20), marks=pytest.mark.slow)]
 BANGLA = str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯")
 NOT_TYPED_BACK = {"text", "witness"}  # no single printed answer
 TEMPLATES = list(builtin_bank().template_paths)
 
 
-@pytest.fixture(scope="module", params=SEEDS)
-def seeds(request):
-    return request.param
-
-
-@pytest.fixture(scope="module", params=TEMPLATES)
-def parts(request, seeds):
+@cache
+def draw_parts(name, seeds):
     """Specs of every part, one list per seed: drawn once, used by all tests of a template."""
-    template = builtin_bank().template(request.param)
+    template = builtin_bank().template(name)
     return [
         [to_builtins(ask_part(drawn, index).spec) for index in range(len(template.rules.part))]
         for drawn in (draw_instance(template, seed) for seed in range(seeds))
@@ -42,8 +38,10 @@ def tables(parts, most=None):
         yield from drawn
 
 
-def test_printed_answer_typed_back_is_correct(parts):
-    for seed, drawn in enumerate(parts):
+@together("seeds", SEEDS)
+@together("name", TEMPLATES)
+def test_printed_answer_typed_back_is_correct(name, seeds):
+    for seed, drawn in enumerate(draw_parts(name, seeds)):
         for table in drawn:
             if table["kind"] in NOT_TYPED_BACK:
                 continue
@@ -69,9 +67,11 @@ def shaped(table, value):
     return show_key({**plain, name: value})
 
 
-def test_typed_traps_are_named_and_never_misnamed(parts):
+@together("seeds", SEEDS)
+@together("name", TEMPLATES)
+def test_typed_traps_are_named_and_never_misnamed(name, seeds):
     named: Counter[str] = Counter()
-    for table in tables(parts):
+    for table in tables(draw_parts(name, seeds)):
         spec = load_spec(table)
         for trap, value in table.get("traps", {}).items():
             if table["kind"] in {"choice", "multi", "match", "order", "code", "expression"}:
@@ -109,8 +109,10 @@ def typed(value, table):
     return f"{value.numerator}/{value.denominator} {unit}{percent}".strip()
 
 
-def test_the_bound_counts_and_beyond_it_does_not(parts):
-    for table in tables(parts, 40):
+@together("seeds", SEEDS)
+@together("name", TEMPLATES)
+def test_the_bound_counts_and_beyond_it_does_not(name, seeds):
+    for table in tables(draw_parts(name, seeds), 40):
         if table["kind"] not in {"number", "quantity"} or "accept" in table:
             continue
         key = Fraction(table["value"]) * (100 if table.get("percent") else 1)

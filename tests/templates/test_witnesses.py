@@ -7,6 +7,7 @@ import random
 from fractions import Fraction
 
 import pytest
+from sweep import together
 
 from quizgen.bank.variant import draw_variant, reference_variant
 from quizgen.kinds.grade import grade_answer
@@ -23,7 +24,7 @@ def typed(values):
     return "; ".join(str(v) for v in values)
 
 
-@pytest.mark.parametrize("seed", ["reference", *range(12)])
+@together("seed", ["reference", *range(12)])
 def test_hsv_value_fails_additivity_exactly_without_a_common_largest_channel(bank, seed):
     spec, one = spec_of(bank, "hsv-nonlinearity-counterexample", seed)
     a = [Fraction(int(one.shown[f"a_{i}"].p), int(one.shown[f"a_{i}"].q)) for i in (1, 2, 3)]
@@ -70,7 +71,7 @@ def test_points_that_are_not_in_line_are_told_so(bank):
     assert grade_answer(spec, "A = (0; 0); B = (0.5; 0.5); C = (0.2; 1)").note == "constraint"
 
 
-@pytest.mark.parametrize("seed", range(6))
+@together("seed", range(6))
 def test_encoding_is_refuted_by_any_two_positive_intensities(bank, seed):
     spec, _ = spec_of(bank, "gamma-linearity-counterexample", seed, part=1)
     assert grade_answer(spec, "0.25; 0.25").verdict == "correct"

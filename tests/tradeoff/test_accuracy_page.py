@@ -11,6 +11,7 @@ import numpy as np
 import printed_by_hand
 import pytest
 from click.testing import CliRunner
+from sweep import together
 
 from quizgen.cli.tradeoff import tradeoff
 from quizgen.locale import list_languages
@@ -157,7 +158,7 @@ def test_the_slider_says_how_far_an_exam_goes(report):
         assert {said[0], said[-1]} == {"An exam goes this far.", "No exam goes this far."}
 
 
-@pytest.mark.parametrize(
+@together(
     ("value", "right", "written"),
     [
         (0.5, 17, ("5.0000000000000000", "", "·10⁻¹")),

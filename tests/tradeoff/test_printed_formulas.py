@@ -10,6 +10,7 @@ import mpmath as mp
 import numpy as np
 import printed_by_hand
 import pytest
+from sweep import together
 
 from quizgen.core.errors import MathError
 from quizgen.tradeoff import lines
@@ -34,7 +35,7 @@ def exam_of(name, count=EXAMS):
     return rows_of(BY_NAME[name].exam(np.random.default_rng(SEED), count))
 
 
-@pytest.mark.parametrize("name", BY_NAME)
+@together("name", BY_NAME)
 def test_right_values_are_those_of_mpmath(name):
     formula = BY_NAME[name]
     path = [np.asarray(column, float) for column in formula.path(formula.places(9))]
@@ -44,7 +45,7 @@ def test_right_values_are_those_of_mpmath(name):
             assert right == pytest.approx(float(printed_by_hand.truth(name, row)), rel=2e-16), row
 
 
-@pytest.mark.parametrize("name", BY_NAME)
+@together("name", BY_NAME)
 def test_the_path_leads_as_near_as_it_says(name):
     formula = BY_NAME[name]
     wanted = formula.places(7)
@@ -54,7 +55,7 @@ def test_the_path_leads_as_near_as_it_says(name):
     assert found[easy] == pytest.approx(wanted[easy], rel=near)
 
 
-@pytest.mark.parametrize("name", SUBTRACTING)
+@together("name", SUBTRACTING)
 def test_ten_times_nearer_costs_one_digit(sweeps, name):
     found = sweeps[name]
     for left, count in zip(found.left, found.ways["float64"].digits, strict=True):
@@ -75,7 +76,7 @@ def test_a_hue_is_safe_in_float64_and_not_in_float32(sweeps):
     assert min(sweeps[SAFE].ways["float32"].digits) < 1
 
 
-@pytest.mark.parametrize("name", [name for name, formula in BY_NAME.items() if formula.stable])
+@together("name", [name for name, formula in BY_NAME.items() if formula.stable])
 def test_rearranged_formulas_keep_fourteen_digits_all_the_way(sweeps, name):
     assert min(sweeps[name].ways["stable"].digits) >= 14
     for row in exam_of(name, 20):
@@ -153,7 +154,7 @@ def test_where_there_is_no_answer_the_truth_says_so():
         truths(BY_NAME["thin-lens"], [np.array([50.0]), np.array([50.0])])
 
 
-@pytest.mark.parametrize(
+@together(
     ("value", "right", "count"),
     [(2.0, 2.0, 17), (1.001, 1.0, 3), (0.0, 3.0, 0), (5.0, 1.0, 0), (1e-300, 0.0, 0),
      (math.nan, 1.0, 0), (math.inf, 1.0, 0), (math.inf, math.inf, 17)],

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from sweep import draws
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.variant import draw_variant
@@ -74,7 +75,15 @@ def test_no_template_of_a_sample_is_wrong_that_was_right_when_it_was_counted():
 
 @pytest.mark.slow
 def test_the_counts_are_those_of_today():
-    assert count_wrong(builtin_bank()).wrong == load_recorded_counts().wrong
+    """Of all that were counted with ``QUIZGEN_SEEDS=10000``, else of a part, as far as it goes."""
+    drawn = draws(1000)
+    now, then = count_wrong(builtin_bank(), drawn).wrong, load_recorded_counts().wrong
+    for system, counts in now.items():
+        assert all(number <= then[system].get(name, 0) for name, number in counts.items()), system
+        assert drawn < ROUND or counts == then[system]
+        # what goes wrong in a third of 60 questions and more does so among the first six
+        often = {name for name, number in then[system].items() if number > 20}
+        assert often <= counts.keys(), system
 
 
 def test_counts_are_kept_by_template():

@@ -11,9 +11,9 @@ import tomllib
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-import pytest
 import typst as engine
 from latex2mathml.converter import convert as latex_to_mathml
+from sweep import together
 
 from quizgen.typeset import to_latex, to_mathml, to_speech, to_text, to_typst
 from quizgen.typeset.from_latex import lay_out_latex
@@ -38,7 +38,7 @@ def test_there_are_sixty_formulas():
     assert len(set(LATEX)) >= 60
 
 
-@pytest.mark.parametrize("row", TABLE, ids=LATEX)
+@together("row", TABLE)
 def test_a_formula_is_heard_and_read_as_written_by_hand(row):
     node = lay_out_latex(row["latex"])
     assert to_speech(node) == row["speech"]
@@ -47,7 +47,7 @@ def test_a_formula_is_heard_and_read_as_written_by_hand(row):
         assert to_speech(node, lang) == row[lang]
 
 
-@pytest.mark.parametrize("latex", LATEX + EXAMPLES)
+@together("latex", LATEX + EXAMPLES)
 def test_mathml_is_well_formed_core(latex):
     tree = ET.fromstring(to_mathml(lay_out_latex(latex)))
     for element in tree.iter():
@@ -76,7 +76,7 @@ def test_all_formulas_compile_in_typst_without_a_warning():
     assert [str(warning) for warning in warnings] == []
 
 
-@pytest.mark.parametrize("latex", LATEX + EXAMPLES)
+@together("latex", LATEX + EXAMPLES)
 def test_what_is_written_as_latex_is_read_as_the_same_formula(latex):
     node = lay_out_latex(latex)
     written = to_latex(node)
@@ -84,13 +84,13 @@ def test_what_is_written_as_latex_is_read_as_the_same_formula(latex):
     assert to_speech(lay_out_latex(written)) == to_speech(node)
 
 
-@pytest.mark.parametrize("latex", LATEX)
+@together("latex", LATEX)
 def test_exports_can_read_what_is_written(latex):
     latex_to_mathml(to_latex(lay_out_latex(latex)))
 
 
-@pytest.mark.parametrize("lang", ["de", "bn"])
-@pytest.mark.parametrize("latex", EXAMPLES)
+@together("lang", ["de", "bn"])
+@together("latex", EXAMPLES)
 def test_every_example_has_words_in_every_language(latex, lang):
     said = to_speech(lay_out_latex(latex), lang)
     assert said

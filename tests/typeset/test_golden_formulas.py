@@ -6,9 +6,9 @@ import re
 import tomllib
 from xml.etree import ElementTree as ET
 
-import pytest
 from latex2mathml.converter import convert as latex_to_mathml
 from matplotlib.mathtext import MathTextParser
+from sweep import together
 
 from quizgen.typeset import to_latex, to_mathml, to_speech, to_typst
 from tests.typeset.table import FORMULAS, GOLDEN, nodes, outputs
@@ -25,12 +25,12 @@ def test_the_table_is_complete():
     assert chapter == {f"F{number:02}" for number in range(1, 47) if number != 29}
 
 
-@pytest.mark.parametrize("key", NODES)
+@together("key", NODES)
 def test_outputs_are_the_reviewed_ones(key):
     assert outputs(NODES[key]) == TABLE[key]
 
 
-@pytest.mark.parametrize("key", NODES)
+@together("key", NODES)
 def test_latex_parses_and_never_closes_a_cloze(key):
     for lang in ("en", "bn"):
         text = to_latex(NODES[key], lang)
@@ -39,13 +39,13 @@ def test_latex_parses_and_never_closes_a_cloze(key):
         latex_to_mathml(text)
 
 
-@pytest.mark.parametrize("key", [key for key in NODES if r"\begin" not in TABLE[key]["latex"]])
+@together("key", [key for key in NODES if r"\begin" not in TABLE[key]["latex"]])
 def test_latex_is_drawn_by_mathtext(key):
     text = TABLE[key]["latex"].replace(r"\bmod", r"\ \mathrm{mod}\ ")  # unknown to mathtext
     MathTextParser("path").parse(f"${text}$")
 
 
-@pytest.mark.parametrize("key", NODES)
+@together("key", NODES)
 def test_mathml_is_well_formed_core(key):
     core = {"math", "mrow", "mi", "mn", "mo", "mtext", "mspace", "mfrac", "msqrt", "mroot", "msub"}
     core |= {"mpadded", "msup", "msubsup", "mover", "munder", "munderover", "mtable", "mtr", "mtd"}
@@ -59,7 +59,7 @@ def test_mathml_is_well_formed_core(key):
             assert "-" not in (element.text or "")
 
 
-@pytest.mark.parametrize("key", NODES)
+@together("key", NODES)
 def test_speech_holds_words_only(key):
     english, bangla = (to_speech(NODES[key], lang) for lang in ("en", "bn"))
     assert re.fullmatch(r"[A-Za-z0-9 .,;:]+", english)

@@ -8,6 +8,7 @@ import pytest
 from flint import fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from sweep import together
 
 from quizgen.core.errors import MathError, RenderError
 from quizgen.maths.notation import parse_formula
@@ -105,7 +106,7 @@ def test_printed_brackets_keep_the_value(tree, inline, numbers):
         assert write(node)
 
 
-@pytest.mark.parametrize(
+@together(
     ("text", "expected"),
     [
         # two numbers, or a number after anything, need a dot; a letter after a number does not
@@ -136,7 +137,7 @@ def test_layout_rules(text, expected):
     assert to_latex(lay_out(parse_formula(text))) == expected
 
 
-@pytest.mark.parametrize(
+@together(
     ("symbol", "expected"),
     [
         ("p_x", "p_{x}"),
@@ -179,13 +180,13 @@ def test_subscript_words_are_upright_and_letters_are_not():
     assert '<mi mathvariant="normal">Δ</mi>' in to_mathml(lay_out_name("Delta"))
 
 
-@pytest.mark.parametrize("bad", ["", "_x", "x__y!", "1x", "p x", "a-b", "x_$"])
+@together("bad", ["", "_x", "x__y!", "1x", "p x", "a-b", "x_$"])
 def test_names_that_cannot_be_written(bad):
     with pytest.raises(RenderError):
         lay_out_name(bad)
 
 
-@pytest.mark.parametrize(
+@together(
     ("value", "text"),
     [
         (Fraction(5, 2), "2.5"),
@@ -202,7 +203,7 @@ def test_decimals(value, text):
     assert Fraction(text) == value
 
 
-@pytest.mark.parametrize("bad", ["", "x", "1.2.3", "--2", "1/", "nan", "1e", "1;2"])
+@together("bad", ["", "x", "1.2.3", "--2", "1/", "nan", "1e", "1;2"])
 def test_texts_that_are_not_numbers(bad):
     with pytest.raises(RenderError):
         number(bad)
@@ -223,7 +224,7 @@ def test_relations_count_their_sides():
         relation_chain(["=="], [lay_out_name("x"), lay_out_name("y")])
 
 
-@pytest.mark.parametrize("unit", sorted(set(SIMPLE) - {"", "1"}))
+@together("unit", sorted(set(SIMPLE) - {"", "1"}))
 def test_every_unit_is_printed_and_said(unit):
     for written in (unit, format_unit(unit), f"{unit}/s", f"{unit}^2"):
         node = quantity("2", written)
@@ -250,7 +251,7 @@ def test_what_cannot_be_a_unit_is_refused(unit):
             write(quantity("2", unit))
 
 
-@pytest.mark.parametrize(
+@together(
     "tree",
     [
         Call("frobnicate", (Sym("x"),)),
@@ -272,8 +273,8 @@ class Stranger:
     level = n.ATOM
 
 
-@pytest.mark.parametrize("write", WRITERS)
-@pytest.mark.parametrize(
+@together("write", WRITERS)
+@together(
     "node",
     [
         Stranger(),
@@ -311,7 +312,7 @@ def test_bold_letters():
 K, N, ONE = Sym("k"), Sym("n"), make_number(1)
 
 
-@pytest.mark.parametrize(
+@together(
     ("tree", "text", "speech"),
     [
         (Call("factorial", (N,)), "n!", "n factorial"),

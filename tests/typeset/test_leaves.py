@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from sweep import together
 
 from quizgen.bank.markdown import parse_inlines
 from quizgen.core.errors import RenderError
@@ -30,7 +31,7 @@ def filled(latex: str, *values: str) -> str:
     return to_text(fill_leaves(lay_out_latex(latex), made))
 
 
-@pytest.mark.parametrize(
+@together(
     ("latex", "a", "wanted"),
     [
         ("x - {{ a }}", "-3", "x + 3"),
@@ -85,7 +86,7 @@ def test_a_value_gets_the_sign_and_brackets_of_its_place(latex, a, wanted):
     assert filled(latex, a).replace("\u00a0", " ") == wanted
 
 
-@pytest.mark.parametrize(
+@together(
     ("typed", "a", "wanted"),
     [
         ("{{ a }}*x", "1", "x"),

@@ -10,8 +10,11 @@ from served import Served
 from sqlalchemy import delete
 from starlette.testclient import TestClient
 
+from quizgen.bank.bank import builtin_bank
+from quizgen.core.executor import ProcessExecutor
 from quizgen.store import QuestionRef
 from quizgen.store.schema import LEARNER
+from quizgen.web import job_cache
 from quizgen.web.app import create_app
 from quizgen.web.auth import COOKIE, csrf_token
 from quizgen.web.settings import ServerSettings
@@ -54,10 +57,33 @@ def settings(database):
     return ServerSettings(database(), workers=1)
 
 
+class SharedProcess(ProcessExecutor):
+    """The worker process that the servers of many modules share: each takes seconds to begin."""
+
+    def start_all(self) -> None:
+        if not self.processes:
+            super().start_all()
+
+    def stop(self) -> None:
+        """Ends no process, which the next server needs."""
+
+
+@pytest.fixture(scope="session")
+def shared_process():
+    """The one process of all servers of the built-in bank in this worker of pytest."""
+    bank = builtin_bank()
+    begun = SharedProcess(1, job_cache.prepare_process, (bank,), longest=job_cache.LONGEST)
+    yield begun
+    ProcessExecutor.stop(begun)
+
+
 @pytest.fixture(scope="module")
-def app(settings):
+def app(settings, shared_process):
     """The application, running."""
-    app = create_app(settings)
+    with pytest.MonkeyPatch.context() as patch:
+        if (settings.workers, settings.bank) == (1, builtin_bank()):
+            patch.setattr(job_cache, "ProcessExecutor", lambda *_, **__: shared_process)
+        app = create_app(settings)
     with TestClient(app, ADDRESS):
         yield app
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from uuid import uuid4
 
@@ -43,8 +45,17 @@ class Cluster:
 
     def restart(self, how: str) -> None:
         """End it, ``fast`` or ``immediate``, and start it again."""
+        with self.away(how):
+            pass
+
+    @contextlib.contextmanager
+    def away(self, how: str) -> Iterator[None]:
+        """Be ended during a ``with`` block."""
         self._run(self._pg_ctl, "stop", "-w", "-m", how, "-s")
-        self._start()
+        try:
+            yield
+        finally:
+            self._start()
 
     def _run(self, *command: object) -> None:
         subprocess.run(

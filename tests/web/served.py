@@ -54,6 +54,11 @@ class Served:
         """The address that was printed, on this machine."""
         return re.sub("https?://[^/]*", self.address, self.printed)
 
+    @property
+    def is_running(self) -> bool:
+        """Whether it has not ended by itself."""
+        return self._process.poll() is None
+
     def end(self) -> str:
         """End it as Ctrl-C does; what it has written meanwhile."""
         os.killpg(self._process.pid, signal.SIGINT)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from sweep import together
 
 from quizgen.core.errors import StoreError
 from quizgen.practice.scheduler import ReviewEvent, ReviewRating
@@ -38,6 +39,7 @@ def full(store):
         learner, QuestionRef("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""}
     )
     done = {"typed": "1", "tries": 1, "hints": 0, "wrong": "2", "note": "sign",
+            "credit": 0.5, "helped": False,
             "outcome": {"topic": "colour", "right": True, "first": False, "skipped": False}}  # fmt: skip
     attempt.state = {"parts": {"1a": {"state": done, "values": ["1"], "asked_back": ""}},
                      "ended": ["1a"]}  # fmt: skip
@@ -119,7 +121,7 @@ def test_a_file_of_the_form_of_the_next_test_can_be():
     assert read_archive(changed(seen=[SEEN])).seen[0].topic == "c"
 
 
-@pytest.mark.parametrize(
+@together(
     "data",
     [
         b"", b"[]", b"\xff\xfe", b"{" * 100_000, changed(version=2), changed(format="other"),

@@ -34,6 +34,12 @@ def test_learners_have_no_such_page(client):
     assert client.get(f"/author/{NAME}").status_code == 404
 
 
+def test_the_menu_has_the_camera_only_where_its_chapter_is(author, client):
+    for chapter in ('href="/camera"', 'href="/tradeoff"'):
+        assert chapter in client.get("/").text
+        assert chapter not in author.get("/").text
+
+
 def test_a_template_stands_with_its_solution_in_both_languages(author):
     assert f'href="/author/{NAME}"' in author.get("/author").text
     page = author.get(f"/author/{NAME}?seed=3").text
@@ -204,7 +210,7 @@ def test_a_figure_that_is_saved_is_drawn_anew_and_told_in_its_new_words(author, 
         rules.write_text(before, "utf-8")
 
 
-def test_authors_of_one_bank_among_others(root, database):
+def test_authors_of_one_bank_among_others(root, database, jobs_in_this_process):
     mixed = open_banks([("", True), (str(root), True)])
     app = create_app(ServerSettings(database(), mixed, workers=1, examine=lint_while_writing))
     with TestClient(app, "http://127.0.0.1:8000") as client:

@@ -19,6 +19,7 @@ from alembic.config import Config
 from alembic.migration import MigrationContext
 from sqlalchemy import create_engine, insert, inspect, text
 from sqlalchemy.exc import IntegrityError
+from sweep import together
 
 from quizgen.core.errors import MissingExtraError, StoreError
 from quizgen.practice.scheduler import ReviewEvent, ReviewRating
@@ -47,6 +48,7 @@ ROWS = {
     },
     "0006": {"paper": {"id": "f" * 64, "code": "trial-1-both-000000", "parts": '["1a"]', "data": b"packed"}},
     "0007": {"stock": {"paper": "f" * 64, "blueprint": "trial", "version": "v", "minutes": 9, "pauses": None}},
+    "0008": {},
 }  # fmt: skip
 """What each release keeps, in the tables that it has added."""
 
@@ -201,7 +203,7 @@ def test_what_fails_half_way_has_written_nothing(database):
 class TestAddresses:
     """What is wrong with an address is said, and never its password."""
 
-    @pytest.mark.parametrize(
+    @together(
         ("address", "said"),
         [
             ("postgresql+psycopg://me:geheim@127.0.0.1:1/x", r"me:\*\*\*@127.0.0.1:1/x: .*refused"),

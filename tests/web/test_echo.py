@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from sweep import together
 
 from quizgen.web.live_preview import _typeset_values
 
@@ -15,7 +16,7 @@ def plain(page: str) -> str:
     return re.sub("<[^>]*>", "", page)
 
 
-@pytest.mark.parametrize(
+@together(
     ("read", "shown"),
     [
         ("20/3 mm", "[20|3] ≈ 6.667 mm"),

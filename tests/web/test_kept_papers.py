@@ -16,7 +16,7 @@ from quizgen.web.app import create_app
 from quizgen.web.auth import COOKIE, csrf_token
 from quizgen.web.settings import ServerSettings
 
-pytestmark = pytest.mark.both_databases
+pytestmark = [pytest.mark.both_databases, pytest.mark.usefixtures("jobs_in_this_process")]
 
 BLUEPRINT = f"""[title]
 en = "Short"

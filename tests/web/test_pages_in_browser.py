@@ -57,15 +57,7 @@ def addresses(browser, served):
     return [*found, asked, sitting, f"{sitting}/hand-in", resting, handed]
 
 
-@pytest.mark.parametrize(
-    ("lang", "scheme"),
-    [
-        ("en", "light"),
-        ("bn", "dark"),
-        pytest.param("en", "dark", marks=pytest.mark.slow),
-        pytest.param("bn", "light", marks=pytest.mark.slow),
-    ],
-)
+@pytest.mark.parametrize(("lang", "scheme"), [("en", "light"), ("bn", "dark")])
 def test_every_page_is_valid_and_open_to_everybody(
     opened, served, addresses, lang, scheme, barriers
 ):

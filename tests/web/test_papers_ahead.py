@@ -199,32 +199,24 @@ def serve(database, bank_folder, monkeypatch):
 
 
 class TestServer:
-    def test_an_exam_begins_with_a_paper_of_the_stock_which_is_filled_again(self, serve):
+    def test_exams_begin_with_papers_of_the_stock_which_is_filled_again(self, serve):
         browser = serve()
         waiting = browser.wait_for_stock(2)
+        seeds = sorted(int(code.split("-")[1]) for code in waiting)
+        assert all(seed > 1000 for seed in seeds)
+        assert seeds[1] - seeds[0] > 1000  # drawn and not counted
         code = browser.begin()
         assert code in waiting
-        assert code not in browser.wait_for_stock(2)
+        waiting = browser.wait_for_stock(2)
+        assert code not in waiting
+        assert browser.begin(code=code) == code  # its own, and none of the stock
+        assert browser.stocked() == waiting
+        assert browser.begin() not in waiting  # nobody empties it
 
     def test_without_a_paper_that_waits_one_is_made(self, serve):
         browser = serve(ahead=())
         assert browser.begin().startswith("short-")
         assert browser.stocked() == set()
-
-    def test_who_begins_a_second_one_gets_another_paper(self, serve):
-        browser = serve()
-        waiting = browser.wait_for_stock(2)
-        first = browser.begin()
-        second = browser.begin()
-        assert first in waiting
-        assert second not in waiting
-
-    def test_a_code_leads_to_its_own_paper(self, serve):
-        browser = serve()
-        code = browser.begin()
-        waiting = browser.wait_for_stock(2)
-        assert browser.begin(code=code) == code
-        assert browser.stocked() == waiting
 
     def test_the_next_server_gives_what_the_one_before_has_made(self, serve):
         waiting = serve().wait_for_stock(2)
@@ -251,12 +243,6 @@ class TestServer:
             assert time.monotonic() < last, "the stock of the other version is still there"
             time.sleep(0.05)
         assert browser.begin() not in old
-
-    def test_seeds_are_drawn_and_not_counted(self, serve):
-        codes = serve().wait_for_stock(2)
-        seeds = sorted(int(code.split("-")[1]) for code in codes)
-        assert all(seed > 1000 for seed in seeds)
-        assert seeds[1] - seeds[0] > 1000
 
 
 @pytest.mark.parametrize(

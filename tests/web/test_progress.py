@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import html
 import re
+import time
+import tomllib
 from datetime import UTC, datetime, timedelta
 
 import pytest
 
 from quizgen.question.compose import compose_question
-from quizgen.store import QuestionRef
+from quizgen.store import OutcomeRecord
 
 QUESTION = "point-to-image-plane"
 
@@ -43,7 +45,7 @@ def test_nothing_yet(client, topic):
     assert "No mistake with a name has been made yet." in page.text
     assert f"0/{topic}" in text(page.text)
     assert "never" in text(page.text)
-    assert "5 new questions" in text(client.get("/").text)
+    assert "5 questions to a first estimate" in text(client.get("/").text)
 
 
 def formulas(page: str) -> tuple[list[str], list[str]]:
@@ -121,32 +123,60 @@ def test_the_same_numbers_again_and_steps_do_not_count_as_known(client, token, b
     assert cards(app) == before
 
 
-def test_the_next_question_is_the_one_that_is_due(client, token, app):
-    site = app.state.site
-    learner = site.store.learner().id
-    site.store.start_attempt(learner, QuestionRef("rgb-to-hsv", "1"), {})
-    from quizgen.practice.scheduler import ReviewEvent, ReviewRating
-
-    long_ago = datetime.now(UTC) - timedelta(days=30)
-    site.store.cards.review(learner, [ReviewEvent("A3", ReviewRating.AGAIN)], long_ago.timestamp())
+def test_the_next_questions_are_those_of_the_trial_exam(client, token, app, bank):
+    store = app.state.site.store
+    learner = store.learner().id
     client.post("/practice", data={"token": token})
-    latest = site.store.latest(learner, 1)[0]
-    assert latest.template == QUESTION
-    assert "1 question to see again" in text(client.get("/").text)
-    client.post(f"/q/{latest.id}/next", data={"token": token})
-    assert site.store.latest(learner, 1)[0].template != QUESTION, "not twice in a row"
+    slots = tomllib.loads(bank.blueprints["trial"].read_text("utf-8"))["slot"]
+    asked = set()
+    for _ in slots:
+        latest = store.latest(learner, 1)[0]
+        asked.add(next(slot["points"] for slot in slots if latest.template in slot["templates"]))
+        row = OutcomeRecord(latest.template, "any", "a", "", right=False, first=False,
+                            at=time.time(), credit=0.0, helped=False, attempt=latest.id)  # fmt: skip
+        latest.ended = time.time()
+        store.save_attempt(latest, (row,))
+        client.post(f"/q/{latest.id}/next", data={"token": token})
+    assert asked == {slot["points"] for slot in slots}, "each question of it once"
+    home = text(client.get("/").text)
+    assert re.search(r"\d(\.5)? to \d(\.5)? of 10 points", home), "a range from five on"
+    assert "About" not in home, "but no number before ten"
+
+
+def test_the_minutes_of_tonight(client, token):
+    assert re.search(r"Go on: (\d+) min, (\d+) questions", text(client.get("/").text))
+    counts = {}
+    for minutes in ("15", "90"):
+        page = client.post("/tonight", data={"token": token, "minutes": minutes}).text
+        told = re.search(r"Go on: (\d+) min, (\d+) questions", text(page))
+        assert int(told[1]) <= int(minutes)
+        counts[minutes] = int(told[2])
+        assert re.search(rf'value="{minutes}" aria-pressed="true"', page)
+    assert counts["15"] < counts["90"]
+    client.post("/tonight", data={"token": token, "minutes": "7"})
+    assert 'value="90" aria-pressed="true"' in client.get("/").text, "only what is offered"
+
+
+def test_a_question_of_the_exam_is_begun_from_its_card(client, token, app, bank):
+    page = client.get("/").text
+    names = re.findall(r'<button name="template" value="([^"]+)"', page)
+    slots = tomllib.loads(bank.blueprints["trial"].read_text("utf-8"))["slot"]
+    assert len(names) == len(slots)
+    assert all(name in slot["templates"] for name, slot in zip(names, slots, strict=True))
+    asked = client.post("/practice", data={"token": token, "template": names[2]})
+    assert asked.url.path.startswith("/q/")
 
 
 def test_the_day_of_the_exam(client, token, app, begin, answers):
     day = (datetime.now(UTC).astimezone() + timedelta(days=12)).date()
     page = client.post("/progress/exam", data={"token": token, "exam": day.isoformat()})
-    assert f'value="{day.isoformat()}"' in page.text
+    assert f'value="{day.isoformat()}"' in client.get("/progress").text
     assert "12 days until the exam" in text(page.text)
     wrong = client.post("/progress/exam", data={"token": token, "exam": "soon"})
     assert wrong.status_code == 400
     assert "This is not a date." in wrong.text
     client.post("/progress/exam", data={"token": token, "exam": ""})
-    assert "until the exam" not in client.get("/progress").text
+    assert "until the exam" not in client.get("/").text
 
 
 def test_a_forged_form_changes_nothing(client):

@@ -17,6 +17,7 @@ from quizgen.locale import BOTH
 from quizgen.paper.answer_key import make_answer_key
 from quizgen.paper.blueprint import find_blueprint
 from quizgen.paper.paper import build_paper, rebuild_paper
+from quizgen.store import OutcomeRecord
 from quizgen.store.schema import SITTING
 
 pytestmark = pytest.mark.both_databases
@@ -282,3 +283,27 @@ def test_an_exam_that_cannot_be_made_any_more_is_listed_by_its_code(client, app,
     listed = client.get("/exam")
     assert listed.status_code == 200
     assert f'<code class="hint">{code}</code>' in listed.text
+
+
+def test_what_an_exam_cost_is_repaired_question_by_question(client, token, exam, app):
+    at, _ = exam()
+    page = client.post(at, data={"token": token, "do": "hand-in"}).text
+    told = re.search(r"Repair these: (\d+) min, (\d+) questions", page)
+    assert int(told[2]) == 5
+    assert int(told[1]) <= 45
+    name = at.rsplit("/", 1)[1]
+    store = app.state.site.store
+    me = store.learner().id
+    cost = {one.template for one in store.list_outcomes(me)}
+    asked = client.post("/practice", data={"token": token, "repair": name})
+    found = []
+    for _ in range(int(told[2])):
+        attempt = store.latest(me, 1)[0]
+        found.append(attempt.template)
+        row = OutcomeRecord(attempt.template, "any", "", "", right=True, first=True,
+                            at=time.time(), credit=1.0, helped=False, attempt=attempt.id)  # fmt: skip
+        store.save_attempt(attempt, (row,))
+        asked = client.post(f"/q/{attempt.id}/next", data={"token": token})
+        assert asked.url.path.startswith("/q/"), "in the end what the plan says"
+    assert sorted(found) == sorted(cost), "each once"
+    assert "Repair" not in client.get(at).text

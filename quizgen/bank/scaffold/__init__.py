@@ -5,11 +5,14 @@ In: names. Out: files. Must never know: what is asked of whom.
 
 from __future__ import annotations
 
+import re
+import tomllib
 from importlib.metadata import version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
 from quizgen.bank.json_schema import SCHEMAS, build_json_schema
+from quizgen.locale import FIRST as ENGLISH
 from quizgen.locale import list_languages, translatable_files
 
 KINDS = {
@@ -35,12 +38,15 @@ def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
     name : str
         What it is called.
     langs : tuple of str
-        Languages that it is to be written in; each begins with the English words.
+        Languages that it is to be written in; one that no example is in begins with English words.
     """
     blanks = {"BANK": name, "VERSION": version("quizgen")}
     blanks["LANGUAGES"] = ", ".join(f'"{lang}"' for lang in langs)
     blanks["TITLES"] = "\n".join(f'{lang} = "{_make_title_from_name(name)}"' for lang in langs)
-    blanks["EXAMPLES"] = ", ".join(f'{lang} = "Example"' for lang in langs)
+    example = tomllib.loads((_HERE / "example.toml").read_text("utf-8"))
+    blanks["EXAMPLES"] = ", ".join(
+        f'{lang} = "{example.get(lang, example[ENGLISH])}"' for lang in langs
+    )
     found = {
         "templates/bank.toml": _fill_scaffold_file(_HERE / "bank.toml", blanks),
         **{f"schemas/{kind}.json": build_json_schema(kind) for kind in SCHEMAS},
@@ -50,6 +56,29 @@ def scaffold_bank(name: str, langs: tuple[str, ...]) -> dict[str, bytes]:
         if lang not in list_languages():
             found |= scaffold_language(lang)
     return found
+
+
+def scaffold_package(name: str, langs: tuple[str, ...]) -> tuple[str, dict[str, bytes]]:
+    """Return where the bank of a package stands in it, and the files of both by path.
+
+    Parameters
+    ----------
+    name : str
+        What the bank is called.
+    langs : tuple of str
+        As for ``scaffold_bank``.
+    """
+    word = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
+    module = f"bank_of_{word}"
+    blanks = {"BANK": name, "VERSION": version("quizgen"), "MODULE": module, "ENTRY": word}
+    blanks["PROJECT"] = module.replace("_", "-")
+    source = _HERE / "package"
+    return module, {
+        "pyproject.toml": _fill_scaffold_file(source / "pyproject.toml.txt", blanks),
+        ".github/workflows/lint.yml": _fill_scaffold_file(source / "lint.yml.txt", blanks),
+        f"{module}/__init__.py": f'"""Questions for quizgen: {name}."""\n'.encode(),
+        **{f"{module}/{path}": data for path, data in scaffold_bank(name, langs).items()},
+    }
 
 
 def scaffold_language(lang: str) -> dict[str, bytes]:
@@ -81,7 +110,7 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
     kind : str
         One of ``KINDS``, or the first template of a bank.
     langs : tuple of str
-        Languages of the bank; each gets the English words, to be translated.
+        Languages of the bank; one that there is no example in gets English words, to be translated.
     """
     solver, folder = f"{topic}/{name.replace('-', '_')}", _HERE / kind
     blanks = {"TOPIC": topic, "SOLVER": solver, "TITLE": _make_title_from_name(name)}
@@ -91,7 +120,9 @@ def scaffold_template(topic: str, name: str, kind: str, langs: tuple[str, ...]) 
         )
     }
     for lang in langs:
-        found[f"templates/{topic}/{name}/{lang}.md"] = _fill_scaffold_file(folder / "en.md", blanks)
+        own = folder / f"{lang}.md"
+        words = own if own.is_file() else folder / "en.md"
+        found[f"templates/{topic}/{name}/{lang}.md"] = _fill_scaffold_file(words, blanks)
     if (folder / "solver.py.txt").is_file():
         found[f"solvers/{solver}.py"] = _fill_scaffold_file(folder / "solver.py.txt", blanks)
     return found

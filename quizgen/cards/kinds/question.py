@@ -121,7 +121,7 @@ def front_blocks(question: Question, index: int) -> CardBlocks:
 
 def asked_blocks(part: QuestionPart) -> Iterator[Any]:
     """Yield the blocks of one part of a question, with its lettered options."""
-    body = part.body
+    body = part.body or part.shared
     if part.label:
         label = Emphasis("strong", (PlainText(f"({part.label}) "),))
         first, *rest = body

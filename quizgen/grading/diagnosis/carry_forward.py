@@ -14,11 +14,11 @@ from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.rounding import round_ball_half_away
 from quizgen.grading.spec import NumericSpec, matches_target
 from quizgen.grading.verdict import HALF, Verdict, partial, wrong
-from quizgen.maths.chain import ChainStep
+from quizgen.maths.chain import Chain, ChainStep
 from quizgen.maths.numbers import to_fraction
 from quizgen.maths.tree import Num, operators_in
 from quizgen.maths.units import unit_factor
-from quizgen.maths.values import Value
+from quizgen.maths.values import Value, Values
 
 CARRIED = "carried-forward"
 EARLY = "rounded-too-early"
@@ -48,12 +48,10 @@ class NumberDiagnosis(msgspec.Struct, frozen=True):
 
     def carried_forward(self, value: Value) -> Verdict | None:
         """Return full marks for a value that follows rightly from an own earlier one, else None."""
-        result = recompute_from_earlier(self.context, self.target)
-        if result is None or not matches_target(
-            self.spec, self.number, value, result / self.factor
-        ):
-            return None
-        return partial(Fraction(1), self.number.read_as, CARRIED)
+        for result in recompute_from_earlier(self.context, self.target):
+            if matches_target(self.spec, self.number, value, result / self.factor):
+                return partial(Fraction(1), self.number.read_as, CARRIED)
+        return None
 
     def operators(self) -> frozenset[str]:
         """Return functions and constants that stand in the steps towards the quantity."""
@@ -103,39 +101,38 @@ def diagnosis_for(
     return NumberDiagnosis(spec, number, scale * unit_factor(unit), context, target)
 
 
-def recompute_from_earlier(context: QuestionContext, target: str) -> Value | None:
+def recompute_from_earlier(context: QuestionContext, target: str) -> list[Value]:
     """Return a quantity in base units, recomputed from the student's own earlier values.
 
-    None if there is nothing to carry: no earlier value is wrong, one is zero, the result is the
-    key's own, zero, or simply the student's earlier value again.
+    Each right way of the chain gives one. None is left if there is nothing to carry: no earlier
+    value is wrong, one is zero, the result is the key's own, or zero.
     """
-    upstream = context.chain.required_steps(target) - {target}
-    own = {name: value for name, value in context.earlier.items() if name in upstream}
-    changed = {
-        name: value for name, value in own.items() if not _is_solved_value(context, name, value)
-    }
+    solved, found = context.solved_values, list[Value]()
+    own = {
+        name: value for name, value in context.earlier.items()
+        if name in solved and not are_nearly_equal(value, solved[name])
+    }  # fmt: skip
+    for way in context.chain.right_ways if own else ():
+        result = _recompute(way, own, solved, target)
+        if result is not None and result != 0 and not are_nearly_equal(result, solved[target]):
+            found.append(result)
+    return found
+
+
+def _recompute(way: Chain, own: Values, solved: Values, target: str) -> Value | None:
+    """Return a quantity that rests on own values; None if it rests on none, or one is zero."""
+    steps = way.required_steps(target)
+    used = {name for step in steps for name in way.operands[step]} - {target}
+    changed = {name: value for name, value in own.items() if name in used}
     if not changed or any(value == 0 for value in changed.values()):
         return None
-    steps = [ChainStep(name, _to_constant(value)) for name, value in changed.items()]
     try:
-        result = context.chain.solve_with_steps(steps, context.solved_values)[target]
+        return way.solve_from(changed, solved)[target]
     except MathError:
         return None
-    key = context.solved_values[target]
-    trivial = (
-        result == 0
-        or _is_nearly_equal(result, key)
-        or any(_is_nearly_equal(result, v) for v in changed.values())
-    )
-    return None if trivial else result
 
 
-def _is_solved_value(context: QuestionContext, name: str, value: Value) -> bool:
-    """Return whether an earlier value is right, or of a quantity that the chain does not solve."""
-    return name not in context.solved_values or _is_nearly_equal(value, context.solved_values[name])
-
-
-def _is_nearly_equal(a: Value, b: Value) -> bool:
+def are_nearly_equal(a: Value, b: Value) -> bool:
     """Return whether two values agree to nine digits: they differ by rounding at most."""
     return bool(abs(a - b) <= fmpq(1, 10**9) * abs(b))
 
@@ -191,7 +188,7 @@ def _is_result_of_rounding(
         result = chain.solve_with_steps(steps, context.solved_values)[target]
     except MathError:
         return False
-    return bool(abs(result - value) <= slack) and not _is_nearly_equal(
+    return bool(abs(result - value) <= slack) and not are_nearly_equal(
         result, context.solved_values[target]
     )
 

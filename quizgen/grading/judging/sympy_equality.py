@@ -64,7 +64,7 @@ def decide_equality(first: str, second: str, positive: frozenset[str]) -> str:
     import sympy
 
     try:
-        a, b = (_to_sympy(parse_formula(text), positive) for text in (first, second))
+        a, b = (to_sympy(parse_formula(text), positive) for text in (first, second))
     except KeyError:
         return "unknown"
     difference = reduce(lambda value, step: step(value), (sympy.expand, sympy.simplify), a - b)
@@ -73,8 +73,8 @@ def decide_equality(first: str, second: str, positive: frozenset[str]) -> str:
     return "different" if difference.is_nonzero else "unknown"
 
 
-def _to_sympy(tree: Expr, positive: frozenset[str]) -> Any:
-    """Return the SymPy object of a tree.
+def to_sympy(tree: Expr, positive: frozenset[str], *, real: bool = True) -> Any:
+    """Return the SymPy object of a tree; without ``real``, its names stand for any number.
 
     Raises
     ------
@@ -85,7 +85,9 @@ def _to_sympy(tree: Expr, positive: frozenset[str]) -> Any:
 
     ops = {name: op for name, op in sympy_system().ops.items() if name not in CONDITIONS}
     kinds = {name: "positive" if name in positive else "real" for name in names_in(tree)}
-    symbols = {name: sympy.Symbol(name, **{kind: True}) for name, kind in kinds.items()}
+    symbols = {
+        name: sympy.Symbol(name, **({kind: True} if real else {})) for name, kind in kinds.items()
+    }
     return compile_expr(tree, replace(sympy_system(), ops=ops))(symbols)
 
 

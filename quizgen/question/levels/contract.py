@@ -31,6 +31,10 @@ class LevelPart(msgspec.Struct, frozen=True):
     control: InputControl = LINE
     options: tuple[Choice, ...] = ()
     targets: tuple[Choice, ...] = ()
+    near: str | None = None
+    """The words around its field, if that stands inside a sentence or a cell."""
+    shared: tuple[Block, ...] = ()
+    """The text of the part before it that its field stands in, if it has none of its own."""
 
     @property
     def label(self) -> str:

@@ -160,7 +160,8 @@ def _is_unit_conversion(drawn: Variant, step: ChainStep) -> bool:
 
 def is_applicable(drawn: Variant) -> bool:
     """Return whether some part has a step before it, or a formula to choose."""
-    allowed = "guided" in drawn.template.rules.levels
+    template = drawn.template
+    allowed = "guided" in template.rules.levels and not template.places_fields
     return allowed and not all(stage.alone for stage in guided_stages(drawn))
 
 

@@ -65,7 +65,7 @@ document.addEventListener("htmx:after:swap", () => {
     drop(name) { try { kind().removeItem(place + name); } catch { /* forbidden */ } },
   });
   const unsent = store(kinds.unsent), confirmed = store(kinds.confirmed);
-  const parts = [...form.querySelectorAll("fieldset[data-part]")];
+  const parts = [...form.querySelectorAll("[data-part]")];
   // As ``practice/boxes.py`` says it: every box, but any place of an order.
   const complete = (part) => {
     const there = values(part).map((value) => value.trim() !== "");
@@ -73,7 +73,7 @@ document.addEventListener("htmx:after:swap", () => {
   };
   const marks = () => form.querySelectorAll("a[data-question]").forEach((link) => {
     const question = document.getElementById("question-" + link.dataset.question);
-    const answered = [...question.querySelectorAll("fieldset[data-part]")].every(complete);
+    const answered = [...question.querySelectorAll("[data-part]")].every(complete);
     link.classList.toggle("answered", answered);
   });
   const states = () => form.querySelectorAll("a[data-question]").forEach((link) => {
