@@ -101,7 +101,13 @@ def open_bank(options: BankOptions) -> Bank:
 
 
 def open_sound_bank(options: BankOptions) -> Bank:
-    """Return the bank that the options name, without what cannot be asked; that is named once."""
+    """Return the bank that the options name, without what cannot be asked; that is named once.
+
+    Raises
+    ------
+    QuizgenError
+        If nothing is left.
+    """
     from quizgen.bank.bank import builtin_root
 
     bank = open_bank(options)
@@ -110,6 +116,8 @@ def open_sound_bank(options: BankOptions) -> Bank:
     from quizgen.lint.broken_templates import leave_out_broken
 
     sound, broken = leave_out_broken(bank)
+    if broken and not len(sound):
+        raise next(iter(broken.values()))
     for said in dict.fromkeys(map(str, broken.values())):
         names = ", ".join(name for name, error in broken.items() if str(error) == said)
         print_message(f"{said}; left out: {names}")

@@ -53,7 +53,7 @@ class Drawn:
 
 def rows(matrix: Any) -> str:
     """Write a matrix as a person types it."""
-    return "; ".join(", ".join(f"{entry:.10g}" for entry in row) for row in matrix)
+    return "; ".join(", ".join(f"{round(float(entry), 9):.10g}" for entry in row) for row in matrix)
 
 
 def number_with_i(z: complex) -> str:

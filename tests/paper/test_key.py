@@ -58,7 +58,7 @@ def test_the_chain_of_a_key_computes_with_its_units():
     assert context.solved_values["h"] == fmpq(1, 400)
     assert context.earlier == {"h": fmpq(7, 2000)}
     assert context.chain.given == {"f": "mm", "X": "m", "Z": ""}
-    assert key.questions[0].chain.units() == {"h": "mm"}
+    assert key.questions[0].chain.units() == {"f": "mm", "X": "m", "Z": "", "h": "mm"}
 
 
 def test_the_file_is_readable_json_in_the_order_of_the_paper(paper):

@@ -284,7 +284,7 @@ def test_a_marked_paper_as_plain_values():
     assert (blank["question"], blank["status"], blank["points"]) == ("2", "blank", 2.0)
 
 
-@pytest.mark.parametrize(("decimal", "status"), [("comma", "ambiguous"), ("point", "wrong")])
+@pytest.mark.parametrize(("decimal", "status"), [("comma", "correct"), ("point", "wrong")])
 def test_a_paper_is_read_with_the_students_decimal_sign(decimal, status):
     spec = {"kind": "number", "value": "123456", "exact": True}
     part = {"id": "1", "points": "1", "spec": spec}

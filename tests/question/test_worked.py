@@ -43,7 +43,8 @@ def drawn(given, steps, stem="Stem", *, words="", said=None):
         topic="noise",
         tier="A",
         part=(PartRule(answer={"kind": "number", "of": steps[-1][0]}),),
-        draw={name: DrawRule(unit=unit, pick=(value,)) for name, (unit, value) in given.items()},
+        draw={name: DrawRule(unit=unit, pick=(value,)) for name, (unit, value) in given.items()}
+        | {name: DrawRule(words=(word,)) for name, word in (said or {}).items()},
     )
     text = parse_language_file(TEXT.replace("{stem}", stem) + words)
     template = Template("by-hand", rules, chain, {"en": text}, f"{given}{steps}{stem}", Path())

@@ -19,7 +19,7 @@ from quizgen.bank.markdown import (
 from quizgen.core.errors import RenderError
 from quizgen.question import html
 from quizgen.question.data_files import DataFileLink
-from quizgen.question.inlines import PlacedPicture, TypesetMaths
+from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
 from quizgen.render import text, typst_document
 from quizgen.typeset import nodes, to_latex, to_mathml, to_speech, to_text, to_typst
 
@@ -51,7 +51,7 @@ ARGUMENTS = {text.inlines_to_plain_text: [], html._render_piece: ["en", html.OUR
 )
 def test_every_piece_of_a_filled_sentence_has_a_rule(inline):
     unfilled = {*get_args(Unfilled), RoundedMarker, TypesetFormula}
-    filled = set(get_args(Inline)) - unfilled | {TypesetMaths, PlacedPicture, tuple}
+    filled = set(get_args(Inline)) - unfilled | {TypesetMaths, PlacedPicture, PlacedField, tuple}
     filled |= {DataFileLink} if inline is html._render_piece else set()  # elsewhere its name
     assert inline.registry.keys() - {object} == filled
     with pytest.raises(TypeError, match="Slot"):

@@ -1,5 +1,7 @@
 """Whether a formula is the general solution of y''' + c y' = 0: by insertion and independence."""
 
+from fractions import Fraction
+
 import sympy
 
 from quizgen.grading.checking import read_as_sympy
@@ -18,4 +20,4 @@ def check(values, answer):
     rank = pieces.rank() if constants else 0
     if rank == 3:
         return 1
-    return sympy.Rational(rank, 4), "dependent" if rank < len(constants) else "few"
+    return Fraction(rank, 4), "dependent" if rank < len(constants) else "few"

@@ -1,5 +1,7 @@
 """Whether a function has a value and slope 0 at 0, and a slope at 1: each is worth a third."""
 
+from fractions import Fraction
+
 import sympy
 
 from quizgen.grading.checking import read_as_sympy
@@ -19,7 +21,8 @@ def check(values, answer):
         "slope": (slope, 1, values["m"]),
     }
     failed = [name for name, (g, place, value) in wanted.items() if not is_at(g, place, value)]
-    return sympy.Rational(3 - len(failed), 3), failed[0] if failed else ""
+    share = Fraction(3 - len(failed), 3)
+    return (share, failed[0]) if failed else 1
 
 
 def is_at(g, place, value):
