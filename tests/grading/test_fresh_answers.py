@@ -22,6 +22,8 @@ import quizgen
 
 ANSWERS = Path(__file__).parent / "fresh_answers.toml"
 EXAMPLES = Path(__file__).parents[2] / "examples"
+ANSWERED = Path(__file__).parent / "answered_bank"
+"""Questions of strangers that have changed since the answers were written."""
 DECISIONS = frozenset({"correct", "partial", "wrong", "asked"})
 BANGLA = str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯")
 
@@ -302,8 +304,9 @@ def _type_pairs(pairs: str) -> Iterator[str]:
 
 @cache
 def open_template(bank: str, name: str) -> Any:
-    """Return the template, of the built-in bank or of an example."""
-    opened = quizgen.Bank(EXAMPLES / bank, trusted=True) if bank else quizgen.builtin_bank()
+    """Return the template, of the built-in bank, of an example, or as it was when answered."""
+    root = ANSWERED if bank == "answered" else EXAMPLES / bank
+    opened = quizgen.Bank(root, trusted=True) if bank else quizgen.builtin_bank()
     return opened.template(name)
 
 
