@@ -14,8 +14,7 @@ from collections.abc import Iterable, Mapping
 from contextlib import redirect_stdout
 from fractions import Fraction
 from functools import cache, lru_cache
-from importlib.abc import SourceLoader
-from importlib.machinery import ModuleSpec
+from importlib.machinery import ModuleSpec, SourceFileLoader
 from importlib.util import module_from_spec
 from io import StringIO
 from numbers import Real
@@ -24,13 +23,14 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import msgspec
 
 from quizgen.core.errors import QuizgenError
-from quizgen.core.executor import ProcessExecutor
 from quizgen.core.trusted_files import find_trusted_file
 from quizgen.grading.reading.formulas import read_formula
 from quizgen.maths.notation import FormulaReadError
 
 if TYPE_CHECKING:
     from types import FrameType
+
+    from quizgen.core.executor import ProcessExecutor
 
 SECONDS = 5
 """What a check may take for one answer."""
@@ -91,6 +91,8 @@ def run_check(
 @cache
 def _get_executor() -> ProcessExecutor:
     """Return the process that checks run in; one that hangs is killed and replaced."""
+    from quizgen.core.executor import ProcessExecutor  # only where there is a check
+
     return ProcessExecutor(1, longest=HANGS)
 
 
@@ -123,17 +125,17 @@ def _end_check(_signal: int, _frame: FrameType | None) -> None:
     raise TimeoutError(f"it takes more than {SECONDS} seconds")
 
 
-class _TrustedSource(SourceLoader):
+class _TrustedSource(SourceFileLoader):
     """Loader of a check from the text that was found by its digest, not from a file again."""
 
     def __init__(self, source: bytes) -> None:
         """Take the text."""
+        super().__init__("check", CHECK)
         self._source = source
 
-    def get_filename(self, fullname: str) -> str:
-        """Return what tracebacks call it."""
-        del fullname
-        return CHECK
+    def path_stats(self, path: str) -> Mapping[str, Any]:
+        """Raise that there is no such file: neither is one read nor bytecode kept of it."""
+        raise OSError(path)
 
     def get_data(self, path: str) -> bytes:
         """Return the text; there is no bytecode of it."""

@@ -48,7 +48,8 @@ FULL = [
      "traps": {"half": [1, 2]}},
     {"kind": "tf", "correct": [2]},
     {"kind": "match", "pairs": {"A": "1", "B": "1"}, "reuse": True, "traps": {"half": {"A": "2"}}},
-    {"kind": "order", "steps": ["a", "b"], "before": [["a", "b"]], "distractors": ["c"]},
+    {"kind": "order", "steps": ["a", "b"], "before": [["a", "b"]], "distractors": ["c"],
+     "together": [["a", "b"]]},
     {"kind": "gap", "accept": [["colour", "রং"], "grey"], "among": ["hue"],
      "terms": ["great"]},
     {"kind": "witness", "predicate": "x^2 < y", "symbols": {"x": "real"}, "let": {"y": "x"},
@@ -70,9 +71,7 @@ def named(spec) -> str:
 def test_every_field_of_every_kind_is_looked_at():
     for shape in {kind.spec for kind in KINDS.values()}:
         looked_at = {name for spec in FULL if KINDS[spec["kind"]].spec is shape for name in spec}
-        common = {*Tolerance.__struct_fields__, "traps", "notes", "why", "of", "define"} - {
-            "accept"
-        }
+        common = {*Tolerance.__struct_fields__, "traps", "notes", "why", "of", "define", "worth"}
         assert {*shape.__struct_fields__} - common - {"accept"} <= looked_at, shape
 
 
