@@ -11,6 +11,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "bank"))
 
 from mechanics import FILES, write
 
+from quizgen import locale
 from quizgen.bank.bank import Bank
 from quizgen.lint.foreign_words import find_foreign_words
 
@@ -29,6 +30,13 @@ Ein Klotz von {{ m }} wird mit {{ a }} beschleunigt.
 ## check
 Die Kraft ist in die Richtung der Beschleunigung gerichtet.
 """
+
+
+@pytest.fixture(autouse=True)
+def languages_stay_as_they_were(monkeypatch):
+    """A bank adds its languages for the whole process, and other tests have none of them."""
+    monkeypatch.setattr(locale, "_HEARD", [*locale._HEARD])
+    monkeypatch.setattr(locale, "PLACES", [*locale.PLACES])
 
 
 def found(tmp_path, **pages):
