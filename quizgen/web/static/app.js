@@ -8,6 +8,8 @@ document.addEventListener("submit", (event) => {
   if (Date.now() - (form.dataset.sent ?? 0) < 5000) { event.preventDefault(); } else { form.dataset.sent = Date.now(); }
 });
 
+// The parts of an exam; figures, too, name what they draw by data-part.
+const PARTS = "fieldset[data-part], .placed-field[data-part]";
 // The fields of a part, and what stands in them.
 const fields = (part) => [...part.querySelectorAll("input:not([type=hidden]), select, textarea")];
 const ticks = (field) => field.type === "radio" || field.type === "checkbox";
@@ -65,7 +67,7 @@ document.addEventListener("htmx:after:swap", () => {
     drop(name) { try { kind().removeItem(place + name); } catch { /* forbidden */ } },
   });
   const unsent = store(kinds.unsent), confirmed = store(kinds.confirmed);
-  const parts = [...form.querySelectorAll("[data-part]")];
+  const parts = [...form.querySelectorAll(PARTS)];
   // As ``practice/boxes.py`` says it: every box, but any place of an order.
   const complete = (part) => {
     const there = values(part).map((value) => value.trim() !== "");
@@ -73,7 +75,7 @@ document.addEventListener("htmx:after:swap", () => {
   };
   const marks = () => form.querySelectorAll("a[data-question]").forEach((link) => {
     const question = document.getElementById("question-" + link.dataset.question);
-    const answered = [...question.querySelectorAll("[data-part]")].every(complete);
+    const answered = [...question.querySelectorAll(PARTS)].every(complete);
     link.classList.toggle("answered", answered);
   });
   const states = () => form.querySelectorAll("a[data-question]").forEach((link) => {
