@@ -57,8 +57,8 @@ def digests(names):
 
 
 CODE = """
-import json, sys
-sys.path.insert(0, sys.argv[1])
+import json, os, sys
+sys.path[:0] = sys.argv[1], os.path.dirname(sys.argv[1])
 from test_every_figure import digests
 print(json.dumps(digests(sys.argv[2].split(","))))
 """

@@ -30,10 +30,9 @@ def practised(opened, served):
     return begun
 
 
-def test_from_the_first_visit_to_a_verdict_in_three_clicks(opened):
+def test_from_the_first_visit_to_a_verdict_in_two_clicks(opened):
     page = opened()
-    page.get_by_label("Topic").select_option("projection")
-    page.get_by_role(BUTTON, name="Begin").click()
+    page.get_by_role(BUTTON, name="Projection").click()
     part = page.locator("section.part").first
     fields = part.locator("input:not([type=hidden]), textarea, select")
     if fields.first.get_attribute("type") in {"radio", "checkbox"}:
@@ -190,7 +189,7 @@ def test_by_keys_alone(opened):
     to = Keys(page).to
     page.keyboard.press("Tab")
     expect(page.locator(".skip")).to_be_focused()
-    to("Begin")
+    to("Projection")
     page.keyboard.press("Enter")
     expect(page.locator("section.part").first).to_be_visible()
     to("Show the solution")
