@@ -91,7 +91,7 @@ class PracticeItem(msgspec.Struct, frozen=True):
     beyond: bool = False
 
     @property
-    def guessed(self) -> float:
+    def guess_share(self) -> float:
         """Return the share of the points that somebody gets who knows nothing."""
         return sum(part.share * part.guessed for part in self.parts)
 
@@ -196,7 +196,7 @@ class AbilityModel:
         self.items = tuple(items)
         self.places = {item.name: place for place, item in enumerate(self.items)}
         self.minutes = np.array([item.minutes for item in self.items])
-        self.guessed = np.array([item.guessed for item in self.items])
+        self.guessed = np.array([item.guess_share for item in self.items])
         formulas = self._compare(lambda item: dict.fromkeys(item.formulas, 1.0))
         topics = self._compare(lambda item: {item.topic: 1.0})
         count = len(self.items)

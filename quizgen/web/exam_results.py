@@ -47,7 +47,7 @@ class ExamPartResult:
         return self.result.verdict
 
     @property
-    def typed(self) -> str:
+    def answer_text(self) -> str:
         """Return what was typed or ticked, in the words of the page."""
         return name_truth(self.result.kind, self.result.typed, self.lang)
 
