@@ -1,8 +1,9 @@
-"""``quizgen class mark``, ``rule``, ``history``, ``grade`` and ``analyse``."""
+"""``quizgen class mark``, ``rule``, ``points``, ``status``, ``history``, ``grade``, ``analyse``."""
 
 from __future__ import annotations
 
 import getpass
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,12 +11,16 @@ import click
 
 from quizgen.cli.options import MOST_JOBS, IntRangeParam, LanguageParam, match_choice, split_names
 from quizgen.cli.terminal import format_count, print_sentence, to_one_line
+from quizgen.grading.echo import safe_echo
 from quizgen.locale import FIRST
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
     from quizgen.classes.grading import GradedClassPart
     from quizgen.classes.grading_history import MarkChange
-    from quizgen.classes.grading_run import GradingRun
+    from quizgen.classes.grading_run import GradeChange, GradingRun
+    from quizgen.classes.submissions import RivalAnswers
 
 SHOWN = 20
 """Lines of a list that the terminal shows; the files have all."""
@@ -49,7 +54,10 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
 
 
 def _report_run(folder: Path, run: GradingRun, lost: list[str]) -> None:
-    """Print what was graded, what was not, which marks changed, what is to be decided."""
+    """Print what was graded, what was not, which grades and marks changed, what is to be decided.
+
+    What changes grades stands before what changes marks.
+    """
     outcome = run.outcome
     print_sentence(
         f"{folder}: {format_count(outcome.students, 'student')}"
@@ -57,10 +65,15 @@ def _report_run(folder: Path, run: GradingRun, lost: list[str]) -> None:
     )
     problems = [*lost, *run.problems]
     _print_list(f"{len(problems)} not marked", problems)
+    _print_list("Answers that came twice and differ", [*_iter_rival_lines(folder, run.rivals)])
+    _print_list("Parts filled in, the fewest first", [*_iter_filled_lines(run.filled)])
     if run.decided:
         print_sentence(f"{format_count(run.decided, 'decision')} taken from decisions.csv")
-    changes = [_format_change(one) for one in outcome.changes]
-    _print_list(f"{format_count(len(changes), 'mark')} changed", changes)
+    _print_list(f"{format_count(len(run.grades), 'grade')} changed", [*map(_format_grade, run.grades)])
+    changes = outcome.changes
+    if changes and not run.grades:
+        print_sentence("No grade changed")
+    _print_list(f"{format_count(len(changes), 'mark')} changed", _list_change_lines(changes))
     if run.groups:
         print_sentence(
             f"To be decided: {format_count(outcome.undecided, 'answer')}"
@@ -68,8 +81,53 @@ def _report_run(folder: Path, run: GradingRun, lost: list[str]) -> None:
             f"Fill in points in {folder}/decisions.csv and mark again, "
             f"or: quizgen serve --class {folder}"
         )
-    else:
+    elif not (problems or run.rivals):
         print_sentence(f"Nothing is to be decided. Next: quizgen class grade {folder}")
+    if problems or run.rivals:
+        raise SystemExit(1)
+
+
+def _iter_rival_lines(folder: Path, rivals: Sequence[RivalAnswers]) -> Iterator[str]:
+    """Yield each of several answers of a student, and after them how to say which count."""
+    for one in rivals:
+        counts = "counts" if one.counts else "does not count"
+        parts = format_count(one.filled, "part")
+        yield f"{safe_echo(one.student)}: {safe_echo(one.file)} ({parts} filled) {counts}"
+    if rivals:
+        one = rivals[-1]
+        yield (
+            f"Which shall count? quizgen class rule {folder} use {safe_echo(one.file)} --student "
+            f"{safe_echo(one.student)}"
+        )
+
+
+def _iter_filled_lines(filled: Mapping[str, tuple[int, int]]) -> Iterator[str]:
+    """Yield how many parts of each student were filled in; one line if it is all of them."""
+    order = sorted(filled.items(), key=lambda pair: pair[1][0] - pair[1][1])
+    for student, (count, parts) in order:
+        if count < parts:
+            yield f"{safe_echo(student)}: {count} of {parts} parts filled"
+    whole = sum(count == parts for count, parts in filled.values())
+    if whole:
+        yield f"{format_count(whole, 'student')}: all parts filled"
+
+
+def _format_grade(change: GradeChange) -> str:
+    """Return a changed grade in one line."""
+    return (
+        f"{change.student}: {change.before} -> {change.after} "
+        f"({100 * change.share_before:.1f} % -> {100 * change.share_after:.1f} %)"
+    )
+
+
+def _list_change_lines(changes: Sequence[MarkChange]) -> list[str]:
+    """Return changed marks in lines: those that are fewer or more, then what no longer counts."""
+    same = Counter((one.item, one.why) for one in changes if one.before == one.after)
+    lines = [_format_change(one) for one in changes if one.before != one.after]
+    return lines + [
+        f"{item}: out of the points of {format_count(count, 'student')}, {why}"
+        for (item, why), count in same.items()
+    ]
 
 
 def _print_list(head: str, lines: list[str]) -> None:
@@ -99,21 +157,77 @@ def _format_change(change: MarkChange) -> str:
 @click.option("--who", default="", help="Who says so. [default: the name of the account]")
 @click.option("--comment", default="", help="Why; students read it.")
 def rule(folder: Path, what: str, item: str, **said: str) -> None:
-    """Add a line to rulings.csv of the class in FOLDER: drop, give, accept, tolerance, restore.
+    """Add a line to rulings.csv of the class in FOLDER.
 
-    ITEM is the name of a template and the letter of its part, as in decisions.csv. Marks change
-    with the next quizgen class mark.
+    WHAT is drop, give, accept, tolerance, points, decide, restore or use. ITEM is the name of a
+    template and the letter of its part, as in decisions.csv, or a part as it is printed, such as
+    7b; with use it is a file of the folder answers. Marks change with the next quizgen class mark.
+    """
+    from quizgen.classes.class_folder import ANSWERS, ClassFolder
+    from quizgen.classes.grading_run import check_rulings
+    from quizgen.classes.key_index import KeyIndex
+    from quizgen.classes.rulings import USE, Ruling, append_rulings
+
+    keys = KeyIndex(ClassFolder(folder))
+    said["who"] = said["who"] or getpass.getuser()
+    if said["student"]:
+        said["student"] = keys.find_student(said["student"])
+    if what == USE and not (folder / ANSWERS / item).is_file():
+        raise click.UsageError(f"no file {item!r} in {folder / ANSWERS}")
+    found = item if what == USE else keys.find_item(item, said["student"])
+    made = Ruling(what, found, **said)
+    made.check()
+    check_rulings([made], keys)
+    append_rulings(folder, [made])
+    print_sentence(f"{folder}/rulings.csv: {what} {found}. Next: quizgen class mark {folder}")
+
+
+@click.command()
+@_folder
+@click.argument("table", type=click.Path(path_type=Path))
+@click.option("--who", default="", help="Who gives them. [default: the name of the account]")
+@click.option("--comment", default="", help="Why; students read it.")
+def points(folder: Path, table: Path, who: str, comment: str) -> None:
+    """Give points for what was written on paper: TABLE has a row for each student.
+
+    Its columns are id and parts as they are printed (1a, 1b, ...), its cells the points; a cell
+    that is empty says nothing. They hold whatever was typed, or if nothing was.
     """
     from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.grading_run import check_rulings
     from quizgen.classes.key_index import KeyIndex
-    from quizgen.classes.rulings import Ruling, append_rulings
+    from quizgen.classes.points_table import read_points_table
+    from quizgen.classes.rulings import append_rulings
 
-    known = KeyIndex(ClassFolder(folder)).items()
-    if item not in known:
-        raise click.UsageError(f"no part {item!r} (there are {', '.join(sorted(known))})")
-    said["who"] = said["who"] or getpass.getuser()
-    append_rulings(folder, [Ruling(what, item, **said)])
-    print_sentence(f"{folder}/rulings.csv: {what} {item}. Next: quizgen class mark {folder}")
+    keys = KeyIndex(ClassFolder(folder))
+    made = read_points_table(table, keys, who or getpass.getuser(), comment)
+    check_rulings(made, keys)
+    append_rulings(folder, made)
+    students = len({one.student for one in made})
+    print_sentence(
+        f"{folder}/rulings.csv: points for {format_count(len(made), 'part')} of "
+        f"{format_count(students, 'student')}. Next: quizgen class mark {folder}"
+    )
+
+
+@click.command()
+@_folder
+@click.argument("student")
+@click.argument("what", metavar="STATUS")
+@click.option("--who", default="", help="Who says so. [default: the name of the account]")
+@click.option("--comment", default="", help="Why.")
+def status(folder: Path, student: str, what: str, who: str, comment: str) -> None:
+    """Say of STUDENT: present (blank paper), absent, sick, withdrawn or deception.
+
+    It stands in statuses.csv of the class in FOLDER and in the tables of grades; the last one
+    counts.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.statuses import StudentStatus, append_status
+
+    said = StudentStatus(student, what, who or getpass.getuser(), comment)
+    added = append_status(ClassFolder(folder), said)
+    print_sentence(f"{to_one_line(added.student)}: {added.status}")
 
 
 @click.command()
@@ -198,4 +312,4 @@ def analyse(folder: Path, lang: str) -> None:
     print_sentence(str(path))
 
 
-COMMANDS = (mark, rule, history, grade, analyse)
+COMMANDS = (mark, rule, points, status, history, grade, analyse)
