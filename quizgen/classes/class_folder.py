@@ -263,11 +263,19 @@ class _Line(msgspec.Struct):
 _LINE = json_decoder(_Line).decode
 
 
-def format_record(head: PrintedHead, key: AnswerKey) -> bytes:
-    """Return a paper as a line of ``keys.jsonl``, with the digest of its key."""
+def format_record(
+    head: PrintedHead,
+    key: AnswerKey,
+    models: Mapping[str, Mapping[str, Sequence[str]]] | None = None,
+) -> bytes:
+    """Return a paper as a line of ``keys.jsonl``, with the digest of its key.
+
+    ``models`` are model answers where sentences are asked for, by part and language.
+    """
     written = msgspec.json.encode(key)
     whole = msgspec.structs.replace(head, digest=_compute_key_digest(written))
-    table = {**msgspec.structs.asdict(whole), "key": msgspec.Raw(written)}
+    shown = {"models": models} if models else {}
+    table = {**msgspec.structs.asdict(whole), "key": msgspec.Raw(written), **shown}
     return msgspec.json.encode(table) + b"\n"
 
 

@@ -23,6 +23,7 @@ from quizgen.classes.rulings import (
     RulingBook,
     answer_group,
     fold_answer,
+    is_on_paper,
 )
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.grading.options import GradingOptions
@@ -227,7 +228,7 @@ def _iter_graded_parts(
             yield _apply_rulings(blank, [one for one in rulings if one.what in WHOLE])
             continue
         found = marker.judge_part(_with_tolerance(part, item, rulings), typed)
-        yield _apply_decisions(found, part, item, rulings)
+        yield _apply_decisions(found, part, item, rulings, sheet.student)
 
 
 def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyPart:
@@ -244,15 +245,26 @@ def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyP
     return ruled
 
 
+def stands_alone(kind: str, typed: str) -> bool:
+    """Return whether equal words of two students may stand for different answers.
+
+    Those that describe a drawing, or say that the answer is on paper.
+    """
+    return kind == "sketch" or is_on_paper(typed)
+
+
 def _apply_decisions(
-    found: PartResult, part: KeyPart, item: str, rulings: list[Ruling]
+    found: PartResult, part: KeyPart, item: str, rulings: list[Ruling], student: str
 ) -> GradedClassPart:
     """Return the mark of an answer after the rulings about it."""
     asked = found.status in TO_DECIDE
-    words = part.spec["kind"] == "text"
+    kind = part.spec["kind"]
+    words = kind == "text"
     group = ""
     if asked or rulings:
-        group = answer_group(item, part.parse_spec(proven=True).show(), found.typed, words=words)
+        shown = part.parse_spec(proven=True).show()
+        whose = f"\0{student}" if stands_alone(kind, found.typed) else ""
+        group = answer_group(item, shown + whose, found.typed, words=words)
     plain = GradedClassPart(
         found.id,
         item,

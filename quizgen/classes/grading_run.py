@@ -60,7 +60,7 @@ class GradingJob:
     keys: Path
     rulings: tuple[Ruling, ...]
     sheets: tuple[tuple[Submission, int], ...]
-    scale: GradeScale = GradeScale()
+    scale: GradeScale
 
 
 class GradeChange(NamedTuple):
@@ -167,14 +167,13 @@ def _iter_grade_changes(
     """Yield the students whose grade is another one than before."""
     bonus = {one.id: one.bonus_points for one in folder.students()} if totals else {}
     for one in totals:
-        grades, shares = [], []
-        for marks, points in (one.before, one.after):
-            exact = Fraction(marks), Fraction(points)
-            own = bonus.get(one.student, Fraction(0))
-            grades.append(scale.grade_with_bonus(own, *exact))
-            shares.append(marks / points if points else 0.0)
-        if grades[0] != grades[1]:
-            yield GradeChange(one.student, *grades, *shares)
+        own = bonus.get(one.student, Fraction(0))
+        (before, had), (after, has) = (
+            (scale.grade_with_bonus(own, Fraction(marks), Fraction(points)), marks / (points or 1))
+            for marks, points in (one.before, one.after)
+        )
+        if before != after:
+            yield GradeChange(one.student, before, after, had, has)
 
 
 def check_rulings(rulings: Iterable[Ruling], keys: KeyIndex) -> None:

@@ -16,7 +16,7 @@ from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
-from quizgen.classes.grading import StudentMarks, item_name
+from quizgen.classes.grading import StudentMarks, item_name, stands_alone
 from quizgen.classes.rulings import (
     DECIDE,
     SECOND,
@@ -106,6 +106,8 @@ class DecisionCase:
         Whether sentences are asked for.
     spots : tuple of (int, int)
         Where in the answer the key points stand.
+    alone : bool
+        Whether the same words of another student may mean another answer.
     """
 
     answer: AnswerGroupMember
@@ -114,6 +116,7 @@ class DecisionCase:
     suggestion: Fraction | None = None
     sentence: bool = False
     spots: tuple[tuple[int, int], ...] = ()
+    alone: bool = False
 
 
 def undecided_answers(
@@ -174,8 +177,9 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
     """Return an answer with its key, the key points found, and the points they suggest."""
     spec = part.parse_spec(proven=True)
     verdict = explain_verdict(spec, judge_answer(spec, answer.typed, GradingOptions(lang)), lang)
+    alone = stands_alone(part.spec["kind"], answer.typed)
     if not isinstance(spec, Text):
-        return DecisionCase(answer, spec.show_in(lang), verdict.message)
+        return DecisionCase(answer, spec.show_in(lang), verdict.message, alone=alone)
     found = tuple(map(str, _require_names(verdict.fields.get("found"))))
     needed = spec.needed or len(spec.key_points())
     suggested = round_to_quarters(
@@ -189,6 +193,7 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
         suggested,
         sentence=True,
         spots=spec.keyword_positions(answer.typed),
+        alone=alone,
     )
 
 
@@ -205,7 +210,8 @@ def group_cases(found: Iterable[DecisionCase]) -> list[list[DecisionCase]]:
     groups: dict[tuple[object, ...], dict[str, list[DecisionCase]]] = {}
     for case in found:
         words = _extract_comparable_words(case)
-        about = (case.answer.item, case.key, case.seen if case.sentence else "")
+        whose = case.answer.group if case.alone else ""
+        about = (case.answer.item, case.key, case.seen if case.sentence else "", whose)
         leaders = groups.setdefault(about, {})
         leaders.setdefault(
             _find_group_leader(words, leaders.keys()) if case.sentence else words, []

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+
+import msgspec
 
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.part_names import PartNames
@@ -34,24 +37,31 @@ def read_points_table(path: Path, keys: KeyIndex, who: str, comment: str) -> lis
         table = AnswerTable.find_in_file(path)
     if table is None or table.is_long:
         raise ClassError(f"{path}: the first row names a column 'id', and parts: id,1a,1b")
-    found = []
+    found: list[Ruling] = []
     for line, cells, typed in table.students():
         try:
-            student = keys.find_student(cells.get("id", ""))
-            outline = keys.outline(student)
-            given, unknown = PartNames(outline.items).sort_answers(typed)
-            if odd := next((name for name in unknown if typed[name].strip()), ""):
-                raise ClassError(f"the paper of {student} has no part {odd!r}")
-            for part, text in given.items():
-                if text.strip():
-                    item = outline.items[part]
-                    points = text.strip().replace(",", ".")
-                    one = Ruling(POINTS, item, value=points, student=student, who=who, comment=comment)
-                    one.check()
-                    one.check_worth(outline.worth[item])
-                    found.append(one)
+            found += _iter_row_points(cells.get("id", ""), typed, keys)
         except (ClassError, KeyFileError) as error:
             raise ClassError(f"{path}: line {line}: {error}") from None
     if not found:
         raise ClassError(f"{path}: has no points")
-    return found
+    return [msgspec.structs.replace(one, who=who, comment=comment) for one in found]
+
+
+def _iter_row_points(student: str, typed: Mapping[str, str], keys: KeyIndex) -> Iterator[Ruling]:
+    """Yield a ruling for each cell of a student's row that is not empty.
+
+    Raises ``ClassError`` if student, part or points are not possible.
+    """
+    student = keys.find_student(student)
+    outline = keys.outline(student)
+    given, unknown = PartNames(outline.items).sort_answers(typed)
+    if odd := next((name for name in unknown if typed[name].strip()), ""):
+        raise ClassError(f"the paper of {student} has no part {odd!r}")
+    for part, text in given.items():
+        if text.strip():
+            item, points = outline.items[part], text.strip().replace(",", ".")
+            one = Ruling(POINTS, item, value=points, student=student)
+            one.check()
+            one.check_worth(outline.worth[item])
+            yield one

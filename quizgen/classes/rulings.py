@@ -52,6 +52,12 @@ OF_ONE = frozenset({POINTS, USE})
 """What is about one student."""
 LONGEST = 10_000
 """Characters of a cell."""
+_ON_PAPER = re.compile(
+    r"\W*((see|s\.?|siehe|vgl\.?|on|auf|cf\.?)\s+(the\s+|own\s+|dem\s+|der\s+)?"
+    r"(paper|sheet|back|page|drawing|sketch|over|blatt|rück|seite|papier|bogen|skizze|zeichnung)"
+    r"|(খাতায়|কাগজে|পেছনে))"
+)
+"""Words of whoever copies answers from paper."""
 _ENDS = " .,;:!?।"
 _TOLERANCE = re.compile(r"(decimals|sigfigs)\s*=\s*(\d{1,2})|(rel|abs)\s*=\s*(\d+(?:[./]\d+)?)")
 
@@ -261,6 +267,11 @@ def fold_answer(answer: str, *, words: bool) -> str:
     """
     text = " ".join(unicodedata.normalize("NFKC", answer).split())
     return text.casefold().strip(_ENDS) if words else text
+
+
+def is_on_paper(answer: str) -> bool:
+    """Return whether an answer only says that the real one stands on the student's paper."""
+    return _ON_PAPER.match(unicodedata.normalize("NFKC", answer).casefold()) is not None
 
 
 def answer_group(item: str, key: str, answer: str, *, words: bool) -> str:

@@ -13,11 +13,28 @@ from markupsafe import Markup
 
 from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.grade_scale import read_grade_scale
-from quizgen.classes.gradebook import FOLDER, GradedStudent, grade_students, write_grades
-from quizgen.classes.grading import DROPPED, GradedClassPart, StudentMarks, item_name
+from quizgen.classes.gradebook import (
+    FOLDER,
+    KEY_CHANGED,
+    GradeBasis,
+    GradedStudent,
+    grade_students,
+    write_grades,
+)
+from quizgen.classes.grading import (
+    DROPPED,
+    TO_DECIDE,
+    GradedClassPart,
+    StudentMarks,
+    item_name,
+)
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
+from quizgen.classes.office_tables import build_office_tables
+from quizgen.classes.rulings import DROP, TOLERANCE
+from quizgen.classes.statuses import PRESENT, read_statuses
+from quizgen.classes.submissions import read_rivals
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context, escape_control_characters
@@ -26,7 +43,6 @@ from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
 from quizgen.kinds.grade import show_key
 from quizgen.locale import (
-    FIRST,
     fallback_language,
     format_amount,
     language_css,
@@ -48,6 +64,8 @@ MOST_TO_REVISE = 5
 NOT_TYPED = frozenset({"text", "sketch"})
 """Kinds whose key nobody types."""
 PACKAGE = "quizgen.classes"
+ModelAnswers = Mapping[str, Mapping[str, Sequence[str]]]
+"""Part to language to the sentences of a model answer."""
 
 
 @dataclass(frozen=True)
@@ -95,12 +113,6 @@ class ReportQuestion:
     def worth(self) -> str:
         """Return marks and points, such as ``2.5 / 4``."""
         return localise_numbers(self.lang, f"{self.marks:g} / {self.points:g}")
-
-    @property
-    def practise(self) -> str:
-        """Return the shell command that practises the question's topic."""
-        own = "" if self.lang == FIRST else f" --lang {self.lang}"
-        return f"quizgen practice --topic {self.topic}{own}"
 
     def format_loss(self, words: Mapping[str, str]) -> str:
         """Return the sentence on how many points were lost."""
@@ -171,7 +183,13 @@ class StudentReport:
         return self.words[name].format(count=count) if count else ""
 
 
-def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False) -> StudentReport:
+def make_report(
+    line: GradedStudent,
+    key: AnswerKey,
+    models: ModelAnswers | None = None,
+    *,
+    anonymous: bool = False,
+) -> StudentReport:
     """Return the report of a student whose answers came back.
 
     Parameters
@@ -180,6 +198,8 @@ def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False)
         Somebody whose answers came back.
     key : AnswerKey
         Of the student's paper.
+    models : mapping, optional
+        Model answers where sentences are asked for.
     anonymous : bool
         Leave name and id out.
     """
@@ -187,21 +207,23 @@ def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False)
     marks = line.marks
     lang = fallback_language(marks.lang)
     who = "" if anonymous else ", ".join(filter(None, (line.student.name, line.student.id)))
-    sections = tuple(_build_section(question, marks) for question in key.questions)
+    sections = tuple(_build_section(one, marks, models or {}) for one in key.questions)
     title = key.title.get(lang) or next(iter(key.title.values()), "")
     return StudentReport(
         lang, title, escape_control_characters(who, ""), line.code, line.grade, marks, sections
     )
 
 
-def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion:
+def _build_section(
+    question: KeyQuestion, marks: StudentMarks, models: ModelAnswers
+) -> ReportQuestion:
     """Return one question of a student's report: its parts, and its points in sum.
 
     ``marks`` are all of the student's; title and topic come from the key.
     """
     given = {part.id: part for part in marks.parts}
     mine = [given[part.id] for part in question.parts if part.id in given]
-    rows = tuple(_iter_report_rows(question, marks))
+    rows = tuple(_iter_report_rows(question, marks, models))
     title = question.title.get(marks.lang) or next(iter(question.title.values()), "")
     return ReportQuestion(
         question.number,
@@ -215,8 +237,13 @@ def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion
     )
 
 
-def _iter_report_rows(question: KeyQuestion, marks: StudentMarks) -> Iterator[ReportPart]:
-    """Yield each part with its feedback in the student's language."""
+def _iter_report_rows(
+    question: KeyQuestion, marks: StudentMarks, models: ModelAnswers
+) -> Iterator[ReportPart]:
+    """Yield each part with its feedback in the student's language.
+
+    Where a person decides, only what that person says stands there.
+    """
     lang = fallback_language(marks.lang)
     words = load_words(lang, "classes")["report"]
     marker = QuestionGrader(question, GradingOptions(lang, marks.decimal))
@@ -226,20 +253,33 @@ def _iter_report_rows(question: KeyQuestion, marks: StudentMarks) -> Iterator[Re
         if found is None:
             continue
         again = marker.grade_part(part, found.typed)
-        message = "" if again.is_blank or found.marks == found.points else again.verdict.message
+        full = again.is_blank or found.marks == found.points
+        message = "" if full or _is_persons(found) else again.verdict.message
+        model = models.get(part.id, {})
         yield ReportPart(
             part.id.removeprefix(question.number),
             _format_typed_answer(found.typed, part.spec["kind"], words, lang),
-            _format_right_answer(part, lang),
+            _format_right_answer(part, model.get(lang) or next(iter(model.values()), ()), lang),
             _format_points(found, lang),
             message,
             _format_remark(found, words),
         )
 
 
-def _format_right_answer(part: KeyPart, lang: str) -> str:
-    """Return the key as a person writes it; a program's output as it is printed."""
+def _is_persons(part: GradedClassPart) -> bool:
+    """Return whether a person decides, or has decided, what an answer is worth."""
+    by_rule = part.by.startswith((TOLERANCE, DROP))  # these leave judging to the machine
+    return part.needs_decision or part.status in TO_DECIDE or bool(part.by and not by_rule)
+
+
+def _format_right_answer(part: KeyPart, model: Sequence[str], lang: str) -> str:
+    """Return the key as a person writes it; a program's output as it is printed.
+
+    ``model`` are the sentences of a model answer, if one was written.
+    """
     kind = part.spec["kind"]
+    if kind in NOT_TYPED and model:
+        return "\n".join(model if len(model) == 1 else (f"• {one}" for one in model))
     if kind in NOT_TYPED:
         return str(load_words(lang, "classes")["report"]["solution"])
     right = show_key(part.parse_spec(), lang)
@@ -332,11 +372,10 @@ def _typeset_revision_list(report: StudentReport) -> str:
     if not report.revise:
         return f"#block({typst_literal(report.nothing)})" if report.nothing else ""
     rows = ", ".join(
-        f"({typst_literal(one.name)}, {typst_literal(one.format_loss(words))}"
-        f", {typst_literal(one.practise)})"
+        f"({typst_literal(one.name)}, {typst_literal(one.format_loss(words))})"
         for one in report.revise
     )
-    sentences = (words["revise"], words["revise_about"], words["practise"])
+    sentences = (words["revise"], words["revise_about"])
     return f"#revise({', '.join(map(typst_literal, sentences))}, ({rows},))"
 
 
@@ -361,6 +400,8 @@ def _typeset_text(text: str) -> str:
     return typst_literal(replace_unprintable(text))
 
 
+OFFICE = "de"
+"""Language of the office's tables, where nobody says which."""
 REPORTS, ANONYMOUS = "reports", "anonymous"
 """Apart, for who hands out the one must not hand out the other."""
 CHUNK = 50
@@ -368,7 +409,7 @@ CHUNK = 50
 
 
 def write_grades_and_reports(
-    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool = False
+    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool = False, office: str = OFFICE
 ) -> tuple[list[GradedStudent], list[str], list[Path]]:
     """Write grades and reports; return lines, ids not on the roster, and paths.
 
@@ -380,6 +421,8 @@ def write_grades_and_reports(
     anonymous : bool
         Reports bear the code instead of the name, also as the name of their file,
         in a folder of their own.
+    office : str
+        Language of the tables for the examination office.
 
     Raises
     ------
@@ -389,21 +432,31 @@ def write_grades_and_reports(
         If something cannot be written.
     """
     with lock_folder(folder.path):
-        return _write_locked_folder(folder, formats, anonymous=anonymous)
+        return _write_locked_folder(folder, formats, anonymous=anonymous, office=office)
 
 
 def _write_locked_folder(
-    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool
+    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool, office: str
 ) -> tuple[list[GradedStudent], list[str], list[Path]]:
     """Write grades and reports while the folder is locked."""
     marked = {one.student: one for one in GradingHistory(folder.path).current()}
     if not marked:
         raise ClassError(f"{folder.path}: nothing has been marked yet (quizgen class mark)")
-    scale = read_grade_scale(folder.path)
-    lines = grade_students(folder.students(), folder.heads(), marked, scale)
-    files = write_grades(folder.path, lines, scale)
-    keys, place = KeyIndex(folder), folder.path / FOLDER / (ANONYMOUS if anonymous else REPORTS)
-    for chunk in _iter_chunks([one for one in lines if one.marks] if formats else []):
+    scale, keys = read_grade_scale(folder.path), KeyIndex(folder)
+    basis = GradeBasis(
+        folder.heads(),
+        marked,
+        scale,
+        {who: one.status for who, one in read_statuses(folder.path).items()},
+        keys.find_changed(),
+        read_rivals(folder.path),
+    )
+    lines = grade_students(folder.students(), basis)
+    files = write_grades(folder.path, lines, scale, build_office_tables(lines, scale, office))
+    place = folder.path / FOLDER / (ANONYMOUS if anonymous else REPORTS)
+    graded = [one for one in lines
+              if one.marks and one.status == PRESENT and one.held != KEY_CHANGED]  # fmt: skip
+    for chunk in _iter_chunks(graded if formats else []):
         write_all(place, _render_reports(keys, chunk, formats, anonymous), PRIVATE)
     left = marked.keys() - {one.student.id for one in lines}
     return lines, sorted(left), [*files, *([place] if formats else [])]
@@ -423,7 +476,8 @@ def _render_reports(
     made: dict[str, bytes] = {}
     for line in lines:
         with error_context(keys.path, KeyFileError):
-            report = make_report(line, keys.key(line.student.id), anonymous=anonymous)
+            who = line.student.id
+            report = make_report(line, keys.key(who), keys.models(who), anonymous=anonymous)
         name = line.code if anonymous else line.student.file
         made |= {f"{name}.{form}": render[form](report) for form in formats}
     return made

@@ -8,7 +8,6 @@ stay until a person says which of them count.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -135,9 +134,10 @@ class Submissions:
         """Return the answers of a student that count; None if a person has to say which."""
         written = [one for one in sheets if count_filled(one)]
         if not written and student not in self.blank:
+            who = safe_echo(student)
             self.problems.append(
-                f"{safe_echo(student)}: nothing is filled in {safe_echo(sheets[0].file)}; if blank "
-                f"paper was handed in: quizgen class status {safe_echo(student)} present"
+                f"{who}: nothing is filled in {safe_echo(sheets[0].file)}; if blank paper was "
+                f"handed in: quizgen class status {self.folder.parent} {who} present"
             )
             return None
         known = [self.ruled.get(student), self.marked.get(student)]
@@ -147,8 +147,7 @@ class Submissions:
             return chosen or next(iter(written or sheets))
         if known[0] not in by_file:
             self.rivals += [
-                RivalAnswers(student, one.file, count_filled(one), one is chosen)
-                for one in written
+                RivalAnswers(student, one.file, count_filled(one), one is chosen) for one in written
             ]
         return chosen
 

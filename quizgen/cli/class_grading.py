@@ -58,18 +58,23 @@ def _report_run(folder: Path, run: GradingRun, lost: list[str]) -> None:
 
     What changes grades stands before what changes marks.
     """
+    from quizgen.classes.class_folder import ANSWERS
+
     outcome = run.outcome
     print_sentence(
         f"{folder}: {format_count(outcome.students, 'student')}"
         f" marked, {outcome.new} for the first time"
     )
     problems = [*lost, *run.problems]
-    _print_list(f"{len(problems)} not marked", problems)
+    where = f" (mend or remove the file in {folder}/{ANSWERS}, then mark again)"
+    _print_list(f"{len(problems)} not marked{where if run.problems else ''}", problems)
     _print_list("Answers that came twice and differ", [*_iter_rival_lines(folder, run.rivals)])
     _print_list("Parts filled in, the fewest first", [*_iter_filled_lines(run.filled)])
     if run.decided:
         print_sentence(f"{format_count(run.decided, 'decision')} taken from decisions.csv")
-    _print_list(f"{format_count(len(run.grades), 'grade')} changed", [*map(_format_grade, run.grades)])
+    _print_list(
+        f"{format_count(len(run.grades), 'grade')} changed", [*map(_format_grade, run.grades)]
+    )
     changes = outcome.changes
     if changes and not run.grades:
         print_sentence("No grade changed")
@@ -267,11 +272,15 @@ def _format_part_mark(part: GradedClassPart) -> str:
 @_folder
 @click.option("--reports", default="html", help="Reports for students: html, pdf, or none.")
 @click.option("--anonymous", is_flag=True, help="Reports bear the code instead of the name.")
-def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
+@click.option(
+    "--office", type=LanguageParam(), default="de", help="Language of office.csv. [default: de]"
+)
+def grade(folder: Path, reports: str, *, anonymous: bool, office: str) -> None:
     """Write grades, and a report for each student, into results of the class in FOLDER.
 
-    grades.csv and grades.xlsx are for the office, posted.csv has codes and grades without names.
-    Grades follow scale.toml, else the usual German scale.
+    grades.csv and grades.xlsx have every item, office.csv and office.xlsx what an examination
+    office takes, posted.csv codes and grades without names. Grades follow scale.toml, else the
+    usual German scale.
     """
     from quizgen.classes.class_folder import ClassFolder
     from quizgen.classes.student_reports import write_grades_and_reports
@@ -279,7 +288,9 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
     wished = [
         match_choice("reports", name, REPORTS) for name in split_names(reports) if name != "none"
     ]
-    lines, left, files = write_grades_and_reports(ClassFolder(folder), wished, anonymous=anonymous)
+    lines, left, files = write_grades_and_reports(
+        ClassFolder(folder), wished, anonymous=anonymous, office=office
+    )
     there = [one for one in lines if one.marks]
     passed = sum(one.passed for one in there)
     print_sentence(
@@ -290,8 +301,12 @@ def grade(folder: Path, reports: str, *, anonymous: bool) -> None:
     open_still = sum(one.marks.undecided_count for one in there if one.marks)
     if open_still:
         print_sentence(f"Provisional: {format_count(open_still, 'answer')} still to be decided")
+    held = [f"{one.student.id}: {one.held}" for one in lines if one.held]
+    _print_list("Before these are final, somebody has to see to it", held)
     for path in files:
         print_sentence(str(path))
+    if held:
+        raise SystemExit(1)
 
 
 @click.command()

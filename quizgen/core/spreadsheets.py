@@ -6,6 +6,7 @@ the number that it is stored as.
 
 from __future__ import annotations
 
+import contextlib
 import io
 import re
 import zipfile
@@ -81,10 +82,8 @@ def decode_spreadsheet(data: bytes, where: object, error: ErrorType) -> str:
         Of class ``error``, naming the file.
     """
     if is_old_encoding(data):
-        try:
+        with contextlib.suppress(UnicodeDecodeError):  # no text at all: UTF-8 says where it ends
             data = data.decode(OLD_ENCODING).encode()
-        except UnicodeDecodeError:
-            pass  # no text at all: UTF-8 says where it ends
     return decode_text(data, where, error)
 
 
@@ -92,18 +91,15 @@ def _iter_workbook_rows(
     data: bytes, path: Path, error: ErrorType
 ) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows of the first sheet that a workbook shows."""
-    from xml.etree.ElementTree import ParseError, iterparse
+    from xml.etree.ElementTree import ParseError
 
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as book:
             shared = _read_shared_texts(book, path, error)
-            sheet = io.BytesIO(_read_member(book, _find_first_sheet(book, path, error), path, error))
+            sheet = _parse_member(book, _find_first_sheet(book, path, error), path, error)
             count = 0
-            for _, row in iterparse(sheet):
-                if not row.tag.endswith("}row"):
-                    continue
+            for row in (node for node in sheet.iter() if node.tag.endswith("}row")):
                 line, cells = _parse_row(row, shared)
-                row.clear()
                 count += 1 + len(cells)
                 if count > MOST_VALUES:
                     raise error(f"{path}: more than {MOST_VALUES} values")
@@ -118,42 +114,38 @@ def _iter_workbook_rows(
 
 def _find_first_sheet(book: zipfile.ZipFile, path: Path, error: ErrorType) -> str:
     """Return the name of the first sheet's file: by the workbook's own list, in its order."""
-    from xml.etree.ElementTree import fromstring
-
-    listed = fromstring(_read_member(book, "xl/workbook.xml", path, error))
-    links = fromstring(_read_member(book, "xl/_rels/workbook.xml.rels", path, error))
+    listed = _parse_member(book, "xl/workbook.xml", path, error)
+    links = _parse_member(book, "xl/_rels/workbook.xml.rels", path, error)
     targets = {link.get("Id"): link.get("Target", "") for link in links}
-    first = next(node for node in listed.iter() if node.tag.endswith("}sheet"))
+    (first, *_) = (node for node in listed.iter() if node.tag.endswith("}sheet"))
     (name,) = (value for key, value in first.attrib.items() if key.endswith("}id"))
     target = targets[name]
     return target.lstrip("/") if target.startswith("/") else f"xl/{target}"
 
 
-def _read_member(book: zipfile.ZipFile, name: str, path: Path, error: ErrorType) -> bytes:
+def _parse_member(book: zipfile.ZipFile, name: str, path: Path, error: ErrorType) -> Element:
     """Return a file of the archive, unless it is larger than any table or declares entities."""
+    from xml.etree.ElementTree import fromstring
+
     with book.open(name) as stream:
         found = stream.read(LARGEST_FILE + 1)
     if len(found) > LARGEST_FILE or _TYPE_DECLARATION in found:
         raise error(f"{path}: {name} is larger than {LARGEST_FILE // 10**6} MB or declares types")
-    return found
+    return fromstring(found)  # noqa: S314 - no entities
 
 
 def _read_shared_texts(book: zipfile.ZipFile, path: Path, error: ErrorType) -> list[str]:
     """Return the texts that cells refer to by number."""
-    from xml.etree.ElementTree import fromstring
-
     name = "xl/sharedStrings.xml"
     if name not in book.namelist():
         return []
-    return [_join_text(node) for node in fromstring(_read_member(book, name, path, error))]
+    return [_join_text(node) for node in _parse_member(book, name, path, error)]
 
 
 def _join_text(node: Element) -> str:
     """Return the text below a node, without the reading aids of Japanese."""
     aids = {id(t) for one in node.iter() if one.tag.endswith("}rPh") for t in one.iter()}
-    return "".join(
-        t.text or "" for t in node.iter() if t.tag.endswith("}t") and id(t) not in aids
-    )
+    return "".join(t.text or "" for t in node.iter() if t.tag.endswith("}t") and id(t) not in aids)
 
 
 def _parse_row(row: Element, shared: list[str]) -> tuple[int, list[str]]:
