@@ -69,7 +69,7 @@ class ClassMakeOptions(BankOptions):
 @click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
 @bank_options
 def make(**options: Unpack[ClassMakeOptions]) -> None:
-    """Make a paper for each student of ROSTER, a CSV file with a column id.
+    """Make a paper for each student of ROSTER, a CSV or XLSX file with a column id.
 
     All papers have the same questions with other numbers. A second run makes only what is missing
     or whose row has changed.
@@ -79,6 +79,7 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     from quizgen.classes.print_file import write_print_file
     from quizgen.classes.roster import read_roster
     from quizgen.core.executor import open_executor
+    from quizgen.core.spreadsheets import is_old_encoding
 
     if options["one_file"]:
         require_extra("print", "quizgen class make --one-file")
@@ -94,6 +95,9 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
         write_print_file(folder, students)
     _report_papers(folder, report)
     _report_unprintable_names(students)
+    if is_old_encoding(options["roster"].read_bytes()):
+        print_sentence(f"{options['roster']}: is not UTF-8, and was read as Windows-1252; "
+                       "see that the names are right")  # fmt: skip
     if unread:
         print_sentence(
             f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)"

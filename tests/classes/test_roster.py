@@ -34,7 +34,10 @@ def test_a_roster_of_a_german_office_is_read_as_it_comes(tmp_path):
 
 
 def test_names_in_two_columns_are_one(tmp_path):
-    assert roster(tmp_path, "id;Zuname;Rufname\n1;Weiß;Ben\n", name="Rufname+Zuname")[0].name == "Ben Weiß"
+    assert (
+        roster(tmp_path, "id;Zuname;Rufname\n1;Weiß;Ben\n", name="Rufname+Zuname")[0].name
+        == "Ben Weiß"
+    )
     assert roster(tmp_path, "id;Name;Vorname\n1;Weiß;Ben\n")[0].name == "Ben Weiß"
     assert roster(tmp_path, "id;name;last name\n1;Ben W.;Weiß\n")[0].name == "Ben W."
     assert roster(tmp_path, "id;Nachname\n1;Weiß\n")[0].name == "Weiß"
