@@ -10,7 +10,7 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from typing import NamedTuple
@@ -32,6 +32,8 @@ from quizgen.classes.class_folder import (
     PrintedHead,
     format_record,
 )
+from quizgen.classes.exam_details import FILE as EXAM
+from quizgen.classes.exam_details import ExamDetails, read_exam_details
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.pseudonyms import form_seal, new_secret, student_code, student_seed
 from quizgen.classes.roster import RosterStudent, seat_neighbours
@@ -43,7 +45,13 @@ from quizgen.paper.answer_form import has_answers, write_blank_form
 from quizgen.paper.answer_key import make_answer_key
 from quizgen.paper.blueprint import Blueprint
 from quizgen.paper.code import PaperCode, source_digest
-from quizgen.paper.paper import Paper, PaperHolder, ProgressCallback, compose_paper
+from quizgen.paper.paper import (
+    Paper,
+    PaperCover,
+    PaperHolder,
+    ProgressCallback,
+    compose_paper,
+)
 from quizgen.paper.provenance import describe_differences
 from quizgen.paper.selection import alternatives, select_templates, slot_levels
 from quizgen.paper.variants import draw_variants, shared_content
@@ -72,6 +80,8 @@ class GenerationJob:
         To whom each of them gives way, and those in turn.
     former : mapping of str to tuple of str
         Codes that each has had.
+    exam : ExamDetails
+        What covers say.
     """
 
     settings: ClassSettings
@@ -79,6 +89,7 @@ class GenerationJob:
     students: tuple[RosterStudent, ...]
     neighbours: Mapping[str, tuple[str, ...]]
     former: Mapping[str, tuple[str, ...]]
+    exam: ExamDetails
 
 
 class GeneratedPaper(NamedTuple):
@@ -175,14 +186,20 @@ def generate_papers(
     """
     with lock_folder(folder.path):
         _check_bank_unchanged(folder, blueprint)
-        heads = folder.heads()
-        todo = [one for one in students if not _is_up_to_date(folder, one, heads.get(one.id))]
+        heads, exam = folder.heads(), read_exam_details(folder.path / EXAM) or ExamDetails()
+        todo = [one for one in students if not _is_up_to_date(folder, one, exam, heads.get(one.id))]
         folder.write_roster(students)
         done: list[GeneratedPaper] = []
         former = {one: head.codes for one, head in heads.items()}
-        jobs = _iter_jobs(
-            folder.settings, blueprint, todo, _assign_neighbours(students, heads), former
+        whole = GenerationJob(
+            folder.settings,
+            blueprint,
+            tuple(todo),
+            _assign_neighbours(students, heads),
+            former,
+            exam,
         )
+        jobs = _iter_jobs(whole)
         for results in map_unordered(executor, run_generation_job, jobs, ahead):
             _write_papers_and_keys(folder, results)
             for one in results:
@@ -216,18 +233,16 @@ def _check_bank_unchanged(folder: ClassFolder, blueprint: Blueprint) -> None:
         )
 
 
-def _iter_jobs(
-    settings: ClassSettings,
-    blueprint: Blueprint,
-    todo: Sequence[RosterStudent],
-    neighbours: Mapping[str, tuple[str, ...]],
-    former: Mapping[str, tuple[str, ...]],
-) -> Iterator[GenerationJob]:
+def _iter_jobs(whole: GenerationJob) -> Iterator[GenerationJob]:
     """Yield jobs of ``CHUNK`` students, each with the neighbours its papers depend on."""
-    for at in range(0, len(todo), CHUNK):
-        chunk = tuple(todo[at : at + CHUNK])
-        had = {one.id: former.get(one.id, ()) for one in chunk}
-        yield GenerationJob(settings, blueprint, chunk, _select_neighbours(chunk, neighbours), had)
+    for at in range(0, len(whole.students), CHUNK):
+        chunk = whole.students[at : at + CHUNK]
+        yield replace(
+            whole,
+            students=chunk,
+            neighbours=_select_neighbours(chunk, whole.neighbours),
+            former={one.id: whole.former.get(one.id, ()) for one in chunk},
+        )
 
 
 def _write_papers_and_keys(folder: ClassFolder, results: Sequence[GeneratedPaper]) -> None:
@@ -245,15 +260,20 @@ def _write_papers_and_keys(folder: ClassFolder, results: Sequence[GeneratedPaper
     folder.append(one.line for one in results)
 
 
-def _compute_student_digest(settings: ClassSettings, one: RosterStudent) -> str:
+def _compute_student_digest(settings: ClassSettings, one: RosterStudent, exam: ExamDetails) -> str:
     """Return a digest of all that a student's files depend on."""
-    row = [one.id, one.name, one.lang or settings.lang, one.extra, settings.digest]
+    row: list[object] = [one.id, one.name, one.lang or settings.lang, one.extra, settings.digest]
+    shown = exam.build_cover(one)
+    if shown != PaperCover() or exam.title:
+        row.append([msgspec.to_builtins(shown), exam.title])
     return hashlib.sha256(json.dumps(row).encode()).hexdigest()[:16]
 
 
-def _is_up_to_date(folder: ClassFolder, one: RosterStudent, head: PrintedHead | None) -> bool:
+def _is_up_to_date(
+    folder: ClassFolder, one: RosterStudent, exam: ExamDetails, head: PrintedHead | None
+) -> bool:
     """Return whether a student's files exist and are up to date."""
-    if head is None or head.stamp != _compute_student_digest(folder.settings, one):
+    if head is None or head.stamp != _compute_student_digest(folder.settings, one, exam):
         return False
     return all((folder.path / name).exists() for name in _list_student_files(one))
 
@@ -338,7 +358,7 @@ def _make_student_files(
     """Return one student's paper with its files, key and report."""
     drawn, neighbours = drawing.of(one.id), job.neighbours[one.id]
     made = _compose_student_paper(job, one, drawing.bank, drawn)
-    paper = _assign_student_code(job.settings, one, made)
+    paper = _assign_student_code(job, one, made)
     sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
     evict_cache(PRETENDED)
     former = tuple(sorted({*job.former[one.id]} - {paper.code}))
@@ -346,7 +366,7 @@ def _make_student_files(
         one.id,
         paper.code,
         made.code,
-        _compute_student_digest(job.settings, one),
+        _compute_student_digest(job.settings, one, job.exam),
         neighbours,
         former=former,
     )
@@ -384,16 +404,20 @@ def _compose_student_paper(
     return compose_paper(bank, job.blueprint, drawn, named)
 
 
-def _assign_student_code(settings: ClassSettings, one: RosterStudent, paper: Paper) -> Paper:
-    """Return the paper with the student's name, code and seal.
+def _assign_student_code(job: GenerationJob, one: RosterStudent, paper: Paper) -> Paper:
+    """Return the paper with the student's name, cover, code and seal.
 
     The code is a message authentication code: it reveals nothing about the numbers.
     """
+    cover, secret = job.exam.build_cover(one), job.settings.secret
+    titled = msgspec.structs.replace(job.blueprint, title=dict(job.exam.titles))
     return msgspec.structs.replace(
         paper,
-        code=student_code(settings.secret, one.id, paper.digest),
-        seal=form_seal(settings.secret, one.id, paper.digest),
-        holder=PaperHolder(one.id, one.name, one.extra_minutes(paper.minutes)),
+        code=student_code(secret, one.id, paper.digest),
+        seal=form_seal(secret, one.id, paper.digest),
+        holder=PaperHolder(one.id, one.name),
+        cover=None if cover == PaperCover() else cover,
+        blueprint=titled if job.exam.title else paper.blueprint,
     )
 
 

@@ -21,7 +21,8 @@ from quizgen.cli.options import (
 )
 from quizgen.cli.terminal import ProgressLine, format_count, print_sentence, to_one_line
 from quizgen.core.errors import ClassError, require_extra
-from quizgen.locale import default_language
+from quizgen.core.files import PRIVATE, write_all
+from quizgen.locale import FIRST, default_language
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -52,6 +53,7 @@ class ClassMakeOptions(BankOptions):
     lang: str | None
     vary: bool
     one_file: bool
+    about: Path | None
     jobs: int | None
     scheduler: str
 
@@ -64,6 +66,11 @@ class ClassMakeOptions(BankOptions):
 @click.option("--lang", type=LanguageParam(both=True),
               help="Of who has none in the roster; English if the bank has it.")  # fmt: skip
 @click.option("--vary", is_flag=True, help="Other templates of the same kind, too.")
+@click.option(
+    "--about",
+    type=click.Path(path_type=Path),
+    help="TOML file: course, date, room, rules, for the covers.",
+)
 @click.option("--one-file", is_flag=True, help="Write print.pdf, too: all papers, for the printer.")
 @jobs_option
 @click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
@@ -75,6 +82,7 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     or whose row has changed.
     """
     from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.exam_details import FILE as EXAM
     from quizgen.classes.generation import generate_papers
     from quizgen.classes.print_file import write_print_file
     from quizgen.classes.roster import read_roster
@@ -83,12 +91,15 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
 
     if options["one_file"]:
         require_extra("print", "quizgen class make --one-file")
+    about = _read_about(options["about"])
     unread: list[str] = []
     students = read_roster(options["roster"], _parse_columns(options["columns"]), unread.append)
     folder = ClassFolder(options["out"])
     count = worthwhile_processes(options["jobs"], len(students) * A_PAPER)
     with open_executor(count, options["scheduler"]) as (executor, ahead):  # before any folder
         blueprint = _open_class_blueprint(folder, students, options)
+        if about:
+            write_all(folder.path, {EXAM: about}, PRIVATE)
         with ProgressLine("paper", len(students)) as progress:
             report = generate_papers(folder, students, blueprint, executor, ahead, progress)
     if options["one_file"]:
@@ -116,6 +127,22 @@ def code(folder: Path, printed: str) -> None:
 
 
 @class_.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option("--lang", type=LanguageParam(), default=FIRST, help="Of the lists.")
+def lists(folder: Path, lang: str) -> None:
+    """Write the lists for the rooms of the class in FOLDER.
+
+    lists/attendance.pdf has names and is signed; lists/seats.pdf has ids alone, to hang at the
+    door; lists/more-time.pdf is for those who watch.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.room_lists import write_room_lists
+
+    for path in write_room_lists(ClassFolder(folder), lang):
+        print_sentence(str(path))
+
+
+@class_.command()
 @click.argument("keys", type=click.Path(path_type=Path))
 @click.argument("reports", type=click.Path(path_type=Path), nargs=-1, required=True)
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder of the class.")
@@ -134,6 +161,17 @@ def take(keys: Path, reports: tuple[Path, ...], out: Path) -> None:
         print_sentence(to_one_line(line))
     print_sentence(f"{out}: {found.people} on the roster, answers of {found.new} new. "
          f"Next: quizgen class mark {out}")  # fmt: skip
+
+
+def _read_about(path: Path | None) -> bytes:
+    """Return the bytes of the file on the exam, checked; none if no file was named."""
+    from quizgen.classes.exam_details import read_exam_details
+
+    if path is None:
+        return b""
+    if read_exam_details(path) is None:
+        raise click.BadParameter(f"there is no file {path}", param_hint="--about")
+    return path.read_bytes()
 
 
 def _parse_columns(text: str | None) -> Mapping[str, str]:

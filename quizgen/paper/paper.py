@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from typing import NamedTuple
@@ -66,13 +66,28 @@ class PaperHolder(msgspec.Struct, frozen=True):
     Parameters
     ----------
     id, name : str
-    extra : int
-        Minutes added to the working time.
     """
 
     id: str
     name: str = ""
-    extra: int = 0
+
+
+class PaperCover(msgspec.Struct, frozen=True):
+    """What the cover of an exam says of its circumstances.
+
+    Parameters
+    ----------
+    facts : mapping of str to mapping of str to str
+        Word of the section ``paper`` of the interface to its value in each language.
+    rules : mapping of str to tuple of str
+        What holds in the room, in each language.
+    signature : bool
+        Whether there is a line to sign on.
+    """
+
+    facts: Mapping[str, Mapping[str, str]] = {}
+    rules: Mapping[str, tuple[str, ...]] = {}
+    signature: bool = False
 
 
 class Paper(msgspec.Struct, frozen=True):
@@ -90,6 +105,8 @@ class Paper(msgspec.Struct, frozen=True):
     """Whose paper it is, if it is one person's."""
     banks: tuple[BankRecord, ...] = ()
     """What it was made from."""
+    cover: PaperCover | None = None
+    """What its cover says of the circumstances, if anything."""
 
     def __repr__(self) -> str:
         """Return code, number of questions and points."""

@@ -9,6 +9,7 @@ from quizgen.locale import format_amount, format_marks, translate
 from quizgen.paper.paper import Paper, PaperItem
 from quizgen.question.compose import AnswerField, Question, QuestionPart
 from quizgen.question.solution import PartSolution, Solution, SolutionStep, SolvedMisconception
+from quizgen.render.cover import list_cover_facts, typeset_house_rules
 from quizgen.render.layouts import answer_rows
 from quizgen.render.typst_document import (
     blocks_to_typst,
@@ -99,6 +100,7 @@ class _TypstPaper:
                 *(f"{line}\n#v(0.5em)" for line in lines),
                 gap,
                 f"#notice[{rules}]",
+                *typeset_house_rules(self.paper),
                 "#v(0.8em)",
                 self._typeset_mark_table(),
                 "#pagebreak(weak: true)",
@@ -120,10 +122,9 @@ class _TypstPaper:
         """Return code, points and minutes; before an exam also what may lie on the desk."""
         paper, main = self.paper, self.main
         minutes = translate(main, "paper.minutes")
-        more = f" + {paper.holder.extra} {minutes}" if paper.holder and paper.holder.extra else ""
         count = "question" if len(paper.items) == 1 else "contents"
         total = (
-            f"{format_marks(paper.points, main)}, {paper.minutes} {minutes}{more}, "
+            f"{format_marks(paper.points, main)}, {paper.minutes} {minutes}, "
             f"{len(paper.items)} {translate(main, f'paper.{count}')}"
         )
         rows = [("code", f"raw({typst_literal(paper.code)})"), ("total", typst_literal(total))]
@@ -142,6 +143,8 @@ class _TypstPaper:
                 self.langs, [f"#{typst_literal(paper.aids(lang))};" for lang in self.langs]
             )
             rows.append(("aids", f"[{aids}]"))
+        if self.kind == "exam":
+            rows = [*list_cover_facts(paper), *rows]
         named = [
             f"([{translate_all(self.langs, f'paper.{name}')}], {value})" for name, value in rows
         ]
