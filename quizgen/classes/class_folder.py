@@ -32,7 +32,7 @@ DATA = "data"
 
 
 class ClassSettings(msgspec.Struct, frozen=True):
-    """What a class was generated from; written once, to ``class.toml``.
+    """What a class is generated from: ``class.toml``, which stays as it is once there are papers.
 
     Parameters
     ----------
@@ -50,6 +50,8 @@ class ClassSettings(msgspec.Struct, frozen=True):
         Of the blueprint and the templates.
     templates : tuple of tuple of str
         For each question, the templates that it may be made from.
+    without : tuple of str
+        Templates that no question may be made from: those of earlier classes.
     """
 
     name: str
@@ -59,6 +61,7 @@ class ClassSettings(msgspec.Struct, frozen=True):
     lang: str
     digest: str
     templates: tuple[tuple[str, ...], ...]
+    without: tuple[str, ...] = ()
 
 
 class PrintedHead(msgspec.Struct, frozen=True):
@@ -161,6 +164,19 @@ class ClassFolder:
         contents = {ROSTER: write_roster(students), KEYS: b"", SETTINGS: _format_toml(settings)}
         write_all(self.path, contents, mode=PRIVATE)
         restrict_folder(self.path)  # it may have been there, empty
+
+    def change_settings(self, settings: ClassSettings) -> None:
+        """Replace the settings of a class that has no papers yet.
+
+        Raises
+        ------
+        ClassError
+            If there are papers, which would no longer follow from them.
+        """
+        if self.places():
+            raise ClassError(f"{self.path}: has papers; other questions need a new folder (--out)")
+        write_all(self.path, {SETTINGS: _format_toml(settings)}, PRIVATE)
+        self.__dict__.pop("settings", None)
 
     def students(self) -> list[RosterStudent]:
         """Return the students of the roster, in the order of their seats."""

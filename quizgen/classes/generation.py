@@ -53,7 +53,12 @@ from quizgen.paper.paper import (
     compose_paper,
 )
 from quizgen.paper.provenance import describe_differences
-from quizgen.paper.selection import alternatives, select_templates, slot_levels
+from quizgen.paper.selection import (
+    alternatives,
+    select_instead,
+    select_templates,
+    slot_levels,
+)
 from quizgen.paper.variants import draw_variants, shared_content
 from quizgen.render import KINDS, render_paper
 from quizgen.render.text import inlines_to_plain_text
@@ -63,6 +68,9 @@ CHUNK = 8
 """Papers of a job: what a killed worker costs."""
 PRETENDED = 1
 """Documents after each paper: a tenth of a worker's memory is what papers before it left."""
+PREVIEW = "preview"
+"""Stands for a student on the paper that is looked at before there are others, and names its
+files."""
 CLASS = "class"
 """Stands for the seed where a code would show one."""
 
@@ -127,7 +135,13 @@ class GenerationReport:
 
 
 def create_settings(
-    name: str, bank: Bank, blueprint: Blueprint, lang: str, *, vary: bool = False
+    name: str,
+    bank: Bank,
+    blueprint: Blueprint,
+    lang: str,
+    *,
+    vary: bool = False,
+    without: Sequence[str] = (),
 ) -> ClassSettings:
     """Return the settings of a new class, with a new random secret.
 
@@ -140,10 +154,14 @@ def create_settings(
         Of students whose row of the roster names none.
     vary : bool
         Whether a question may be made from any template of a family, or from one for all.
+    without : sequence of str
+        Templates that no question may be made from.
     """
     secret = new_secret()
-    chosen = select_templates(bank, blueprint, student_seed(secret))
-    templates = alternatives(bank, blueprint, chosen) if vary else [(one,) for one in chosen]
+    chosen = select_templates(bank, blueprint, student_seed(secret), without)
+    templates = (
+        alternatives(bank, blueprint, chosen, without) if vary else [(one,) for one in chosen]
+    )
     own = blueprint.name not in bank.blueprints and blueprint.file
     return ClassSettings(
         name=name,
@@ -153,7 +171,61 @@ def create_settings(
         lang=lang,
         digest=_compute_class_digest(bank, blueprint, templates),
         templates=tuple(templates),
+        without=tuple(without),
     )
+
+
+def replace_template(
+    settings: ClassSettings, bank: Bank, blueprint: Blueprint, number: int, template: str = ""
+) -> ClassSettings:
+    """Return the settings with another template for one question.
+
+    Parameters
+    ----------
+    settings : ClassSettings
+    bank : Bank
+    blueprint : Blueprint
+    number : int
+        Of the question, from 1.
+    template : str
+        Which; by default any that fits the slot and is worth as much.
+
+    Raises
+    ------
+    ClassError
+        If there is no such question.
+    BlueprintError
+        If nothing else may stand there.
+    """
+    if not 1 <= number <= len(settings.templates):
+        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
+    chosen = [family[0] for family in settings.templates]
+    without = settings.without
+    if template and template not in bank.template_paths:
+        raise ClassError(f"there is no template {template!r}")
+    if template:
+        without = (*without, *({*bank.template_paths} - {template}))
+    chosen = select_instead(bank, blueprint, chosen, number - 1, new_secret(), without)
+    vary = any(len(family) > 1 for family in settings.templates)
+    templates = (
+        alternatives(bank, blueprint, chosen, settings.without)
+        if vary
+        else [(one,) for one in chosen]
+    )
+    return msgspec.structs.replace(
+        settings,
+        templates=tuple(templates),
+        digest=_compute_class_digest(bank, blueprint, templates),
+    )
+
+
+def make_preview(settings: ClassSettings, blueprint: Blueprint, exam: ExamDetails) -> Paper:
+    """Return a paper as students will get it, with numbers that nobody gets."""
+    sample = RosterStudent(PREVIEW, PREVIEW)
+    job = GenerationJob(settings, blueprint, (sample,), {PREVIEW: ()}, {}, exam)
+    drawing = _Drawing(job)
+    made = _compose_student_paper(job, sample, drawing.bank, drawing.of(PREVIEW))
+    return _assign_student_code(job, sample, made)
 
 
 def _compute_class_digest(

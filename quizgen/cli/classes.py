@@ -19,7 +19,13 @@ from quizgen.cli.options import (
     split_names,
     worthwhile_processes,
 )
-from quizgen.cli.terminal import ProgressLine, format_count, print_sentence, to_one_line
+from quizgen.cli.terminal import (
+    ProgressLine,
+    format_count,
+    print_sentence,
+    print_table,
+    to_one_line,
+)
 from quizgen.core.errors import ClassError, require_extra
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.locale import FIRST, default_language
@@ -54,6 +60,8 @@ class ClassMakeOptions(BankOptions):
     vary: bool
     one_file: bool
     about: Path | None
+    preview: bool
+    not_from: tuple[Path, ...]
     jobs: int | None
     scheduler: str
 
@@ -71,6 +79,9 @@ class ClassMakeOptions(BankOptions):
     type=click.Path(path_type=Path),
     help="TOML file: course, date, room, rules, for the covers.",
 )
+@click.option("--preview", is_flag=True, help="One sample and the list of questions, no papers.")
+@click.option("--not-from", type=click.Path(path_type=Path), multiple=True,
+              help="Folder of an earlier class, none of whose questions is asked.")  # fmt: skip
 @click.option("--one-file", is_flag=True, help="Write print.pdf, too: all papers, for the printer.")
 @jobs_option
 @click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
@@ -100,6 +111,9 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
         blueprint = _open_class_blueprint(folder, students, options)
         if about:
             write_all(folder.path, {EXAM: about}, PRIVATE)
+        if options["preview"]:
+            _write_preview(folder, blueprint)
+            return
         with ProgressLine("paper", len(students)) as progress:
             report = generate_papers(folder, students, blueprint, executor, ahead, progress)
     if options["one_file"]:
@@ -124,6 +138,30 @@ def code(folder: Path, printed: str) -> None:
 
     found = ClassFolder(folder).find_by_code(printed)
     click.echo(f"{found.head.code}: {to_one_line(found.head.id)}")
+
+
+@class_.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.argument("number", type=int)
+@click.option("--template", default="", help="Which. [default: any that fits]")
+def redraw(folder: Path, number: int, template: str) -> None:
+    """Ask something else as question NUMBER of the class in FOLDER, which has no papers yet.
+
+    What is asked instead fits the same slot and is worth as many points, and what the blueprint
+    asks of the whole paper still holds. Writes the preview again.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.generation import open_class_bank, replace_template
+    from quizgen.classes.lock import lock_folder
+    from quizgen.paper.blueprint import load_blueprint
+
+    found = ClassFolder(folder)
+    settings = found.settings
+    bank = open_class_bank(settings)
+    blueprint = load_blueprint(settings.blueprint, bank)
+    with lock_folder(folder):
+        found.change_settings(replace_template(settings, bank, blueprint, number, template))
+        _write_preview(found, blueprint)
 
 
 @class_.command()
@@ -163,6 +201,29 @@ def take(keys: Path, reports: tuple[Path, ...], out: Path) -> None:
          f"Next: quizgen class mark {out}")  # fmt: skip
 
 
+def _write_preview(folder: ClassFolder, blueprint: Blueprint) -> None:
+    """Write a sample paper with its solutions, and print which questions it has."""
+    from quizgen.classes.exam_details import FILE as EXAM
+    from quizgen.classes.exam_details import ExamDetails, read_exam_details
+    from quizgen.classes.generation import PREVIEW, make_preview
+    from quizgen.render import KINDS, render_paper
+
+    exam = read_exam_details(folder.path / EXAM) or ExamDetails()
+    paper = make_preview(folder.settings, blueprint, exam)
+    names = (f"{PREVIEW}.pdf", f"{PREVIEW}-solutions.pdf")
+    sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
+    write_all(folder.path, dict(zip(names, sheets, strict=True)), PRIVATE)
+    rows = [
+        (item.number, f"{float(item.points):g}", item.keys[0].template, item.questions[0].title)
+        for item in paper.items
+    ]
+    print_table(("no.", "points", "template", "title"), rows)
+    print_sentence(f"{float(paper.points):g} points, {paper.minutes} min. "
+                   f"Look at {folder.path / names[0]} and {folder.path / names[1]}")  # fmt: skip
+    print_sentence(f"Another question 1: quizgen class redraw {folder.path} 1")
+    print_sentence(f"The papers: quizgen class make {folder.path}/roster.csv --out {folder.path}")
+
+
 def _read_about(path: Path | None) -> bytes:
     """Return the bytes of the file on the exam, checked; none if no file was named."""
     from quizgen.classes.exam_details import read_exam_details
@@ -187,6 +248,7 @@ def _open_class_blueprint(
     folder: ClassFolder, students: list[RosterStudent], options: ClassMakeOptions
 ) -> Blueprint:
     """Return the blueprint of the class; create the class if there is none yet."""
+    from quizgen.classes.class_folder import ClassFolder
     from quizgen.classes.generation import create_settings, open_class_bank
     from quizgen.paper.blueprint import default_blueprint_name, load_blueprint
 
@@ -195,7 +257,16 @@ def _open_class_blueprint(
         blueprint = load_blueprint(options["blueprint"] or default_blueprint_name(bank), bank)
         name = folder.path.resolve().name
         lang = options["lang"] or default_language(bank.languages)
-        folder.create(create_settings(name, bank, blueprint, lang, vary=options["vary"]), students)
+        without = {
+            name
+            for earlier in options["not_from"]
+            for family in ClassFolder(earlier).settings.templates
+            for name in family
+        }
+        settings = create_settings(
+            name, bank, blueprint, lang, vary=options["vary"], without=sorted(without)
+        )
+        folder.create(settings, students)
         return blueprint
     settings = folder.settings
     if not settings.digest:
