@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -12,7 +12,7 @@ import jinja2
 from markupsafe import Markup
 
 from quizgen.classes.class_folder import ClassFolder
-from quizgen.classes.grade_scale import read_grade_scale
+from quizgen.classes.grade_scale import GradeScale, read_grade_scale
 from quizgen.classes.gradebook import (
     FOLDER,
     KEY_CHANGED,
@@ -31,6 +31,7 @@ from quizgen.classes.grading import (
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
+from quizgen.classes.objections import Objection, read_objections
 from quizgen.classes.office_tables import build_office_tables
 from quizgen.classes.rulings import DROP, TOLERANCE
 from quizgen.classes.statuses import PRESENT, read_statuses
@@ -80,7 +81,7 @@ class ReportPart:
     message : str
         What the checker says of the answer.
     said : str
-        What people decided of it.
+        What people decided of it, and what was said about that.
     """
 
     label: str
@@ -187,6 +188,7 @@ def make_report(
     line: GradedStudent,
     key: AnswerKey,
     models: ModelAnswers | None = None,
+    objections: Sequence[Objection] = (),
     *,
     anonymous: bool = False,
 ) -> StudentReport:
@@ -200,6 +202,8 @@ def make_report(
         Of the student's paper.
     models : mapping, optional
         Model answers where sentences are asked for.
+    objections : sequence of Objection
+        Those of the student, with what was replied.
     anonymous : bool
         Leave name and id out.
     """
@@ -207,7 +211,7 @@ def make_report(
     marks = line.marks
     lang = fallback_language(marks.lang)
     who = "" if anonymous else ", ".join(filter(None, (line.student.name, line.student.id)))
-    sections = tuple(_build_section(one, marks, models or {}) for one in key.questions)
+    sections = tuple(_build_section(one, marks, models or {}, objections) for one in key.questions)
     title = key.title.get(lang) or next(iter(key.title.values()), "")
     return StudentReport(
         lang, title, escape_control_characters(who, ""), line.code, line.grade, marks, sections
@@ -215,7 +219,10 @@ def make_report(
 
 
 def _build_section(
-    question: KeyQuestion, marks: StudentMarks, models: ModelAnswers
+    question: KeyQuestion,
+    marks: StudentMarks,
+    models: ModelAnswers,
+    objections: Sequence[Objection],
 ) -> ReportQuestion:
     """Return one question of a student's report: its parts, and its points in sum.
 
@@ -223,7 +230,7 @@ def _build_section(
     """
     given = {part.id: part for part in marks.parts}
     mine = [given[part.id] for part in question.parts if part.id in given]
-    rows = tuple(_iter_report_rows(question, marks, models))
+    rows = tuple(_iter_report_rows(question, marks, models, objections))
     title = question.title.get(marks.lang) or next(iter(question.title.values()), "")
     return ReportQuestion(
         question.number,
@@ -238,7 +245,10 @@ def _build_section(
 
 
 def _iter_report_rows(
-    question: KeyQuestion, marks: StudentMarks, models: ModelAnswers
+    question: KeyQuestion,
+    marks: StudentMarks,
+    models: ModelAnswers,
+    objections: Sequence[Objection],
 ) -> Iterator[ReportPart]:
     """Yield each part with its feedback in the student's language.
 
@@ -256,13 +266,14 @@ def _iter_report_rows(
         full = again.is_blank or found.marks == found.points
         message = "" if full or _is_persons(found) else again.verdict.message
         model = models.get(part.id, {})
+        said = [_format_remark(found, words), *_iter_objection_lines(part.id, objections, words)]
         yield ReportPart(
             part.id.removeprefix(question.number),
             _format_typed_answer(found.typed, part.spec["kind"], words, lang),
             _format_right_answer(part, model.get(lang) or next(iter(model.values()), ()), lang),
             _format_points(found, lang),
             message,
-            _format_remark(found, words),
+            "\n".join(filter(None, said)),
         )
 
 
@@ -313,6 +324,16 @@ def _format_remark(part: GradedClassPart, words: Mapping[str, str]) -> str:
     return f"{words['remark']}: {remark}" if remark else words["decided"]
 
 
+def _iter_objection_lines(
+    part: str, objections: Iterable[Objection], words: Mapping[str, str]
+) -> Iterator[str]:
+    """Yield what the student said against the marks of a part, and what was replied."""
+    for one in objections:
+        if one.part == part:
+            name, text = ("reply", one.reply) if one.reply else ("objection", one.objection)
+            yield f"{words[name]}: {escape_control_characters(text, '')}"
+
+
 def report_to_html(report: StudentReport) -> bytes:
     """Return the report as one self-contained page in UTF-8."""
     made = (
@@ -341,8 +362,14 @@ def report_css() -> Markup:
     return Markup(write_theme_css() + page)
 
 
-def report_to_pdf(report: StudentReport) -> bytes:
+def report_to_pdf(report: StudentReport, *, room: bool = False) -> bytes:
     """Return the report as a tagged PDF.
+
+    Parameters
+    ----------
+    report : StudentReport
+    room : bool
+        Whether lines follow on which the student may object, and sign for having seen it.
 
     Raises
     ------
@@ -361,6 +388,9 @@ def report_to_pdf(report: StudentReport) -> bytes:
     )
     heads = ", ".join(typst_literal(words[name]) for name in ("part", "yours", "right", "points"))
     body = "\n".join(_typeset_question(section, heads) for section in report.sections)
+    if room:
+        names = ("objections", "part", "objection", "objections_about", "signature")
+        body += f"\n#object({', '.join(typst_literal(words[name]) for name in names)})"
     return compile_pdf(
         document_files("report.typ", f"{head}\n{_typeset_revision_list(report)}\n{body}\n", PACKAGE)
     )
@@ -442,7 +472,25 @@ def _write_locked_folder(
     marked = {one.student: one for one in GradingHistory(folder.path).current()}
     if not marked:
         raise ClassError(f"{folder.path}: nothing has been marked yet (quizgen class mark)")
-    scale, keys = read_grade_scale(folder.path), KeyIndex(folder)
+    keys = KeyIndex(folder)
+    scale, lines = grade_folder(folder, keys, marked)
+    files = write_grades(folder.path, lines, scale, build_office_tables(lines, scale, office))
+    place = folder.path / FOLDER / (ANONYMOUS if anonymous else REPORTS)
+    graded = [one for one in lines
+              if one.marks and one.status == PRESENT and one.held != KEY_CHANGED]  # fmt: skip
+    objections = read_objections(folder.path) if formats else []
+    for chunk in _iter_chunks(graded if formats else []):
+        made = _render_reports(keys, chunk, formats, objections, anonymous)
+        write_all(place, made, PRIVATE)
+    left = marked.keys() - {one.student.id for one in lines}
+    return lines, sorted(left), [*files, *([place] if formats else [])]
+
+
+def grade_folder(
+    folder: ClassFolder, keys: KeyIndex, marked: Mapping[str, StudentMarks]
+) -> tuple[GradeScale, list[GradedStudent]]:
+    """Return the scale of a class, and every student of its roster with marks and grade."""
+    scale = read_grade_scale(folder.path)
     basis = GradeBasis(
         folder.heads(),
         marked,
@@ -451,15 +499,7 @@ def _write_locked_folder(
         keys.find_changed(),
         read_rivals(folder.path),
     )
-    lines = grade_students(folder.students(), basis)
-    files = write_grades(folder.path, lines, scale, build_office_tables(lines, scale, office))
-    place = folder.path / FOLDER / (ANONYMOUS if anonymous else REPORTS)
-    graded = [one for one in lines
-              if one.marks and one.status == PRESENT and one.held != KEY_CHANGED]  # fmt: skip
-    for chunk in _iter_chunks(graded if formats else []):
-        write_all(place, _render_reports(keys, chunk, formats, anonymous), PRIVATE)
-    left = marked.keys() - {one.student.id for one in lines}
-    return lines, sorted(left), [*files, *([place] if formats else [])]
+    return scale, grade_students(folder.students(), basis)
 
 
 def _iter_chunks(lines: Sequence[GradedStudent]) -> Iterator[Sequence[GradedStudent]]:
@@ -469,7 +509,11 @@ def _iter_chunks(lines: Sequence[GradedStudent]) -> Iterator[Sequence[GradedStud
 
 
 def _render_reports(
-    keys: KeyIndex, lines: Sequence[GradedStudent], formats: Sequence[str], anonymous: bool
+    keys: KeyIndex,
+    lines: Sequence[GradedStudent],
+    formats: Sequence[str],
+    objections: Sequence[Objection],
+    anonymous: bool,
 ) -> dict[str, bytes]:
     """Return the bytes of each report file by its name."""
     render = {"html": report_to_html, "pdf": report_to_pdf}
@@ -477,7 +521,8 @@ def _render_reports(
     for line in lines:
         with error_context(keys.path, KeyFileError):
             who = line.student.id
-            report = make_report(line, keys.key(who), keys.models(who), anonymous=anonymous)
+            own = [one for one in objections if one.student == who]
+            report = make_report(line, keys.key(who), keys.models(who), own, anonymous=anonymous)
         name = line.code if anonymous else line.student.file
         made |= {f"{name}.{form}": render[form](report) for form in formats}
     return made

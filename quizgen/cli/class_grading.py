@@ -11,6 +11,7 @@ import click
 
 from quizgen.cli.options import MOST_JOBS, IntRangeParam, LanguageParam, match_choice, split_names
 from quizgen.cli.terminal import format_count, print_sentence, to_one_line
+from quizgen.core.errors import require_extra
 from quizgen.grading.echo import safe_echo
 from quizgen.locale import FIRST
 
@@ -129,10 +130,10 @@ def _list_change_lines(changes: Sequence[MarkChange]) -> list[str]:
     """Return changed marks in lines: those that are fewer or more, then what no longer counts."""
     same = Counter((one.item, one.why) for one in changes if one.before == one.after)
     lines = [_format_change(one) for one in changes if one.before != one.after]
-    return lines + [
-        f"{item}: out of the points of {format_count(count, 'student')}, {why}"
-        for (item, why), count in same.items()
-    ]
+    for (item, why), count in same.items():
+        what = "counts again for" if why.startswith("without") else "out of the points of"
+        lines.append(f"{item}: {what} {format_count(count, 'student')}, {why}")
+    return lines
 
 
 def _print_list(head: str, lines: list[str]) -> None:
@@ -311,6 +312,54 @@ def grade(folder: Path, reports: str, *, anonymous: bool, office: str) -> None:
 
 @click.command()
 @_folder
+@click.argument("students", nargs=-1)
+def inspect(folder: Path, students: tuple[str, ...]) -> None:
+    """Write what STUDENTS look at when marked papers are shown; all who handed in, if none.
+
+    One PDF file each in results/inspection: answers, marks and remarks, what was objected and
+    replied, lines for objections and a signature, and the worked solutions of the own paper.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.inspection import write_inspection
+
+    require_extra("print", "quizgen class inspect")
+    for path in write_inspection(ClassFolder(folder), students):
+        print_sentence(str(path))
+
+
+@click.command("object")
+@_folder
+@click.argument("student", required=False)
+@click.argument("part", required=False)
+@click.argument("text", required=False)
+@click.option("--reply", is_flag=True, help="TEXT is what the examiner replies.")
+@click.option("--who", default="", help="Who writes it down. [default: the name of the account]")
+def object_(
+    folder: Path, student: str | None, part: str | None, text: str | None, who: str, *, reply: bool
+) -> None:
+    """Record what STUDENT says against the marks of PART (7b); without them, list what is open.
+
+    It stands in objections.csv, and in the student's next report. Marks are changed by rulings:
+    quizgen class rule FOLDER points PART --student STUDENT --value POINTS.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.objections import Objection, append_objection, list_open, read_objections
+
+    found = ClassFolder(folder)
+    if student is None:
+        waiting = [f"{one.student} {one.part}: {one.objection}"
+                   for one in list_open(read_objections(found.path))]  # fmt: skip
+        _print_list(f"{format_count(len(waiting), 'objection')} without a reply", waiting)
+        return
+    if part is None or not text:
+        raise click.UsageError("a student, a part and a text belong together")
+    said = {"reply": text} if reply else {"objection": text}
+    added = append_objection(found, Objection(student, part, **said, who=who or getpass.getuser()))
+    print_sentence(f"{folder}/objections.csv: {added.student} {added.part}")
+
+
+@click.command()
+@_folder
 @click.option("--lang", type=LanguageParam(), default=FIRST, help="Of the page.")
 def analyse(folder: Path, lang: str) -> None:
     """Write the item analysis of the class in FOLDER: results/analysis.html."""
@@ -327,4 +376,4 @@ def analyse(folder: Path, lang: str) -> None:
     print_sentence(str(path))
 
 
-COMMANDS = (mark, rule, points, status, history, grade, analyse)
+COMMANDS = (mark, rule, points, status, history, grade, inspect, object_, analyse)
