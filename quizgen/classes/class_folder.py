@@ -161,7 +161,7 @@ class ClassFolder:
 
         Settings come first: no paper may exist that they do not explain.
         """
-        contents = {ROSTER: write_roster(students), KEYS: b"", SETTINGS: _format_toml(settings)}
+        contents = {ROSTER: write_roster(students), KEYS: b"", SETTINGS: format_settings(settings)}
         write_all(self.path, contents, mode=PRIVATE)
         restrict_folder(self.path)  # it may have been there, empty
 
@@ -175,7 +175,7 @@ class ClassFolder:
         """
         if self.places():
             raise ClassError(f"{self.path}: has papers; other questions need a new folder (--out)")
-        write_all(self.path, {SETTINGS: _format_toml(settings)}, PRIVATE)
+        write_all(self.path, {SETTINGS: format_settings(settings)}, PRIVATE)
         self.__dict__.pop("settings", None)
 
     def students(self) -> list[RosterStudent]:
@@ -330,7 +330,7 @@ def _decode_head(line: bytes) -> PrintedHead | None:
         return None
 
 
-def _format_toml(settings: ClassSettings) -> bytes:
+def format_settings(settings: ClassSettings) -> bytes:
     """Return the settings as TOML: its strings and arrays are written as those of JSON."""
     table: Mapping[str, Any] = msgspec.structs.asdict(settings)
     lines = [f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in table.items()]

@@ -42,7 +42,7 @@ class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     keep_until : datetime.date, optional
         When the folder is to be forgotten.
     pseudonyms : bool
-        Whether markers see other names than ids.
+        Whether names stand on covers alone, so that who marks the pages reads codes.
     """
 
     title: Text = ""
@@ -92,6 +92,17 @@ class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
                     len(str(one)) > LONGEST for one in (text if isinstance(text, list) else [text])
                 ):
                     raise ClassError(f"{name}: longer than {LONGEST} characters")
+
+
+def describe_overdue(folder: Path, today: dt.date) -> str:
+    """Return that the folder of a class is kept longer than its ``exam.toml`` says; else empty."""
+    found = read_exam_details(folder / FILE)
+    if found is None or found.keep_until is None or found.keep_until >= today:
+        return ""
+    return (
+        f"{folder}: was to be kept until {found.keep_until}; "
+        f"names and answers go with: quizgen class forget {folder}"
+    )
 
 
 def _name_languages(text: Text) -> dict[str, str]:

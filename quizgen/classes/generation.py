@@ -336,8 +336,8 @@ def _compute_student_digest(settings: ClassSettings, one: RosterStudent, exam: E
     """Return a digest of all that a student's files depend on."""
     row: list[object] = [one.id, one.name, one.lang or settings.lang, one.extra, settings.digest]
     shown = exam.build_cover(one)
-    if shown != PaperCover() or exam.title:
-        row.append([msgspec.to_builtins(shown), exam.title])
+    if shown != PaperCover() or exam.title or exam.pseudonyms:
+        row.append([msgspec.to_builtins(shown), exam.title, exam.pseudonyms])
     return hashlib.sha256(json.dumps(row).encode()).hexdigest()[:16]
 
 
@@ -487,7 +487,7 @@ def _assign_student_code(job: GenerationJob, one: RosterStudent, paper: Paper) -
         paper,
         code=student_code(secret, one.id, paper.digest),
         seal=form_seal(secret, one.id, paper.digest),
-        holder=PaperHolder(one.id, one.name),
+        holder=PaperHolder(one.id, one.name, job.exam.pseudonyms),
         cover=None if cover == PaperCover() else cover,
         blueprint=titled if job.exam.title else paper.blueprint,
     )

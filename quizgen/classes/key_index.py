@@ -166,6 +166,20 @@ class KeyIndex:
             raise ClassError(f"nobody of this class has the number {safe_echo(student)!r}")
         return found
 
+    def find_by_code(self, code: str) -> str:
+        """Return the id of the student whose paper has a printed code.
+
+        Raises
+        ------
+        ClassError
+            If no paper has it.
+        """
+        wanted = code.strip().upper()
+        for head, _ in self.places.values():
+            if wanted in head.codes:
+                return head.id
+        raise ClassError(f"no paper of this class has the code {safe_echo(wanted)!r}")
+
     def worth(self) -> dict[str, float]:
         """Return the points of each item of all papers.
 

@@ -21,7 +21,7 @@ def read_points_table(path: Path, keys: KeyIndex, who: str, comment: str) -> lis
     Parameters
     ----------
     path : pathlib.Path
-        CSV or XLSX with a column ``id``, and one for each part as it is printed.
+        CSV or XLSX with a column ``id`` or ``code``, and one for each part as it is printed.
     keys : KeyIndex
     who, comment : str
         Of all of them.
@@ -40,7 +40,9 @@ def read_points_table(path: Path, keys: KeyIndex, who: str, comment: str) -> lis
     found: list[Ruling] = []
     for line, cells, typed in table.students():
         try:
-            found += _iter_row_points(cells.get("id", ""), typed, keys)
+            code = cells.get("code", "").strip()
+            student = keys.find_by_code(code) if code else keys.find_student(cells.get("id", ""))
+            found += _iter_row_points(student, typed, keys)
         except (ClassError, KeyFileError) as error:
             raise ClassError(f"{path}: line {line}: {error}") from None
     if not found:
@@ -51,9 +53,8 @@ def read_points_table(path: Path, keys: KeyIndex, who: str, comment: str) -> lis
 def _iter_row_points(student: str, typed: Mapping[str, str], keys: KeyIndex) -> Iterator[Ruling]:
     """Yield a ruling for each cell of a student's row that is not empty.
 
-    Raises ``ClassError`` if student, part or points are not possible.
+    Raises ``ClassError`` if part or points are not possible.
     """
-    student = keys.find_student(student)
     outline = keys.outline(student)
     given, unknown = PartNames(outline.items).sort_answers(typed)
     if odd := next((name for name in unknown if typed[name].strip()), ""):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import getpass
 from collections import Counter
 from pathlib import Path
@@ -51,6 +52,7 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
     with open_executor(jobs, scheduler) as (executor, ahead):
         lost = store_submissions(folder, files)
         run = grade_class(found, executor, ahead)
+    _remind_to_forget(folder)
     _report_run(folder, run, lost)
 
 
@@ -136,6 +138,15 @@ def _list_change_lines(changes: Sequence[MarkChange]) -> list[str]:
     return lines
 
 
+def _remind_to_forget(folder: Path) -> None:
+    """Print that the folder is kept longer than it should be, if it is."""
+    from quizgen.classes.exam_details import describe_overdue
+
+    overdue = describe_overdue(folder, dt.datetime.now(tz=dt.UTC).date())
+    if overdue:
+        print_sentence(overdue)
+
+
 def _print_list(head: str, lines: list[str]) -> None:
     """Print a heading and at most ``SHOWN`` lines; nothing without lines."""
     if not lines:
@@ -196,8 +207,8 @@ def rule(folder: Path, what: str, item: str, **said: str) -> None:
 def points(folder: Path, table: Path, who: str, comment: str) -> None:
     """Give points for what was written on paper: TABLE has a row for each student.
 
-    Its columns are id and parts as they are printed (1a, 1b, ...), its cells the points; a cell
-    that is empty says nothing. They hold whatever was typed, or if nothing was.
+    Its columns are id or code, and parts as they are printed (1a, 1b, ...), its cells the points;
+    a cell that is empty says nothing. They hold whatever was typed, or if nothing was.
     """
     from quizgen.classes.class_folder import ClassFolder
     from quizgen.classes.grading_run import check_rulings
@@ -306,6 +317,7 @@ def grade(folder: Path, reports: str, *, anonymous: bool, office: str) -> None:
     _print_list("Before these are final, somebody has to see to it", held)
     for path in files:
         print_sentence(str(path))
+    _remind_to_forget(folder)
     if held:
         raise SystemExit(1)
 

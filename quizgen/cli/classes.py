@@ -181,6 +181,25 @@ def lists(folder: Path, lang: str) -> None:
 
 
 @class_.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option("--yes", is_flag=True, help="Do it: nothing brings it back.")
+def forget(folder: Path, *, yes: bool) -> None:
+    """Delete names, ids, codes, papers and free text of the class in FOLDER; keep statistics.
+
+    What stays are the questions, points under pseudonyms that nobody can undo, and answers that
+    were numbers or ticks. No papers can be made of it any more.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.forgetting import forget_class
+
+    if not yes:
+        raise click.UsageError(f"this deletes the papers, answers and names in {folder}: add --yes")
+    count = forget_class(ClassFolder(folder))
+    print_sentence(f"{folder}: {format_count(count, 'student')} forgotten. "
+                   f"What is left: quizgen class analyse {folder}")  # fmt: skip
+
+
+@class_.command()
 @click.argument("keys", type=click.Path(path_type=Path))
 @click.argument("reports", type=click.Path(path_type=Path), nargs=-1, required=True)
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder of the class.")
@@ -270,7 +289,9 @@ def _open_class_blueprint(
         return blueprint
     settings = folder.settings
     if not settings.digest:
-        raise ClassError(f"{folder.path}: is of a quiz that was played, and has no papers")
+        raise ClassError(
+            f"{folder.path}: is of a quiz that was played, or was forgotten: it has no papers"
+        )
     _check_same_options(folder, options)
     return load_blueprint(options["blueprint"] or settings.blueprint, open_class_bank(settings))
 

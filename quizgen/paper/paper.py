@@ -61,15 +61,18 @@ class PaperItem(msgspec.Struct, frozen=True):
 
 
 class PaperHolder(msgspec.Struct, frozen=True):
-    """Whose paper it is; stands on every page.
+    """Whose paper it is; stands on the cover, and at the foot of every page.
 
     Parameters
     ----------
     id, name : str
+    hidden : bool
+        Whether the feet of pages leave it out, so that who marks them does not read it.
     """
 
     id: str
     name: str = ""
+    hidden: bool = False
 
 
 class PaperCover(msgspec.Struct, frozen=True):

@@ -414,7 +414,8 @@ class _TypstPaper:
 
 def _format_holder(paper: Paper) -> str:
     """Return whose paper it is, for the foot of every page."""
-    known = (paper.holder.name, paper.holder.id) if paper.holder else ()
+    holder = paper.holder
+    known = (holder.name, holder.id) if holder and not holder.hidden else ()
     return " · ".join(map(replace_unprintable, filter(None, known)))
 
 
