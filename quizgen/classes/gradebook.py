@@ -20,6 +20,8 @@ FOLDER = "results"
 KEY_CHANGED, RIVALS = "key changed", "answers differ"
 """Why a grade waits: somebody edited the key, or did not say which answers count."""
 TABLE, BOOK, POSTED = "grades.csv", "grades.xlsx", "posted.csv"
+TEXT = 49
+"""Number of the format in which spreadsheets leave a cell as it was typed."""
 Cell = str | float
 
 
@@ -220,7 +222,7 @@ def build_workbook(sheets: Mapping[str, Sequence[Sequence[Cell]]]) -> bytes:
 
     out = io.BytesIO()
     with xlsxwriter.Workbook(out, {"in_memory": True}) as book:
-        bold, text = book.add_format({"bold": True}), book.add_format({"num_format": "@"})
+        bold, text = book.add_format({"bold": True}), book.add_format({"num_format": TEXT})
         for name, rows in sheets.items():
             table = book.add_worksheet(name)
             if name == next(iter(sheets)):

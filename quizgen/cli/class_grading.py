@@ -201,10 +201,29 @@ def rule(folder: Path, what: str, item: str, **said: str) -> None:
 
 @click.command()
 @_folder
-@click.argument("table", type=click.Path(path_type=Path))
+@click.argument("out", type=click.Path(path_type=Path))
+def table(folder: Path, out: Path) -> None:
+    """Write OUT (XLSX), a table to type answers or points into, for the class in FOLDER.
+
+    It has a row for each student and a column for each part. Filled in, quizgen class mark takes
+    it as answers, quizgen class points as points.
+    """
+    from quizgen.classes.blank_table import build_blank_table
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.core.files import PRIVATE, write_all
+
+    if out.suffix.lower() != ".xlsx" or out.exists():
+        raise click.UsageError(f"{out}: name a file that ends in .xlsx and is not there yet")
+    for path in write_all(out.parent, {out.name: build_blank_table(ClassFolder(folder))}, PRIVATE):
+        print_sentence(str(path))
+
+
+@click.command()
+@_folder
+@click.argument("filled", metavar="TABLE", type=click.Path(path_type=Path))
 @click.option("--who", default="", help="Who gives them. [default: the name of the account]")
 @click.option("--comment", default="", help="Why; students read it.")
-def points(folder: Path, table: Path, who: str, comment: str) -> None:
+def points(folder: Path, filled: Path, who: str, comment: str) -> None:
     """Give points for what was written on paper: TABLE has a row for each student.
 
     Its columns are id or code, and parts as they are printed (1a, 1b, ...), its cells the points;
@@ -217,7 +236,7 @@ def points(folder: Path, table: Path, who: str, comment: str) -> None:
     from quizgen.classes.rulings import append_rulings
 
     keys = KeyIndex(ClassFolder(folder))
-    made = read_points_table(table, keys, who or getpass.getuser(), comment)
+    made = read_points_table(filled, keys, who or getpass.getuser(), comment)
     check_rulings(made, keys)
     append_rulings(folder, made)
     students = len({one.student for one in made})
@@ -388,4 +407,4 @@ def analyse(folder: Path, lang: str) -> None:
     print_sentence(str(path))
 
 
-COMMANDS = (mark, rule, points, status, history, grade, inspect, object_, analyse)
+COMMANDS = (mark, table, rule, points, status, history, grade, inspect, object_, analyse)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import shutil
+import zipfile
 
 import pytest
 from made import made, run
@@ -191,3 +192,22 @@ def test_who_loses_or_gains_a_grade_is_said_before_all_other_changes(folder, cap
     assert run("class", "mark", folder) == 0
     said = capsys.readouterr().out
     assert said.index("1 grade changed:\n102: 5.0 -> ") < said.index("1 mark changed:")
+
+
+def test_a_table_to_type_into_is_marked_as_it_was_typed(folder, tmp_path):
+    """Cells are text already: a spreadsheet would make the first of February of 1/2."""
+    out = tmp_path / "typed.xlsx"
+    assert run("class", "table", folder, out) == 0
+    assert run("class", "table", folder, out) == 2, "what was typed is not written over"
+    with zipfile.ZipFile(out) as book:
+        names = book.namelist()
+        contents = {name: book.read(name).decode() for name in names}
+    sheet = "xl/worksheets/sheet1.xml"
+    cell = '<c r="D2" s="2" t="inlineStr"><is><t>1/2</t></is></c>'
+    assert 'numFmtId="49"' in contents["xl/styles.xml"]
+    contents[sheet] = contents[sheet].replace("</row>", f"{cell}</row>", 2).replace(cell, "", 1)
+    with zipfile.ZipFile(tmp_path / "filled.xlsx", "w") as book:
+        for name in names:
+            book.writestr(name, contents[name])
+    assert run("class", "mark", folder, tmp_path / "filled.xlsx") == 1, "two are blank"
+    assert typed(folder) == {"1a": "1/2"}
