@@ -37,7 +37,7 @@ from quizgen.classes.exam_details import ExamDetails, read_exam_details
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.pseudonyms import form_seal, new_secret, student_code, student_seed
 from quizgen.classes.roster import RosterStudent, seat_neighbours
-from quizgen.core.errors import ClassError
+from quizgen.core.errors import BlueprintError, ClassError
 from quizgen.core.executor import map_unordered
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context
@@ -193,9 +193,7 @@ def replace_template(
     Raises
     ------
     ClassError
-        If there is no such question.
-    BlueprintError
-        If nothing else may stand there.
+        If there is no such question, or nothing else that may stand there.
     """
     if not 1 <= number <= len(settings.templates):
         raise ClassError(f"no question {number} (there are {len(settings.templates)})")
@@ -205,7 +203,11 @@ def replace_template(
         raise ClassError(f"there is no template {template!r}")
     if template:
         without = (*without, *({*bank.template_paths} - {template}))
-    chosen = select_instead(bank, blueprint, chosen, number - 1, new_secret(), without)
+    try:
+        chosen = select_instead(bank, blueprint, chosen, number - 1, new_secret(), without)
+    except BlueprintError as error:
+        what = f"{template} cannot" if template else "nothing else can"
+        raise ClassError(f"{what} stand for question {number}: {error}") from None
     vary = any(len(family) > 1 for family in settings.templates)
     templates = (
         alternatives(bank, blueprint, chosen, settings.without)

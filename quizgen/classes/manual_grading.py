@@ -46,9 +46,10 @@ SIMILAR = 85
 """Of 100, how alike the letters of two sentences are at least, before their words are compared."""
 MOST_CHAINED = 2000
 """Groups of one item that are put beside the nearest."""
-COLUMNS = ("item", "together", "answer", "students", "key", "seen", "suggestion", "worth",
-           "points", "second", "comment", "who", "group")  # fmt: skip
-"""``points`` is for the one who marks, ``second`` for a second marker, where there is one."""
+COLUMNS = ("item", "number", "together", "answer", "students", "key", "seen", "suggestion",
+           "worth", "points", "second", "comment", "who", "group")  # fmt: skip
+"""``number`` is the part as one of the papers prints it, ``points`` is for the one who marks,
+``second`` for a second marker, where there is one."""
 
 _WORD = re.compile(r"[^\s.,;:!?()\"'।/-]+")
 _FILLERS = frozenset(
@@ -299,8 +300,8 @@ def _format_table_row(case: DecisionCase, number: int, kept: Mapping[str, str]) 
     """Return the cells of a case, in the order of ``COLUMNS``."""
     answer = case.answer
     suggested = "" if case.suggestion is None else f"{float(case.suggestion):g}"
-    return [answer.item, str(number), answer.typed, str(answer.students), case.key, case.seen,
-            suggested, f"{answer.worth:g}", "", "", kept.get(answer.group, ""), "",
+    return [answer.item, answer.part, str(number), answer.typed, str(answer.students), case.key,
+            case.seen, suggested, f"{answer.worth:g}", "", "", kept.get(answer.group, ""), "",
             answer.group]  # fmt: skip
 
 

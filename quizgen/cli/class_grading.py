@@ -161,6 +161,8 @@ def _print_list(head: str, lines: list[str]) -> None:
 def _format_change(change: MarkChange) -> str:
     """Return a changed mark in one line."""
     before, after = (("–" if m is None else f"{m:g}") for m in (change.before, change.after))
+    if change.why.startswith("drop") and not change.after:
+        after = "does not count"
     return f"{change.student} {change.part} ({change.item}): {before} -> {after}, {change.why}"
 
 

@@ -98,13 +98,13 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     from quizgen.classes.print_file import write_print_file
     from quizgen.classes.roster import read_roster
     from quizgen.core.executor import open_executor
-    from quizgen.core.spreadsheets import is_old_encoding
 
     if options["one_file"]:
         require_extra("print", "quizgen class make --one-file")
     about = _read_about(options["about"])
     unread: list[str] = []
     students = read_roster(options["roster"], _parse_columns(options["columns"]), unread.append)
+    _report_roster(options["roster"], unread)
     folder = ClassFolder(options["out"])
     count = worthwhile_processes(options["jobs"], len(students) * A_PAPER)
     with open_executor(count, options["scheduler"]) as (executor, ahead):  # before any folder
@@ -120,13 +120,6 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
         write_print_file(folder, students)
     _report_papers(folder, report)
     _report_unprintable_names(students)
-    if is_old_encoding(options["roster"].read_bytes()):
-        print_sentence(f"{options['roster']}: is not UTF-8, and was read as Windows-1252; "
-                       "see that the names are right")  # fmt: skip
-    if unread:
-        print_sentence(
-            f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)"
-        )
 
 
 @class_.command()
@@ -319,6 +312,19 @@ def _check_same_options(folder: ClassFolder, options: ClassMakeOptions) -> None:
             )
     if options["vary"] and not any(len(family) > 1 for family in settings.templates):
         raise ClassError(f"{folder.path}: was made without --vary; name a new folder (--out)")
+
+
+def _report_roster(roster: Path, unread: list[str]) -> None:
+    """Print what was guessed of a roster, and the columns of it that were not read."""
+    from quizgen.core.spreadsheets import is_old_encoding
+
+    if is_old_encoding(roster.read_bytes()):
+        print_sentence(f"{roster}: is not UTF-8, and was read as Windows-1252; "
+                       "see that the names are right")  # fmt: skip
+    if unread:
+        print_sentence(
+            f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)"
+        )
 
 
 def _report_papers(folder: ClassFolder, report: GenerationReport) -> None:
