@@ -80,6 +80,8 @@ class PrintedHead(msgspec.Struct, frozen=True):
         Of the key as it was written: who edits it by hand is told.
     former : tuple of str
         Codes that the paper had in another language: it may have been handed out.
+    minutes : int
+        Working time of the paper; 0 if it is not known.
     """
 
     id: str
@@ -89,6 +91,7 @@ class PrintedHead(msgspec.Struct, frozen=True):
     beside: tuple[str, ...] = ()
     digest: str = ""
     former: tuple[str, ...] = ()
+    minutes: int = 0
 
     @property
     def codes(self) -> tuple[str, ...]:

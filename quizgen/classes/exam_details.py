@@ -16,7 +16,7 @@ from quizgen.classes.roster import RosterStudent
 from quizgen.core.decoding import convert
 from quizgen.core.errors import ClassError
 from quizgen.core.untrusted import parse_toml, read_text
-from quizgen.locale import FIRST
+from quizgen.locale import FIRST, list_languages
 from quizgen.paper.paper import PaperCover
 
 FILE = "exam.toml"
@@ -41,6 +41,8 @@ class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Whether there is a line to sign on.
     keep_until : datetime.date, optional
         When the folder is to be forgotten.
+    office : str
+        Language of the tables for the examination office.
     pseudonyms : bool
         Whether names stand on covers alone, so that who marks the pages reads codes.
     """
@@ -53,6 +55,7 @@ class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     rules: Rules = []
     signature: bool = False
     keep_until: dt.date | None = None
+    office: str = FIRST
     pseudonyms: bool = False
 
     def build_cover(self, student: RosterStudent) -> PaperCover:
@@ -77,13 +80,16 @@ class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return pick_language(_name_languages(text), lang, "") if text else ""
 
     def check(self) -> None:
-        """Raise ``ClassError`` for a text that no cover has room for.
+        """Raise ``ClassError`` for a text that no cover has room for, or an unknown language.
 
         Raises
         ------
         ClassError
             Naming the key.
         """
+        if self.office not in list_languages():
+            known = ", ".join(list_languages())
+            raise ClassError(f"office: {self.office[:40]!r} (there are {known})")
         for name in ("title", "course", "date", "room", "examiner", "rules"):
             found = getattr(self, name)
             texts = [*found.values()] if isinstance(found, dict) else [found]

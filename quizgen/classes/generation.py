@@ -443,6 +443,7 @@ def _make_student_files(
         _compute_student_digest(job.settings, one, job.exam),
         neighbours,
         former=former,
+        minutes=paper.minutes,
     )
     files = dict(zip(_list_student_files(one), [*sheets, write_blank_form(paper)], strict=True))
     files |= {f"{DATA}/{one.file}/{name}": data for name, data in paper.data_files.items()}

@@ -16,7 +16,7 @@ from quizgen.classes.grade_scale import GradeScale
 from quizgen.classes.gradebook import Cell, GradedStudent, build_workbook
 from quizgen.classes.statuses import PRESENT
 from quizgen.core.untrusted import escape_control_characters, escape_csv_formula
-from quizgen.locale import load_words, localise_numbers
+from quizgen.locale import fallback_language, load_words, localise_numbers
 
 CSV, BOOK = "office.csv", "office.xlsx"
 COLUMNS = ("id", "name", "points", "of", "bonus", "grade", "passed", "status", "remark")
@@ -34,6 +34,7 @@ def build_office_tables(
     lang : str
         Of the office.
     """
+    lang = fallback_language(lang)
     words: Mapping[str, str] = load_words(lang, "classes")["office"]
     head: list[Cell] = [words[name] for name in COLUMNS]
     rows = [_build_row(line, scale, words, lang) for line in lines]

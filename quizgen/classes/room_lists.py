@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 
-from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.class_folder import ClassFolder, PrintedHead
 from quizgen.classes.exam_details import FILE as EXAM
 from quizgen.classes.exam_details import ExamDetails, read_exam_details
 from quizgen.classes.roster import RosterStudent
@@ -49,13 +49,8 @@ def write_room_lists(folder: ClassFolder, lang: str) -> list[Path]:
         ATTENDANCE: _typeset_attendance(seated, exam, words, lang),
         SEATS: _typeset_seats(seated, exam, words, lang),
     }
-    if more := [[one.group or exam.pick("room", lang), seat, one.id, one.name, one.extra]
-                for one, seat in seated if one.extra]:  # fmt: skip
-        heads = [words[name] for name in ("room", "seat", "id", "name", "extra")]
-        made[MORE_TIME] = (
-            f"#heading(level: 2, {_typeset_text(words['extra'])})\n"
-            f"{_typeset_table('(auto, auto, auto, 1fr, auto)', heads, more)}"
-        )
+    if any(one.extra for one, _ in seated):
+        made[MORE_TIME] = _typeset_more_time(seated, exam, folder.heads(), words, lang)
     opening = f"#heading(level: 1, {_typeset_text(title)})\n#{typst_literal(head)}\n"
     whole = {name: _compile_list(title, lang, opening + body) for name, body in made.items()}
     return write_all(folder.path / FOLDER, whole, PRIVATE)
@@ -93,6 +88,26 @@ def _typeset_attendance(
             f"{_typeset_table('(auto, auto, 1fr, auto, 50mm)', heads, rows)}"
         )
     return "\n#pagebreak()\n".join(pages)
+
+
+def _typeset_more_time(
+    seated: Sequence[tuple[RosterStudent, str]],
+    exam: ExamDetails,
+    heads: Mapping[str, PrintedHead],
+    words: Mapping[str, str],
+    lang: str,
+) -> str:
+    """Return Typst source of the list of those who have more time, in minutes where it is known."""
+    names = [words[name] for name in ("room", "seat", "id", "name", "extra", "minutes")]
+    rows = []
+    for one, seat in seated:
+        minutes = heads[one.id].minutes if one.id in heads else 0
+        whole = f"{minutes} + {one.extra_minutes(minutes)}" if minutes else ""
+        if one.extra:
+            room = one.group or exam.pick("room", lang)
+            rows.append([room, seat, one.id, one.name, one.extra, whole])
+    table = _typeset_table("(auto, auto, auto, 1fr, auto, auto)", names, rows)
+    return f"#heading(level: 2, {_typeset_text(words['extra'])})\n{table}"
 
 
 def _typeset_seats(

@@ -12,6 +12,8 @@ import jinja2
 from markupsafe import Markup
 
 from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.exam_details import FILE as EXAM
+from quizgen.classes.exam_details import ExamDetails, read_exam_details
 from quizgen.classes.grade_scale import GradeScale, read_grade_scale
 from quizgen.classes.gradebook import (
     FOLDER,
@@ -430,8 +432,6 @@ def _typeset_text(text: str) -> str:
     return typst_literal(replace_unprintable(text))
 
 
-OFFICE = "de"
-"""Language of the office's tables, where nobody says which."""
 REPORTS, ANONYMOUS = "reports", "anonymous"
 """Apart, for who hands out the one must not hand out the other."""
 CHUNK = 50
@@ -439,7 +439,7 @@ CHUNK = 50
 
 
 def write_grades_and_reports(
-    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool = False, office: str = OFFICE
+    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool = False, office: str = ""
 ) -> tuple[list[GradedStudent], list[str], list[Path]]:
     """Write grades and reports; return lines, ids not on the roster, and paths.
 
@@ -452,7 +452,7 @@ def write_grades_and_reports(
         Reports bear the code instead of the name, also as the name of their file,
         in a folder of their own.
     office : str
-        Language of the tables for the examination office.
+        Language of the tables for the examination office; by default as ``exam.toml`` says.
 
     Raises
     ------
@@ -474,7 +474,9 @@ def _write_locked_folder(
         raise ClassError(f"{folder.path}: nothing has been marked yet (quizgen class mark)")
     keys = KeyIndex(folder)
     scale, lines = grade_folder(folder, keys, marked)
-    files = write_grades(folder.path, lines, scale, build_office_tables(lines, scale, office))
+    exam = read_exam_details(folder.path / EXAM) or ExamDetails()
+    tables = build_office_tables(lines, scale, office or exam.office)
+    files = write_grades(folder.path, lines, scale, tables)
     place = folder.path / FOLDER / (ANONYMOUS if anonymous else REPORTS)
     graded = [one for one in lines
               if one.marks and one.status == PRESENT and one.held != KEY_CHANGED]  # fmt: skip

@@ -305,10 +305,8 @@ def _format_part_mark(part: GradedClassPart) -> str:
 @_folder
 @click.option("--reports", default="html", help="Reports for students: html, pdf, or none.")
 @click.option("--anonymous", is_flag=True, help="Reports bear the code instead of the name.")
-@click.option(
-    "--office", type=LanguageParam(), default="de", help="Language of office.csv. [default: de]"
-)
-def grade(folder: Path, reports: str, *, anonymous: bool, office: str) -> None:
+@click.option("--office", type=LanguageParam(), help="Language of office.csv.")
+def grade(folder: Path, reports: str, *, anonymous: bool, office: str | None) -> None:
     """Write grades, and a report for each student, into results of the class in FOLDER.
 
     grades.csv and grades.xlsx have every item, office.csv and office.xlsx what an examination
@@ -322,7 +320,7 @@ def grade(folder: Path, reports: str, *, anonymous: bool, office: str) -> None:
         match_choice("reports", name, REPORTS) for name in split_names(reports) if name != "none"
     ]
     lines, left, files = write_grades_and_reports(
-        ClassFolder(folder), wished, anonymous=anonymous, office=office
+        ClassFolder(folder), wished, anonymous=anonymous, office=office or ""
     )
     there = [one for one in lines if one.marks]
     passed = sum(one.passed for one in there)

@@ -92,6 +92,10 @@ class PaperCover(msgspec.Struct, frozen=True):
     rules: Mapping[str, tuple[str, ...]] = {}
     signature: bool = False
 
+    def pick_fact(self, name: str, lang: str) -> str:
+        """Return a fact in a language, else in English, else in another one."""
+        return pick_language(self.facts[name], lang, "")
+
 
 class Paper(msgspec.Struct, frozen=True):
     """A paper: its questions, and the code that rebuilds it."""

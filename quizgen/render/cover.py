@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from quizgen.bank.metadata import pick_language
 from quizgen.paper.paper import Paper
 from quizgen.render.typst_document import (
     join_languages,
@@ -20,9 +19,9 @@ def list_cover_facts(paper: Paper) -> list[tuple[str, str]]:
     if paper.cover is None:
         return []
     rows = []
-    for name, texts in paper.cover.facts.items():
+    for name in paper.cover.facts:
         said = dict.fromkeys(
-            replace_unprintable(pick_language(texts, lang, "")) for lang in paper.langs
+            replace_unprintable(paper.cover.pick_fact(name, lang)) for lang in paper.langs
         )
         shown = [f"#{typst_literal(text)};" for text in said]
         value = join_languages(paper.langs, shown) if len(said) > 1 else shown[0]
