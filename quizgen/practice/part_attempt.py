@@ -177,6 +177,13 @@ class PartAttempt(Generic[P, S]):
         """
         return self._marker.explain_part(self._keyed, verdict, reveal=self.outcome is not None)
 
+    def explain_wrong(self) -> str:
+        """Return in words what the last wrong answer was; empty if there is none."""
+        if not self.state.wrong:
+            return ""
+        judged = self._marker.judge_part(self._keyed, self.state.wrong, self.state.decimal)
+        return str(self._marker.explain_part(self._keyed, judged.verdict, reveal=True).message)
+
     def _decide_next_step(self, verdict: Verdict) -> NextStep:
         """Return what follows a verdict; count a try unless it could not be read."""
         self_marked = verdict.needs_self_marking

@@ -37,11 +37,43 @@ const fill = (part, kept) => fields(part).forEach((f, i) => {
 })();
 
 // Practice: whoever answers by keys goes on where they were, or at what comes next where that is gone.
+const TO_FILL = "section.part :is(input:not([type=hidden]), textarea, select):not([readonly], :disabled), section.part .dock .main";
 document.addEventListener("htmx:after:swap", () => {
+  [...document.querySelectorAll("section.part :is(.verdict, .hints > :last-child, .result)")].at(-1)?.scrollIntoView({ block: "nearest" });
   if (document.activeElement && document.activeElement !== document.body) { return; }
-  const next = document.querySelector("section.part :is(input:not([type=hidden]), textarea, select):not([readonly], :disabled), #after button.main");
-  next?.focus({ preventScroll: true });
+  document.querySelector(TO_FILL)?.focus({ preventScroll: true });
 });
+// With a mouse there is a keyboard, too; on a phone the focus would lift one over the figure.
+if (document.body.classList.contains("play") && matchMedia("(pointer: fine)").matches && !location.hash) {
+  document.querySelector(TO_FILL)?.focus({ preventScroll: true });
+}
+
+// Keys of the player: 1-9 choose, Enter goes on, letters are those of the buttons, Escape stops.
+document.addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || !document.body.classList.contains("play")) { return; }
+  const at = event.target;
+  if (at.matches("input:not([type=radio], [type=checkbox], [type=range]), textarea, select, [role=application]")) { return; }
+  const press = (element) => { if (element) { event.preventDefault(); element.click(); element.focus(); } };
+  if (event.key === "Enter" && !at.closest("a, button, summary, [data-mark], [data-chip], [data-slot]")) { press(document.querySelector(".dock .main")); }
+  else if (/^[1-9]$/.test(event.key)) { press(document.querySelectorAll("section.part .option > input:enabled")[event.key - 1]); }
+  else if (event.key === "Escape") { press(document.querySelector(".progress-bar a")); }
+  else { press(document.querySelector(`[aria-keyshortcuts="${CSS.escape(event.key.toLowerCase())}"]`)); }
+});
+
+// Signs that the keyboard of a phone hides, put where the last field had its caret.
+(() => {
+  let last = null;
+  document.addEventListener("pointerdown", (event) => { if (event.target.closest("[data-put]")) { event.preventDefault(); } });
+  document.addEventListener("focusin", (event) => { if (event.target.matches("section.part input[type=text]")) { last = event.target; } });
+  document.addEventListener("click", (event) => {
+    const sign = event.target.closest("[data-put]");
+    const field = last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])");
+    if (!sign || !field) { return; }
+    field.setRangeText(sign.dataset.put, field.selectionStart, field.selectionEnd, "end");
+    field.focus();
+    field.dispatchEvent(new Event("input", { bubbles: true }));
+  });
+})();
 
 // An exam: each change is kept in this browser first and sent to the server. While the server is
 // away it is tried again. What the server has confirmed only this tab remembers, with when: a page
