@@ -36,14 +36,23 @@ def addresses(browser, served):
     page.goto(served.entrance)
     found = [
         served.address + path
-        for path in ("/", "/exam", "/progress", "/formulas", "/camera", "/tradeoff", "/nowhere")
+        for path in (
+            "/",
+            "/questions",
+            "/exam",
+            "/progress",
+            "/formulas",
+            "/camera",
+            "/tradeoff",
+            "/nowhere",
+        )
     ]
     for template in QUESTIONS:
         fresh = post(page, "/practice", template=template)
         shown = post(page, "/practice", template=template)
         page.goto(shown)
-        for part in page.locator("section.part").all():
-            name = part.get_attribute("id").removeprefix("part-")
+        links = [link.get_attribute("href") for link in page.locator(".parts a").all()]
+        for name in [link.partition("part=")[2] for link in links]:
             post(page, shown.removeprefix(served.address) + f"/{name}", do="solution")
         found += [fresh, shown]
     asked = post(page, "/practice", template=QUESTIONS[0])
