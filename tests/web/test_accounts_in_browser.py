@@ -111,7 +111,7 @@ def walked(served, barriers):
     def to(page, path: str = "") -> None:
         if path:
             page.goto(served.address + path)
-        expect(page.locator(".me")).to_be_visible()
+        expect(page.locator(".me, body.play").first).to_be_visible()
         assert barriers(page) == [], page.url
 
     return to

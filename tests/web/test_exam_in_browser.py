@@ -197,7 +197,7 @@ def test_a_browser_that_ends_while_the_server_is_dead_still_sends_it_later(exam,
 def end_in(page, served, seconds: float):
     """Let an exam end soon, and show it anew."""
     ends = page.evaluate("Date.now() / 1000") + seconds
-    this = SITTING.c.id == page.url.rsplit("/", 1)[1]
+    this = SITTING.c.id == page.url.partition("#")[0].rsplit("/", 1)[1]
     store = Store(served.database)
     with store.database.writing() as connection:
         connection.execute(update(SITTING).where(this).values(limit=ends - SITTING.c.begun))

@@ -207,6 +207,7 @@ def test_by_keys_alone(opened):
     Keys(page).on(page.get_by_role(BUTTON, name="Projection"))
     page.keyboard.press("Enter")
     expect(page.locator("section.part").first).to_be_visible()
+    Keys(page).on(page.locator(".parts a, .more summary").last)
     page.keyboard.press("Escape")
     expect(page.locator(".now")).to_be_visible()
 
