@@ -24,8 +24,8 @@ from quizgen.question.inlines import name_inline
 
 NUMBERS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0, 32.0)
 """F-numbers of a ring, each a stop from the next."""
-DISTANCES = (0.5, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0,
-             30.0, 50.0, 100.0)  # fmt: skip
+DISTANCES = (0.5, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0,
+             20.0, 30.0, 50.0, 100.0)  # fmt: skip
 """Metres on the ring of the focus."""
 
 Given = Mapping[tuple[str, str], float]
@@ -103,8 +103,8 @@ def _count_found(quantities: Mapping[str, Quantity], given: Given) -> int:
 FIGURES: dict[MovingName, MovingFigure] = {
     "aperture-ring": MovingFigure(
         {
-            "N": Quantity(8, 0.5, 64, letters=("N_2", "N"), stops=NUMBERS, shown="f/{}"),
-            "N_1": Quantity(2.8, 0.5, 64),
+            "N": Quantity(8, 0.5, 1000, letters=("N_2", "N"), stops=NUMBERS, shown="f/{}"),
+            "N_1": Quantity(2.8, 0.5, 1000),
             "f": Quantity(50, 1, 1000, "mm"),
             "r": Quantity(250, 0.01, 10000),
         },
@@ -160,8 +160,8 @@ FIGURES: dict[MovingName, MovingFigure] = {
     ),
     "pinhole-point": MovingFigure(
         {
-            "p_y": Quantity(9, -15, 15, step=0.5),
-            "p_z": Quantity(6, -6, 12, step=0.5),
+            "p_y": Quantity(10, -15, 15, step=0.5),
+            "p_z": Quantity(8, -6, 12, step=0.5),
             "f": Quantity(4, 1, 6, step=0.5),
         }
     ),
@@ -200,9 +200,7 @@ class MovingView(msgspec.Struct, frozen=True):
     words: str
 
 
-def find_moving_figure(
-    bank: Bank, template: str, variant: Variant, lang: str
-) -> MovingView | None:
+def find_moving_figure(bank: Bank, template: str, variant: Variant, lang: str) -> MovingView | None:
     """Return the figure that moves of a question, standing at its numbers; None if it has none.
 
     It is that of the first formula that the template covers and that moves.
@@ -263,5 +261,6 @@ def _view_slider(name: str, one: Quantity, at: float, words: str, lang: str) -> 
     stops = sorted({*one.stops, at}) if one.stops else []
     if stops:
         ends = (0, len(stops) - 1, 1, stops.index(at))
-    return SliderView(name, words, letter, *ends, one.shown, " ".join(f"{stop:.12g}" for stop in stops))
-
+    return SliderView(
+        name, words, letter, *ends, one.shown, " ".join(f"{stop:.12g}" for stop in stops)
+    )

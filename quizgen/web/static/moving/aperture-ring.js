@@ -10,14 +10,14 @@ const BLADES = [[16.24, 5.02, -354, 381], [6.2, 15.83, -519, -39], [-8.51, 14.72
 
 export const picture = (id, figure) => {
   const stops = figure.stops(figure.inputs.find((one) => one.dataset.set === "N"));
-  const numbers = stops.map((stop, i) => `<text class="engraved" x="${i * APART}" y="20">${figure.number(stop)}</text><path class="tick" d="M${i * APART} 1v5"/>`);
+  const numbers = stops.map((stop, i) => `<text class="m-engraved" x="${i * APART}" y="20">${figure.number(stop)}</text><path class="m-tick" d="M${i * APART} 1v5"/>`);
   return `${sceneByDepth(id)}
   <svg x="190" y="5" width="45" height="45" viewBox="-24 -24 48 48"><clipPath id="${id}-rim"><circle r="20"/></clipPath>
-    <circle class="barrel" r="22"/><circle class="blade" r="20"/><g clip-path="url(#${id}-rim)"><g data-part="hole">
-    ${BLADES.map(([x, y, dx, dy]) => `<path class="edge" d="M${x} ${y}l${dx} ${dy}"/>`).join("")}
-    <polygon class="mark" points="${BLADES.map(([x, y]) => `${x},${y}`).join(" ")}"/></g></g></svg>
-  <svg y="144" width="240" height="30" viewBox="0 0 240 30"><rect class="barrel" width="240" height="30" rx="5"/>
-    <g data-part="ring">${numbers.join("")}</g><path class="mark" d="M116 30l4-6 4 6z"/></svg>`;
+    <circle class="m-barrel" r="22"/><circle class="m-blade" r="20"/><g clip-path="url(#${id}-rim)"><g data-part="hole">
+    ${BLADES.map(([x, y, dx, dy]) => `<path class="m-edge" d="M${x} ${y}l${dx} ${dy}"/>`).join("")}
+    <polygon class="m-mark" points="${BLADES.map(([x, y]) => `${x},${y}`).join(" ")}"/></g></g></svg>
+  <svg y="144" width="240" height="30" viewBox="0 0 240 30"><rect class="m-barrel" width="240" height="30" rx="5"/>
+    <g data-part="ring">${numbers.join("")}</g><path class="m-mark" d="M116 30l4-6 4 6z"/></svg>`;
 };
 
 const seconds = (figure, time) => `${time < 0.4 ? `1/${figure.number(1 / time, 3)}` : figure.number(time, 3)} s`;

@@ -9,12 +9,12 @@ const PIXELS = [2, 5, 9, 14, 22, 34, 48, 62, 74, 80, 78, 70, 60, 52, 48, 46, 47,
 const [LEAST, APART] = [-40, 10];
 const [TOP, BOTTOM, TALL] = [82, 186, 66];
 
-export const picture = (id, figure) => `<rect class="paper" width="320" height="208"/>
-  <path class="fill" data-part="given"/><path class="axis" d="M0 ${TOP}H320M0 ${BOTTOM}H320"/>
-  <path class="blue" data-part="range"/><path class="faint" data-part="map"/>
-  <path class="fill-blue" data-part="made"/><path class="line" d="M96 ${BOTTOM - 74}V${BOTTOM + 4}M224 ${BOTTOM - 74}V${BOTTOM + 4}"/>
+export const picture = (id, figure) => `<rect class="m-paper" width="320" height="208"/>
+  <path class="m-fill" data-part="given"/><path class="m-axis" d="M0 ${TOP}H320M0 ${BOTTOM}H320"/>
+  <path class="m-blue" data-part="range"/><path class="m-faint" data-part="map"/>
+  <path class="m-fill-blue" data-part="made"/><path class="m-line" d="M96 ${BOTTOM - 74}V${BOTTOM + 4}M224 ${BOTTOM - 74}V${BOTTOM + 4}"/>
   <text x="96" y="${BOTTOM + 16}">${figure.number(figure.values.N_min)}</text><text x="224" y="${BOTTOM + 16}">${figure.number(figure.values.N_max)}</text>
-  <circle class="dot" data-part="pixel" r="4"/><circle class="dot" data-part="stored" r="4"/><path class="ray" data-part="way"/>
+  <circle class="m-dot" data-part="pixel" r="4"/><circle class="m-dot" data-part="stored" r="4"/><path class="m-ray" data-part="way"/>
   <text data-part="low" y="${TOP + 14}"/><text data-part="high" y="${TOP + 14}"/>`;
 
 const bar = (x, height, floor, wide) => height > 0 ? `M${(x - wide / 2).toFixed(2)} ${floor}v${(-height).toFixed(2)}h${wide}v${height.toFixed(2)}z` : "";

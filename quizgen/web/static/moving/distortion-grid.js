@@ -4,15 +4,15 @@
 import { path, row } from "./moving.js";
 
 export const SIZE = [240, 240];
-const MIDDLE = 120, SCALE = 58;
+const MIDDLE = 120, SCALE = 72;
 
 const at = ([x, y]) => [MIDDLE + SCALE * x, MIDDLE - SCALE * y];
 const grid = (bend) => row(-1, 1, 8).flatMap((line) => [row(-1, 1, 40).map((t) => [line, t]), row(-1, 1, 40).map((t) => [t, line])])
   .map((points) => path(points.map((point) => at(bend(point))))).join("");
 
-export const picture = () => `<rect class="paper" width="240" height="240"/><path class="faint" d="${grid((point) => point)}"/>
-  <path class="line" data-part="grid"/><circle class="ring-of" data-part="before" r="4"/>
-  <path class="accent" data-part="way"/><circle class="dot" data-part="after" r="4"/>`;
+export const picture = () => `<rect class="m-paper" width="240" height="240"/><path class="m-faint" d="${grid((point) => point)}"/>
+  <path class="m-line" data-part="grid"/><circle class="m-ring-of" data-part="before" r="4"/>
+  <path class="m-accent" data-part="way"/><circle class="m-dot" data-part="after" r="4"/>`;
 
 export const shift = (k1, k2, square) => k1 * square + k2 * square ** 2;
 

@@ -37,11 +37,11 @@ const hue = (nm) => {
   return a === b ? from : from + (to - from) * (nm - a) / (b - a);
 };
 
-export const picture = () => `<rect class="paper" width="320" height="190"/>
+export const picture = () => `<rect class="m-paper" width="320" height="190"/>
   ${row(FIRST, LAST - 8, 49).map((nm) => `<rect x="${across(nm)}" y="${FLOOR}" width="6.1" height="7" fill="hsl(${Math.round(hue(nm))} 100% 50%)"/>`).join("")}
-  <path class="shade" data-part="band"/><path class="fill-blue" data-part="through"/><path class="line" d="${path(curve(FIRST, LAST, 160))}"/>
-  <path class="accent" data-part="middle"/><circle class="dot" data-part="dot" r="4"/>
-  ${[400, 450, 500, 550, 600, 650, 700, 750].map((nm) => `<text x="${across(nm)}" y="179">${nm}</text>`).join("")}<text class="end" x="318" y="189">nm</text>`;
+  <path class="m-shade" data-part="band"/><path class="m-fill-blue" data-part="through"/><path class="m-line" d="${path(curve(FIRST, LAST, 160))}"/>
+  <path class="m-accent" data-part="middle"/><circle class="m-dot" data-part="dot" r="4"/>
+  ${[400, 450, 500, 550, 600, 650, 700, 750].map((nm) => `<text x="${across(nm)}" y="179">${nm}</text>`).join("")}<text class="m-end" x="318" y="189">nm</text>`;
 
 export const draw = (figure) => {
   const { lambda, width } = figure.values;

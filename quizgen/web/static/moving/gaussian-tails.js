@@ -4,7 +4,7 @@
 import { path, row } from "./moving.js";
 
 export const SIZE = [320, 180];
-const [FLOOR, TALL, WIDE] = [156, 140, 20]; // the axis, the height of the density of sigma = 1, and where the axis ends
+const [FLOOR, TALL, WIDE] = [156, 140, 16]; // the axis, the height of the density of sigma = 1, and where the axis ends
 
 // 1 - erf(x) for x >= 0: a series where it is small, a continued fraction where the series would cancel.
 export const erfc = (x) => {
@@ -20,9 +20,9 @@ export const erfc = (x) => {
 
 const across = (n, unit) => 160 + 150 * n / (WIDE * unit);
 
-export const picture = () => `<rect class="paper" width="320" height="180"/><path class="fill-accent" data-part="tails"/>
-  <path class="fill" data-part="inside"/><path class="line" data-part="curve"/><path class="axis" d="M0 ${FLOOR}H320"/>
-  <path class="dashed" data-part="bounds"/><text data-part="left" y="170"/><text x="160" y="170">0</text><text data-part="right" y="170"/>`;
+export const picture = () => `<rect class="m-paper" width="320" height="180"/><path class="m-fill-accent" data-part="tails"/>
+  <path class="m-fill" data-part="inside"/><path class="m-line" data-part="curve"/><path class="m-axis" d="M0 ${FLOOR}H320"/>
+  <path class="m-dashed" data-part="bounds"/><text data-part="left" y="170"/><text x="160" y="170">0</text><text data-part="right" y="170"/>`;
 
 export const draw = (figure) => {
   const { sigma, k, M, scale: unit } = figure.values;

@@ -4,6 +4,7 @@
 import { BALLOON, scene } from "./scene.js";
 
 export const SIZE = [240, 140];
+const LEAST = 0.01;
 export const picture = scene;
 
 export const toHsv = ([r, g, b]) => {
@@ -35,7 +36,8 @@ export const begin = (figure) => {
 
 export const draw = (figure) => {
   const { H, S, V } = figure.values, from = figure.start;
-  const share = (now, before) => before === 0 ? 1 : now / before;
+  // A grey or a black has no share to keep of another colour's saturation or value.
+  const share = (now, before) => before < LEAST ? 1 : now / before;
   const turn = H - from.H, saturation = share(S, from.S), value = share(V, from.V);
   for (const { element, name, from: [hue, s, v] } of figure.paints) {
     element.setAttribute(name, write(toRgb([hue + turn, Math.min(1, s * saturation), Math.min(1, v * value)])));
@@ -44,7 +46,7 @@ export const draw = (figure) => {
   const [before, now] = [told(toRgb([from.H, from.S, from.V])), told(toRgb([H, S, V]))];
   figure.show("before", before);
   figure.show("now", now);
-  const names = turn || saturation !== 1 || value !== 1 ? ["said_changed"] : ["said_same"];
+  const names = [now === before && !turn ? "said_same" : Math.min(from.S, from.V) < LEAST ? "said_plain" : "said_changed"];
   if (V === 0) { names.push("said_black"); } else if (S === 0) { names.push("said_grey"); }
   figure.say(names, {
     turn: figure.number(turn), saturation: figure.factor(saturation), value: figure.factor(value), before, now,

@@ -6,14 +6,15 @@ import { path } from "./moving.js";
 export const SIZE = [320, 210];
 const [ORIGIN, AXIS, DEEP, HIGH] = [112, 105, 16, 6]; // where the pinhole is, and a unit of depth and of height
 
-const at = (z, y) => [ORIGIN + DEEP * z, AXIS - HIGH * y];
+const at = (z, y = 0) => [ORIGIN + DEEP * z, AXIS - HIGH * y];
 
-export const picture = () => `<rect class="paper" width="320" height="210"/>
-  <path class="axis" d="M0 ${AXIS}H320"/><text class="end" x="317" y="${AXIS + 12}">z</text>
-  <path class="line" d="M${ORIGIN} 0V${AXIS - 3}M${ORIGIN} ${AXIS + 3}V210"/>
-  <path class="faint" data-part="behind"/><path class="blue" data-part="plane"/>
-  <path class="ray" data-part="ray"/><path class="accent" data-part="image"/><path class="dashed" data-part="turned"/>
-  <path class="line" data-part="height"/><circle class="target" data-part="target" r="16"/><circle class="dot" data-part="point" r="5"/>`;
+export const picture = () => `<rect class="m-paper" width="320" height="210"/>
+  <path class="m-axis" d="M0 ${AXIS}H320"/><text class="m-end" x="317" y="${AXIS + 12}">z</text>
+  <path class="m-line" d="M${ORIGIN} 0V${AXIS - 3}M${ORIGIN} ${AXIS + 3}V210"/>
+  <path class="m-faint" data-part="behind"/><path class="m-blue" data-part="plane"/>
+  <path class="m-ray" data-part="ray"/><path class="m-accent" data-part="image"/><path class="m-dashed" data-part="turned"/>
+  <path class="m-line" data-part="height"/><circle class="m-target" data-part="target" r="16"/><circle class="m-dot" data-part="point" r="5"/>
+  <text data-part="named">p</text><text data-part="named-image">p′</text><text data-part="named-plane" y="206">f</text><text data-part="named-behind" y="206">−f</text>`;
 
 export const begin = (figure) => {
   const drag = (event) => {
@@ -35,11 +36,16 @@ export const draw = (figure) => {
   const [x0, y0] = at(z, y);
   for (const name of ["point", "target"]) { figure.set(name, { cx: x0, cy: y0 }); }
   figure.set("height", { d: path([at(z, 0), at(z, y)]) });
-  figure.set("plane", { d: path([at(f, -17), at(f, 17)]) });
-  figure.set("behind", { d: path([at(-f, -17), at(-f, 17)]) });
+  figure.set("plane", { d: path([at(f, -15), at(f, 17)]) });
+  figure.set("behind", { d: path([at(-f, -15), at(-f, 17)]) });
   figure.set("ray", { d: seen ? path([at(z, y), at(-f, -image)]) : "" });
   figure.set("image", { d: seen ? path([at(f, 0), at(f, image)]) : "" });
   figure.set("turned", { d: seen ? path([at(-f, 0), at(-f, -image)]) : "" });
+  figure.set("named", { x: x0, y: y0 + (y < 0 ? 18 : -10) });
+  const [x1, y1] = at(f, Math.abs(image) < 17 ? image : 0);
+  figure.set("named-image", { x: x1 + 9, y: y1 + (image < 0 ? 10 : -3), text: seen && z !== f ? "p′" : "" });
+  figure.set("named-plane", { x: at(f)[0] });
+  figure.set("named-behind", { x: at(-f)[0] });
   const told = (value) => Number.isNaN(value) ? "–" : figure.number(value);
   figure.show("ratio", told(z === 0 ? NaN : f / z));
   figure.show("image", told(image));
