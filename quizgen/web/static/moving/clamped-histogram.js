@@ -5,7 +5,7 @@ import { path } from "./moving.js";
 
 export const SIZE = [320, 208];
 // Pixels at the values -40, -30, ... 320 of a range of 256; larger ranges are stretched.
-const PIXELS = [2, 5, 9, 14, 22, 34, 48, 62, 74, 80, 78, 70, 60, 52, 48, 46, 47, 50, 54, 58, 60, 58, 52, 44, 36, 30, 26, 24, 21, 17, 12, 8, 5, 3, 2, 1, 1];
+export const PIXELS = [2, 5, 9, 14, 22, 34, 48, 62, 74, 80, 78, 70, 60, 52, 48, 46, 47, 50, 54, 58, 60, 58, 52, 44, 36, 30, 26, 24, 21, 17, 12, 8, 5, 3, 2, 1, 1];
 const [LEAST, APART] = [-40, 10];
 const [TOP, BOTTOM, TALL] = [82, 186, 66];
 

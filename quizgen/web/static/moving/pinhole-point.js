@@ -13,8 +13,8 @@ export const picture = () => `<rect class="m-paper" width="320" height="210"/>
   <path class="m-line" d="M${ORIGIN} 0V${AXIS - 3}M${ORIGIN} ${AXIS + 3}V210"/>
   <path class="m-faint" data-part="behind"/><path class="m-blue" data-part="plane"/>
   <path class="m-ray" data-part="ray"/><path class="m-accent" data-part="image"/><path class="m-dashed" data-part="turned"/>
-  <path class="m-line" data-part="height"/><circle class="m-target" data-part="target" r="16"/><circle class="m-dot" data-part="point" r="5"/>
-  <text data-part="named">p</text><text data-part="named-image">p′</text><text data-part="named-plane" y="206">f</text><text data-part="named-behind" y="206">−f</text>`;
+  <path class="m-line" data-part="height"/><circle class="m-dot" data-part="point" r="5"/>
+  <text data-part="named">p</text><text data-part="named-image">p′</text><text data-part="named-plane" y="206">f</text><text data-part="named-behind" y="206">−f</text><circle class="m-target" data-part="target" r="16"/>`;
 
 export const begin = (figure) => {
   const drag = (event) => {
