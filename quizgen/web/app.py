@@ -31,6 +31,7 @@ from quizgen.web import (
     practice,
     progress,
     questions,
+    task_pictures,
     tradeoff,
 )
 from quizgen.web.auth import AuthMiddleware
@@ -43,7 +44,8 @@ from quizgen.web.state import QuotaError, ServerState
 from quizgen.web.views import page_language_css, page_response, redirect, safe_redirect_target
 
 PAGES = (*practice.ROUTES, *exam.ROUTES, *progress.ROUTES, *formula_sheet.ROUTES, *camera.ROUTES,
-         *error_cards.ROUTES, *tradeoff.ROUTES, *questions.ROUTES)  # fmt: skip
+         *error_cards.ROUTES, *tradeoff.ROUTES, *questions.ROUTES,
+         *task_pictures.ROUTES)  # fmt: skip
 
 
 def create_app(settings: ServerSettings) -> Starlette:

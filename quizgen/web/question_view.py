@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Protocol
 
 import msgspec
@@ -32,6 +33,7 @@ from quizgen.question.compose import (
     compose_variant,
     draw_instance,
 )
+from quizgen.question.figure import draw_marked_figure
 from quizgen.question.formula_sheet import cite_formula
 from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
 from quizgen.question.inlines import name_inline
@@ -160,6 +162,31 @@ class WorkerJob(Protocol):
         ...
 
     def __hash__(self) -> int: ...
+
+
+@dataclass(frozen=True)
+class MarkedFigureJob:
+    """Draws the figure of a question with a learner's values in it; empty if it shows none.
+
+    Parameters
+    ----------
+    wanted : QuestionRequest
+    values : tuple of (str, (float, float))
+        Quantity, what the learner gave, and how many base units its unit has.
+    quiz : bool
+        Whether what is asked for stays hidden.
+    """
+
+    wanted: QuestionRequest
+    values: tuple[tuple[str, tuple[float, float]], ...]
+    quiz: bool
+
+    def run(self, bank: Bank) -> bytes:
+        """Return the figure as SVG for a page."""
+        drawn = draw_instance(bank.template(self.wanted.template), self.wanted.seed)
+        given = dict(self.values)
+        figure = draw_marked_figure(drawn, self.wanted.lang, given, quiz=self.quiz)
+        return figure.inline_svg if figure else b""
 
 
 def run_request(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes:

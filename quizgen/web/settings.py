@@ -40,6 +40,8 @@ class ServerSettings:
         Processes that make questions and mark exams.
     papers_ahead : tuple of (str, int)
         Blueprints, and how many papers of each are to wait for those who begin.
+    phone : bool
+        Whether the sole learner may go on with a phone of the same network.
     classroom : pathlib.Path, optional
         Folder of a class whose examiner asks; without it there are no pages for decisions.
     examine : callable, optional
@@ -54,6 +56,7 @@ class ServerSettings:
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
     workers: int = 2
     papers_ahead: tuple[tuple[str, int], ...] = ()
+    phone: bool = False
     classroom: Path | None = None
     examine: Callable[[Bank, str], list[str]] | None = None
 
