@@ -148,3 +148,12 @@ def test_what_the_figure_has_no_room_for_is_left_out(strangers):
 def test_a_misspelt_name_is_said_where_it_stands(strangers):
     with pytest.raises(BankError, match=r"formulas\.toml.*moves.*aperture-rign"):
         read_formulas(strangers("aperture-rign"))
+
+
+def test_a_question_has_it_once_no_part_is_open(client, token, begin):
+    at = begin("depth-of-field-limits")
+    parts = ["1a", "1b", "1c", "1d", "1e"]
+    for part in parts:
+        assert "moving-figure" not in client.get(at).text
+        client.post(f"{at}/{part}", data={"token": token, "do": "solution"})
+    assert 'data-figure="focus-distance"' in client.get(at).text

@@ -66,9 +66,7 @@ class Moving:
 
 def read(text: str) -> float:
     """A number as the figures write it: 1/8.16, 4.55 %, 5.7 × 10⁻⁵, −6."""
-    plain = text.replace("−", "-").replace("\u202f", "").split("%")[0].strip()
-    for unit in (" mm", " lm", " m", " s"):
-        plain = plain.removesuffix(unit)
+    plain = text.strip().replace("−", "-").replace("\u202f", "").partition("\u00a0")[0]
     if plain == "∞":
         return math.inf
     front, _, power = plain.partition(" × 10")
@@ -315,6 +313,29 @@ def test_nothing_keeps_people_out(opened, served, barriers, lang, scheme, width)
         Moving(page, formula)
     assert barriers(page) == []
     page.request.post(served.address + "/settings", form={**settings, "lang": "en"})
+
+
+def test_it_comes_with_the_end_of_a_question_and_not_before(opened, served):
+    page = opened()
+    token = page.locator("[name=token]").first.input_value()
+    asked = {"token": token, "template": "point-to-image-plane"}
+    page.goto(page.request.post(served.address + "/practice", form=asked).url)
+    for field in page.locator("section.part input[type=text]").all():
+        field.fill("0.123")
+    page.locator("section.part button.main").click()
+    expect(page.locator(".verdict")).to_be_visible()
+    expect(page.locator(".moving")).to_have_count(0)
+    page.get_by_role("button", name="Solution").or_(page.get_by_role("button", name="Show")).click()
+    page.locator(".moving summary").click()
+    figure = page.locator("moving-figure[data-ready]")
+    figure.wait_for()
+    f, y, z = (
+        read(figure.locator(f"output[for=moving-{name}]").inner_text())
+        for name in ("f", "p_y", "p_z")
+    )
+    answer = figure.locator("[data-out=image]").inner_text()
+    assert read(answer) == solved("projection.perspective", p_x=0, p_y=y, p_z=z, f=f)["p'_y"]
+    assert answer in page.locator(".result").inner_text()
 
 
 def test_without_scripts_there_is_no_fold_and_the_sketch_stays(opened, served):

@@ -20,7 +20,7 @@ export const picture = (id, figure) => {
     <g data-part="ring">${numbers.join("")}</g><path class="m-mark" d="M116 30l4-6 4 6z"/></svg>`;
 };
 
-const seconds = (figure, time) => `${time < 0.4 ? `1/${figure.number(1 / time, 3)}` : figure.number(time, 3)} s`;
+const seconds = (figure, time) => `${time < 0.4 ? `1/${figure.number(1 / time, 3)}` : figure.number(time, 3)}\u00a0s`;
 
 export const draw = (figure) => {
   const { N, N_1: before, f, r, keep } = figure.values;
@@ -33,7 +33,7 @@ export const draw = (figure) => {
   // Light is linear, screens are not.
   const shown = keep ? 1 : Math.min(2.5, light ** (1 / 2.2));
   figure.svg.querySelector("[data-part=scene]").style.filter = shown === 1 ? "" : `brightness(${shown.toFixed(3)})`;
-  figure.show("hole", `${figure.number(f / N)} mm`);
+  figure.show("hole", `${figure.number(f / N)}\u00a0mm`);
   figure.show("light", figure.factor(light));
   figure.show("time", seconds(figure, keep ? time / light : time));
   figure.show("blur", figure.factor(hole));

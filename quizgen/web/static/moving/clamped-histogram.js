@@ -41,7 +41,7 @@ export const draw = (figure) => {
   const lost = 100 * outside / PIXELS.reduce((sum, pixels) => sum + pixels);
   figure.show("plain", none ? "–" : figure.number(plain));
   figure.show("stored", none ? "–" : figure.number(stored));
-  figure.show("lost", none ? "–" : `${figure.number(lost, 3)} %`);
+  figure.show("lost", none ? "–" : `${figure.number(lost, 3)}\u00a0%`);
   const place = t < 0 ? "below" : t > 1 ? "above" : "inside";
   const names = none ? ["said_none"] : [place === "inside" ? "said_inside" : `said_${place}_${clamp ? "clamped" : "free"}`];
   if (high < low) { names.push("said_turned"); }

@@ -36,7 +36,7 @@ export const draw = (figure) => {
   figure.show("from", told([x, y]));
   figure.show("to", told(bend([x, y])));
   figure.show("factor", figure.number(1 + share));
-  figure.show("share", `${figure.number(100 * share)} %`);
+  figure.show("share", `${figure.number(100 * share)}\u00a0%`);
   const names = [share === 0 ? "said_still" : share < 0 ? "said_inwards" : "said_outwards"];
   if (turn <= Math.SQRT2) { names.push("said_folds"); }
   figure.say(names, { factor: figure.number(1 + share), share: figure.number(Math.abs(100 * share)), radius: figure.number(turn) });

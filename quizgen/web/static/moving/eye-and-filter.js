@@ -52,9 +52,9 @@ export const draw = (figure) => {
   figure.set("dot", { cx: across(lambda), cy: FLOOR - TALL * there });
   const power = 100 * (to - from) / (LAST - FIRST), bright = 100 * within(from, to) / within(FIRST, LAST);
   figure.show("efficiency", figure.number(there));
-  figure.show("lumens", `${figure.number(LUMENS * there)} lm`);
-  figure.show("power", `${figure.number(power)} %`);
-  figure.show("brightness", `${figure.number(bright)} %`);
+  figure.show("lumens", `${figure.number(LUMENS * there)}\u00a0lm`);
+  figure.show("power", `${figure.number(power)}\u00a0%`);
+  figure.show("brightness", `${figure.number(bright)}\u00a0%`);
   figure.say(["said_line", ...(width > 0 ? ["said_filter"] : [])], {
     lambda: figure.number(lambda), lumens: figure.number(LUMENS * there), times: figure.number(1 / there, 3), power: figure.number(power), bright: figure.number(bright),
   });

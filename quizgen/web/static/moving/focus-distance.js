@@ -41,7 +41,7 @@ export const draw = (figure) => {
   }
   figure.set("sharp", { x: place(near), width: place(far) - place(near) });
   figure.set("focus", { d: `M${place(s)} 148v22` });
-  const metres = (length) => `${figure.number(length)} m`;
+  const metres = (length) => `${figure.number(length)}\u00a0m`;
   figure.show("hyperfocal", metres(hyperfocal));
   figure.show("near", metres(near));
   figure.show("far", metres(far));

@@ -40,9 +40,9 @@ export const draw = (figure) => {
   figure.set("right", { x: across(bound, unit), text: apart ? figure.number(k * sigma) : "" });
   const outside = erfc(k / Math.SQRT2);
   figure.show("peak", figure.number(1 / (Math.sqrt(2 * Math.PI) * sigma)));
-  figure.show("inside", `${figure.number(100 * (1 - outside), 6)} %`);
-  figure.show("outside", `${figure.number(100 * outside)} %`);
-  figure.show("side", `${figure.number(50 * outside)} %`);
+  figure.show("inside", `${figure.number(100 * (1 - outside), 6)}\u00a0%`);
+  figure.show("outside", `${figure.number(100 * outside)}\u00a0%`);
+  figure.show("side", `${figure.number(50 * outside)}\u00a0%`);
   figure.show("pixels", figure.number(1e6 * M * outside));
   figure.say(["said"], {
     bound: figure.number(k * sigma), k: figure.number(k), outside: figure.number(100 * outside),

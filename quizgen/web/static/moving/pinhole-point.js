@@ -43,7 +43,7 @@ export const draw = (figure) => {
   figure.set("turned", { d: seen ? path([at(-f, 0), at(-f, -image)]) : "" });
   figure.set("named", { x: x0, y: y0 + (y < 0 ? 18 : -10) });
   const [x1, y1] = at(f, Math.abs(image) < 17 ? image : 0);
-  figure.set("named-image", { x: x1 + 9, y: y1 + (image < 0 ? 10 : -3), text: seen && z !== f ? "p′" : "" });
+  figure.set("named-image", { x: x1 + 9, y: y1 + (image < 0 ? -5 : 12), text: seen && z !== f ? "p′" : "" });
   figure.set("named-plane", { x: at(f)[0] });
   figure.set("named-behind", { x: at(-f)[0] });
   const told = (value) => Number.isNaN(value) ? "–" : figure.number(value);
