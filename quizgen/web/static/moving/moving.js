@@ -50,6 +50,7 @@ class MovingFigure extends HTMLElement {
       this.draw();
       this.announce();
     });
+    this.inputs.forEach((input) => this.place(input)); // a browser may have kept where they stood
     this.draw();
     this.dataset.ready = "yes";
   }
