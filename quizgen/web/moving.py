@@ -10,6 +10,7 @@ from __future__ import annotations
 import colorsys
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import msgspec
@@ -217,8 +218,10 @@ def view_formula_figure(formula: str, moves: MovingName, lang: str) -> MovingVie
 
 def _read_quantities(variant: Variant) -> Given:
     """Return the quantities of a question as they are shown; of a colour its hue, too."""
-    units, shown = variant.template.units, variant.shown_values
-    found = {(name, units.get(name, "")): to_float(value) for name, value in shown.items()}
+    found: dict[tuple[str, str], float] = {}
+    for name, value in variant.shown_values.items():
+        with suppress(OverflowError):  # larger than any float, and than any figure
+            found[name, variant.template.units.get(name, "")] = to_float(value)
     rgb = [found.get((letter, ""), math.nan) for letter in "RGB"]
     if all(0 <= channel <= 1 for channel in rgb):
         hue, saturation, value = colorsys.rgb_to_hsv(*rgb)

@@ -40,7 +40,7 @@ covers = ["D1"]
 
 [draw]
 N_1 = {{ pick = [2] }}
-N_2 = {{ pick = [{}] }}
+N_2 = {{ is = "{}" }}
 
 [[part]]
 answer = {{ kind = "tf", true = "N_1 > 4" }}
@@ -134,14 +134,15 @@ def test_a_bank_of_strangers_names_one(strangers):
 
 
 def test_a_value_between_two_stops_is_a_stop_of_its_own(strangers):
-    figure, values = begins(strangers("aperture-ring", '"6.3"'), "rings")
+    figure, values = begins(strangers("aperture-ring", "6.3"), "rings")
     (ring,) = figure.sliders
     assert ring.stops == "1 1.4 2 2.8 4 5.6 6.3 8 11 16 22 32"
     assert (values["N"], ring.at) == (6.3, 6)
 
 
-def test_what_the_figure_has_no_room_for_is_left_out(strangers):
-    _, values = begins(strangers("aperture-ring", "100000"), "rings")
+@pytest.mark.parametrize("number", ["100000", "10^400", "0"])
+def test_what_the_figure_has_no_room_for_is_left_out(strangers, number):
+    _, values = begins(strangers("aperture-ring", number), "rings")
     assert values["N"] == 8
 
 
