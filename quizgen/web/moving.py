@@ -39,7 +39,7 @@ class Quantity:
 
     It begins at that of a question, if one of ``letters`` (by default its own name) is a quantity
     there in ``unit`` between ``least`` and ``most``; otherwise at ``at``. It has a slider in steps
-    of ``step`` or from one of ``stops`` to the next, and is fixed if it has neither.
+    of ``step`` or from one of ``stops`` to the next, or is a switch, or else is fixed.
     """
 
     at: float
@@ -53,11 +53,13 @@ class Quantity:
     """What its value is written into."""
     stretches: bool = False
     """Whether a figure with numbers of another size stretches it."""
+    is_switch: bool = False
+    """Whether it is on at 1 and off at 0."""
 
     @property
-    def is_fixed(self) -> bool:
-        """Whether it has no slider."""
-        return not (self.step or self.stops)
+    def has_slider(self) -> bool:
+        """Whether it has a slider."""
+        return bool(self.step or self.stops)
 
     def find(self, name: str, given: Given) -> float | None:
         """Return its value in a question; None where there is none that the figure has room for."""
@@ -77,14 +79,13 @@ class Quantity:
 
 @dataclass(frozen=True)
 class MovingFigure:
-    """A figure that moves: its quantities by name, and its switch, if it has one.
+    """A figure that moves, and its quantities by name.
 
     ``scales`` are the sizes of numbers that it can be drawn for: the first that has room for the
     question's numbers is taken.
     """
 
     quantities: Mapping[str, Quantity]
-    switch: str = ""
     scales: tuple[float, ...] = (1.0,)
 
     def fit(self, given: Given) -> tuple[float, Mapping[str, Quantity]]:
@@ -108,8 +109,8 @@ FIGURES: dict[MovingName, MovingFigure] = {
             "N_1": Quantity(2.8, 0.5, 1000),
             "f": Quantity(50, 1, 1000, "mm"),
             "r": Quantity(250, 0.01, 10000),
-        },
-        switch="keep",
+            "keep": Quantity(1, 0, 1, is_switch=True),
+        }
     ),
     "clamped-histogram": MovingFigure(
         {
@@ -118,13 +119,13 @@ FIGURES: dict[MovingName, MovingFigure] = {
             "I_max": Quantity(235, 0, 256, step=1, stretches=True),
             "N_min": Quantity(0, -1e6, 1e6),
             "N_max": Quantity(1, -1e6, 1e6),
+            "clamp": Quantity(1, 0, 1, is_switch=True),
         },
-        switch="clamp",
         scales=(1.0, 4.0, 16.0),
     ),
     "distortion-grid": MovingFigure(
         {
-            "k_1": Quantity(-0.2, -0.4, 0.4, step=0.01),
+            "k_1": Quantity(-0.2, -0.4, 0.4, letters=("k_1", "k"), step=0.01),
             "k_2": Quantity(0, -0.1, 0.1, step=0.01),
             "x": Quantity(0.75, -1, 1),
             "y": Quantity(0.5, -1, 1),
@@ -132,8 +133,11 @@ FIGURES: dict[MovingName, MovingFigure] = {
     ),
     "eye-and-filter": MovingFigure(
         {
-            "lambda": Quantity(650, 400, 700, "nm", ("lambda", "lambda_1"), 5, shown="{}\u00a0nm"),
+            "lambda": Quantity(
+                650, 400, 700, "nm", ("lambda", "lambda_1", "l_1"), 5, shown="{}\u00a0nm"
+            ),
             "width": Quantity(60, 0, 200, "nm", step=10, shown="{}\u00a0nm"),
+            "night": Quantity(0, 0, 1, letters=("night", "dark"), is_switch=True),
         }
     ),
     "focus-distance": MovingFigure(
@@ -193,8 +197,8 @@ class MovingView(msgspec.Struct, frozen=True):
     back: str
     picture: str
     sliders: list[SliderView]
-    switch: tuple[str, str] | None
-    """Name and words of the switch."""
+    switches: list[tuple[str, str, bool]]
+    """Name, words and place of each switch."""
     rows: list[tuple[str, str]]
     """Name and words of each value that is shown."""
     values: str
@@ -236,7 +240,8 @@ def _view_figure(name: MovingName, place: str, given: Given, lang: str) -> Movin
     scale, quantities = figure.fit(given)
     found = {key: one.find(key, given) for key, one in quantities.items()}
     begin = {key: quantities[key].at if value is None else value for key, value in found.items()}
-    values = {**begin, "scale": scale, **({figure.switch: True} if figure.switch else {})}
+    switches = [key for key, one in quantities.items() if one.is_switch]
+    values = {**begin, **{key: bool(begin[key]) for key in switches}, "scale": scale}
     said = {key: text for key, text in words.items() if key.startswith("said")}
     return MovingView(
         name=name,
@@ -248,9 +253,9 @@ def _view_figure(name: MovingName, place: str, given: Given, lang: str) -> Movin
         sliders=[
             _view_slider(key, one, begin[key], words[f"set_{key}"], lang)
             for key, one in quantities.items()
-            if not one.is_fixed
+            if one.has_slider
         ],
-        switch=(figure.switch, words["switch"]) if figure.switch else None,
+        switches=[(key, words[f"set_{key}"], bool(begin[key])) for key in switches],
         rows=[(key[4:], text) for key, text in words.items() if key.startswith("out_")],
         values=msgspec.json.encode(values).decode(),
         words=msgspec.json.encode(said).decode(),

@@ -5,12 +5,13 @@ from __future__ import annotations
 import importlib
 import math
 
+import numpy as np
 import pytest
 import sympy
 from keys import Keys
 from playwright.sync_api import expect
 
-from quizgen.numerics.luminosity import luminous_efficiency
+from quizgen.numerics.luminosity import DAY, NIGHT, luminous_efficiency
 
 pytestmark = pytest.mark.browser
 
@@ -220,27 +221,30 @@ def test_the_share_beyond_is_right_to_the_last_digits(sheet):
     assert got == pytest.approx([math.erfc(i / 10) for i in range(60)], rel=1e-12)
 
 
-def test_the_eye(sheet):
+@pytest.mark.parametrize(
+    ("night", "curve", "peak", "lumens"), [(False, DAY, 555, 683), (True, NIGHT, 507, 1700)]
+)
+def test_the_eye(sheet, night, curve, peak, lumens):
     one = Moving(sheet, SHEET["eye-and-filter"])
+    one.slider("night").set_checked(night)
 
     def area(low: float, high: float) -> float:
-        steps = [low + (high - low) * i / 40_000 for i in range(40_001)]
-        heights = luminous_efficiency(steps)
-        return float(sum(heights) - (heights[0] + heights[-1]) / 2) * (high - low) / 40_000
+        middles = low + (high - low) * (np.arange(40_000) + 0.5) / 40_000
+        return float(np.mean(luminous_efficiency(middles, curve))) * (high - low)
 
     for nm, width in ((555, 100), (650, 60), (400, 200), (700, 10), (505, 0)):
         one.put(**{"lambda": nm, "width": width})
-        there = float(luminous_efficiency(nm))
+        there = float(luminous_efficiency(nm, curve))
         told = solved("eye.luminous_flux_ratio", P_1=1, P_2=1, V_1=1, V_2=there)
         low, high = max(380, nm - width / 2), min(780, nm + width / 2)
+        share = area(low, high) / area(380, 780)
         assert one.shown("efficiency") == [near(there)]
-        assert one.shown("lumens") == [near(683 * there)]
+        assert one.shown("lumens") == [near(lumens * there)]
         assert one.shown("power") == [near(100 * (high - low) / 400)]
-        assert one.shown("brightness") == [
-            pytest.approx(100 * area(low, high) / area(380, 780), rel=1e-3, abs=1e-9)
-        ]
-        watts = one.said.partition("as bright as ")[2].partition(" W")[0]
+        assert one.shown("brightness") == [pytest.approx(100 * share, rel=1e-3, abs=1e-9)]
+        watts = one.said.partition("as bright as ")[2].partition(" at ")[0]
         assert read(watts) == near(1 / told["r"], 3)
+        assert f"at {peak}\u00a0nm" in one.said
 
 
 def test_the_colours(sheet):
