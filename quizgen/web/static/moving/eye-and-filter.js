@@ -50,7 +50,8 @@ const hue = (nm) => {
 
 export const picture = () => `<rect class="m-paper" width="320" height="190"/>
   ${row(FIRST, LAST - 8, 49).map((nm) => `<rect x="${across(nm)}" y="${FLOOR}" width="6.1" height="7" fill="hsl(${Math.round(hue(nm))} 100% 50%)"/>`).join("")}
-  <path class="m-shade" data-part="band"/><path class="m-fill-blue" data-part="through"/><path data-part="day" d="${path(drawn(CURVES.day))}"/><path data-part="night" d="${path(drawn(CURVES.night))}"/>
+  <path class="m-shade" data-part="band"/><path class="m-fill-blue" data-part="through"/><g data-part="day"><path class="m-line" d="${path(drawn(CURVES.day))}"/><text x="${across(616)}" y="72">V</text></g>
+  <g data-part="night"><path class="m-blue m-dashes" d="${path(drawn(CURVES.night))}"/><text x="${across(448)}" y="72">V′</text></g>
   <path class="m-accent" data-part="middle"/><circle class="m-dot" data-part="dot" r="4"/>
   ${[400, 450, 500, 550, 600, 650, 700, 750].map((nm) => `<text x="${across(nm)}" y="179">${nm}</text>`).join("")}<text class="m-end" x="318" y="189">nm</text>`;
 
@@ -58,7 +59,7 @@ export const draw = (figure) => {
   const { lambda, width, night } = figure.values, eye = night ? "night" : "day";
   const from = Math.max(FIRST, lambda - width / 2), to = Math.min(LAST, lambda + width / 2), there = efficiency(lambda, eye);
   const part = between(from, to, eye);
-  for (const name of Object.keys(EYES)) { figure.set(name, { class: name === eye ? "m-line" : "m-other" }); }
+  for (const name of Object.keys(EYES)) { figure.set(name, { opacity: name === eye ? 1 : 0.4 }); }
   figure.set("band", { d: `M${across(from)} ${FLOOR - TALL}H${across(to)}V${FLOOR}H${across(from)}z` });
   figure.set("through", { d: `${path([[across(from), FLOOR], ...drawn(part), [across(to), FLOOR]])}z` });
   figure.set("middle", { d: path([[across(lambda), FLOOR], [across(lambda), FLOOR - TALL * there]]) });
