@@ -40,6 +40,7 @@ from quizgen.question.inlines import name_inline
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import effective_level
 from quizgen.question.solution import PartSolution, SolutionHint, SolvedMisconception
+from quizgen.web.moving import MovingView, find_moving_figure
 
 _MATHS = re.compile("</?math[^>]*>")
 
@@ -135,6 +136,8 @@ class QuestionView(msgspec.Struct, frozen=True):
     """Whether its steps can be asked one after another instead."""
     bank: str = ""
     """The bank that it stands in, with version and digest, where that is said of each question."""
+    moving: MovingView | None = None
+    """The figure that moves: to be shown once no part of the question is open."""
 
 
 class PaperView(msgspec.Struct, frozen=True):
@@ -293,6 +296,7 @@ def question_view(
         key=make_key_question(PaperItem(wanted.number, (question,), (key,))),
         guided=steps,
         bank=str(*record_banks(bank, [wanted.template])) if bank else "",
+        moving=find_moving_figure(bank, wanted.template, key.draw, lang) if bank else None,
     )
 
 
