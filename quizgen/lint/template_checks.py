@@ -33,6 +33,7 @@ from quizgen.grading.diagnosis.carry_forward import are_nearly_equal
 from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
+from quizgen.lint.derivations import derivation_lines, find_derivation_faults
 from quizgen.lint.examples import find_misjudged_examples
 from quizgen.lint.figures import check_figures
 from quizgen.lint.foreign_words import find_foreign_words
@@ -160,6 +161,7 @@ def lint_template(
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
         report.problems += find_misjudged_examples(first)
+        report.problems += find_derivation_faults(first[: MARKED.count(seeds)])
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
         report.problems += [*_find_unused_draws(template), *find_foreign_words(template)]
         report.problems += _diagnose_quality_errors(template, lessons)
@@ -357,9 +359,10 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
     listed = {trap for part in template.rules.part for trap in part.answer.get("traps", ())}
     wanted["traps"] |= listed
     wanted["claims"] = set(template.rules.claims)
+    wanted["steps"] |= derivation_lines(template)
     known = {
         "claims": wanted["claims"],
-        "steps": {*chain.by_name, *chain.form_by_name},
+        "steps": {*chain.by_name, *chain.form_by_name, *derivation_lines(template)},
         "traps": {*chain.traps, *chain.form_traps, *listed},
     }
     for section, names in wanted.items():
