@@ -379,7 +379,7 @@ class _Marking:
         return worst
 
     def _is_one_way(self, relations: Sequence[Relation]) -> bool:
-        """Return whether a step that is called an equivalence gains a solution, as squaring does."""
+        """Return whether a step that is called an equivalence gains a solution: squaring."""
         return any(
             find_lost_solution(relation, one, self.right.domains, self.conditions)
             for one in self.before

@@ -154,14 +154,14 @@ def lint_template(
         for worded in composed:
             report.problems += find_unfilled_placeholders(worded)
         typed = (*_select_telling_variants(first, MARKED.count(seeds)), *known)
-        report.problems += _select_first_diagnostics(
+        derived = find_derivation_faults(first[: MARKED.count(seeds)])
+        report.problems += derived or _select_first_diagnostics(
             answer for one in typed for answer in _iter_misjudged_answers(one)
         )
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
         report.problems += find_misjudged_examples(first)
-        report.problems += find_derivation_faults(first[: MARKED.count(seeds)])
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
         report.problems += [*_find_unused_draws(template), *find_foreign_words(template)]
         report.problems += _diagnose_quality_errors(template, lessons)
