@@ -7,9 +7,10 @@ costs once.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import msgspec
 from msgspec import Meta
@@ -666,7 +667,7 @@ def ask(part: PartContext) -> AskedPart[DerivationSpec]:
     BankError
         If the authored answer is not complete.
     """
-    answer = convert(part.answer, AuthoredDerivation)
+    answer = convert(_fill_phrases(part.answer, part.words), AuthoredDerivation)
     known = {
         name: Num(Fraction(format_for_key(value)), decimal=value.q != 1)
         for name, value in part.shown.items()
@@ -689,6 +690,7 @@ def ask(part: PartContext) -> AskedPart[DerivationSpec]:
         part,
         lines={name: KeyLine(fill_all(line.forms), line.points, line.needed)
                for name, line in lines.items()},
+        symbols=msgspec.to_builtins(answer.symbols),
         traps={name: fill_all(texts) for name, texts in answer.traps.items()},
         let={name: fill(text) for name, text in answer.let.items()},
         where=fill_all(answer.where),
@@ -715,6 +717,23 @@ def ask(part: PartContext) -> AskedPart[DerivationSpec]:
         mistakes=mistakes,
         derived=steps,
     )
+
+
+_BLANK = re.compile(r"\{\{ *([\w-]+) *\}\}")
+
+
+def _fill_phrases(value: Any, words: Mapping[str, str]) -> Any:
+    """Return an authored answer with the names of drawn phrases in its blanks.
+
+    So the letters of a formula can be drawn: ``{{ axis }}`` is ``x`` if the phrase x was drawn.
+    """
+    if isinstance(value, str):
+        return _BLANK.sub(lambda blank: words.get(blank[1], blank[0]), value)
+    if isinstance(value, Mapping):
+        return {_fill_phrases(name, words): _fill_phrases(of, words) for name, of in value.items()}
+    if isinstance(value, list | tuple):
+        return [_fill_phrases(one, words) for one in value]
+    return value
 
 
 def _is_mistake(spec: DerivationSpec, texts: Sequence[str]) -> bool:
