@@ -457,7 +457,10 @@ class _Marking:
             return self._is_in_numbers(relation, form) or implies(
                 relation, form, self.right.domains, self.derived
             )
-        return (self.led if needed else self.known).holds(form) is True
+        if (self.led if needed else self.known).holds(form) is True:
+            return True
+        hidden = needed and self._states_goal(relation)
+        return not hidden and implies(relation, form, self.right.domains, self.derived)
 
     def _states_goal(self, relation: Relation) -> bool:
         """Return whether a true relation is the goal: its left side alone, and nothing beyond it.
@@ -494,7 +497,15 @@ class _Marking:
         )
 
     def _learn(self, known: World, relation: Relation) -> World:
-        """Return a world with what a true relation says of a name that was free in it."""
+        """Return a world with what a true relation says of a name that was free in it.
+
+        Where each of its names is known, it may say something of those that they are made of.
+        """
+        if self.right.holds(relation, rounded=False) and not [
+            name for name in self._subjects(relation) if name not in known.definitions
+        ]:
+            sides = (_unfold(one, known.definitions) for one in (relation.left, relation.right))
+            relation = Relation(relation.op, *sides)
         for name in self._subjects(relation):
             if name in known.definitions:
                 continue
