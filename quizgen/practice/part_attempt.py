@@ -12,7 +12,7 @@ from msgspec import structs
 from quizgen.core.errors import AttemptFinishedError
 from quizgen.grading.verdict import Verdict
 from quizgen.paper.answer_key import KeyPart
-from quizgen.paper.grading import QuestionGrader
+from quizgen.paper.grading import OwnValue, QuestionGrader
 from quizgen.practice.session_state import PartOutcome, PartState
 
 TRIES = 3
@@ -176,6 +176,22 @@ class PartAttempt(Generic[P, S]):
         While there are tries left, reasons that tell the right answer are held back.
         """
         return self._marker.explain_part(self._keyed, verdict, reveal=self.outcome is not None)
+
+    def own_values(self) -> dict[str, OwnValue]:
+        """Return what the learner gave instead of the right values, by quantity.
+
+        Empty where nothing could be read as numbers, or all is right.
+        """
+        if self.verdict is None or self.verdict.verdict == "correct":
+            return {}
+        return self._marker.own_values(self._keyed, self.verdict)
+
+    def explain_wrong(self) -> str:
+        """Return in words what the last wrong answer was; empty if there is none."""
+        if not self.state.wrong:
+            return ""
+        judged = self._marker.judge_part(self._keyed, self.state.wrong, self.state.decimal)
+        return str(self._marker.explain_part(self._keyed, judged.verdict, reveal=True).message)
 
     def _decide_next_step(self, verdict: Verdict) -> NextStep:
         """Return what follows a verdict; count a try unless it could not be read."""

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import html
 import re
+from typing import get_args
 
 import pytest
 
+from quizgen.bank.formulas import MovingName
 from quizgen.question.formula_sheet import compose_sheet
 from quizgen.render import render_sheet
 
@@ -61,6 +63,15 @@ def test_its_style_is_that_of_the_sheet_as_a_file(client, bank):
     assert answer.headers["content-type"].startswith("text/css")
     assert answer.text in render_sheet(compose_sheet(bank, "en"), "html").decode()
     assert '<link rel="stylesheet" href="/static/sheet.css">' in client.get("/formulas").text
+
+
+def test_figures_that_move_are_folded_and_post_nothing(client):
+    folds = re.findall(
+        '<details class="moving">.*?</details>', client.get("/formulas").text, re.DOTALL
+    )
+    shown = {re.search(r'data-figure="([\w-]+)"', fold)[1] for fold in folds}
+    assert shown == set(get_args(MovingName))
+    assert not [fold for fold in folds if "style=" in fold or " open" in fold or ' name="' in fold]
 
 
 @pytest.mark.browser
