@@ -27,6 +27,8 @@ from quizgen.paper.answer_key import AnswerKey, answer_key_digest, parse_answer_
 
 SETTINGS, ROSTER, KEYS = "class.toml", "roster.csv", "keys.jsonl"
 PAPERS, SOLUTIONS, FORMS, ANSWERS = "papers", "solutions", "forms", "answers"
+SHEETS = "sheets"
+"""Compact answer sheets, where the class has them."""
 DATA = "data"
 """Files with drawn data, in a folder for each student whose questions name some."""
 
@@ -282,18 +284,15 @@ class _Line(msgspec.Struct):
 _LINE = json_decoder(_Line).decode
 
 
-def format_record(
-    head: PrintedHead,
-    key: AnswerKey,
-    models: Mapping[str, Mapping[str, Sequence[str]]] | None = None,
-) -> bytes:
+def format_record(head: PrintedHead, key: AnswerKey, **more: object) -> bytes:
     """Return a paper as a line of ``keys.jsonl``, with the digest of its key.
 
-    ``models`` are model answers where sentences are asked for, by part and language.
+    ``more`` stands beside the key: model answers, places of an answer sheet. What is empty is left
+    out.
     """
     written = msgspec.json.encode(key)
     whole = msgspec.structs.replace(head, digest=_compute_key_digest(written))
-    shown = {"models": models} if models else {}
+    shown = {name: value for name, value in more.items() if value}
     table = {**msgspec.structs.asdict(whole), "key": msgspec.Raw(written), **shown}
     return msgspec.json.encode(table) + b"\n"
 

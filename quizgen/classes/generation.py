@@ -21,11 +21,13 @@ from quizgen.bank.bank import Bank
 from quizgen.bank.combined import bank_sources, open_banks
 from quizgen.bank.sampler import pick_index
 from quizgen.bank.variant import Variant
+from quizgen.classes.answer_sheet import make_answer_sheet
 from quizgen.classes.class_folder import (
     DATA,
     FORMS,
     PAPERS,
     SETTINGS,
+    SHEETS,
     SOLUTIONS,
     ClassFolder,
     ClassSettings,
@@ -90,6 +92,8 @@ class GenerationJob:
         Codes that each has had.
     exam : ExamDetails
         What covers say.
+    sheet : bool
+        Whether there are compact answer sheets, too.
     """
 
     settings: ClassSettings
@@ -98,6 +102,7 @@ class GenerationJob:
     neighbours: Mapping[str, tuple[str, ...]]
     former: Mapping[str, tuple[str, ...]]
     exam: ExamDetails
+    sheet: bool = False
 
 
 class GeneratedPaper(NamedTuple):
@@ -252,6 +257,8 @@ def generate_papers(
 ) -> GenerationReport:
     """Generate the papers that are missing, or whose roster row has changed.
 
+    A class that has a folder for compact answer sheets gets these, too.
+
     Raises
     ------
     ClassError
@@ -272,6 +279,7 @@ def generate_papers(
             _assign_neighbours(students, heads),
             former,
             exam,
+            (folder.path / SHEETS).exists(),
         )
         jobs = _iter_jobs(whole)
         for results in map_unordered(executor, run_generation_job, jobs, ahead):
@@ -349,7 +357,10 @@ def _is_up_to_date(
     """Return whether a student's files exist and are up to date."""
     if head is None or head.stamp != _compute_student_digest(folder.settings, one, exam):
         return False
-    return all((folder.path / name).exists() for name in _list_student_files(one))
+    names = [*_list_student_files(one)]
+    if (folder.path / SHEETS).exists():
+        names.append(f"{SHEETS}/{one.file}.pdf")
+    return all((folder.path / name).exists() for name in names)
 
 
 def _list_student_files(one: RosterStudent) -> tuple[str, ...]:
@@ -446,11 +457,16 @@ def _make_student_files(
         minutes=paper.minutes,
     )
     files = dict(zip(_list_student_files(one), [*sheets, write_blank_form(paper)], strict=True))
+    places = None
+    if job.sheet:
+        files[f"{SHEETS}/{one.file}.pdf"], places = make_answer_sheet(paper, job.settings.secret)
     files |= {f"{DATA}/{one.file}/{name}": data for name, data in paper.data_files.items()}
     return GeneratedPaper(
         one.id,
         files,
-        format_record(head, make_answer_key(paper), _list_model_answers(paper)),
+        format_record(
+            head, make_answer_key(paper), models=_list_model_answers(paper), sheet=places
+        ),
         paper.points,
         paper.minutes,
         "".join(item.questions[0].tier for item in paper.items),

@@ -59,6 +59,7 @@ class ClassMakeOptions(BankOptions):
     lang: str | None
     vary: bool
     one_file: bool
+    sheet: bool
     about: Path | None
     preview: bool
     not_from: tuple[Path, ...]
@@ -82,6 +83,7 @@ class ClassMakeOptions(BankOptions):
 @click.option("--preview", is_flag=True, help="One sample and the list of questions, no papers.")
 @click.option("--not-from", type=click.Path(path_type=Path), multiple=True,
               help="Folder of an earlier class, none of whose questions is asked.")  # fmt: skip
+@click.option("--sheet", is_flag=True, help="Compact answer sheets, too, for a scanner.")
 @click.option("--one-file", is_flag=True, help="Write print.pdf, too: all papers, for the printer.")
 @jobs_option
 @click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
@@ -92,7 +94,7 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
     All papers have the same questions with other numbers. A second run makes only what is missing
     or whose row has changed.
     """
-    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.class_folder import SHEETS, ClassFolder
     from quizgen.classes.exam_details import FILE as EXAM
     from quizgen.classes.generation import generate_papers
     from quizgen.classes.print_file import write_print_file
@@ -114,6 +116,8 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
         if options["preview"]:
             _write_preview(folder, blueprint)
             return
+        if options["sheet"]:  # a later run finds it, and makes sheets, too
+            (folder.path / SHEETS).mkdir(mode=0o700, exist_ok=True)
         with ProgressLine("paper", len(students)) as progress:
             report = generate_papers(folder, students, blueprint, executor, ahead, progress)
     if options["one_file"]:
@@ -126,9 +130,17 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
 @click.argument("folder", type=click.Path(path_type=Path))
 @click.argument("printed")
 def code(folder: Path, printed: str) -> None:
-    """Say whose paper of the class in FOLDER has the PRINTED code, and that it is unaltered."""
+    """Say whose paper of the class in FOLDER has the PRINTED code, and that it is unaltered.
+
+    What the square code on a page of an answer sheet says is taken, too.
+    """
+    from quizgen.classes.answer_sheet import find_sheet_page
     from quizgen.classes.class_folder import ClassFolder
 
+    if ":" in printed:
+        head, page = find_sheet_page(ClassFolder(folder), printed)
+        click.echo(f"{head.code}: {to_one_line(head.id)}, page {page} of the answer sheet")
+        return
     found = ClassFolder(folder).find_by_code(printed)
     click.echo(f"{found.head.code}: {to_one_line(found.head.id)}")
 
