@@ -50,11 +50,16 @@ PITCH = 9.4
 COLUMNS, WIDTH = (18.0, 108.0), 84.0
 LABEL = 12.0
 """What the name of a part takes before its fields."""
-BOX, BESIDE, STEP = 4.6, 3.5, 12.7
-"""Side of a box, from it to its letter, and from box to box."""
-WORD = 30.0
-"""From box to box where words stand beside them."""
-MOST_LINES, MOST_BOXES = 3, 4
+BOX, GAP, STEP, WIDE_STEP = 4.6, 2.4, 12.6, 14.2
+"""Side of a box, from the word before it to the box, from box to box, and the same where no letter
+stands before all of them."""
+LETTER, WORD, HEAD = 2.6, 16.0, 8.0
+"""What a letter before a box takes, or a word, or a letter before all boxes of a row."""
+WORD_STEP = 34.0
+BESIDE = 4.0
+"""Between two lines of one row."""
+MOST_LINES, MOST_BOXES = 3, 6
+"""Lines of a text, and values that have a line each: more than that are written in one go."""
 LINE = 7.5
 """Height of what is written on a line."""
 
@@ -97,13 +102,14 @@ class SheetPlaces(msgspec.Struct, frozen=True):
 
 
 class _Row(msgspec.Struct, frozen=True):
-    """A row of the sheet: a part's name on its first one, boxes with words, or a line."""
+    """A row of the sheet: boxes with words, or one or two lines, each with a name or none."""
 
     part: str
     head: str = ""
+    lines: tuple[tuple[str, str], ...] = ()
     boxes: tuple[tuple[str, str], ...] = ()
     step: float = STEP
-    line: str = ""
+    word: float = LETTER
     note: str = ""
 
 
@@ -170,26 +176,29 @@ def _iter_rows(field: AnswerField, lang: str) -> Iterator[_Row]:
         yield from _split_boxes(field.id, "", [(mark, mark) for mark in marks])
     elif control.form == "truth":
         ways = [(way, translate(lang, f"ask.{way}")) for way in ("true", "false")]
-        yield _Row(field.id, boxes=tuple(ways), step=WORD)
+        yield _Row(field.id, boxes=tuple(ways), step=WORD_STEP, word=WORD)
     elif control.form == "pairs":
         for mark in marks:
             targets = [(f"{mark}:{target}", target) for target, _ in field.targets]
             yield from _split_boxes(field.id, mark, targets)
     elif 1 < len(control.boxes) <= MOST_BOXES:
-        for number, box in enumerate(control.boxes, 1):
-            yield _Row(field.id, head=format_name(box.name) or str(number), line=str(number))
+        named = [
+            (format_name(box.name) or str(n), str(n)) for n, box in enumerate(control.boxes, 1)
+        ]
+        for at in range(0, len(named), 2):
+            yield _Row(field.id, lines=tuple(named[at : at + 2]))
     else:
-        lines = 2 if len(control.boxes) > MOST_BOXES else min(control.lines or 1, MOST_LINES)
-        for number in range(1, lines + 1):
-            yield _Row(field.id, line=str(number))
+        count = 2 if len(control.boxes) > MOST_BOXES else min(control.lines or 1, MOST_LINES)
+        for number in range(1, count + 1):
+            yield _Row(field.id, lines=(("", str(number)),))
 
 
 def _split_boxes(part: str, head: str, boxes: Sequence[tuple[str, str]]) -> Iterator[_Row]:
     """Yield rows with as many boxes as fit beside each other; ``head`` names what they are of."""
-    before = LABEL + (BESIDE + BOX if head else 0.0)
-    fit = int((WIDTH - before) // STEP)
+    step = STEP if head else WIDE_STEP
+    fit = int((WIDTH - LABEL - (HEAD if head else 0.0)) // step)
     for at in range(0, len(boxes), fit):
-        yield _Row(part, head=head, boxes=tuple(boxes[at : at + fit]))
+        yield _Row(part, head=head, boxes=tuple(boxes[at : at + fit]), step=step)
 
 
 def _place_rows(rows: Sequence[_Row]) -> tuple[list[SheetField], dict[int, list[str]], int]:
@@ -223,19 +232,23 @@ def _place_row(
         shown.append(_typeset_word(left, y + 1.0, row.note))
     if row.head:
         shown.append(_typeset_word(left, y + 1.0, row.head))
-        left += BESIDE + BOX
+        left += HEAD
     for number, (option, word) in enumerate(row.boxes):
-        x = round(left + number * row.step, 3)
+        x = round(left + number * row.step + row.word + GAP, 3)
+        shown.append(f"#before({round(x - GAP, 3)}, {y + 1.0}, {row.word}, {_typeset_text(word)})")
         shown.append(f"#tick({x}, {y}, {BOX})")
-        shown.append(_typeset_word(x + BOX + BESIDE, y + 1.0, word))
         yield SheetField(page, row.part, "box", x, y, BOX, BOX, option)
-    if row.line:
-        width = WIDTH - LABEL - (BESIDE + BOX if row.head else 0.0)
+    whole = WIDTH - LABEL
+    step = (whole + BESIDE) / 2 if len(row.lines) > 1 or any(h for h, _ in row.lines) else whole
+    for number, (head, option) in enumerate(row.lines):
+        x = left + number * step + (HEAD if head else 0.0)
+        width = step - (HEAD + BESIDE if head else 0.0)
         base = y + LINE - 1.0
-        shown.append(f"#rule({round(left, 3)}, {round(base, 3)}, {round(width, 3)})")
-        yield SheetField(
-            page, row.part, "line", round(left, 3), round(base - LINE, 3), width, LINE, row.line
-        )
+        if head:
+            shown.append(_typeset_word(left + number * step, y + 1.0, head))
+        shown.append(f"#rule({round(x, 3)}, {round(base, 3)}, {round(width, 3)})")
+        place = round(x, 3), round(base - LINE, 3), round(width, 3), LINE
+        yield SheetField(page, row.part, "line", *place, option)
 
 
 def _iter_head(paper: Paper, page: int, pages: int, code: str) -> Iterator[str]:
