@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from typing import NamedTuple
 
 import msgspec
@@ -21,7 +21,6 @@ from quizgen.bank.bank import Bank
 from quizgen.bank.combined import bank_sources, open_banks
 from quizgen.bank.sampler import pick_index
 from quizgen.bank.variant import Variant
-from quizgen.classes.answer_sheet import make_answer_sheet
 from quizgen.classes.class_folder import (
     DATA,
     FORMS,
@@ -39,6 +38,7 @@ from quizgen.classes.exam_details import ExamDetails, read_exam_details
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.pseudonyms import form_seal, new_secret, student_code, student_seed
 from quizgen.classes.roster import RosterStudent, seat_neighbours
+from quizgen.classes.sheet_codes import format_sheet_code
 from quizgen.core.errors import BlueprintError, ClassError
 from quizgen.core.executor import map_unordered
 from quizgen.core.files import PRIVATE, write_all
@@ -63,6 +63,7 @@ from quizgen.paper.selection import (
 )
 from quizgen.paper.variants import draw_variants, shared_content
 from quizgen.render import KINDS, render_paper
+from quizgen.render.answer_sheet import make_answer_sheet
 from quizgen.render.text import inlines_to_plain_text
 from quizgen.render.typst_document import evict_cache
 
@@ -459,7 +460,9 @@ def _make_student_files(
     files = dict(zip(_list_student_files(one), [*sheets, write_blank_form(paper)], strict=True))
     places = None
     if job.sheet:
-        files[f"{SHEETS}/{one.file}.pdf"], places = make_answer_sheet(paper, job.settings.secret)
+        files[f"{SHEETS}/{one.file}.pdf"], places = make_answer_sheet(
+            paper, partial(format_sheet_code, job.settings.secret, paper.code)
+        )
     files |= {f"{DATA}/{one.file}/{name}": data for name, data in paper.data_files.items()}
     return GeneratedPaper(
         one.id,

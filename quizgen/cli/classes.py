@@ -134,8 +134,8 @@ def code(folder: Path, printed: str) -> None:
 
     What the square code on a page of an answer sheet says is taken, too.
     """
-    from quizgen.classes.answer_sheet import find_sheet_page
     from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.sheet_codes import find_sheet_page
 
     if ":" in printed:
         head, page = find_sheet_page(ClassFolder(folder), printed)

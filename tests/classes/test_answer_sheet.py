@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 from made import run
 
-from quizgen.classes.answer_sheet import MARKS, find_sheet_page
 from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.sheet_codes import find_sheet_page, format_sheet_code
 from quizgen.core.errors import ClassError
+from quizgen.render.answer_sheet import MARKS
 
 PLAN = """
 [title]
@@ -92,8 +93,6 @@ def test_the_code_of_each_page_leads_to_its_student_and_page(scanned, folder, ca
 ])  # fmt: skip
 def test_a_code_that_was_not_signed_is_refused(scanned, folder, change):
     line = scanned[0][0]
-    from quizgen.classes.answer_sheet import format_sheet_code
-
     code = format_sheet_code(ClassFolder(folder).settings.secret, line["code"], 1)
     assert find_sheet_page(ClassFolder(folder), code)[1] == 1
     with pytest.raises(ClassError, match="no page of this class"):

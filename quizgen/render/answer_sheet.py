@@ -1,21 +1,16 @@
 """The compact answer sheet of a paper: boxes and lines whose places are known to the millimetre.
 
-Each page has a mark in every corner, by which a reader finds and straightens it, and a signed code
-that says whose it is and which page. Sizes are those that a reader of simulated scans found safe.
+Each page has a mark in every corner, by which a reader finds and straightens it, and a code that
+says whose it is and which page. Sizes are those that a reader of simulated scans found safe.
 """
 
 from __future__ import annotations
 
 import io
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
 
-from quizgen.classes.class_folder import ClassFolder, PrintedHead
-from quizgen.classes.pseudonyms import sheet_seal
-from quizgen.core.errors import ClassError
-from quizgen.grading.echo import safe_echo
 from quizgen.locale import load_words, translate
 from quizgen.maths.notation.pretty import format_name
 from quizgen.paper.paper import Paper
@@ -29,9 +24,6 @@ from quizgen.render.typst_document import (
 
 VERSION = 1
 """Of the layout."""
-PREFIX = "Q"
-_CODE_TEXT = re.compile(rf"{PREFIX}\d+:(?P<paper>\w+):(?P<page>\d{{1,3}}):[0-9A-F]{{8}}")
-PACKAGE = "quizgen.classes"
 SIZE = (210.0, 297.0)
 MARK, INSET = 8.5, 7.0
 """Side of a corner mark, and its distance from the edges."""
@@ -113,21 +105,21 @@ class _Row(msgspec.Struct, frozen=True):
     note: str = ""
 
 
-def make_answer_sheet(paper: Paper, secret: str) -> tuple[bytes, SheetPlaces]:
+def make_answer_sheet(paper: Paper, code_of: Callable[[int], str]) -> tuple[bytes, SheetPlaces]:
     """Return the answer sheet of a student's paper as a PDF file, and its places.
 
     Parameters
     ----------
     paper : Paper
         Of a holder.
-    secret : str
-        That of the class, with which the codes are signed.
+    code_of : callable
+        What the code of a page says, by its number from 1.
     """
     lang = paper.langs[0]
     rows = [row for item in paper.items for part in item.questions[0].parts
             for row in _iter_rows(part.field, lang)]  # fmt: skip
     fields, drawn, pages = _place_rows(rows)
-    codes = [format_sheet_code(secret, paper.code, page) for page in range(1, pages + 1)]
+    codes = [code_of(page) for page in range(1, pages + 1)]
     body = []
     for page in range(1, pages + 1):
         body += [*_iter_head(paper, page, pages, codes[page - 1]), *drawn[page]]
@@ -135,35 +127,10 @@ def make_answer_sheet(paper: Paper, secret: str) -> tuple[bytes, SheetPlaces]:
     opening = (
         f"#show: sheet.with(title: {typst_literal(paper.title(lang))}, lang: {typst_literal(lang)})"
     )
-    files = document_files("sheet.typ", "\n".join([opening, *body]) + "\n", PACKAGE)
+    files = document_files("answer-sheet.typ", "\n".join([opening, *body]) + "\n")
     files |= {f"code-{page}.svg": _draw_code(text) for page, text in enumerate(codes, 1)}
     places = SheetPlaces(VERSION, pages, SIZE, tuple(_iter_mark_places()), CODE, tuple(fields))
     return compile_pdf(files), places
-
-
-def format_sheet_code(secret: str, code: str, page: int) -> str:
-    """Return what the code of a page says: version, paper, page, and a seal under the secret."""
-    bare = code.replace("-", "")
-    return f"{PREFIX}{VERSION}:{bare}:{page}:{sheet_seal(secret, code, VERSION, page)}"
-
-
-def find_sheet_page(folder: ClassFolder, text: str) -> tuple[PrintedHead, int]:
-    """Return whose page of an answer sheet has a code, and which page it is.
-
-    Raises
-    ------
-    ClassError
-        If the code is of no page of this class, or was not made with its secret.
-    """
-    found = _CODE_TEXT.fullmatch(text.strip().upper())
-    if found:
-        page = int(found["page"])
-        for head, _ in folder.places().values():
-            for code in head.codes:
-                made = format_sheet_code(folder.settings.secret, code, page)
-                if code.replace("-", "") == found["paper"] and made == found[0]:
-                    return head, page
-    raise ClassError(f"{folder.path}: no page of this class has the code {safe_echo(text)!r}")
 
 
 def _iter_rows(field: AnswerField, lang: str) -> Iterator[_Row]:
