@@ -12,12 +12,13 @@ from collections.abc import Callable, Iterator, Sequence
 import msgspec
 
 from quizgen.locale import load_words, translate
-from quizgen.maths.notation.pretty import format_name
 from quizgen.paper.paper import Paper
 from quizgen.question.compose import AnswerField
+from quizgen.question.inlines import name_inline
 from quizgen.render.typst_document import (
     compile_pdf,
     document_files,
+    inlines_to_typst,
     replace_unprintable,
     typst_literal,
 )
@@ -94,7 +95,10 @@ class SheetPlaces(msgspec.Struct, frozen=True):
 
 
 class _Row(msgspec.Struct, frozen=True):
-    """A row of the sheet: boxes with words, or one or two lines, each with a name or none."""
+    """A row of the sheet: boxes with words, or one or two lines.
+
+    Lines have a name as Typst code, or none.
+    """
 
     part: str
     head: str = ""
@@ -150,7 +154,8 @@ def _iter_rows(field: AnswerField, lang: str) -> Iterator[_Row]:
             yield from _split_boxes(field.id, mark, targets)
     elif 1 < len(control.boxes) <= MOST_BOXES:
         named = [
-            (format_name(box.name) or str(n), str(n)) for n, box in enumerate(control.boxes, 1)
+            (f"[{inlines_to_typst(name_inline(box.name or str(n)), lang)}]", str(n))
+            for n, box in enumerate(control.boxes, 1)
         ]
         for at in range(0, len(named), 2):
             yield _Row(field.id, lines=tuple(named[at : at + 2]))
@@ -212,7 +217,7 @@ def _place_row(
         width = step - (HEAD + BESIDE if head else 0.0)
         base = y + LINE - 1.0
         if head:
-            shown.append(_typeset_word(left + number * step, y + 1.0, head))
+            shown.append(f"#word({round(left + number * step, 3)}, {round(y + 1.0, 3)}, {head})")
         shown.append(f"#rule({round(x, 3)}, {round(base, 3)}, {round(width, 3)})")
         place = round(x, 3), round(base - LINE, 3), round(width, 3), LINE
         yield SheetField(page, row.part, "line", *place, option)
