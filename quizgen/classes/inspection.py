@@ -37,10 +37,13 @@ def write_inspection(folder: ClassFolder, wanted: Collection[str]) -> list[Path]
     MissingExtraError
         If pikepdf is not installed.
     """
+    folder.settings  # noqa: B018 - a folder that is none of a class says so
     with lock_folder(folder.path):
         keys, marked = KeyIndex(folder), {}
         for one in GradingHistory(folder.path).current():
             marked[one.student] = one
+        if not marked:
+            raise ClassError(f"{folder.path}: nothing has been marked yet (quizgen class mark)")
         ids = {keys.find_student(one) for one in wanted}
         if missing := ids - marked.keys():
             raise ClassError(f"{min(missing)}: nothing has been marked")

@@ -99,6 +99,7 @@ class KeyIndex:
     """
 
     def __init__(self, folder: ClassFolder) -> None:
+        folder.settings  # noqa: B018 - a folder that is none of a class says so
         self.path, self.folder = folder.path / KEYS, folder
         self.places: dict[str, tuple[PrintedHead, int]] = folder.places()
 

@@ -82,12 +82,13 @@ def append_objection(folder: ClassFolder, said: Objection) -> Objection:
     """
     if not (said.objection or said.reply).strip():
         raise ClassError("nothing is said")
+    keys = KeyIndex(folder)
+    student = keys.find_student(said.student)
+    part = PartNames(keys.outline(student).items).find(said.part)
+    if not part:
+        raise ClassError(f"the paper of {student} has no part {said.part!r}")
     with lock_folder(folder.path):
-        keys, lines = KeyIndex(folder), read_objections(folder.path)
-        student = keys.find_student(said.student)
-        part = PartNames(keys.outline(student).items).find(said.part)
-        if not part:
-            raise ClassError(f"the paper of {student} has no part {said.part!r}")
+        lines = read_objections(folder.path)
         is_open = any((one.student, one.part) == (student, part) for one in list_open(lines))
         if said.reply and not is_open:
             raise ClassError(f"{student} has said nothing about {part} that is open")

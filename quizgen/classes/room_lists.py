@@ -38,13 +38,14 @@ def write_room_lists(folder: ClassFolder, lang: str) -> list[Path]:
     folder : ClassFolder
     lang : str
     """
+    title = folder.settings.name
     exam = read_exam_details(folder.path / EXAM) or ExamDetails()
     words: Mapping[str, str] = load_words(lang, "classes")["lists"]
     seated = number_seats(folder.students())
     head = replace_unprintable(
         " · ".join(filter(None, (exam.pick("course", lang), exam.pick("date", lang))))
     )
-    title = exam.pick("title", lang) or folder.settings.name
+    title = exam.pick("title", lang) or title
     made = {
         ATTENDANCE: _typeset_attendance(seated, exam, words, lang),
         SEATS: _typeset_seats(seated, exam, words, lang),

@@ -84,8 +84,8 @@ def append_status(folder: ClassFolder, status: StudentStatus) -> StudentStatus:
         If it says nothing, the student is unknown, or another command writes there.
     """
     status.check()
+    student = KeyIndex(folder).find_student(status.student)
     with lock_folder(folder.path):
-        student = KeyIndex(folder).find_student(status.student)
         now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
         added = msgspec.structs.replace(status, student=student, when=status.when or now)
         rows = [

@@ -461,6 +461,7 @@ def write_grades_and_reports(
     RenderError
         If something cannot be written.
     """
+    folder.settings  # noqa: B018 - a folder that is none of a class says so
     with lock_folder(folder.path):
         return _write_locked_folder(folder, formats, anonymous=anonymous, office=office)
 

@@ -191,7 +191,10 @@ def rule(folder: Path, what: str, item: str, **said: str) -> None:
     said["who"] = said["who"] or getpass.getuser()
     if said["student"]:
         said["student"] = keys.find_student(said["student"])
-    if what == USE and not (folder / ANSWERS / item).is_file():
+    inside = (folder / ANSWERS).resolve()
+    if what == USE and not (
+        (inside / item).resolve().is_relative_to(inside) and (inside / item).is_file()
+    ):
         raise click.UsageError(f"no file {item!r} in {folder / ANSWERS}")
     found = item if what == USE else keys.find_item(item, said["student"])
     made = Ruling(what, found, **said)
@@ -377,6 +380,7 @@ def object_(
     from quizgen.classes.objections import Objection, append_objection, list_open, read_objections
 
     found = ClassFolder(folder)
+    found.settings  # noqa: B018 - in a folder that is none of a class nobody has objected
     if student is None:
         waiting = [f"{one.student} {one.part}: {one.objection}"
                    for one in list_open(read_objections(found.path))]  # fmt: skip

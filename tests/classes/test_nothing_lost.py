@@ -175,6 +175,7 @@ def test_points_for_working_come_from_a_table(folder, capsys):
         (("accept", "1a", "--answer", "5", "--value", "10"), "10 points of 1"),
         (("drop", "9z"), "no part '9z'"),
         (("use", "nothing.csv", "--student", "101"), "no file 'nothing.csv'"),
+        (("use", "../roster.csv", "--student", "101"), "no file '../roster.csv'"),
     ],
 )
 def test_a_ruling_that_cannot_be_is_refused_when_it_is_given(folder, capsys, words, said):
@@ -211,3 +212,18 @@ def test_a_table_to_type_into_is_marked_as_it_was_typed(folder, tmp_path):
             book.writestr(name, contents[name])
     assert run("class", "mark", folder, tmp_path / "filled.xlsx") == 1, "two are blank"
     assert typed(folder) == {"1a": "1/2"}
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["mark", "lists", "inspect", "object", "grade", "analyse", "forget --yes", "redraw . 1", "table . x.xlsx",
+     "status . 101 sick", "points . x.csv", "rule . drop 1a"],
+)  # fmt: skip
+def test_a_folder_that_is_none_of_a_class_is_said_to_be_none(tmp_path, capsys, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "x.csv").write_text("id,1a\n", "utf-8")
+    name, *rest = words.split()
+    assert run("class", name, *(rest if "." in rest else [".", *rest])) == 2
+    said = capsys.readouterr().err
+    assert "is not the folder of a class" in said or "nothing has been marked yet" in said
+    assert [path.name for path in tmp_path.iterdir()] == ["x.csv"]
