@@ -17,8 +17,9 @@ from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import escape_control_characters, format_csv
 
 FOLDER = "results"
-KEY_CHANGED, RIVALS = "key changed", "answers differ"
-"""Why a grade waits: somebody edited the key, or did not say which answers count."""
+KEY_CHANGED, RIVALS, UNREAD = "key changed", "answers differ", "maybe in what was not marked"
+"""Why a grade waits: somebody edited the key, did not say which answers count, or left answers
+that could not be marked, among which may be those of a student of whom nothing else came."""
 TABLE, BOOK, POSTED = "grades.csv", "grades.xlsx", "posted.csv"
 TEXT = 49
 """Number of the format in which spreadsheets leave a cell as it was typed."""
@@ -40,6 +41,8 @@ class GradeBasis:
         Whose key was edited since the paper was made.
     rivals : collection of str
         Whose answers came twice and differ.
+    unread : bool
+        Whether something that came back could not be marked.
     """
 
     heads: Mapping[str, PrintedHead]
@@ -48,6 +51,7 @@ class GradeBasis:
     statuses: Mapping[str, str] = field(default_factory=dict)
     changed: Collection[str] = ()
     rivals: Collection[str] = ()
+    unread: bool = False
 
 
 @dataclass(frozen=True)
@@ -113,6 +117,8 @@ def _grade_student(student: RosterStudent, basis: GradeBasis) -> GradedStudent:
     status = basis.statuses.get(student.id) or (PRESENT if marks else ABSENT)
     held = KEY_CHANGED if student.id in basis.changed else ""
     held = held or (RIVALS if student.id in basis.rivals else "")
+    if basis.unread and not marks and student.id not in basis.statuses:
+        held = held or UNREAD
     grade, bonus = "", Fraction(0)
     if status == DECEPTION or (status == PRESENT and not marks):  # deceived, or blank paper
         grade = scale.fail

@@ -33,7 +33,7 @@ from quizgen.classes.rulings import (
     read_rulings,
 )
 from quizgen.classes.statuses import find_blank_students
-from quizgen.classes.submissions import RivalAnswers, Submissions, write_rivals
+from quizgen.classes.submissions import RivalAnswers, Submissions, write_problems, write_rivals
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.executor import map_ordered
 from quizgen.core.untrusted import error_context
@@ -140,6 +140,7 @@ def _grade_locked_folder(folder: ClassFolder, executor: Executor, ahead: int) ->
     groups = group_cases(decision_cases(undecided_answers(history.current()), keys.key, FIRST))
     write_queue(folder.path, groups, kept)
     write_rivals(folder.path, collected.rivals)
+    write_problems(folder.path, collected.problems)
     return GradingRun(
         outcome,
         len(filled),

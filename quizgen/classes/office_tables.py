@@ -59,7 +59,7 @@ def _build_row(
         reached = [points, marks.points, float(line.bonus)]
     final = line.grade if line.is_final else ""
     passed = words["yes" if line.passed else "no"] if final else ""
-    status = "" if line.status == PRESENT else words[line.status]
+    status = "" if line.status == PRESENT or line.held else words[line.status]
     remark = "" if line.is_final else words["held" if line.held else "provisional"]
     grade = localise_numbers(lang, final)
     return [student.id, student.name, *reached, grade, passed, status, remark]

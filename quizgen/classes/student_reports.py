@@ -37,7 +37,7 @@ from quizgen.classes.objections import Objection, read_objections
 from quizgen.classes.office_tables import build_office_tables
 from quizgen.classes.rulings import DROP, TOLERANCE
 from quizgen.classes.statuses import PRESENT, read_statuses
-from quizgen.classes.submissions import read_rivals
+from quizgen.classes.submissions import has_problems, read_rivals
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context, escape_control_characters
@@ -485,6 +485,11 @@ def _write_locked_folder(
     for chunk in _iter_chunks(graded if formats else []):
         made = _render_reports(keys, chunk, formats, objections, anonymous)
         write_all(place, made, PRIVATE)
+    for line in lines:
+        if line not in graded:  # a report from before must not be handed out
+            name = line.code if anonymous else line.student.file
+            for form in ("html", "pdf"):
+                (place / f"{name}.{form}").unlink(missing_ok=True)
     left = marked.keys() - {one.student.id for one in lines}
     return lines, sorted(left), [*files, *([place] if formats else [])]
 
@@ -501,6 +506,7 @@ def grade_folder(
         {who: one.status for who, one in read_statuses(folder.path).items()},
         keys.find_changed(),
         read_rivals(folder.path),
+        has_problems(folder.path),
     )
     return scale, grade_students(folder.students(), basis)
 

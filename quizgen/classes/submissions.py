@@ -38,7 +38,7 @@ TABLES = (".csv", ".xlsx")
 FORMS = (".toml", ".json", *TABLES)
 ABOUT = ("decimal", "minutes", "code")
 """Columns of a table that are no answers, apart from those of a roster."""
-CONFLICTS = "conflicts.csv"
+CONFLICTS, PROBLEMS = "conflicts.csv", "problems.csv"
 NOTE = "#"
 """What the name of a column begins with that is nobody's answer."""
 
@@ -285,6 +285,20 @@ def write_rivals(folder: Path, rivals: Sequence[RivalAnswers]) -> None:
     ]
     text = format_csv([("student", "file", "filled", "counts"), *rows])
     write_all(folder, {CONFLICTS: text.encode("utf-8-sig")}, PRIVATE)
+
+
+def write_problems(folder: Path, problems: Sequence[str]) -> None:
+    """Write what could not be marked to ``problems.csv``; delete the file if there is nothing."""
+    if not problems:
+        (folder / PROBLEMS).unlink(missing_ok=True)
+        return
+    text = format_csv([("problem",), *((one,) for one in problems)])
+    write_all(folder, {PROBLEMS: text.encode("utf-8-sig")}, PRIVATE)
+
+
+def has_problems(folder: Path) -> bool:
+    """Return whether something that came back could not be marked."""
+    return (folder / PROBLEMS).exists()
 
 
 def read_rivals(folder: Path) -> set[str]:

@@ -8,6 +8,7 @@ import subprocess
 
 import cv2
 import numpy as np
+import pikepdf
 import pytest
 from made import run
 
@@ -149,5 +150,11 @@ def test_who_comes_late_gets_a_sheet_too(folder, tmp_path):
     copy = shutil.copytree(folder, tmp_path / "class")
     roster = copy / "roster.csv"
     roster.write_text(roster.read_text("utf-8-sig") + "9,Cem,,,,,\n", "utf-8")
-    assert run("class", "make", roster, "--out", copy, "--jobs", 1) == 0
+    assert run("class", "make", roster, "--out", copy, "--jobs", 1, "--one-file") == 0
+    with pikepdf.open(copy / "print.pdf") as whole:
+        counts = [
+            len(pikepdf.open(path).pages)
+            for path in [*(copy / "papers").iterdir(), *(copy / "sheets").iterdir()]
+        ]
+        assert len(whole.pages) == sum(count + count % 2 for count in counts)
     assert sorted(path.stem for path in (copy / "sheets").iterdir()) == ["7", "8", "9"]

@@ -145,6 +145,33 @@ def test_of_two_that_came_at_once_neither_counts_and_no_grade_goes_out(folder, c
     assert "101: answers differ" in capsys.readouterr().out
 
 
+def test_nobody_is_called_absent_while_a_file_waits_that_may_be_theirs(folder, capsys):
+    assert mark(folder, "id,1a\n101,5\n") == 0
+    assert mark(folder, "id,9z\n102,5\n", "odd.csv") == 1
+    assert grades(folder) == {
+        "101": ("5.0", "present"),
+        "102": ("", "absent"),
+        "103": ("", "absent"),
+    }
+    assert "102: maybe in what was not marked" in capsys.readouterr().out
+    office = (folder / "results" / "office.csv").read_text("utf-8-sig")
+    assert "absent" not in office
+    assert run("class", "status", folder, "103", "absent") == 0
+    (folder / "answers" / "odd.csv").unlink()
+    assert run("class", "mark", folder) == 0
+    assert run("class", "grade", folder, "--reports", "none") == 0
+    assert (folder / "results" / "office.csv").read_text("utf-8-sig").count("absent") == 2
+
+
+def test_a_report_from_before_is_gone_where_there_is_no_grade_any_more(folder):
+    assert mark(folder, "id,1a\n101,5\n102,5\n") == 0
+    assert run("class", "grade", folder, "--reports", "html,pdf") == 0
+    assert run("class", "status", folder, "101", "sick") == 0
+    assert run("class", "grade", folder) == 0
+    names = {path.name for path in (folder / "results" / "reports").iterdir()}
+    assert names == {"102.html", "102.pdf"}
+
+
 def test_the_same_answers_again_are_no_conflict(folder):
     assert mark(folder, "id,1a\n101,5\n") == 0
     assert mark(folder, form(folder, "101", {"1a": " 5 ", "1b": ""}), "again.json") == 0
