@@ -107,13 +107,15 @@ class GradingHistory:
                 found += [(path.stem, one) for one in marked]
         return found
 
-    def write(self, marked: Iterable[StudentMarks]) -> GradingOutcome:
+    def write(self, marked: Iterable[StudentMarks], *, keep: bool = True) -> GradingOutcome:
         """Append the marks that changed as a new run; return what changed.
 
         Parameters
         ----------
         marked : iterable of StudentMarks
             At most one for each student.
+        keep : bool
+            Whether anything is written, or only found out.
 
         Raises
         ------
@@ -145,7 +147,7 @@ class GradingHistory:
                     both = (was.marks, was.points), (one.marks, one.points)
                     totals += [TotalChange(one.student, *both)] if both[0] != both[1] else []
             _sync(stream)
-        if written:
+        if written and keep:
             self._stage_changes(changes, number)
             fresh.replace(final)
             sync_folder(final.parent)

@@ -102,8 +102,12 @@ class GradingRun:
     filled: Mapping[str, tuple[int, int]]
 
 
-def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
+def grade_class(
+    folder: ClassFolder, executor: Executor, ahead: int, *, keep: bool = True
+) -> GradingRun:
     """Grade every submission of a class with all rulings; record marks and open decisions.
+
+    With ``keep`` false nothing is recorded: the run says what would change.
 
     Raises
     ------
@@ -112,10 +116,12 @@ def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingR
         nothing is changed then.
     """
     with lock_folder(folder.path):
-        return _grade_locked_folder(folder, executor, ahead)
+        return _grade_locked_folder(folder, executor, ahead, keep=keep)
 
 
-def _grade_locked_folder(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
+def _grade_locked_folder(
+    folder: ClassFolder, executor: Executor, ahead: int, *, keep: bool
+) -> GradingRun:
     """Grade the class while its folder is locked."""
     filled, kept = read_queue(folder.path)
     before = read_rulings(folder.path)
@@ -134,13 +140,14 @@ def _grade_locked_folder(folder: ClassFolder, executor: Executor, ahead: int) ->
     jobs = _iter_jobs(collected.collect(), keys, rulings, scale)
     chunks = map_ordered(executor, run_grading_job, jobs, ahead)
     counts: dict[str, tuple[int, int]] = {}
-    outcome = history.write(_count_filled_parts(chunks, counts))
-    if filled:  # now: a run that ends before this one does reads the same queue again
+    outcome = history.write(_count_filled_parts(chunks, counts), keep=keep)
+    if filled and keep:  # now: a run that ends before this one does reads the same queue again
         note_rulings(folder.path, filled)
     groups = group_cases(decision_cases(undecided_answers(history.current()), keys.key, FIRST))
-    write_queue(folder.path, groups, kept)
-    write_rivals(folder.path, collected.rivals)
-    write_problems(folder.path, collected.problems)
+    if keep:
+        write_queue(folder.path, groups, kept)
+        write_rivals(folder.path, collected.rivals)
+        write_problems(folder.path, collected.problems)
     return GradingRun(
         outcome,
         len(filled),

@@ -36,7 +36,8 @@ _folder = click.argument("folder", type=click.Path(path_type=Path))
 @click.argument("files", type=click.Path(path_type=Path), nargs=-1)
 @click.option("--jobs", type=IntRangeParam(1, MOST_JOBS), default=1, help="Processes. [default: 1]")
 @click.option("--scheduler", default="", help="Dask scheduler that marks: tcp://HOST:8786.")
-def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> None:
+@click.option("--try", "trial", is_flag=True, help="Say what would change, and change nothing.")
+def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str, *, trial: bool) -> None:
     """Mark what came back to the class in FOLDER: its folder answers, and FILES, copied there.
 
     Takes what was filled in decisions.csv and rulings.csv into account, says whose marks change,
@@ -49,10 +50,14 @@ def mark(folder: Path, files: tuple[Path, ...], jobs: int, scheduler: str) -> No
 
     found = ClassFolder(folder)
     found.settings  # noqa: B018 - no answers are copied into a folder that is none of a class
+    if trial and files:
+        raise click.UsageError("with --try no files are copied into the folder")
     with open_executor(jobs, scheduler) as (executor, ahead):
         lost = store_submissions(folder, files)
-        run = grade_class(found, executor, ahead)
+        run = grade_class(found, executor, ahead, keep=not trial)
     _remind_to_forget(folder)
+    if trial:
+        print_sentence("Tried only; without --try this would be:")
     _report_run(folder, run, lost)
 
 

@@ -217,6 +217,10 @@ def test_who_loses_or_gains_a_grade_is_said_before_all_other_changes(folder, cap
     assert mark(folder, "id,1a\n101,5\n102,5\n") == 0
     assert run("class", "rule", folder, "points", "2b", "--student", "102", "--value", "2") == 0
     capsys.readouterr()
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    assert run("class", "mark", folder, "--try") == 0
+    assert "1 grade changed:\n102: 5.0 -> " in capsys.readouterr().out
+    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before
     assert run("class", "mark", folder) == 0
     said = capsys.readouterr().out
     assert said.index("1 grade changed:\n102: 5.0 -> ") < said.index("1 mark changed:")
