@@ -504,8 +504,8 @@ class _Marking:
         if self.right.holds(relation, rounded=False) and not [
             name for name in self._subjects(relation) if name not in known.definitions
         ]:
-            sides = (_unfold(one, known.definitions) for one in (relation.left, relation.right))
-            relation = Relation(relation.op, *sides)
+            left, right = (_unfold(one, known.definitions) for one in relation.tree.args)
+            relation = Relation(relation.op, left, right)
         for name in self._subjects(relation):
             if name in known.definitions:
                 continue
@@ -688,8 +688,7 @@ def ask(part: PartContext) -> AskedPart[DerivationSpec]:
 
     def fill(text: str) -> str:
         """Return a formula as text with the drawn numbers in place, tidied."""
-        tree = parse_formula(text, symbols=symbols)
-        return format_tree(_tidy_sides(substitute(tree, known)))
+        return format_tree(_fill_numbers(parse_formula(text, symbols=symbols), known))
 
     def fill_all(texts: Forms) -> list[str]:
         """Return one formula or several, likewise."""
@@ -753,11 +752,45 @@ def _is_mistake(spec: DerivationSpec, texts: Sequence[str]) -> bool:
     return all(world.holds(spec.relation(text)) is False for text in texts)
 
 
-def _tidy_sides(tree: Expr) -> Expr:
-    """Return a formula tidied; a relation or condition with its parts tidied."""
+def _fill_numbers(tree: Expr, known: Mapping[str, Num]) -> Expr:
+    """Return a formula with drawn numbers in place of their names, tidied where they stand.
+
+    What holds none of them stays as the author wrote it. Fractions become decimals where decimals
+    were drawn and they are short.
+    """
     if isinstance(tree, Call) and tree.op in RELATIONS:
-        return Call(tree.op, tuple(map(tidy_formula, tree.args)))
-    return tidy_formula(tree)
+        return Call(tree.op, tuple(_fill_numbers(side, known) for side in tree.args))
+    kept: dict[str, Expr] = {}
+
+    def hide(node: Expr) -> Expr:
+        """Return a formula with a name of its own for each part without drawn numbers."""
+        if not isinstance(node, Call):
+            return node
+        if names_in(node).isdisjoint(known):
+            name = f"kept{len(kept)}"
+            kept[name] = node
+            return Sym(name)
+        return Call(node.op, tuple(map(hide, node.args)))
+
+    hidden = hide(tree)
+    drawn = [known[name] for name in names_in(tree) & known.keys()]
+    filled = tidy_formula(substitute(hidden, known))
+    if any(number.decimal for number in drawn):
+        filled = _write_decimals(filled)
+    return substitute(filled, kept)
+
+
+def _write_decimals(tree: Expr) -> Expr:
+    """Return a formula with its short fractions as decimals."""
+    if isinstance(tree, Call):
+        return Call(tree.op, tuple(map(_write_decimals, tree.args)))
+    if isinstance(tree, Num) and tree.value * 10**LONGEST_DECIMALS % 1 == 0:
+        return Num(tree.value, decimal=tree.value % 1 != 0)
+    return tree
+
+
+LONGEST_DECIMALS = 4
+"""Decimals up to which a fraction is written as a decimal number."""
 
 
 def input_hints(spec: DerivationSpec, lang: str) -> tuple[TextOrInlines, ...]:
