@@ -17,7 +17,7 @@ WRONG = "wrong"
 UNREADABLE = "unreadable"
 AMBIGUOUS = "ambiguous"
 
-SELF_MARKED = frozenset({"self-mark", "self-mark-none", "unchecked"})
+SELF_MARKED = frozenset({"self-mark", "self-mark-open", "self-mark-none", "unchecked"})
 """Notes on what a person marks: free text, and what only its bank could check."""
 
 FULL, NONE = Fraction(1), Fraction(0)

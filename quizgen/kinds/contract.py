@@ -296,6 +296,19 @@ LINE = InputControl("line")
 S = TypeVar("S", bound=AnySpec)
 
 
+class SchemeRow(NamedTuple):
+    """A criterion of a mark scheme: its name, points, what it may follow from, whether in halves.
+
+    What counts and what is refused stand in the language files, in sections ``points`` (the idea),
+    ``accept`` and ``refuse``.
+    """
+
+    name: str
+    points: Fraction
+    follows: str = ""
+    halves: bool = False
+
+
 class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     """One part of a variant as its kind asks it.
 
@@ -320,6 +333,8 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         What the solution draws in the field of the control.
     mistakes : mapping of str to AnySpec
         Each known mistake and the spec of which its answer would be the key.
+    scheme : tuple of SchemeRow
+        The criteria that a person marks by.
     """
 
     spec: S
@@ -332,6 +347,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     source: str = ""
     drawn: tuple[Line, ...] = ()
     mistakes: Mapping[str, S] = msgspec.field(default_factory=dict)
+    scheme: tuple[SchemeRow, ...] = ()
 
 
 VALUE_OPTION = "="
@@ -362,6 +378,8 @@ class PartContext(Protocol):
     """Units of the bank, as ``bank.toml`` defines them."""
     terms: Sequence[str]
     """Words of the bank's subject."""
+    points: str
+    """Points of the part as authored."""
 
     def error(self, what: str, rule: str = "QG112") -> BankError:
         """Return an error that names the template and the part; ``rule`` is its diagnostic code."""
@@ -405,8 +423,17 @@ class PartContext(Protocol):
     def shuffle(self, names: Sequence[str], side: str) -> list[str]:
         """Return names in a drawn order, even if ``in_order`` is set."""
 
-    def accepted_words(self, name: str) -> list[str]:
-        """Return the words of a gap or of a key point, from all languages."""
+    def accepted_words(self, name: str, section: str = "gaps") -> list[str]:
+        """Return the words of a gap, or the examples of a criterion, from all languages."""
+
+    def sentences(self, section: str, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
+        """Return the sentences of a section as plain text, by language and mark."""
+
+    def model_answers(self) -> dict[str, str]:
+        """Return the model answer by language, where one is written."""
+
+    def synonyms(self, texts: Iterable[str]) -> list[list[str]]:
+        """Return the groups of words of the bank that mean the same, of which texts have one."""
 
     def has_gap(self, name: str) -> bool:
         """Return whether a language file has words for a gap of this name."""
