@@ -57,7 +57,7 @@ from quizgen.kinds.contract import (
 )
 from quizgen.kinds.equation import RELATIONS
 from quizgen.kinds.forms import typeset_key
-from quizgen.kinds.text import TextSpec
+from quizgen.kinds.rubric import Criterion, RubricSpec
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import format_tree, parse_formula, pretty
 from quizgen.maths.numbers import format_for_key, to_fraction
@@ -326,7 +326,10 @@ class _Marking:
     ) -> Verdict:
         """Return the points of the lines, and the reasons that seem to be there, for a person."""
         reasons = self.spec.reasons
-        words = TextSpec(kind="text", points={name: one.words for name, one in reasons.items()})
+        criteria = {
+            name: Criterion(points=one.points, accept=one.words) for name, one in reasons.items()
+        }
+        words = RubricSpec(kind="rubric", full=0, criteria=criteria)
         text = " ".join(line.words for line in lines if line.words)
         found = words.judge(text, GradingOptions()).fields if text else {}
         there = found.get("found", ())
