@@ -589,11 +589,12 @@ class _Marking:
         """Return the note of what is wrong with a relation, as far as it is certain."""
         domains = self.right.domains
         for name, texts in self.spec.traps.items():
-            traps = map(self.spec.relation, texts)
+            traps = [self._with_given_numbers(self.spec.relation(text)) for text in texts]
+            typed = self._with_given_numbers(relation)
             if any(
                 implies(*pair, domains, self.derived)
                 for trap in traps
-                for pair in ((relation, trap), (trap, relation))
+                for pair in ((typed, trap), (trap, typed))
             ):
                 return f"trap:{name}", {}
         left, right = relation.left, relation.right
@@ -610,6 +611,13 @@ class _Marking:
         if self._is_off_by_a_factor(relation):
             return "line-factor", {}
         return "line-false", {}
+
+    def _with_given_numbers(self, relation: Relation) -> Relation:
+        """Return a relation with given numbers in place of their names."""
+        numbers = {one.left.name: one.right for one in self.given
+                   if isinstance(one.left, Sym) and not names_in(one.right)}  # fmt: skip
+        left, right = (substitute(side, numbers) for side in (relation.left, relation.right))
+        return Relation(relation.op, left, right, relation.near)
 
     def _assumed_positive(self, relation: Relation) -> tuple[str, ...]:
         """Return the names that must be positive for a relation to hold; none if that is not it."""
