@@ -366,7 +366,7 @@ class _Marking:
         """Return the verdict on one line, and remember what it says."""
         shown = safe_echo(line.shown, LONGEST_LINE)
         if not line.relations:
-            return ambiguous("line-words", shown)
+            return ambiguous("line-reason" if self.spec.reasons else "line-words", shown)
         if line.defines:
             self._define(line)
         relations = self._choose_reading(line)
@@ -539,7 +539,7 @@ class _Marking:
         why, fields = self._explain_wrong(relation) if self.errors == 1 else ("", {})
         subjects = self._subjects(relation)
         self._spoil(subjects)
-        base = self.wrong or self.right
+        base = self.wrong or self._without_expectations()
         for name in subjects:
             worlds = (base.define(name, formula) for formula in solve_for(relation, name)
                       if name not in names_in(formula))  # fmt: skip
@@ -548,6 +548,15 @@ class _Marking:
                 self.wrong = found
                 break
         return wrong(shown, "line-wrong", why=why, **fields)
+
+    def _without_expectations(self) -> World:
+        """Return the right world, but derived quantities may have any sign and size.
+
+        What follows from an error need not meet what is said of them.
+        """
+        domains = {**self.right.domains, **dict.fromkeys(self.derived, "real")}
+        about_free = [one for one in self.conditions if names_in(one).isdisjoint(self.derived)]
+        return World(domains, self.right.definitions, about_free)
 
     def _spoil(self, subjects: Sequence[str]) -> None:
         """Give up the next line of the key about the same quantity: it is what went wrong.
