@@ -175,7 +175,10 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
     spec = part.parse_spec(proven=True)
     verdict = explain_verdict(spec, judge_answer(spec, answer.typed, GradingOptions(lang)), lang)
     if not isinstance(spec, Text):
-        return DecisionCase(answer, spec.show_in(lang), verdict.message)
+        share = verdict.fields.get("share")  # of a derivation whose reasons a person reads
+        worth = share * Fraction(answer.worth) if isinstance(share, Fraction) else None
+        suggested = None if worth is None else round_to_quarters(worth)
+        return DecisionCase(answer, spec.show_in(lang), verdict.message, suggested)
     found = tuple(map(str, _require_names(verdict.fields.get("found"))))
     needed = spec.needed or len(spec.key_points())
     suggested = round_to_quarters(

@@ -62,7 +62,7 @@ _OPERATION = re.compile(
 """What is done next, as it is noted behind a line: ``| · x``."""
 _COMMENT = re.compile(r"\s(?://|#|%).*$")
 _WORD = re.compile(r"(?<![\\\w'])[^\W\d_]{2,}(?!\w*\()|[\u0980-\u09e5\u09f0-\u09ff]{2,}")
-_SEVERAL = re.compile(r"\s*;\s*|,\s+(?=\S)|\s+(?:and|und|ও|আর|এবং)\s+")
+_SEVERAL = re.compile(r",\s+(?=\S)|\s+(?:and|und|ও|আর|এবং)\s+")
 _OPERATOR = re.compile(r"[-+*/^()·×\d√]")
 
 
@@ -275,7 +275,7 @@ class DerivationReader:
 def _split_lines(typed: str) -> Iterator[tuple[str, bool, str]]:
     """Yield each line without marks in front, whether an arrow makes it equivalent, and all of it.
 
-    Where an arrow or *so* stands inside a line, another one begins.
+    Where an arrow, *so* or a semicolon stands inside a line, another one begins.
     """
     for pattern, plain in _LATEX:
         typed = pattern.sub(plain, typed)
@@ -283,9 +283,10 @@ def _split_lines(typed: str) -> Iterator[tuple[str, bool, str]]:
         pieces = _ARROW.split(raw)
         arrows = ["", *_ARROW.findall(raw)]
         for arrow, piece in zip(arrows, pieces, strict=True):
-            text = _strip_marks(piece)
-            if text:
-                yield text, bool(_BOTH_WAYS.fullmatch(arrow)), raw
+            for place, part in enumerate(piece.split(";")):
+                text = _strip_marks(part)
+                if text:
+                    yield text, place == 0 and bool(_BOTH_WAYS.fullmatch(arrow)), raw
 
 
 def _strip_marks(piece: str) -> str:
