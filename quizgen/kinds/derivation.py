@@ -55,7 +55,7 @@ from quizgen.kinds.contract import (
     PartContext,
     SymbolDomain,
 )
-from quizgen.kinds.equation import RELATIONS
+from quizgen.kinds.equation import RELATIONS as SAME_SIGN
 from quizgen.kinds.forms import typeset_key
 from quizgen.kinds.text import TextSpec
 from quizgen.maths.constants import Scalar, parse_exact
@@ -69,6 +69,8 @@ if TYPE_CHECKING:
 
 MOST_ERRORS = 5
 """Wrong lines that are followed up; after them nobody can say what follows from what."""
+RELATIONS = (*SAME_SIGN, "ne")
+"""Signs of a line."""
 ROOM = 3
 """Lines that a learner may need besides those that earn points."""
 
@@ -394,13 +396,20 @@ class _Marking:
         return line.others if all(self.right.holds(one) for one in line.others) else line.relations
 
     def _define(self, line: DerivedLine) -> None:
-        """Add a name that the learner gives a meaning to every world."""
-        meaning = line.relations[0].right
-        worlds = [self.right, self.known, self.led, self.wrong]
-        self.right, self.known, self.led, self.wrong = (  # type: ignore[assignment]
-            world and (world.define(line.defines, meaning) or world) for world in worlds
+        """Add a name that the learner gives a meaning to every world; one without is free there."""
+        name, first = line.defines, line.relations[0]
+        meaning = next(
+            (one for one in solve_for(first, name)[::-1] if name not in names_in(one)), None
         )
-        self.derived.append(line.defines)
+
+        def admit(world: World) -> World:
+            """Return a world that knows the name."""
+            defined = world.define(name, meaning) if meaning is not None else None
+            return defined or World({**world.domains, name: "real"}, world.definitions, world.where)
+
+        self.right, self.known, self.led = map(admit, (self.right, self.known, self.led))
+        self.wrong = admit(self.wrong) if self.wrong else None
+        self.derived.append(name)
 
     def _mark_relation(self, relation: Relation, number: int, shown: str) -> Verdict:
         """Return the verdict on one relation, and remember what it says."""
@@ -444,20 +453,29 @@ class _Marking:
             if name in self.earned or name in self.spoilt:
                 continue
             needed = self.spec.lines[name].needed
+            later = needed and any(self._is_behind(other, name) for other in self.earned)
             if (
                 self._states_goal(relation)
                 if name == self.goal_name
-                else any(self._follows(form, relation, needed=needed) for form in forms)
+                else any(
+                    self._follows(form, relation, needed=needed, alone=later) for form in forms
+                )
             ):
                 yield name
 
-    def _follows(self, form: Relation, relation: Relation, *, needed: bool) -> bool:
-        """Return whether a form of the key follows from what is written, or says it in numbers."""
+    def _follows(
+        self, form: Relation, relation: Relation, *, needed: bool = False, alone: bool = False
+    ) -> bool:
+        """Return whether a form of the key follows from what is written, or says it in numbers.
+
+        With ``alone`` it must follow from the last line by itself: what comes later in the key is
+        there already, and would imply it.
+        """
         if form.op != "eq":
             return self._is_in_numbers(relation, form) or implies(
                 relation, form, self.right.domains, self.derived
             )
-        if (self.led if needed else self.known).holds(form) is True:
+        if not alone and (self.led if needed else self.known).holds(form) is True:
             return True
         hidden = needed and self._states_goal(relation)
         return not hidden and implies(relation, form, self.right.domains, self.derived)
@@ -470,7 +488,7 @@ class _Marking:
         """
         goal = self.goal
         if goal.op != "eq":
-            return self._follows(goal, relation, needed=False)
+            return any(self._follows(form, relation) for form in self.forms[self.goal_name])
         most = _size(goal.right)
         return any(
             own == goal.left
@@ -596,21 +614,22 @@ class _Marking:
         self, relation: Relation
     ) -> tuple[str, dict[str, object]]:
         """Return the note of what is wrong with a relation, as far as it is certain."""
-        domains = self.right.domains
+        domains, about = self.right.domains, self._subjects(relation)[:1]
         for name, texts in self.spec.traps.items():
-            traps = [self._with_given_numbers(self.spec.relation(text)) for text in texts]
-            typed = self._with_given_numbers(relation)
+            traps = [self.spec.relation(text) for text in texts]
+            unfolded = [(self._unfold_but(about, relation), self._unfold_but(about, trap))
+                        for trap in traps]  # fmt: skip
             if any(
                 implies(*pair, domains, self.derived)
-                for trap in traps
-                for pair in ((typed, trap), (trap, typed))
+                for one, other in (*((relation, trap) for trap in traps), *unfolded)
+                for pair in ((one, other), (other, one))
             ):
                 return f"trap:{name}", {}
         left, right = relation.left, relation.right
         if relation.op != "eq":
-            turned = {"lt": "gt", "le": "ge", "gt": "lt", "ge": "le"}[relation.op]
+            turned = {"lt": "gt", "le": "ge", "gt": "lt", "ge": "le"}.get(relation.op, "eq")
             held = self.right.holds(Relation(turned, left, right))
-            return ("line-inequality" if held else "line-false"), {}
+            return ("line-inequality" if held and turned != "eq" else "line-false"), {}
         if self.right.holds(Relation("eq", left, Call("neg", (right,)))):
             return "line-sign", {}
         if self.right.holds(Relation("eq", left, Call("div", (Num(Fraction(1)), right)))):
@@ -621,11 +640,10 @@ class _Marking:
             return "line-factor", {}
         return "line-false", {}
 
-    def _with_given_numbers(self, relation: Relation) -> Relation:
-        """Return a relation with given numbers in place of their names."""
-        numbers = {one.left.name: one.right for one in self.given
-                   if isinstance(one.left, Sym) and not names_in(one.right)}  # fmt: skip
-        left, right = (substitute(side, numbers) for side in (relation.left, relation.right))
+    def _unfold_but(self, names: Sequence[str], relation: Relation) -> Relation:
+        """Return a relation with all derived names replaced by what they are, but these."""
+        known = {name: of for name, of in self.right.definitions.items() if name not in names}
+        left, right = (_unfold(side, known) for side in (relation.left, relation.right))
         return Relation(relation.op, left, right, relation.near)
 
     def _assumed_positive(self, relation: Relation) -> tuple[str, ...]:

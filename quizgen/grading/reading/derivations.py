@@ -23,7 +23,8 @@ MOST_RELATIONS = 60
 
 SIGNS = {
     "=": "eq", "==": "eq", ":=": "eq", "≈": "eq", "≃": "eq", "≅": "eq", "~=": "eq",
-    "<": "lt", "<=": "le", "≤": "le", "≦": "le", ">": "gt", ">=": "ge", "≥": "ge", "≧": "ge",
+    "≠": "ne", "!=": "ne", "<": "lt", "<=": "le", "≤": "le", "≦": "le",
+    ">": "gt", ">=": "ge", "≥": "ge", "≧": "ge",
 }  # fmt: skip
 NEAR = frozenset("≈≃≅") | {"~="}
 _SIGN = re.compile("|".join(map(re.escape, sorted(SIGNS, key=len, reverse=True))))
@@ -60,9 +61,12 @@ _OPERATION = re.compile(
     r"\s(?:\|\||\|)\s*(?=[-+*/:·×÷^√(]|sqrt|ln|log|quadr|wurzel)[^|]*$", re.IGNORECASE
 )
 """What is done next, as it is noted behind a line: ``| · x``."""
-_COMMENT = re.compile(r"\s(?://|#|%).*$")
+_COMMENT = re.compile(r"\s(?://|#).*$")
 _WORD = re.compile(r"(?<![\\\w'])[^\W\d_]{2,}(?!\w*\()|[\u0980-\u09e5\u09f0-\u09ff]{2,}")
 _SEVERAL = re.compile(r",\s+(?=\S)|\s+(?:and|und|ও|আর|এবং)\s+")
+_APPLIED = re.compile(r"(?<![\w'])([^\W\d]\w*'*)\(\s*-?\s*[^\W\d]\w*'*\s*\)")
+"""A name before one name in brackets: a function of it, or a product."""
+_NEW_LETTER = frozenset(GREEK.values()) | frozenset(GREEK)
 _OPERATOR = re.compile(r"[-+*/^()·×\d√]")
 
 
@@ -178,7 +182,7 @@ class DerivationReader:
         if not stated and not self._is_formula(text):
             return DerivedLine(number, words=text)
         try:
-            return self._read_relations(number, text)
+            return self._read_with_new_letter(number, text)
         except FormulaReadError as error:
             words = [*self._iter_words(text)]
             inner = self._cut_words(text, words)
@@ -191,6 +195,28 @@ class DerivationReader:
             if len(words) > 1:
                 return DerivedLine(number, words=text)
             raise error from None
+
+    def _read_with_new_letter(self, number: int, text: str) -> DerivedLine:
+        """Return what a text states; a Greek letter that is new in it gets its meaning from it.
+
+        Raises
+        ------
+        FormulaReadError
+            If a side cannot be read.
+        """
+        try:
+            return self._read_relations(number, text)
+        except FormulaReadError as error:
+            if error.code != "unknown-name" or error.found not in _NEW_LETTER:
+                raise
+            letter = GREEK.get(error.found, error.found)
+            self.symbols.append(letter)
+            try:
+                line = self._read_relations(number, text)
+            except FormulaReadError:
+                self.symbols.remove(letter)
+                raise
+            return msgspec.structs.replace(line, defines=letter)
 
     def _is_formula(self, text: str) -> bool:
         """Return whether a text without a relation may be a formula, and is no words."""
@@ -258,6 +284,9 @@ class DerivationReader:
             If it cannot be read.
         """
         self._side = side
+        applied = _APPLIED.search(side)
+        if applied is not None and applied[1] in self.symbols:
+            raise FormulaReadError("two-readings", applied.start() + 1, applied[0])
         return read_formula(side, self.symbols, self.decimal)
 
     def _is_new_name(self, side: str) -> bool:
