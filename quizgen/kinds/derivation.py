@@ -369,8 +369,8 @@ class _Marking:
         shown = safe_echo(line.shown, LONGEST_LINE)
         if not line.relations:
             return ambiguous("line-reason" if self.spec.reasons else "line-words", shown)
-        if line.defines:
-            self._define(line)
+        for name, place in line.defines:
+            self._define(name, line.relations[place])
         relations = self._choose_reading(line)
         cells = [self._mark_relation(one, line.number, shown) for one in relations]
         worst = min(cells, key=lambda cell: _SEVERITY.index(cell.note))
@@ -395,9 +395,8 @@ class _Marking:
             return line.relations
         return line.others if all(self.right.holds(one) for one in line.others) else line.relations
 
-    def _define(self, line: DerivedLine) -> None:
+    def _define(self, name: str, first: Relation) -> None:
         """Add a name that the learner gives a meaning to every world; one without is free there."""
-        name, first = line.defines, line.relations[0]
         meaning = next(
             (one for one in solve_for(first, name)[::-1] if name not in names_in(one)), None
         )

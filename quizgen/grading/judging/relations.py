@@ -106,6 +106,8 @@ class World:
 
         Without ``rounded`` a decimal is exactly what it says.
         """
+        if not relation.names <= self.domains.keys():
+            return None
         left, right = compile_exact(relation.left), compile_exact(relation.right)
         met, sure, points = 0, True, self.points
         with working_precision(BITS):

@@ -85,8 +85,8 @@ class DerivedLine(msgspec.Struct, frozen=True):
         The words in it.
     both_ways : bool
         Whether an arrow before it says that it is equivalent to the line before.
-    defines : str
-        A name that nobody declared, and that this line says the meaning of.
+    defines : tuple of (str, int)
+        Names that nobody declared, and the place of the relation that says what each is.
     """
 
     number: int
@@ -94,7 +94,7 @@ class DerivedLine(msgspec.Struct, frozen=True):
     others: tuple[Relation, ...] = ()
     words: str = ""
     both_ways: bool = False
-    defines: str = ""
+    defines: tuple[tuple[str, int], ...] = ()
 
     @property
     def shown(self) -> str:
@@ -178,12 +178,14 @@ class DerivationReader:
         FormulaReadError
             If it has a sign between two sides and cannot be read.
         """
+        before = [*self.symbols]
         stated = _SIGN.search(text) and not _TENDS.search(text)
         if not stated and not self._is_formula(text):
             return DerivedLine(number, words=text)
         try:
             return self._read_with_new_letter(number, text)
         except FormulaReadError as error:
+            self.symbols = before
             words = [*self._iter_words(text)]
             inner = self._cut_words(text, words)
             if inner and inner != text:
@@ -191,7 +193,7 @@ class DerivationReader:
                     line = self._read_relations(number, inner)
                     return msgspec.structs.replace(line, words=text)
                 except FormulaReadError:
-                    pass
+                    self.symbols = before
             if len(words) > 1:
                 return DerivedLine(number, words=text)
             raise error from None
@@ -216,7 +218,7 @@ class DerivationReader:
             except FormulaReadError:
                 self.symbols.remove(letter)
                 raise
-            return msgspec.structs.replace(line, defines=letter)
+            return msgspec.structs.replace(line, defines=((letter, 0), *line.defines))
 
     def _is_formula(self, text: str) -> bool:
         """Return whether a text without a relation may be a formula, and is no words."""
@@ -259,21 +261,25 @@ class DerivationReader:
             If a side cannot be read.
         """
         found: list[tuple[Relation, Relation]] = []
-        defines = ""
+        defines: list[tuple[str, int]] = []
         for piece in _split_side_by_side(text):
             sides, signs = _split_sides(piece)
             trees = [TypedFormula(self._left)] if not sides[0].strip() else []
+            new = ""
             if not trees and len(sides) > 1 and self._is_new_name(sides[0]):
-                trees, defines = [TypedFormula(Sym(sides[0].strip()))], sides[0].strip()
+                new = sides[0].strip()
+                trees = [TypedFormula(Sym(new))]
             trees += [self._read_side(side) for side in (sides[1:] if trees else sides)]
             if len(trees) == 1:
                 trees, signs = [TypedFormula(self._left), *trees], ["="]
             self._left = trees[0].tree
-            if defines:
-                self.symbols.append(defines)
+            if new:
+                self.symbols.append(new)
+                defines.append((new, len(found)))
             found += _pair_sides(trees, signs)
         mains, others = zip(*found, strict=True)
-        return DerivedLine(number, mains, others if mains != others else (), defines=defines)
+        seconds = others if mains != others else ()
+        return DerivedLine(number, mains, seconds, defines=tuple(defines))
 
     def _read_side(self, side: str) -> TypedFormula:
         """Return one side; it is known afterwards which one could not be read.
