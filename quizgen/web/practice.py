@@ -15,6 +15,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
 from starlette.routing import Route
 
+from quizgen.bank.formulas import templates_by_formula
 from quizgen.bank.levels import GUIDED
 from quizgen.bank.rules import suggested_minutes
 from quizgen.practice.scheduler import local_date
@@ -25,7 +26,7 @@ from quizgen.web.block import begin_block, find_block
 from quizgen.web.forms import field_text, read_answer, read_form
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.question_attempt import AttemptInBrowser, AttemptPart
-from quizgen.web.question_view import QuestionRequest, QuestionView
+from quizgen.web.question_view import MarkedFigureJob, QuestionRequest, QuestionView
 from quizgen.web.state import ServerState
 from quizgen.web.tonight import MINUTES, count_days, look_at_tonight, progress_of
 from quizgen.web.views import page_response, redirect, request_language, translate_page
@@ -122,7 +123,7 @@ async def set_minutes(request: Request) -> Response:
 async def start_question(request: Request) -> Response:
     """Choose a question by topic, template or an exam to repair, and redirect to it."""
     form = await read_form(request)
-    named = {name: field_text(form, name) for name in ("topic", "tier", "repair")}
+    named = {name: field_text(form, name) for name in ("topic", "formula", "repair")}
     wish: dict[str, Any] = {name: value for name, value in named.items() if value}
     template = field_text(form, "template")
     site: ServerState = request.app.state.site
@@ -155,9 +156,11 @@ async def _find_next_question(request: Request, wish: dict[str, Any]) -> Questio
         PracticeRequest(
             request_language(request),
             topic=wish.get("topic") or None,
-            tier=wish.get("tier") or None,
         ),
     )
+    if wish.get("formula"):
+        about = templates_by_formula(site.bank).get(wish["formula"], ())
+        names = tuple(name for name in names if name in about)
     learning, sitting = progress_of(request), wish.get("repair")
     if names and sitting:
         repairs = await run_in_threadpool(learning.list_repairs, sitting)
@@ -227,7 +230,7 @@ async def show_question(request: Request) -> Response:
         turn=question,
         made=question.made,
         group=group,
-        figure=choose_figure(question),
+        figure=await _choose_figure(request, question, group),
         block=block,
         said_last=group if said else [],
     )
@@ -235,10 +238,22 @@ async def show_question(request: Request) -> Response:
     return shown
 
 
-def choose_figure(question: AttemptInBrowser) -> str:
-    """Return the figure to show as SVG: the one with the solution once every part has ended."""
-    made = question.made
-    return made.solved_figure or made.figure if question.is_finished else made.figure
+async def _choose_figure(
+    request: Request, question: AttemptInBrowser, group: list[AttemptPart]
+) -> str:
+    """Return the figure to show as SVG.
+
+    It is the one with the solution once every part has ended; a wrong value of the part that was
+    answered is drawn into it, where the figure can show such a value.
+    """
+    made, site = question.made, request.app.state.site
+    plain = made.solved_figure or made.figure if question.is_finished else made.figure
+    own = {name: one for place in group for name, one in place.task.own_values().items()}
+    if not plain or not own:
+        return plain
+    job = MarkedFigureJob(made.wanted, tuple(own.items()), quiz=not question.is_finished)
+    marked: bytes = await site.workers.get_result(job, request.state.learner.id)
+    return marked.decode() or plain
 
 
 async def _prepare_likely_next(request: Request, attempt: AttemptRecord) -> None:

@@ -15,6 +15,8 @@ from quizgen.bank.bank import Bank, builtin_bank
 
 LOCAL = ("127.0.0.1", "localhost")
 """Names under which a browser on this machine reaches a server of its own."""
+EVERYWHERE = "0.0.0.0"  # noqa: S104 - asked for by an option
+"""Where a server listens that other devices are to reach."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,9 @@ class ServerSettings:
 
     @property
     def accounts(self) -> bool:
-        """Whether people sign in: wherever others can reach the server."""
+        """Whether people sign in: wherever others can reach the server, but with a phone of one."""
+        if self.phone:
+            return False
         return self.behind_proxy or not (self.host in LOCAL or _is_loopback(self.host))
 
     def is_own_name(self, name: str) -> bool:
@@ -73,15 +77,22 @@ class ServerSettings:
         """
         if name in {*LOCAL, self.host, *self.names}:
             return True
-        return self.accounts and (name in _own_names() or _is_number(name))
+        return (self.accounts or self.phone) and (name in _own_names() or _is_number(name))
 
     def base_url(self, port: int) -> str:
         """Return the address of the server for browsers."""
         if self.behind_proxy and self.names:
             return f"https://{self.names[0]}"
+        if self.phone and not self.names:
+            return f"http://{LOCAL[0]}:{port}"
         everywhere = _is_number(self.host) and ipaddress.ip_address(self.host).is_unspecified
         name = self.names[0] if self.names else _find_network_address() if everywhere else self.host
         return f"http://[{name}]:{port}" if ":" in name else f"http://{name}:{port}"
+
+    def phone_url(self, port: int) -> str:
+        """Return the address of the server for another device of the network."""
+        name = self.names[0] if self.names else _find_network_address()
+        return f"http://{name}:{port}"
 
 
 @cache

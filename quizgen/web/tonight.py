@@ -29,6 +29,8 @@ MINUTES = (15, 25, 45, 60, 90)
 """How long somebody may say to have; the second is meant where nobody has said."""
 LOOKED_AT = 300
 """Attempts that are looked at for days in a row."""
+SAID = {"exam", "minutes"}
+"""Settings that somebody has who has been here before."""
 MOST_TASKS = 12
 """Questions of the exam that have a card of their own; of more only topics are shown."""
 
@@ -184,7 +186,10 @@ def look_at_tonight(request: Request) -> TonightView | None:
         tuple(_list_tasks(plan, learning.bank, lang)),
         tuple(_list_entries(plan, block.templates, learning.bank, lang)),
         tuple(_list_topics(plan, names, learning.bank, lang)),
-        not learning.store.latest(learning.learner.id, 1),
+        not (
+            learning.store.latest(learning.learner.id, 1)
+            or {*request.state.learner.settings} & SAID
+        ),
     )
 
 
@@ -234,7 +239,7 @@ def _list_entries(
     for topic, places in groups.items():
         gain = float(sum(rates[place] * minutes[place] for place in set(places)))
         names = {model.items[place].name for place in places}
-        title = template_title(bank, *names, lang) if len(names) == 1 else ""
+        title = template_title(bank, min(names), lang) if len(names) == 1 else ""
         yield BlockEntry(
             title or bank.topic_title(topic, lang), len(places),
             max(1, round(float(sum(minutes[place] for place in places)))), gain,

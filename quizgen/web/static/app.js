@@ -16,6 +16,7 @@ const ticks = (field) => field.type === "radio" || field.type === "checkbox";
 const values = (part) => fields(part).filter((f) => !ticks(f) || f.checked).map((f) => f.value);
 const fill = (part, kept) => fields(part).forEach((f, i) => {
   if (ticks(f)) { f.checked = kept.includes(f.value); } else { f.value = kept[i] ?? ""; }
+  f.closest("[data-pairs]")?.dispatchEvent(new Event("quizgen:filled"));
 });
 
 // Practice: what is typed and not sent yet outlives a reload and a change of language in this tab,
@@ -37,7 +38,7 @@ const fill = (part, kept) => fields(part).forEach((f, i) => {
 })();
 
 // Practice: whoever answers by keys goes on where they were, or at what comes next where that is gone.
-const TO_FILL = "section.part :is(input:not([type=hidden]), textarea, select):not([readonly], :disabled), section.part .dock .main";
+const TO_FILL = "section.part :is(input:not([type=hidden]), textarea, select, .slot):not([readonly], :disabled, [tabindex='-1']), section.part .dock .main";
 document.addEventListener("htmx:after:swap", () => {
   [...document.querySelectorAll("section.part :is(.verdict, .hints > :last-child, .result)")].at(-1)?.scrollIntoView({ block: "nearest" });
   if (document.activeElement && document.activeElement !== document.body) { return; }
@@ -53,12 +54,31 @@ document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || !document.body.classList.contains("play")) { return; }
   const at = event.target;
   if (at.matches("input:not([type=radio], [type=checkbox], [type=range]), textarea, select, [role=application]")) { return; }
+  const seen = (what) => [...document.querySelectorAll(what)].filter((one) => one.checkVisibility());
   const press = (element) => { if (element) { event.preventDefault(); element.click(); element.focus(); } };
-  if (event.key === "Enter" && !at.closest("a, button, summary, [data-mark], [data-chip], [data-slot]")) { press(document.querySelector(".dock .main")); }
-  else if (/^[1-9]$/.test(event.key)) { press(document.querySelectorAll("section.part .option > input:enabled")[event.key - 1]); }
+  if (event.key === "Enter" && !at.closest("a, button, summary, [data-mark], [data-chip], [data-slot]")) { press(seen(".dock .main")[0]); }
+  else if (/^[1-9]$/.test(event.key)) { press(seen(".option > input:enabled")[event.key - 1]); }
   else if (event.key === "Escape") { press(document.querySelector(".progress-bar a")); }
-  else { press(document.querySelector(`[aria-keyshortcuts="${CSS.escape(event.key.toLowerCase())}"]`)); }
+  else { press(seen(`[aria-keyshortcuts="${CSS.escape(event.key.toLowerCase())}"]`)[0]); }
 });
+
+// The formula sheet: what holds every word that is searched for; "/" leads to the search.
+(() => {
+  const find = document.querySelector("[data-find]");
+  if (!find) { return; }
+  find.closest("[hidden]").hidden = false;
+  const formulas = [...document.querySelectorAll(".formula")];
+  const texts = formulas.map((one) => one.textContent.toLowerCase());
+  find.addEventListener("input", () => {
+    const words = find.value.toLowerCase().split(/\s+/).filter(Boolean);
+    formulas.forEach((one, i) => { one.hidden = !words.every((word) => texts[i].includes(word)); });
+    document.querySelectorAll(".topic").forEach((one) => { one.hidden = !one.querySelector(".formula:not([hidden])"); });
+    document.querySelector("[data-none]").hidden = formulas.some((one) => !one.hidden);
+  });
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "/" && !event.target.matches("input, textarea, select")) { event.preventDefault(); find.focus(); }
+  });
+})();
 
 // Signs that the keyboard of a phone hides, put where the last field had its caret.
 (() => {
@@ -178,6 +198,21 @@ document.addEventListener("keydown", (event) => {
   soon(0);
   addEventListener("pagehide", () => { if (waiting.size) { flush(true); } });
   addEventListener("online", () => soon(0));
+  // One question on the screen: the one of the address, else the first.
+  const questions = [...form.querySelectorAll(".question")];
+  const turn = () => {
+    const named = location.hash ? document.getElementById(decodeURIComponent(location.hash.slice(1))) : null;
+    const shown = named?.closest(".question") ?? questions[0];
+    questions.forEach((one) => one.classList.toggle("shown", one === shown));
+    form.querySelectorAll("a[data-question]").forEach((link) => {
+      if (`question-${link.dataset.question}` === shown.id) { link.setAttribute("aria-current", "step"); } else { link.removeAttribute("aria-current"); }
+    });
+    if (named) { (named === shown ? form : named).scrollIntoView({ block: "start" }); }
+  };
+  form.querySelectorAll("[data-step]").forEach((step) => { step.hidden = false; });
+  form.dataset.one = "";
+  addEventListener("hashchange", turn);
+  turn();
   // Nobody leaves this page for one of a server that is away.
   const flag = async (button) => {
     const body = new URLSearchParams({ token: form.elements.token.value });
