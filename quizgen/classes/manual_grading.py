@@ -209,10 +209,12 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
     """Return an answer with its key, the criteria recognised, and the points they suggest."""
     spec = part.parse_spec(proven=True)
     if not isinstance(spec, RubricSpec):
-        verdict = judge_answer(spec, answer.typed, GradingOptions(lang))
-        return DecisionCase(
-            answer, spec.show_in(lang), explain_verdict(spec, verdict, lang).message
-        )
+        judged = judge_answer(spec, answer.typed, GradingOptions(lang))
+        verdict = explain_verdict(spec, judged, lang)
+        share = verdict.fields.get("share")  # of a derivation whose reasons a person reads
+        worth = share * Fraction(answer.worth) if isinstance(share, Fraction) else None
+        suggested = None if worth is None else round_to_quarters(worth)
+        return DecisionCase(answer, spec.show_in(lang), verdict.message, suggested)
     made, ideas = spec.suggest(answer.typed), spec.list_ideas(lang)
     criteria = tuple(
         CriterionCase(

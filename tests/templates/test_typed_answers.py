@@ -62,6 +62,8 @@ def ways_to_type(kind, printed):
 
 def shaped(table, value):
     """The key's own notation for a wrong answer."""
+    if table["kind"] == "derivation":
+        value = {"wrong": {"forms": value}}
     name = next(one for one in ("value", "lines", "values") if one in table)
     plain = {k: v for k, v in table.items() if k not in {"traps", "notes", "accept"}}
     return show_key({**plain, name: value})
