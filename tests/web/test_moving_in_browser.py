@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 import sympy
+from fingers import Screen, between
 from keys import Keys
 from playwright.sync_api import expect
 
@@ -167,18 +168,28 @@ def test_the_pinhole(sheet):
     assert "there is no image" in one.said
 
 
-def test_the_point_is_dragged(sheet):
-    one = Moving(sheet, SHEET["pinhole-point"])
+@pytest.mark.parametrize("hand", ["mouse", "finger"])
+def test_the_point_is_dragged(opened, served, hand):
+    page = opened(viewport={"width": 390, "height": 844}, has_touch=hand == "finger")
+    page.goto(served.address + "/formulas")
+    one = Moving(page, SHEET["pinhole-point"])
     one.figure.scroll_into_view_if_needed()
     point = one.figure.locator("[data-part=target]").bounding_box()
     x, y = point["x"] + point["width"] / 2, point["y"] + point["height"] / 2
-    pixels = one.figure.locator("svg").bounding_box()["width"] / 320
-    sheet.mouse.move(x, y)
-    sheet.mouse.down()
-    sheet.mouse.move(x - 3 * 16 * pixels, y + 4 * 6 * pixels, steps=5)  # 3 deep, 4 high
-    sheet.mouse.up()
-    sheet.mouse.move(x, y)
+    pixels, scrolled = one.figure.locator("svg").bounding_box()["width"] / 320, "scrollY"
+    before = page.evaluate(scrolled)
+    way = between((x, y), (x - 3 * 16 * pixels, y + 4 * 6 * pixels))  # 3 deep, 4 high
+    if hand == "finger":
+        Screen(page).finger(way)
+    else:
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for place in way:
+            page.mouse.move(*place)
+        page.mouse.up()
+        page.mouse.move(x, y)  # lets go of nothing
     assert [one.slider(name).input_value() for name in ("p_z", "p_y")] == ["5", "6"]
+    assert page.evaluate(scrolled) == before
 
 
 def test_the_histogram(sheet):
