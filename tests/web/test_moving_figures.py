@@ -116,6 +116,19 @@ def test_a_colour_that_is_given_as_rgb_begins_at_its_hue(bank):
     assert values["S"] == pytest.approx((values["V"] - min(red, green, blue)) / values["V"])
 
 
+def test_a_number_of_stops_leads_to_another_number_of_the_ring(bank):
+    template = "stopping-down-or-opening-effects"
+    leads = {
+        (0, 1): 5.6, (0, 2): 8, (0, 3): 11, (0, 4): 16,
+        (1, 1): 2.8, (1, 2): 2, (1, 3): 1.4, (1, 4): 1,
+    }  # fmt: skip
+    for seed in map(str, range(12)):
+        drawn = draw_instance(bank.template(template), seed).shown_values
+        _, values = begins(bank, template, seed)
+        led = leads[to_float(drawn["opening"]), to_float(drawn["stops"])]
+        assert (values["N_1"], values["N"]) == (4, led)
+
+
 def test_more_levels_stretch_a_histogram(bank):
     for seed in map(str, range(40)):
         most = to_float(

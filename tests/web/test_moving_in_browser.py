@@ -104,14 +104,17 @@ def test_the_aperture(sheet):
     one = Moving(sheet, SHEET["aperture-ring"])
     for stop in (0, 3, 6, 10):
         one.put(N=stop)
-        told = solved("aperture.f_number_change", f=50, N_1=2.8, N_2=NUMBERS[stop], r=250)
+        told = solved("aperture.f_number_change", f=50, N_1=2.8, N_2=NUMBERS[stop], r=125)
         way = 1 if NUMBERS[stop] <= 2.8 else -1
         assert one.shown("hole") == [near(told["D_2"])]
         assert one.shown("blur") == [near(told["q"] ** way, 3)]
         assert one.shown("light") == [near(told["e"] ** way, 3)]
+        assert one.shown("stops") == [near(way * told["k"], 3)]
         assert one.shown("time") == [near(told["t_2"], 3)]
+    one.put(N=NUMBERS.index(8))
+    assert "exactly, the light changes by the factor 1/8." in one.said
     one.slider("keep").uncheck()
-    assert one.shown("time") == [1 / 250]
+    assert one.shown("time") == [1 / 125]
     assert "too dark" in one.said
 
 
