@@ -276,6 +276,4 @@ def _view_slider(name: str, one: Quantity, at: float, words: str, lang: str) -> 
     stops = sorted({*one.stops, at}) if one.stops else []
     if stops:
         ends = (0, len(stops) - 1, 1, stops.index(at))
-    return SliderView(
-        name, words, letter, *ends, one.shown, " ".join(f"{stop:.12g}" for stop in stops)
-    )
+    return SliderView(name, words, letter, *ends, one.shown, " ".join(map(str, stops)))

@@ -146,11 +146,12 @@ def test_a_bank_of_strangers_names_one(strangers):
     assert values["f"] == 50  # their question has none
 
 
-def test_a_value_between_two_stops_is_a_stop_of_its_own(strangers):
-    figure, values = begins(strangers("aperture-ring", "6.3"), "rings")
+@pytest.mark.parametrize(("number", "place"), [("6.3", 6), ("10/3", 4), ("250/0.7", 11)])
+def test_a_value_between_two_stops_is_a_stop_of_its_own(strangers, number, place):
+    figure, values = begins(strangers("aperture-ring", number), "rings")
     (ring,) = figure.sliders
-    assert ring.stops == "1 1.4 2 2.8 4 5.6 6.3 8 11 16 22 32"
-    assert (values["N"], ring.at) == (6.3, 6)
+    stops = [float(stop) for stop in ring.stops.split()]
+    assert (len(stops), ring.at, stops.index(values["N"])) == (12, place, place)
 
 
 @pytest.mark.parametrize("number", ["100000", "10^400", "0"])
