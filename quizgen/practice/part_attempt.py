@@ -13,6 +13,7 @@ from quizgen.core.errors import AttemptFinishedError
 from quizgen.grading.verdict import Verdict
 from quizgen.paper.answer_key import KeyPart
 from quizgen.paper.grading import OwnValue, QuestionGrader
+from quizgen.practice.scheduler import NAMED
 from quizgen.practice.session_state import PartOutcome, PartState
 
 TRIES = 3
@@ -166,6 +167,8 @@ class PartAttempt(Generic[P, S]):
             self.state.decimal = self._marker.options.decimal
         if then in {NextStep.AGAIN, NextStep.OUT_OF_TRIES}:
             self.state.wrong, self.state.note = typed, verdict.note
+            if verdict.note.startswith(NAMED):
+                self.state.mistakes.setdefault(verdict.note, typed)
         if then in {NextStep.RIGHT, NextStep.OUT_OF_TRIES}:
             self._finish_part(right=then is NextStep.RIGHT)
         return AnswerFeedback(verdict, then, TRIES - self.state.tries)

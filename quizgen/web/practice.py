@@ -15,6 +15,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
 from starlette.routing import Route
 
+from quizgen.bank.formulas import templates_by_formula
 from quizgen.bank.levels import GUIDED
 from quizgen.bank.rules import suggested_minutes
 from quizgen.practice.scheduler import local_date
@@ -122,7 +123,7 @@ async def set_minutes(request: Request) -> Response:
 async def start_question(request: Request) -> Response:
     """Choose a question by topic, template or an exam to repair, and redirect to it."""
     form = await read_form(request)
-    named = {name: field_text(form, name) for name in ("topic", "tier", "repair")}
+    named = {name: field_text(form, name) for name in ("topic", "formula", "repair")}
     wish: dict[str, Any] = {name: value for name, value in named.items() if value}
     template = field_text(form, "template")
     site: ServerState = request.app.state.site
@@ -155,9 +156,11 @@ async def _find_next_question(request: Request, wish: dict[str, Any]) -> Questio
         PracticeRequest(
             request_language(request),
             topic=wish.get("topic") or None,
-            tier=wish.get("tier") or None,
         ),
     )
+    if wish.get("formula"):
+        about = templates_by_formula(site.bank).get(wish["formula"], ())
+        names = tuple(name for name in names if name in about)
     learning, sitting = progress_of(request), wish.get("repair")
     if names and sitting:
         repairs = await run_in_threadpool(learning.list_repairs, sitting)

@@ -22,6 +22,8 @@ from quizgen.web.read_errors import ReadErrorView, explain_read_error
 
 HALF = unreadable("values-missing")
 """Said where some fields are empty."""
+BLANK = " "
+"""Stands for an answer of which nothing was filled in."""
 LADDER = ("nudge", "formula", "step", "solution")
 """Kinds of help, in the order in which a learner climbs them."""
 RUNGS = {"quantity": "nudge", "why": "nudge", "formula": "formula", "numbers": "step",
@@ -207,16 +209,17 @@ class AttemptInBrowser:
         return _has_ended(self.places)
 
     def answer(self, place: AttemptPart, values: list[str]) -> None:
-        """Grade the fields of a part; nothing happens if they are blank or it has ended.
+        """Grade the fields of a part; nothing happens if it has ended.
 
-        A field that was left out costs no try: Enter sends all of them from any of them.
+        A field that was left out costs no try: Enter sends all of them from any of them. Where all
+        are blank that is said, unless they were sent along with those of another part.
         """
         typed = join_fields(place.part.field.control, values, place.part.field.marks)
         place.progress.values = values
-        if not typed or place.is_finished:
+        if place.is_finished or (not typed and len(self.find_group(place)) > 1):
             return
         if not _is_fully_filled(place.part, values):
-            place.verdict, place.progress.asked_back = HALF, typed
+            place.verdict, place.progress.asked_back = HALF, typed or BLANK
             return
         feedback = place.task.answer(typed)
         place.verdict = feedback.verdict

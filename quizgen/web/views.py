@@ -140,26 +140,20 @@ def _label_scale(of: float, lang: str) -> list[str]:
 
 
 def relative_time(now: float, lang: str) -> Callable[..., str]:
-    """Return a function that says in words when a time was, or with ``ahead`` will be.
+    """Return a function that says in words when a time was.
 
     ``now`` and its argument are in seconds since 1970.
     """
 
-    def format_moment(moment: float | None, *, ahead: bool = False) -> str:
+    def format_moment(moment: float | None) -> str:
         """Return a time in words, such as ``yesterday``; for None that it never was."""
         if moment is None:
-            return "" if ahead else translate_page(lang, "progress.never")
-        if ahead and moment <= now:
-            return translate_page(lang, "progress.now")
-        days = (local_date(moment) - local_date(now)).days
-        near = {0: "day", 1: "tomorrow", -1: "yesterday"}.get(days)
+            return translate_page(lang, "progress.never")
+        days = (local_date(now) - local_date(moment)).days
+        near = {0: "day", 1: "yesterday"}.get(days)
         if near:
             return translate_page(lang, f"progress.{near}")
-        return translate_page(
-            lang,
-            "progress.in_days" if days > 0 else "progress.days_ago",
-            count=abs(days),
-        )
+        return translate_page(lang, "progress.days_ago", count=days)
 
     return format_moment
 

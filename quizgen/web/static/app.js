@@ -62,6 +62,24 @@ document.addEventListener("keydown", (event) => {
   else { press(seen(`[aria-keyshortcuts="${CSS.escape(event.key.toLowerCase())}"]`)[0]); }
 });
 
+// The formula sheet: what holds every word that is searched for; "/" leads to the search.
+(() => {
+  const find = document.querySelector("[data-find]");
+  if (!find) { return; }
+  find.closest("[hidden]").hidden = false;
+  const formulas = [...document.querySelectorAll(".formula")];
+  const texts = formulas.map((one) => one.textContent.toLowerCase());
+  find.addEventListener("input", () => {
+    const words = find.value.toLowerCase().split(/\s+/).filter(Boolean);
+    formulas.forEach((one, i) => { one.hidden = !words.every((word) => texts[i].includes(word)); });
+    document.querySelectorAll(".topic").forEach((one) => { one.hidden = !one.querySelector(".formula:not([hidden])"); });
+    document.querySelector("[data-none]").hidden = formulas.some((one) => !one.hidden);
+  });
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "/" && !event.target.matches("input, textarea, select")) { event.preventDefault(); find.focus(); }
+  });
+})();
+
 // Signs that the keyboard of a phone hides, put where the last field had its caret.
 (() => {
   let last = null;
