@@ -14,14 +14,12 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import msgspec
-from msgspec.structs import replace as replace_fields
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.formulas import MovingName, read_formulas
 from quizgen.bank.variant import Variant
 from quizgen.locale import fallback_language, get_language, load_words
 from quizgen.maths.numbers import to_float
-from quizgen.question.formula_sheet import draw_sketch
 from quizgen.question.html import inlines_to_html
 from quizgen.question.inlines import name_inline
 
@@ -205,25 +203,16 @@ class MovingView(msgspec.Struct, frozen=True):
     """Name and words of each value that is shown."""
     values: str
     words: str
-    still: str = ""
-    """What is shown in its place where there are no scripts, as SVG."""
 
 
-def find_moving_figure(
-    bank: Bank, template: str, variant: Variant, lang: str, *, with_sketch: bool = False
-) -> MovingView | None:
+def find_moving_figure(bank: Bank, template: str, variant: Variant, lang: str) -> MovingView | None:
     """Return the figure that moves of a question, standing at its numbers; None if it has none.
 
-    It is that of the first formula that the template covers and that moves. ``with_sketch`` adds
-    the formula's sketch, for a page without scripts and a question without a figure.
+    It is that of the first formula that the template covers and that moves.
     """
-    moves = {entry.id: entry for entry in read_formulas(bank) if entry.moves}
-    formula = next((moves[item] for item in bank.rules(template).covers if item in moves), None)
-    if formula is None or formula.moves is None:
-        return None
-    found = _view_figure(formula.moves, "moving", _read_quantities(variant), lang)
-    sketch = draw_sketch(bank, formula, (lang,)) if with_sketch else ()
-    return replace_fields(found, still="".join(one.inline_svg.decode() for one in sketch))
+    moves = {entry.id: entry.moves for entry in read_formulas(bank) if entry.moves}
+    names = [moves[item] for item in bank.rules(template).covers if item in moves]
+    return _view_figure(names[0], "moving", _read_quantities(variant), lang) if names else None
 
 
 def view_formula_figure(formula: str, moves: MovingName, lang: str) -> MovingView:

@@ -296,9 +296,7 @@ def question_view(
         key=make_key_question(PaperItem(wanted.number, (question,), (key,))),
         guided=steps,
         bank=str(*record_banks(bank, [wanted.template])) if bank else "",
-        moving=find_moving_figure(bank, wanted.template, key.draw, lang, with_sketch=figure is None)
-        if bank
-        else None,
+        moving=find_moving_figure(bank, wanted.template, key.draw, lang) if bank else None,
     )
 
 

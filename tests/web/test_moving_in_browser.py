@@ -363,17 +363,6 @@ def test_without_scripts_there_is_no_fold_and_the_sketch_stays(opened, served):
     expect(page.locator("#F05 .sketch svg")).to_be_visible()
 
 
-def test_without_scripts_a_question_without_a_figure_gets_a_still_one(opened, served):
-    page = opened(java_script_enabled=False)
-    token = page.locator("[name=token]").first.get_attribute("value")
-    asked = {"token": token, "template": "hsv-to-rgb"}
-    at = page.request.post(served.address + "/practice", form=asked).url
-    page.request.post(f"{at}/1", form={"token": token, "do": "solution"})
-    page.goto(at)
-    expect(page.locator("#after .figure svg")).to_be_visible()
-    expect(page.locator(".moving")).to_be_hidden()
-
-
 def test_nothing_moves_by_itself(opened, served):
     page = opened(reduced_motion="reduce")
     page.goto(f"{served.address}/formulas")
