@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import secrets
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -13,6 +14,10 @@ from quizgen.store import AttemptRecord, Store
 
 MOST = 60
 """Attempts that are looked through for those of a block; none is as long."""
+
+
+_NUMBER, _POINTS = re.compile("[0-9]{1,3}"), re.compile(r"[0-9]{1,4}\.[0-9]{3}")
+# An archive that was taken in may hold any text.
 
 
 @dataclass(frozen=True)
@@ -57,9 +62,10 @@ class PracticeBlockView:
         return list(weak.values())
 
 
-def begin_block(size: int, before: float | None) -> dict[str, Any]:
+def begin_block(size: int, before: float | None) -> dict[str, str]:
     """Return the wish of a new block: it travels with each of its attempts."""
-    return {"block": secrets.token_urlsafe(9), "size": size, "before": before}
+    told = "" if before is None else f"{before:.3f}"
+    return {"block": secrets.token_urlsafe(9), "size": str(size), "before": told}
 
 
 def find_block(store: Store, learner: int, wish: Mapping[str, Any]) -> PracticeBlockView | None:
@@ -68,8 +74,12 @@ def find_block(store: Store, learner: int, wish: Mapping[str, Any]) -> PracticeB
     if not name:
         return None
     found = [one for one in store.latest(learner, MOST) if one.wish.get("block") == name]
+    size, before = wish.get("size", ""), wish.get("before", "")
     return PracticeBlockView(
-        str(name), int(wish.get("size", 1)), wish.get("before"), tuple(reversed(found))
+        str(name),
+        min(int(size), MOST) if _NUMBER.fullmatch(size) else 1,
+        float(before) if _POINTS.fullmatch(before) else None,
+        tuple(reversed(found)),
     )
 
 
