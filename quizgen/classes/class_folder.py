@@ -287,8 +287,7 @@ _LINE = json_decoder(_Line).decode
 def format_record(head: PrintedHead, key: AnswerKey, **more: object) -> bytes:
     """Return a paper as a line of ``keys.jsonl``, with the digest of its key.
 
-    ``more`` stands beside the key: model answers, places of an answer sheet. What is empty is left
-    out.
+    ``more`` stands beside the key, such as places of an answer sheet; what is empty is left out.
     """
     written = msgspec.json.encode(key)
     whole = msgspec.structs.replace(head, digest=_compute_key_digest(written))

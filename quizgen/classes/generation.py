@@ -64,7 +64,6 @@ from quizgen.paper.selection import (
 from quizgen.paper.variants import draw_variants, shared_content
 from quizgen.render import KINDS, render_paper
 from quizgen.render.answer_sheet import make_answer_sheet
-from quizgen.render.text import inlines_to_plain_text
 from quizgen.render.typst_document import evict_cache
 
 CHUNK = 8
@@ -467,26 +466,12 @@ def _make_student_files(
     return GeneratedPaper(
         one.id,
         files,
-        format_record(
-            head, make_answer_key(paper), models=_list_model_answers(paper), sheet=places
-        ),
+        format_record(head, make_answer_key(paper), sheet=places),
         paper.points,
         paper.minutes,
         "".join(item.questions[0].tier for item in paper.items),
         _find_shared_questions(drawn, [drawing.of(other) for other in neighbours]),
     )
-
-
-def _list_model_answers(paper: Paper) -> dict[str, dict[str, list[str]]]:
-    """Return the model answers of all parts that ask for sentences, by part and language."""
-    found: dict[str, dict[str, list[str]]] = {}
-    for item in paper.items:
-        for key in item.keys:
-            for part, solved in zip(item.questions[0].parts, key.solution.parts, strict=True):
-                sentences = [*map(inlines_to_plain_text, solved.options)]
-                if sentences and not solved.answer:
-                    found.setdefault(part.field.id, {})[key.solution.lang] = sentences
-    return found
 
 
 def _compose_student_paper(

@@ -259,7 +259,7 @@ def _apply_decisions(
     """Return the mark of an answer after the rulings about it."""
     asked = found.status in TO_DECIDE
     kind = part.spec["kind"]
-    words = kind == "text"
+    words = kind == "rubric"
     group = ""
     if asked or rulings:
         shown = part.parse_spec(proven=True).show()

@@ -55,7 +55,7 @@ def write_inspection(folder: ClassFolder, wanted: Collection[str]) -> list[Path]
                 continue
             own = [one for one in objections if one.student == who]
             with error_context(keys.path, KeyFileError):
-                report = make_report(line, keys.key(who), keys.models(who), own)
+                report = make_report(line, keys.key(who), own)
             solved = folder.path / SOLUTIONS / f"{line.student.file}.pdf"
             whole = _join_pdfs(report_to_pdf(report, room=True), solved)
             name = f"{line.student.file}.pdf"

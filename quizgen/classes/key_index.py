@@ -7,7 +7,7 @@ one still ends marking with a ``KeyFileError``.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -79,13 +79,6 @@ class _ShortKey(msgspec.Struct):
     questions: list[_ShortQuestion]
 
 
-class _ModelLine(msgspec.Struct):
-    """The model answers in a line of ``keys.jsonl``."""
-
-    models: dict[str, dict[str, list[str]]] = {}
-
-
-_MODELS = json_decoder(_ModelLine).decode
 _KEY = json_decoder(AnswerKey).decode
 _SHORT = json_decoder(_ShortKey).decode
 
@@ -112,13 +105,6 @@ class KeyIndex:
             If there is none, or it cannot be read; it names the file.
         """
         return read_key_at(self.path, self._find_line(student))
-
-    def models(self, student: str) -> Mapping[str, Mapping[str, Sequence[str]]]:
-        """Return the model answers of a student's paper where sentences are asked for.
-
-        Part to language to sentences; none for papers that were made before these were kept.
-        """
-        return _MODELS(_read_line_at(self.path, self._find_line(student))).models
 
     def find_changed(self) -> set[str]:
         """Return the students whose keys somebody has edited, or that cannot be read."""

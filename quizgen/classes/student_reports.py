@@ -64,11 +64,9 @@ from quizgen.render.typst_document import (
 )
 
 MOST_TO_REVISE = 5
-NOT_TYPED = frozenset({"text", "sketch"})
+NOT_TYPED = frozenset({"sketch"})
 """Kinds whose key nobody types."""
 PACKAGE = "quizgen.classes"
-ModelAnswers = Mapping[str, Mapping[str, Sequence[str]]]
-"""Part to language to the sentences of a model answer."""
 
 
 @dataclass(frozen=True)
@@ -189,7 +187,6 @@ class StudentReport:
 def make_report(
     line: GradedStudent,
     key: AnswerKey,
-    models: ModelAnswers | None = None,
     objections: Sequence[Objection] = (),
     *,
     anonymous: bool = False,
@@ -202,8 +199,6 @@ def make_report(
         Somebody whose answers came back.
     key : AnswerKey
         Of the student's paper.
-    models : mapping, optional
-        Model answers where sentences are asked for.
     objections : sequence of Objection
         Those of the student, with what was replied.
     anonymous : bool
@@ -213,7 +208,7 @@ def make_report(
     marks = line.marks
     lang = fallback_language(marks.lang)
     who = "" if anonymous else ", ".join(filter(None, (line.student.name, line.student.id)))
-    sections = tuple(_build_section(one, marks, models or {}, objections) for one in key.questions)
+    sections = tuple(_build_section(one, marks, objections) for one in key.questions)
     title = key.title.get(lang) or next(iter(key.title.values()), "")
     return StudentReport(
         lang, title, escape_control_characters(who, ""), line.code, line.grade, marks, sections
@@ -223,7 +218,6 @@ def make_report(
 def _build_section(
     question: KeyQuestion,
     marks: StudentMarks,
-    models: ModelAnswers,
     objections: Sequence[Objection],
 ) -> ReportQuestion:
     """Return one question of a student's report: its parts, and its points in sum.
@@ -232,7 +226,7 @@ def _build_section(
     """
     given = {part.id: part for part in marks.parts}
     mine = [given[part.id] for part in question.parts if part.id in given]
-    rows = tuple(_iter_report_rows(question, marks, models, objections))
+    rows = tuple(_iter_report_rows(question, marks, objections))
     title = question.title.get(marks.lang) or next(iter(question.title.values()), "")
     return ReportQuestion(
         question.number,
@@ -249,7 +243,6 @@ def _build_section(
 def _iter_report_rows(
     question: KeyQuestion,
     marks: StudentMarks,
-    models: ModelAnswers,
     objections: Sequence[Objection],
 ) -> Iterator[ReportPart]:
     """Yield each part with its feedback in the student's language.
@@ -267,12 +260,11 @@ def _iter_report_rows(
         again = marker.grade_part(part, found.typed)
         full = again.is_blank or found.marks == found.points
         message = "" if full or _is_persons(found) else again.verdict.message
-        model = models.get(part.id, {})
         said = [_format_remark(found, words), *_iter_objection_lines(part.id, objections, words)]
         yield ReportPart(
             part.id.removeprefix(question.number),
             _format_typed_answer(found.typed, part.spec["kind"], words, lang),
-            _format_right_answer(part, model.get(lang) or next(iter(model.values()), ()), lang),
+            _format_right_answer(part, lang),
             _format_points(found, lang),
             message,
             "\n".join(filter(None, said)),
@@ -285,14 +277,9 @@ def _is_persons(part: GradedClassPart) -> bool:
     return part.needs_decision or part.status in TO_DECIDE or bool(part.by and not by_rule)
 
 
-def _format_right_answer(part: KeyPart, model: Sequence[str], lang: str) -> str:
-    """Return the key as a person writes it; a program's output as it is printed.
-
-    ``model`` are the sentences of a model answer, if one was written.
-    """
+def _format_right_answer(part: KeyPart, lang: str) -> str:
+    """Return the key as a person writes it; a program's output as it is printed."""
     kind = part.spec["kind"]
-    if kind in NOT_TYPED and model:
-        return "\n".join(model if len(model) == 1 else (f"• {one}" for one in model))
     if kind in NOT_TYPED:
         return str(load_words(lang, "classes")["report"]["solution"])
     right = show_key(part.parse_spec(), lang)
@@ -531,7 +518,7 @@ def _render_reports(
         with error_context(keys.path, KeyFileError):
             who = line.student.id
             own = [one for one in objections if one.student == who]
-            report = make_report(line, keys.key(who), keys.models(who), own, anonymous=anonymous)
+            report = make_report(line, keys.key(who), own, anonymous=anonymous)
         name = line.code if anonymous else line.student.file
         made |= {f"{name}.{form}": render[form](report) for form in formats}
     return made

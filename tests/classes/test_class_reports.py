@@ -77,7 +77,7 @@ def test_what_is_right_has_the_decimal_sign_of_the_language(lang, right):
 
 SENTENCES = AnswerKey("quizgen-key/2", [
     KeyQuestion("1", [
-        KeyPart("1a", "2", {"kind": "text", "points": [["light"], ["noise"]], "needed": 2}),
+        KeyPart("1a", "2", {"kind": "rubric", "full": "2", "criteria": {"light": {"points": "1", "accept": ["light"]}, "noise": {"points": "1", "accept": ["noise"]}}, "model": {"en": "More light, less noise."}}),
         KeyPart("1b", "1", {"kind": "number", "value": "4", "traps": {"half": "2"}, "notes": {"en": {"half": "That is half of it."}}}),
     ], template="why", title={"en": "Why"}),
 ])  # fmt: skip
@@ -97,16 +97,15 @@ def test_where_a_person_decides_the_machine_says_nothing(by, marks, shown):
         GradedClassPart("1b", "why/b", "2", "wrong", 1.0, 0.0, note="trap:half"),
     )
     line = GradedStudent(RosterStudent("1"), "G-1", StudentMarks("1", given), "5.0", passed=False)
-    models = {"1a": {"en": ["More light.", "Less noise."]}}
-    (section,) = make_report(line, SENTENCES, models).sections
+    (section,) = make_report(line, SENTENCES).sections
     sentence, number = section.rows
     assert (sentence.marks, sentence.message) == (shown, "")
-    assert sentence.right == "• More light.\n• Less noise."
+    assert sentence.right == "More light, less noise."
     assert number.message == "That is half of it."
-    page = report_to_html(make_report(line, SENTENCES, models)).decode()
+    page = report_to_html(make_report(line, SENTENCES)).decode()
     assert "decide yourself" not in page
     assert "quizgen" not in page
-    assert report_to_pdf(make_report(line, SENTENCES, models)).startswith(b"%PDF")
+    assert report_to_pdf(make_report(line, SENTENCES)).startswith(b"%PDF")
 
 
 @pytest.mark.parametrize("by", ["tolerance (AM)", "drop (AM), kept: better with it"])
