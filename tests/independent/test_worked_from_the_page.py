@@ -138,8 +138,12 @@ def spoiled(spec: dict[str, Any]) -> dict[str, Any]:
 
 
 def _other_lines(spec: dict[str, Any]) -> dict[str, Any]:
-    """The lines of a known mistake, where lines are drawn."""
-    return {"lines": next(iter(spec["traps"].values()))} if "lines" in spec else {}
+    """The lines of a known mistake, where lines are drawn or derived."""
+    if "lines" not in spec:
+        return {}
+    wrong = next(iter(spec["traps"].values()))
+    derived = spec["kind"] == "derivation"
+    return {"lines": {"wrong": {"forms": wrong}} if derived else wrong, "traps": {}}
 
 
 def _other_number(spec: dict[str, Any]) -> dict[str, Any]:
