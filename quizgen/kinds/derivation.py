@@ -53,7 +53,7 @@ from quizgen.kinds.contract import (
 )
 from quizgen.kinds.equation import RELATIONS as SAME_SIGN
 from quizgen.kinds.forms import typeset_key
-from quizgen.kinds.text import TextSpec
+from quizgen.kinds.rubric import Criterion, RubricSpec
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import format_tree, parse_formula, pretty
 from quizgen.maths.numbers import format_for_key, to_fraction
@@ -254,8 +254,11 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
 
     def _suggest(self, marked: MarkedDerivation, words: str, shown: str) -> Verdict:
         """Return the points of the lines, and the reasons that seem to be there, for a person."""
-        points = {name: one.words for name, one in self.reasons.items()}
-        looked = TextSpec(kind="text", points=points)
+        criteria = {
+            name: Criterion(points=one.points, accept=one.words)
+            for name, one in self.reasons.items()
+        }
+        looked = RubricSpec(kind="rubric", full=0, criteria=criteria)
         found = looked.judge(words, GradingOptions()).fields.get("found", ()) if words else ()
         names = found if isinstance(found, tuple) else ()
         share = marked.points + sum((_points(self.reasons[name]) for name in names), Fraction(0))
