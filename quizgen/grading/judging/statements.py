@@ -821,7 +821,8 @@ class Statement:
         clause = self.clauses[index]
         denied = self._is_denied(clause, places)
         turned = sign < 0
-        if sign == 0 or denied is None or self._has_degree(clause, places, example):
+        unsure = sign == 0 or denied is None or self._has_degree(clause, places, example)
+        if unsure or (sign < 0 and (denied or example.denied)):  # *not narrower* is not *wider*
             meaning: Meaning = "open"
         else:
             if sign < 0 and self._belongs_elsewhere(clause, places):
