@@ -249,7 +249,7 @@ _CODES = {
                   "mend check.py or the points of the example"),
     "QG222": Rule("An alternative formula of a step gives another value.",
                   "mend it, or leave it out of alternatives"),
-    "QG230": Rule("A criterion names what there is not, or its points are no points."),
+    "QG230": Rule("A criterion or a verb names what there is not, or its points are no points."),
     "QG231": Rule("An example of what counts is not recognised, or one that is refused is.",
                   "put it in other words, or take it out of the list"),
     "QG232": Rule("The model answer does not meet a criterion.",
