@@ -42,6 +42,7 @@ from quizgen.question.solution import (
     SolutionHint,
     SolvedMisconception,
     scheme_examples,
+    scheme_title,
 )
 
 _MATHS = re.compile("</?math[^>]*>")
@@ -120,6 +121,7 @@ class PartView(msgspec.Struct, frozen=True):
     reasons: list[tuple[Html, Html]]
     mistakes: list[tuple[Html, Html]]
     scheme: list[SchemeView]
+    scheme_title: str
 
     @property
     def criteria(self) -> frozenset[str]:
@@ -354,6 +356,7 @@ def _render_part(
             )
             for row in solved.scheme
         ],
+        scheme_title(solved, lang),
     )
 
 
