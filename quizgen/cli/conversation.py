@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from quizgen.store.learner import LearnerProgress
 
 COLOURS = {"correct": "green", "partial": "yellow", "wrong": "red"}
+SIGNS = {"correct": "✓", "partial": "~", "wrong": "✗"}
+"""What stands before a line that was judged."""
 
 _CODE = "    "
 _BULLET = re.compile(r" *(?:- )*")
@@ -155,7 +157,7 @@ class Conversation:
         """Ask a part until it has ended."""
         self._show_part(task)
         while task.outcome is None:
-            typed = self._read_line(self.words["prompt"])
+            typed = self._read_answer(task)
             with self._save_on_stop():
                 self._handle_input(task, typed)
 
@@ -182,6 +184,21 @@ class Conversation:
             self._print_sentence("skipped")
         else:
             self._grade_input(task, typed)
+
+    def _read_answer(self, task: PartAttempt[QuestionPart, PartSolution]) -> str:
+        """Return what was typed: a line, or where each line is judged all up to an empty one."""
+        typed = self._read_line(self.words["prompt"])
+        if not task.part.field.control.rows or not typed or self._is_command(typed):
+            return typed
+        lines = [typed]
+        while line := self._read_line(" " * (len(self.words["prompt"]) - 1) + "…"):
+            lines.append(line)
+        return "\n".join(lines)
+
+    def _is_command(self, typed: str) -> bool:
+        """Return whether a line is no answer: help, the solution, a skip, a reading by number."""
+        chosen = choose_offered_reading(self._offered, typed)
+        return typed in {"?", "!"} or chosen is not None or self._is_word_for("skip-words", typed)
 
     def _read_line(self, prompt: str) -> str:
         """Return what was typed, without blanks around it.
@@ -217,6 +234,8 @@ class Conversation:
             print_wrapped(inlines_to_plain_text(text), f"   {mark}  ", " " * (len(mark) + 5))
         for hint in part.field.hints:
             print_wrapped(f"[{hint}]", "   ", "    ")
+        if part.field.control.rows:
+            self._print_sentence("rows")
         print_wrapped(self.words["help"], "   ", "   ", dim=True)
 
     def _grade_input(
@@ -236,6 +255,7 @@ class Conversation:
                 self._offer_readings(feedback.verdict, typed)
                 return
             case NextStep.SELF_MARK:
+                self._print_lines(verdict)
                 print_wrapped(verdict.message)
                 self._show_solution(task)
                 made = task.suggest()
@@ -243,7 +263,11 @@ class Conversation:
                 task.self_mark(share)
                 return
         lang = self.session.state.wish.lang
-        self._print_sentence("read", read_as=format_read_back(task.kind, verdict.read_as, lang))
+        if verdict.lines:
+            self._print_lines(verdict)
+        else:
+            read_as = format_read_back(task.kind, verdict.read_as, lang)
+            self._print_sentence("read", read_as=read_as)
         word = self.words[verdict.word]
         repeated = verdict.message.startswith(word.rstrip(".।"))  # "Not right: gap 1."
         said = verdict.message if repeated else f"{word} {verdict.message}".strip()
@@ -252,6 +276,14 @@ class Conversation:
             self._print_sentence("again", left=feedback.left)
         elif feedback.then is NextStep.OUT_OF_TRIES:
             self._show_solution(task)
+
+    def _print_lines(self, verdict: Verdict) -> None:
+        """Print the lines of a derivation, each with a sign and what is said of it."""
+        for number, line in enumerate(verdict.lines, 1):
+            sign = SIGNS.get(line.verdict, "·")
+            said = f" – {line.message}" if line.note != "line-right" else ""
+            style: TextStyle = {"fg": COLOURS[line.verdict]} if line.verdict in COLOURS else {}
+            print_wrapped(f"{line.read_as}{said}", f"{number:>3} {sign} ", "      ", **style)
 
     def _offer_readings(self, verdict: Verdict, typed: str) -> None:
         """Print the readings of an answer asked back with their numbers, if it has some."""

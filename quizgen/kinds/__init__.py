@@ -18,6 +18,7 @@ from quizgen.kinds import (
     choice,
     code,
     complex_number,
+    derivation,
     equation,
     expression,
     gap,
@@ -44,7 +45,7 @@ KINDS: dict[str, AnswerKind[Any]] = {
     for module in (
         number, quantity, angle, point, sets, table, interval, expression, equation, complex_number,
         matrix, vector, choice, multi,
-        true_false, match, order, gap, witness, code, rubric, sketch, checked,
+        true_false, match, order, gap, witness, derivation, code, rubric, sketch, checked,
     )
 }  # fmt: skip
 """Name to kind, in the order of the manual."""

@@ -267,6 +267,8 @@ class InputControl(msgspec.Struct, frozen=True):
         Whether a value needs its name before it, as cells of a table do.
     board : DrawingField, optional
         The field that is drawn in, if the answer is a drawing.
+    rows : bool
+        Whether each line is judged by itself: a terminal reads lines until an empty one.
     """
 
     form: InputForm
@@ -274,6 +276,7 @@ class InputControl(msgspec.Struct, frozen=True):
     boxes: tuple[InputBox, ...] = ()
     named: bool = False
     board: DrawingField | None = None
+    rows: bool = False
 
     @property
     def needs_working(self) -> bool:
@@ -292,6 +295,15 @@ class InputControl(msgspec.Struct, frozen=True):
 
 
 LINE = InputControl("line")
+
+
+class DerivedStep(NamedTuple):
+    """A line that a solution shows: its name in section ``steps``, what it states, its points."""
+
+    name: str
+    tree: Expr
+    points: Fraction
+
 
 S = TypeVar("S", bound=AnySpec)
 
@@ -333,6 +345,8 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         What the solution draws in the field of the control.
     mistakes : mapping of str to AnySpec
         Each known mistake and the spec of which its answer would be the key.
+    derived : tuple of DerivedStep
+        The lines of a derivation, which the solution shows as its steps.
     scheme : tuple of SchemeRow
         The criteria that a person marks by.
     """
@@ -347,6 +361,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     source: str = ""
     drawn: tuple[Line, ...] = ()
     mistakes: Mapping[str, S] = msgspec.field(default_factory=dict)
+    derived: tuple[DerivedStep, ...] = ()
     scheme: tuple[SchemeRow, ...] = ()
 
 

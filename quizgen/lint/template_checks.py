@@ -33,6 +33,7 @@ from quizgen.grading.diagnosis.carry_forward import are_nearly_equal
 from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
+from quizgen.lint.derivations import derivation_lines, find_derivation_faults
 from quizgen.lint.examples import find_misjudged_examples
 from quizgen.lint.figures import check_figures
 from quizgen.lint.foreign_words import find_foreign_words
@@ -154,7 +155,8 @@ def lint_template(
         for worded in composed:
             report.problems += find_unfilled_placeholders(worded)
         typed = (*_select_telling_variants(first, MARKED.count(seeds)), *known)
-        report.problems += _select_first_diagnostics(
+        derived = find_derivation_faults(first[: MARKED.count(seeds)])
+        report.problems += derived or _select_first_diagnostics(
             answer for one in typed for answer in _iter_misjudged_answers(one)
         )
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
@@ -359,9 +361,10 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
     listed = {trap for part in template.rules.part for trap in part.answer.get("traps", ())}
     wanted["traps"] |= listed
     wanted["claims"] = set(template.rules.claims)
+    wanted["steps"] |= derivation_lines(template)
     known = {
         "claims": wanted["claims"],
-        "steps": {*chain.by_name, *chain.form_by_name},
+        "steps": {*chain.by_name, *chain.form_by_name, *derivation_lines(template)},
         "traps": {*chain.traps, *chain.form_traps, *listed},
     }
     for section, names in wanted.items():

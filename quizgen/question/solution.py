@@ -18,10 +18,11 @@ from quizgen.figures import FieldPicture
 from quizgen.grading.spec import AnySpec, ScalarSpec, VectorSpec
 from quizgen.kinds import KINDS
 from quizgen.kinds.asking import as_student_writes
-from quizgen.kinds.contract import AskedPart, SchemeRow
+from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow
 from quizgen.kinds.grade import show_key
-from quizgen.locale import format_amount, translate
+from quizgen.locale import format_amount, format_marks, translate
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import format_tree
 from quizgen.maths.number_systems import NumberSystem, compile_expr, float32_system, float64_system
 from quizgen.maths.numbers import format_rounded, parse_written_number, to_fraction
 from quizgen.maths.units import get_unit
@@ -36,6 +37,7 @@ from quizgen.question.worked_steps import (
     quantity_inlines,
     step_sides,
 )
+from quizgen.typeset import lay_out
 
 
 def inlines_to_plain(shown: tuple[Inline, ...]) -> str:
@@ -184,9 +186,12 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
     explained = filler.text.sentence("why", label or "a") is not None
     return PartSolution(
         label=label,
-        lines=tuple(
-            solution_step(filler, step)
-            for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps)
+        lines=(
+            *(
+                solution_step(filler, step)
+                for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps)
+            ),
+            *(_build_derived_step(filler, step) for step in built.derived),
         ),
         shown=_build_model_answer(filler, label)
         or to_inlines(KINDS[spec.kind].explain_key(spec, filler.lang)),
@@ -265,6 +270,13 @@ def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
         quantity_inlines(filler.drawn, step.name, filler.lang),
         sides,
     )
+
+
+def _build_derived_step(filler: Interpolator, step: DerivedStep) -> SolutionStep:
+    """Return a line of a derivation as the solution shows it, with its points."""
+    maths = TypesetMaths(lay_out(step.tree), format_tree(step.tree), filler.lang)
+    worth = f" [{format_marks(step.points, filler.lang)}]" if step.points else ""
+    return SolutionStep(maths, (*filler.sentence("steps", step.name), PlainText(worth)))
 
 
 def solved_misconceptions(

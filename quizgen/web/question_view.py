@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Protocol
 
 import msgspec
@@ -32,6 +33,7 @@ from quizgen.question.compose import (
     compose_variant,
     draw_instance,
 )
+from quizgen.question.figure import draw_marked_figure
 from quizgen.question.formula_sheet import cite_formula
 from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
 from quizgen.question.inlines import name_inline
@@ -44,6 +46,7 @@ from quizgen.question.solution import (
     scheme_examples,
     scheme_title,
 )
+from quizgen.web.moving import MovingView, find_moving_figure
 
 _MATHS = re.compile("</?math[^>]*>")
 
@@ -158,6 +161,8 @@ class QuestionView(msgspec.Struct, frozen=True):
     """Whether its steps can be asked one after another instead."""
     bank: str = ""
     """The bank that it stands in, with version and digest, where that is said of each question."""
+    moving: MovingView | None = None
+    """The figure that moves: to be shown once no part of the question is open."""
 
 
 class PaperView(msgspec.Struct, frozen=True):
@@ -182,6 +187,31 @@ class WorkerJob(Protocol):
         ...
 
     def __hash__(self) -> int: ...
+
+
+@dataclass(frozen=True)
+class MarkedFigureJob:
+    """Draws the figure of a question with a learner's values in it; empty if it shows none.
+
+    Parameters
+    ----------
+    wanted : QuestionRequest
+    values : tuple of (str, (float, float))
+        Quantity, what the learner gave, and how many base units its unit has.
+    quiz : bool
+        Whether what is asked for stays hidden.
+    """
+
+    wanted: QuestionRequest
+    values: tuple[tuple[str, tuple[float, float]], ...]
+    quiz: bool
+
+    def run(self, bank: Bank) -> bytes:
+        """Return the figure as SVG for a page."""
+        drawn = draw_instance(bank.template(self.wanted.template), self.wanted.seed)
+        given = dict(self.values)
+        figure = draw_marked_figure(drawn, self.wanted.lang, given, quiz=self.quiz)
+        return figure.inline_svg if figure else b""
 
 
 def run_request(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes:
@@ -291,6 +321,7 @@ def question_view(
         key=make_key_question(PaperItem(wanted.number, (question,), (key,))),
         guided=steps,
         bank=str(*record_banks(bank, [wanted.template])) if bank else "",
+        moving=find_moving_figure(bank, wanted.template, key.draw, lang) if bank else None,
     )
 
 
