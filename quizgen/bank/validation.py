@@ -75,6 +75,9 @@ def find_problems(rules: Rules) -> FieldProblems:
     for name, value in (rules.reference or {}).items():
         if not rules.draw.get(name) or not rules.draw[name].words:
             yield from _check_numbers_readable(("reference", name), (value,))
+    for item in rules.verbs:
+        if item not in rules.covers:
+            yield ("verbs", item), "QG230", f"{item!r} is not in covers"
     for index, part in enumerate(rules.part):
         yield from _prefix_places(("part", index, "answer"), _check_answer(part.answer))
         yield from _check_between(("part", index, "points"), part.points, MOST_POINTS)

@@ -20,11 +20,11 @@ from quizgen.kinds import KINDS
 from quizgen.kinds.asking import as_student_writes
 from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow
 from quizgen.kinds.grade import show_key
-from quizgen.locale import format_marks, translate
+from quizgen.locale import format_amount, format_marks, translate
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree
 from quizgen.maths.number_systems import NumberSystem, compile_expr, float32_system, float64_system
-from quizgen.maths.numbers import format_rounded, to_fraction
+from quizgen.maths.numbers import format_rounded, parse_written_number, to_fraction
 from quizgen.maths.units import get_unit
 from quizgen.maths.values import map_numbers
 from quizgen.question.inlines import TextOrInlines, TypesetMaths, to_inlines
@@ -136,6 +136,8 @@ class PartSolution(msgspec.Struct, frozen=True):
     why: tuple[Inline, ...] = ()
     drawing: FieldPicture | None = None
     scheme: tuple[SchemeLine, ...] = ()
+    most: Fraction | None = None
+    """Points that count at most, where the criteria have more."""
 
     @property
     def answer(self) -> str:
@@ -202,6 +204,7 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
         why=filler.sentence("why", label or "a") if explained else (),
         drawing=FieldPicture(board, filler.lang, built.drawn) if board else None,
         scheme=tuple(_build_scheme_line(filler, row) for row in built.scheme),
+        most=_find_most_points(drawn, index, built),
     )
 
 
@@ -219,17 +222,34 @@ def _build_model_answer(filler: Interpolator, label: str) -> tuple[Inline, ...]:
     return filler.sentence("model", name) if known else ()
 
 
+def _find_most_points(drawn: Variant, index: int, built: AskedPart[Any]) -> Fraction | None:
+    """Return the points of a part whose criteria have more than that; else None."""
+    full = parse_written_number(drawn.template.rules.part[index].points)
+    return full if sum(row.points for row in built.scheme) > full else None
+
+
+def scheme_title(part: PartSolution, lang: str) -> str:
+    """Return what stands over a mark scheme: its name, and that the best criteria count."""
+    title = translate(lang, "solution.scheme")
+    if part.most is None:
+        return title
+    best = translate(lang, "solution.best", points=format_amount(part.most, lang))
+    return f"{title}. {best}"
+
+
+def _list_examples(filler: Interpolator, section: str, name: str) -> tuple[str, ...]:
+    """Return the examples of a list in the language's own words; none if it has no such list."""
+    if filler.text.sentence(section, name) is None:
+        return ()
+    words = inlines_to_text(filler.sentence(section, name)).split("|")
+    return tuple(word.strip() for word in words if word.strip())
+
+
 def _build_scheme_line(filler: Interpolator, row: SchemeRow) -> SchemeLine:
     """Return a criterion as the mark scheme prints it, with the first of its examples."""
     found = {
-        section: tuple(
-            word.strip()
-            for word in inlines_to_text(filler.sentence(section, row.name)).split("|")[
-                :EXAMPLES_SHOWN
-            ]
-        )
+        section: _list_examples(filler, section, row.name)[:EXAMPLES_SHOWN]
         for section in ("accept", "half", "refuse")
-        if filler.text.sentence(section, row.name) is not None
     }
     idea = filler.sentence("points", row.name)
     return SchemeLine(
@@ -283,7 +303,8 @@ def _iter_wrong_options(
     right = {name for _, name in built.right}
     for mark, name in built.reasons:
         if name not in right:
-            yield SolvedMisconception(name, filler.sentence("reasons", name), (PlainText(mark),))
+            shown = next(iter(_list_examples(filler, "refuse", name)), mark)
+            yield SolvedMisconception(name, filler.sentence("reasons", name), (PlainText(shown),))
 
 
 def _format_citation(source: str) -> tuple[Inline, ...]:

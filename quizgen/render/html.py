@@ -20,7 +20,7 @@ from quizgen.question.html import (
     put_fields,
 )
 from quizgen.question.interpolation import inlines_to_text
-from quizgen.question.solution import scheme_examples
+from quizgen.question.solution import scheme_examples, scheme_title
 from quizgen.render import fonts
 from quizgen.render.layouts import answer_rows, jinja_environment
 
@@ -43,6 +43,7 @@ def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
         plain=inlines_to_text,
         put_fields=put_fields,
         scheme_examples=scheme_examples,
+        scheme_title=scheme_title,
         drawing=_read_board_file,
         svg=lambda figure: Markup(figure.inline_svg.decode()),
     )

@@ -14,6 +14,7 @@ from quizgen.question.solution import (
     SolutionStep,
     SolvedMisconception,
     scheme_examples,
+    scheme_title,
 )
 from quizgen.render.layouts import answer_rows
 from quizgen.render.typst_document import (
@@ -448,7 +449,7 @@ def _typeset_scheme(part: PartSolution, lang: str) -> str:
         rows.append(f"[#{points}], [{' #linebreak() '.join(lines)}]")
     if not rows:
         return ""
-    title = typst_literal(translate(lang, "solution.scheme"))
+    title = typst_literal(scheme_title(part, lang))
     return f"#mark-scheme({title}, {', '.join(rows)})"
 
 

@@ -44,6 +44,7 @@ from quizgen.question.solution import (
     SolutionHint,
     SolvedMisconception,
     scheme_examples,
+    scheme_title,
 )
 from quizgen.web.moving import MovingView, find_moving_figure
 
@@ -123,6 +124,7 @@ class PartView(msgspec.Struct, frozen=True):
     reasons: list[tuple[Html, Html]]
     mistakes: list[tuple[Html, Html]]
     scheme: list[SchemeView]
+    scheme_title: str
 
     @property
     def criteria(self) -> frozenset[str]:
@@ -385,6 +387,7 @@ def _render_part(
             )
             for row in solved.scheme
         ],
+        scheme_title(solved, lang),
     )
 
 
