@@ -173,7 +173,7 @@ def _check_authored_reasons(template: Template, index: int) -> Said:
 
 
 EXPLAINED = {"choice": ("options",), "multi": ("options",), "match": ("pairs",),
-             "order": ("steps", "distractors")}  # fmt: skip
+             "order": ("steps", "distractors"), "witness": ("demands",)}  # fmt: skip
 """Kind to the keys of its answer whose names need a reason."""
 
 
@@ -285,6 +285,8 @@ LISTED = {"choice": "options", "multi": "options", "match": "pairs", "order": "s
           "gap": "gaps", "text": "points", "sketch": "features"}  # fmt: skip
 WHOLE = {"tf": 0.5, "code": 1.5, "witness": 3.0, "expression": 2.0}
 """Minutes for a part that has no entries."""
+DEMAND = 0.75
+"""Minutes more for each demand that an example has to meet."""
 FAR = 2.0
 """Factor by which points or minutes are far from the estimate."""
 
@@ -306,7 +308,7 @@ def _estimate_part_minutes(template: Template, index: int, done: set[str]) -> fl
     answer: dict[str, Any] = template.rules.part[index].answer
     kind = answer["kind"]
     if kind in WHOLE:
-        return WHOLE[kind]
+        return WHOLE[kind] + DEMAND * len(answer.get("demands", ()))
     if kind in ENTRY and not choice.has_value_options(answer):
         return PART + ENTRY[kind] * answer.get("take", len(answer.get(LISTED[kind], ())))
     steps = [step for step in sampler_for(template).parts[index].steps if step.name not in done]

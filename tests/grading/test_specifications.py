@@ -54,6 +54,8 @@ FULL = [
      "terms": ["great"]},
     {"kind": "witness", "predicate": "x^2 < y", "symbols": {"x": "real"}, "let": {"y": "x"},
      "where": ["x > 0"], "example": {"x": "1/2"}},
+    {"kind": "witness", "demands": {"short": {"holds": "f < 50", "worth": 2}}, "symbols": ["f"],
+     "units": {"f": "mm"}, "traps": {"half": "f > 90"}, "notes": NOTES, "why": NOTES},
     {"kind": "code", "output": "4", "also": ["4.0"], "traps": {"half": "2"}, "notes": NOTES},
     {"kind": "text", "points": {"noise": ["noise", "grain"]}, "needed": 1},
     {"kind": "sketch", "view": [-1, 1, 0, "1"], "tall": "1/2", "cuts": [0], "lines": {"ray": "0,0 0.5,1"},

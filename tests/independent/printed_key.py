@@ -85,7 +85,7 @@ def _gaps(mine: Sequence[str], spec: Spec) -> bool:
     return all(one in words for one, words in zip(mine, spec["accept"], strict=True))
 
 
-MATHS = {name: getattr(math, name) for name in ("sqrt", "exp", "log", "pi", "erf")}
+MATHS = {name: getattr(math, name) for name in ("sqrt", "exp", "log", "log2", "floor", "pi", "erf")}
 MATHS |= {"max": max, "min": min, "abs": abs}
 
 
@@ -113,10 +113,17 @@ def _holds(mine: Mapping[str, Any], spec: Spec) -> bool:
     for name, formula in spec.get("let", {}).items():
         known[name] = calculated(formula, known)
     inside = isinstance(symbols, list) or all(
-        low <= mine[name] <= high for name, (low, high) in symbols.items()
+        mine[name] > 0 if domain == "positive" else _between(mine[name], domain)
+        for name, domain in symbols.items()
     )
-    conditions = [*spec.get("where", []), spec["predicate"]]
+    demands = [one["holds"] for one in spec.get("demands", {}).values()]
+    conditions = [*spec.get("where", []), *(demands or [spec["predicate"]])]
     return set(mine) == set(symbols) and inside and all(calculated(c, known) for c in conditions)
+
+
+def _between(value: float, bounds: Sequence[Any]) -> bool:
+    low, high = map(Fraction, bounds)
+    return low <= value <= high
 
 
 def _lines(mine: Sequence[Sequence[tuple[float, float]]], spec: Spec) -> bool:

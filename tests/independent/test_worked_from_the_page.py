@@ -167,8 +167,8 @@ def _other_words(spec: dict[str, Any]) -> dict[str, Any]:
             return {"steps": steps[::-1], "before": []}
         case {"accept": [_, *rest]}:
             return {"accept": [["neither"], *rest]}
-        case {"predicate": predicate}:
-            return {"predicate": f"{predicate} and 1 = 2"}
+        case {"symbols": _}:
+            return {"where": ["1 = 2"]}
     raise AssertionError(f"no other answer is known for {spec['kind']}")
 
 
