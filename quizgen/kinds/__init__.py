@@ -28,6 +28,7 @@ from quizgen.kinds import (
     number,
     order,
     point,
+    program,
     quantity,
     sets,
     sketch,
@@ -44,7 +45,7 @@ KINDS: dict[str, AnswerKind[Any]] = {
     for module in (
         number, quantity, angle, point, sets, table, interval, expression, equation, complex_number,
         matrix, vector, choice, multi,
-        true_false, match, order, gap, witness, code, text, sketch, checked,
+        true_false, match, order, gap, witness, code, program, text, sketch, checked,
     )
 }  # fmt: skip
 """Name to kind, in the order of the manual."""

@@ -320,6 +320,8 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         What the solution draws in the field of the control.
     mistakes : mapping of str to AnySpec
         Each known mistake and the spec of which its answer would be the key.
+    is_long : bool
+        Whether answers are too long for a solution to print those of mistakes, too.
     """
 
     spec: S
@@ -332,6 +334,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     source: str = ""
     drawn: tuple[Line, ...] = ()
     mistakes: Mapping[str, S] = msgspec.field(default_factory=dict)
+    is_long: bool = False
 
 
 VALUE_OPTION = "="

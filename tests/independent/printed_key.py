@@ -12,11 +12,12 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 from printed_numbers import UNITS
 
 Spec = Mapping[str, Any]
 NUMERIC = {"number", "quantity", "angle", "point", "table", "set", "interval"}
-OWED = NUMERIC | {"expression", "witness", "code", "sketch"}
+OWED = NUMERIC | {"expression", "witness", "code", "program", "sketch"}
 """Kinds of answers that every solver has to give; those of choices where numbers decide."""
 COUNTED = {"stop": 1, "e-": 1, "deg": 1}
 """Units of keys that say what is counted."""
@@ -139,6 +140,30 @@ def _lines(mine: Sequence[Sequence[tuple[float, float]]], spec: Spec) -> bool:
     )  # fmt: skip
 
 
+def _does_the_same(mine: Callable[..., Any], spec: Spec) -> bool:
+    """Whether a function gives on every hidden input what the solution of the key gives."""
+    space: dict[str, Any] = {"np": np}
+    exec(spec["solution"], space)
+    return all(
+        _alike(mine(*_inputs(case)), space[spec["function"]](*_inputs(case)))
+        for case in spec["cases"].values()
+    )
+
+
+def _inputs(case: Mapping[str, Any]) -> list[Any]:
+    return [
+        np.array(*one.values(), dtype=next(iter(one))) if isinstance(one, dict) else one
+        for one in case["args"]
+    ]
+
+
+def _alike(mine: Any, theirs: Any) -> bool:
+    one, other = np.asarray(mine), np.asarray(theirs)
+    return (one.shape, one.dtype.kind) == (other.shape, other.dtype.kind) and bool(
+        np.allclose(one.astype(float), other.astype(float), 1e-9, 1e-9, equal_nan=True)
+    )
+
+
 OTHERS: dict[str, Callable[[Any, Spec], bool]] = {
     "choice": lambda mine, spec: mine == set(spec["correct"]),
     "multi": lambda mine, spec: mine == set(spec["correct"]),
@@ -150,4 +175,5 @@ OTHERS: dict[str, Callable[[Any, Spec], bool]] = {
     "expression": _formula,
     "witness": _holds,
     "sketch": _lines,
+    "program": _does_the_same,
 }

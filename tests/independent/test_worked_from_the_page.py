@@ -138,8 +138,9 @@ def spoiled(spec: dict[str, Any]) -> dict[str, Any]:
 
 
 def _other_lines(spec: dict[str, Any]) -> dict[str, Any]:
-    """The lines of a known mistake, where lines are drawn."""
-    return {"lines": next(iter(spec["traps"].values()))} if "lines" in spec else {}
+    """What a known mistake draws or writes, where that is asked."""
+    field = next((name for name in ("lines", "solution") if name in spec), "")
+    return {field: next(iter(spec["traps"].values()))} if field else {}
 
 
 def _other_number(spec: dict[str, Any]) -> dict[str, Any]:
