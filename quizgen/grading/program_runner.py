@@ -62,7 +62,7 @@ OF_NUMPY = frozenset((
     "floor_divide", "full", "full_like", "hstack", "hypot", "inf", "int16", "int32", "int64",
     "int8", "isclose", "isfinite", "isinf", "isnan", "linspace", "log", "log10", "log2",
     "logical_and", "logical_not", "logical_or", "logical_xor", "maximum", "mean", "median",
-    "meshgrid", "minimum", "mod", "moveaxis", "multiply", "nan", "nan_to_num", "negative",
+    "meshgrid", "minimum", "mod", "moveaxis", "multiply", "nan", "nan_to_num",
     "newaxis", "nonzero", "ones", "ones_like", "outer", "pad", "pi", "power", "prod", "ravel",
     "remainder", "repeat", "reshape", "rint", "roll", "round", "shape", "sign", "size", "sqrt",
     "square", "squeeze", "stack", "std", "subtract", "sum", "swapaxes", "take", "tile",
@@ -79,12 +79,12 @@ OF_VALUES = frozenset((
 """Attributes of arrays, numbers and lists."""
 KEYWORDS = frozenset((
     "a_max", "a_min", "axis", "constant_values", "copy", "decimals", "dtype", "fill_value",
-    "initial", "keepdims", "mode", "ndigits", "out", "reverse", "shape", "start", "step", "stop",
+    "initial", "keepdims", "mode", "ndigits", "out", "shape", "start", "step", "stop",
     "where",
 ))  # fmt: skip
 """Keywords of their calls."""
 TYPES = frozenset((
-    "bool", "constant", "edge", "float", "float16", "float32", "float64", "int", "int16", "int32",
+    "bool", "edge", "float", "float16", "float32", "float64", "int", "int16", "int32",
     "int64", "int8", "reflect", "symmetric", "uint16", "uint32", "uint64", "uint8", "wrap",
 ))  # fmt: skip
 """The only texts: names of types, and how an array is padded."""

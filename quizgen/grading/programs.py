@@ -118,4 +118,3 @@ def _run_job(job: str) -> ProgramOutcome:
     if done.returncode:
         raise OSError(done.stderr.decode("utf-8", "replace").strip()[-300:])
     return msgspec.json.decode(done.stdout[:LARGEST], type=ProgramOutcome)
-

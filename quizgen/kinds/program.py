@@ -144,7 +144,8 @@ class ProgramSpec(WordSpec, kw_only=True, frozen=True):
 
 _PROMPT = re.compile(r"^(?:>>>|\.\.\.) ?", re.MULTILINE)
 _TYPOGRAPHIC = str.maketrans({"−": "-", "–": "-", "\u00a0": " ", "\u202f": " ", "“": '"', "”": '"',
-                              "‘": "'", "’": "'", "·": "*", "×": "*"})  # fmt: skip
+                              "‘": "'", "’": "'", "·": "*", "×": "*",
+                              **dict(zip("০১২৩৪৫৬৭৮৯", "0123456789", strict=True))})  # fmt: skip
 """What an editor or a phone writes in place of characters of Python."""
 
 

@@ -245,7 +245,7 @@ RING = " ".join(
 @pytest.mark.parametrize(
     ("feature", "line", "said"),
     [
-        ({"reads": "height", "at": [11], "within": "0.1"}, "0,1 10,5", "places along x"),
+        ({"reads": "height", "at": [11], "within": "0.1"}, "0,1 10,5", "inside the field"),
         ({"reads": "height", "at": [5], "within": 2}, "0,1 10,5", "share above 0"),
         ({"reads": "loop", "centre": True}, "0,1 10,5", "ends where it begins"),
         ({"reads": "loop"}, RING, "must be asked of a loop"),

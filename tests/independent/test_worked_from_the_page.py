@@ -148,7 +148,8 @@ def _other_number(spec: dict[str, Any]) -> dict[str, Any]:
         case {"value": str(formula), "symbols": _}:
             return {"value": f"1.001*({formula})"}
         case {"value": value}:
-            return {"value": _other(value)}
+            beyond = Fraction((spec.get("accept") or [0, value])[1]) * 2
+            return {"value": _other(value), "accept": [str(beyond), str(beyond * 2)]}
         case {"values": dict(values)}:
             return {"values": {name: _other(value) for name, value in values.items()}}
         case {"values": [first, *rest]}:

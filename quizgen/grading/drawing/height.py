@@ -29,7 +29,7 @@ class HeightFeature(Feature, frozen=True):
     within: Scalar
 
     def validate(self, sheet: DrawingComparison, /) -> None:
-        """Check the share, and that a wanted line or that of a mistake passes each place.
+        """Check the share, and that the places lie in the field.
 
         Raises
         ------
@@ -38,10 +38,9 @@ class HeightFeature(Feature, frozen=True):
         """
         if not 0 < to_floats([self.within])[0] < 1:
             raise ValueError("within: a share above 0 and below 1")
-        lines = [way[name] for way in (sheet.wanted, *sheet.others) for name in self.of]
-        passed = zip(*(self._wanted_heights(sheet, line) for line in lines), strict=True)
-        if not self.at or any(set(heights) == {None} for heights in passed):
-            raise ValueError("at: places along x that a line passes")
+        left, right = sheet.scale.view[:2]
+        if not self.at or not all(left <= x <= right for x in to_floats(self.at)):
+            raise ValueError("at: places along x, inside the field")
 
     def is_judgeable(self, sheet: DrawingComparison, /) -> bool:
         """Return whether there is a line above or below any of the wanted ones."""
