@@ -267,6 +267,8 @@ class InputControl(msgspec.Struct, frozen=True):
         Whether a value needs its name before it, as cells of a table do.
     board : DrawingField, optional
         The field that is drawn in, if the answer is a drawing.
+    keeps_lines : bool
+        Whether lines and the blanks before them count, as in a program.
     """
 
     form: InputForm
@@ -274,6 +276,7 @@ class InputControl(msgspec.Struct, frozen=True):
     boxes: tuple[InputBox, ...] = ()
     named: bool = False
     board: DrawingField | None = None
+    keeps_lines: bool = False
 
     @property
     def needs_working(self) -> bool:

@@ -193,7 +193,7 @@ def ask(part: PartContext) -> AskedPart[ProgramSpec]:
         notes=part.misconception_notes(traps) if traps else {},
         why=part.reasons([(name, name) for name in names]),
     )
-    control = InputControl("lines", lines=solution.count("\n") + ROOM)
+    control = InputControl("lines", lines=solution.count("\n") + ROOM, keeps_lines=True)
     mistakes = misconception_specs(spec, "solution")
     return AskedPart(spec, control, mistakes=mistakes, is_long=True)
 
