@@ -113,8 +113,8 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
 
     written_as: ClassVar[AnswerForm] = "formula"
 
-    symbols: dict[str, Domain] | list[str]
     predicate: str = ""
+    symbols: dict[str, Domain] | list[str]
     demands: dict[str, Demand] = msgspec.field(default_factory=dict)
     where: list[str] = msgspec.field(default_factory=list)
     let: dict[str, str] = msgspec.field(default_factory=dict)

@@ -52,7 +52,7 @@ def plates(page: Page) -> dict[str, Any]:
                     and f * speed / t / 20 <= blur * px
                     and max(disc(f, n, s, 20), disc(f, n, s, 40)) <= px
                     and right_exposure(n, 1 / t, iso, (8, 1 / 250, 100))):  # fmt: skip
-                yield {"f": f * 1000, "N": n, "t": 1 / t, "ISO": iso, "s": s}
+                yield {"f": f * 1000, "N": n, "t": 1 / t, "ISO": iso, "d": s}
 
     return {"a": first(found())}
 

@@ -171,10 +171,10 @@ def test_a_design_is_judged_demand_by_demand(bank, name, seed):
 
 def test_a_design_says_what_was_missed_and_not_what_is_right(bank):
     spec, _ = spec_of(bank, "design-number-plate-camera", 1)
-    verdict = grade_answer(spec, "f = 30 mm; N = f/8; t = 0.4 ms; ISO = 1000; s = 26.7 m")
+    verdict = grade_answer(spec, "f = 30 mm; N = f/8; t = 0.4 ms; ISO = 1000; d = 26.7 m")
     assert (verdict.verdict, verdict.note, verdict.credit) == ("partial", "demands", Fraction(5, 6))
     assert verdict.message.startswith("Met: 5 of 6 conditions. Not met: 78 ≥ ")
-    middle = grade_answer(spec, "f = 50 mm; N = 8; t = 1/2500 s; ISO = 1000; s = 30 m")
+    middle = grade_answer(spec, "f = 50 mm; N = 8; t = 1/2500 s; ISO = 1000; d = 30 m")
     assert middle.note == "trap:in-the-middle"
-    other = grade_answer(spec, "f = 50 s; N = 8; t = 1/2500 s; ISO = 1000; s = 30 m")
+    other = grade_answer(spec, "f = 50 s; N = 8; t = 1/2500 s; ISO = 1000; d = 30 m")
     assert (other.verdict, other.note) == ("unreadable", "unit-other")
