@@ -67,3 +67,40 @@ def transfer(page: Page) -> dict[str, Any]:
              / sum((x - mean[0]) ** 2 for x, _ in points))  # fmt: skip
     dark = math.sqrt(mean[1] - slope * mean[0])
     return {"a": Fraction(slope), "b": (Fraction(dark), Fraction(dark / slope))}
+
+
+@solves("aliasing-of-a-fine-pattern")
+def aliasing(page: Page) -> dict[str, Any]:
+    """Notes 2.13: the samples of a cosine are those of a slower one; which, is tried."""
+    (pitch,), (pattern,) = page.amounts("µm"), page.amounts("lp/mm")
+    samples = [math.cos(2 * math.pi * float(pattern * pitch) * i) for i in range(200)]
+
+    def differ(tried: Fraction) -> float:
+        return max(abs(math.cos(2 * math.pi * float(tried * pitch) * i) - y)
+                   for i, y in enumerate(samples))  # fmt: skip
+
+    limit = 1 / (2 * pitch)
+    false = min((Fraction(n * 250) for n in range(int(limit / 250) + 1)), key=differ)
+    return {"a": limit, "b": false, "c": 1 / (false * pitch)}
+
+
+@solves("camera-matrix-after-edits")
+def edited_camera(page: Page) -> dict[str, Any]:
+    """F06: matrices that move and scale pixels, one after the other."""
+    f, *_, left, top, high = (v for v in page.amounts("px"))
+    factor = next(v for v in page.amounts("")[::-1] if v)
+    matrix = [[f, 0, page["o_x"]], [0, f, page["o_y"]], [0, 0, 1]]
+    crop = [[1, 0, -left], [0, 1, -top], [0, 0, 1]]
+    resize = [[factor, 0, 0], [0, factor, 0], [0, 0, 1]]
+    turn = [[1, 0, 0], [0, -1, factor * high], [0, 0, 1]]
+
+    def times(a: list[list[Any]], b: list[list[Any]]) -> list[list[Any]]:
+        return [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+
+    cropped = times(crop, matrix)
+    small = times(resize, cropped)
+    return {
+        "a": (cropped[0][2], cropped[1][2]),
+        "b": (small[0][0], small[0][2], small[1][2]),
+        "c": times(turn, small)[1][2],
+    }
