@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from functools import cache
+from typing import Literal
 
 import msgspec
 
@@ -18,6 +19,12 @@ from quizgen.maths.tree import Call, Expr, Sym, names_in, substitute, walk_tree
 
 NAME = "formulas"
 """The file without its suffix."""
+
+MovingName = Literal[
+    "aperture-ring", "clamped-histogram", "distortion-grid", "eye-and-filter",
+    "focus-distance", "gaussian-tails", "hsv-sliders", "pinhole-point",
+]  # fmt: skip
+"""The figures that move which the pages have: see ``quizgen.web.moving``."""
 
 Piece = Mapping[str, str | tuple[str, ...]]
 """What the grammar of formulas does not have, described: see ``question.formula_lines``."""
@@ -39,11 +46,13 @@ class FormulaEntry(Entry, frozen=True, kw_only=True):
 
     ``units`` has the letters of each unit, ``holds`` says for which values the formula is true, and
     ``limits`` what happens at their edge; a formula that always holds has neither. ``figure`` is
-    drawn beside it on the formula sheet.
+    drawn beside it on the formula sheet; ``moves`` is the figure that moves of the pages, beside
+    it and in the solution of questions that cover it.
     """
 
     title: Passage
     figure: FormulaSketch | None = None
+    moves: MovingName | None = None
     lines: tuple[str, ...]
     inside: dict[str, Piece] = msgspec.field(name="with", default={})
     separate: bool = False

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from fractions import Fraction
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
@@ -21,19 +22,22 @@ from quizgen.grading.offered_readings import (
     list_offered_readings,
 )
 from quizgen.grading.verdict import Verdict
-from quizgen.locale import FIRST
+from quizgen.kinds.rubric import Suggestion, share_of_marks
+from quizgen.locale import FIRST, format_amount, translate
 from quizgen.practice.part_attempt import NextStep, PartAttempt
 from quizgen.practice.session import QuestionAttempt, Session
 from quizgen.practice.session_store import SessionStore
 from quizgen.question.compose import QuestionPart
 from quizgen.question.formula_sheet import cite_formula
-from quizgen.question.solution import PartSolution
+from quizgen.question.solution import PartSolution, scheme_examples
 from quizgen.render.text import blocks_to_plain_text, inlines_to_plain_text
 
 if TYPE_CHECKING:
     from quizgen.store.learner import LearnerProgress
 
 COLOURS = {"correct": "green", "partial": "yellow", "wrong": "red"}
+SIGNS = {"correct": "✓", "partial": "~", "wrong": "✗"}
+"""What stands before a line that was judged."""
 
 _CODE = "    "
 _BULLET = re.compile(r" *(?:- )*")
@@ -153,7 +157,7 @@ class Conversation:
         """Ask a part until it has ended."""
         self._show_part(task)
         while task.outcome is None:
-            typed = self._read_line(self.words["prompt"])
+            typed = self._read_answer(task)
             with self._save_on_stop():
                 self._handle_input(task, typed)
 
@@ -180,6 +184,21 @@ class Conversation:
             self._print_sentence("skipped")
         else:
             self._grade_input(task, typed)
+
+    def _read_answer(self, task: PartAttempt[QuestionPart, PartSolution]) -> str:
+        """Return what was typed: a line, or where each line is judged all up to an empty one."""
+        typed = self._read_line(self.words["prompt"])
+        if not task.part.field.control.rows or not typed or self._is_command(typed):
+            return typed
+        lines = [typed]
+        while line := self._read_line(" " * (len(self.words["prompt"]) - 1) + "…"):
+            lines.append(line)
+        return "\n".join(lines)
+
+    def _is_command(self, typed: str) -> bool:
+        """Return whether a line is no answer: help, the solution, a skip, a reading by number."""
+        chosen = choose_offered_reading(self._offered, typed)
+        return typed in {"?", "!"} or chosen is not None or self._is_word_for("skip-words", typed)
 
     def _read_line(self, prompt: str) -> str:
         """Return what was typed, without blanks around it.
@@ -215,6 +234,8 @@ class Conversation:
             print_wrapped(inlines_to_plain_text(text), f"   {mark}  ", " " * (len(mark) + 5))
         for hint in part.field.hints:
             print_wrapped(f"[{hint}]", "   ", "    ")
+        if part.field.control.rows:
+            self._print_sentence("rows")
         print_wrapped(self.words["help"], "   ", "   ", dim=True)
 
     def _grade_input(
@@ -234,12 +255,19 @@ class Conversation:
                 self._offer_readings(feedback.verdict, typed)
                 return
             case NextStep.SELF_MARK:
+                self._print_lines(verdict)
                 print_wrapped(verdict.message)
                 self._show_solution(task)
-                task.self_mark(right=self._ask_self_mark(task))
+                made = task.suggest()
+                share = self._ask_criteria(task, made) if made else self._ask_whether_right()
+                task.self_mark(share)
                 return
         lang = self.session.state.wish.lang
-        self._print_sentence("read", read_as=format_read_back(task.kind, verdict.read_as, lang))
+        if verdict.lines:
+            self._print_lines(verdict)
+        else:
+            read_as = format_read_back(task.kind, verdict.read_as, lang)
+            self._print_sentence("read", read_as=read_as)
         word = self.words[verdict.word]
         repeated = verdict.message.startswith(word.rstrip(".।"))  # "Not right: gap 1."
         said = verdict.message if repeated else f"{word} {verdict.message}".strip()
@@ -248,6 +276,14 @@ class Conversation:
             self._print_sentence("again", left=feedback.left)
         elif feedback.then is NextStep.OUT_OF_TRIES:
             self._show_solution(task)
+
+    def _print_lines(self, verdict: Verdict) -> None:
+        """Print the lines of a derivation, each with a sign and what is said of it."""
+        for number, line in enumerate(verdict.lines, 1):
+            sign = SIGNS.get(line.verdict, "·")
+            said = f" – {line.message}" if line.note != "line-right" else ""
+            style: TextStyle = {"fg": COLOURS[line.verdict]} if line.verdict in COLOURS else {}
+            print_wrapped(f"{line.read_as}{said}", f"{number:>3} {sign} ", "      ", **style)
 
     def _offer_readings(self, verdict: Verdict, typed: str) -> None:
         """Print the readings of an answer asked back with their numbers, if it has some."""
@@ -264,9 +300,35 @@ class Conversation:
         if self.learning is not None:
             self.learning.save_decimal(decimal)
 
-    def _ask_self_mark(self, task: PartAttempt[QuestionPart, PartSolution]) -> bool:
-        """Return whether the learner judges the own answer right."""
-        self._print_sentence("self-mark", points=task.solved.answer)
+    def _ask_criteria(
+        self, task: PartAttempt[QuestionPart, PartSolution], made: Suggestion
+    ) -> float:
+        """Return the share that the learner gives an own sentence, asked criterion by criterion."""
+        lang, rows = self.session.state.wish.lang, task.solved.scheme
+        for told in task.wrong_ideas(made):
+            print_wrapped(told, "   ", "   ", fg="yellow")
+        marks: dict[str, Fraction] = {}
+        for row, finding in zip(rows, made.findings, strict=True):
+            idea = inlines_to_plain_text(row.idea)
+            print_wrapped(f"[{format_amount(row.points, lang)}] {idea}", "   ", "      ")
+            for name, examples in scheme_examples(row):
+                listed = f"{translate(lang, f'solution.{name}')}: {'; '.join(examples)}"
+                print_wrapped(listed, "      ", "      ", dim=True)
+            told = translate(lang, f"suggested.{finding.status}", quote=finding.quote)
+            print_wrapped(told, "      ", "      ")
+            self._print_sentence("self-mark")
+            if self._ask_yes_or_no():
+                marks[row.name] = Fraction(1)
+        full = Fraction(task.part.points)
+        return float(share_of_marks(marks, {row.name: row.points for row in rows}, full))
+
+    def _ask_whether_right(self) -> float:
+        """Return 1 if the learner judges the own answer right, else 0."""
+        self._print_sentence("was-right")
+        return float(self._ask_yes_or_no())
+
+    def _ask_yes_or_no(self) -> bool:
+        """Return whether the learner says yes."""
         while True:
             typed = self._read_line(self.words["yes-or-no"])
             if self._is_word_for("yes-words", typed):
@@ -293,5 +355,6 @@ class Conversation:
             print_wrapped(inlines_to_plain_text(line.why), "      ", "      ")
         print_wrapped(self.words["answer"].format(answer=task.solved.answer), bold=True)
         solved = task.solved
-        for sentence in (*solved.options, *filter(None, [solved.why])):
+        ideas = () if solved.scheme else solved.options
+        for sentence in (*ideas, *filter(None, [solved.why])):
             print_wrapped(inlines_to_plain_text(sentence), "   ", "   ")

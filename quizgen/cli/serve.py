@@ -55,6 +55,7 @@ class ServeOptions(BankOptions):
     host: str
     names: tuple[str, ...]
     behind_proxy: bool
+    phone: bool
     invite: bool
     database: str
     workers: int
@@ -89,6 +90,11 @@ class ServeOptions(BankOptions):
     "--behind-proxy",
     is_flag=True,
     help="A web server on this machine hands on the requests, with https; people sign in.",
+)
+@click.option(
+    "--phone",
+    is_flag=True,
+    help="Go on with a phone of the same network, as the same learner: it scans a code once.",
 )
 @click.option("--invite", is_flag=True, help="Print an invitation for one more who manages.")
 @click.option("--open/--no-open", "show", default=True, help="Open the browser.")
@@ -140,23 +146,26 @@ def serve(**options: Unpack[ServeOptions]) -> None:
         back_up(options["database"], options["backup"])
         click.echo(f"{options['backup']}: written")
         return
-    from quizgen.web.settings import ServerSettings
+    from quizgen.web.settings import EVERYWHERE, LOCAL, ServerSettings
 
+    if options["phone"] and (options["behind_proxy"] or options["host"] != LOCAL[0]):
+        raise click.UsageError("--phone: one learner alone; with --host people sign in")
     settings = ServerSettings(
         options["database"],
         open_sound_bank(options),
-        host=options["host"],
+        host=EVERYWHERE if options["phone"] else options["host"],
         names=tuple(name.lower() for name in options["names"]),
         behind_proxy=options["behind_proxy"],
+        phone=options["phone"],
         examine=lint_while_writing if options["author"] else None,
         classroom=options["classroom"],
         workers=options["workers"],
         papers_ahead=options["papers_ahead"],
     )
     _check_blueprints(settings.bank, options["papers_ahead"])
-    if settings.accounts and options["author"]:
+    if (settings.accounts or settings.phone) and options["author"]:
         raise click.UsageError("--author shows every solution: on this machine alone")
-    if settings.accounts and options["classroom"]:
+    if (settings.accounts or settings.phone) and options["classroom"]:
         raise click.UsageError("--class shows names and keys: on this machine alone")
     if options["invite"] and not settings.accounts:
         raise click.UsageError("--invite: nobody signs in; see --host")

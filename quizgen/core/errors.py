@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 EXTRA_MODULES = {
     "web": (
         "starlette", "uvicorn", "python_multipart", "sqlalchemy", "alembic", "fsrs", "argon2",
+        "segno",
     ),
     "class": ("xlsxwriter",),
     "lms": (),

@@ -24,7 +24,7 @@ class FigureModule(Protocol):
     It may also have ``SIZE``, width and height in points of its axes or sheet (``COLUMN``,
     ``WIDE`` and ``SQUARE`` of the kit are ready ones); ``COLOUR = True``, or a function of the
     values, if it cannot be read on grey paper; and ``mark(place, values, marks)``, which draws
-    values of a learner next to the right ones.
+    values of a learner next to the right ones, with ``MARKS``, the quantities that it knows.
     """
 
     PARAMETERS: dict[str, Parameter]

@@ -172,8 +172,18 @@ def explain_verdict(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool 
 def _build_sentence(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool) -> str:
     """Return the sentence for a verdict's note.
 
-    For a misconception it is the author's own sentence, if there is one.
+    For a misconception it is the author's own sentence, if there is one. Before it stands the line
+    that it is about, where an answer has several.
     """
+    sentence = _say_note(spec, verdict, lang, reveal=reveal)
+    where = (
+        feedback_sentence(lang, "at-line", verdict.fields) if "at_line" in verdict.fields else ""
+    )
+    return " ".join(filter(None, (where, sentence)))
+
+
+def _say_note(spec: AnySpec, verdict: Verdict, lang: str, *, reveal: bool) -> str:
+    """Return the sentence for a note, wherever in the answer it is about."""
     name = verdict.note.removeprefix("trap:")
     if name == verdict.note:
         said = feedback_sentence(lang, verdict.note, verdict.fields) if name else ""

@@ -17,7 +17,16 @@ WRONG = "wrong"
 UNREADABLE = "unreadable"
 AMBIGUOUS = "ambiguous"
 
-SELF_MARKED = frozenset({"self-mark", "self-mark-none", "unchecked"})
+SELF_MARKED = frozenset(
+    {
+        "self-mark",
+        "self-mark-open",
+        "self-mark-none",
+        "self-mark-lines",
+        "self-mark-lines-none",
+        "unchecked",
+    }
+)
 """Notes on what a person marks: free text, and what only its bank could check."""
 
 FULL, NONE = Fraction(1), Fraction(0)
@@ -67,6 +76,11 @@ class Verdict(msgspec.Struct, frozen=True):
     def needs_self_marking(self) -> bool:
         """Whether a person has to decide: key points are only suggested."""
         return self.note in SELF_MARKED
+
+    @property
+    def lines(self) -> tuple[Verdict, ...]:
+        """The verdicts of the lines of a derivation; none for any other answer."""
+        return self.cells if any(cell.note.startswith("line-") for cell in self.cells) else ()
 
     @property
     def word(self) -> str:

@@ -18,6 +18,7 @@ from quizgen.kinds import (
     choice,
     code,
     complex_number,
+    derivation,
     equation,
     expression,
     gap,
@@ -30,10 +31,10 @@ from quizgen.kinds import (
     point,
     program,
     quantity,
+    rubric,
     sets,
     sketch,
     table,
-    text,
     true_false,
     vector,
     witness,
@@ -45,7 +46,7 @@ KINDS: dict[str, AnswerKind[Any]] = {
     for module in (
         number, quantity, angle, point, sets, table, interval, expression, equation, complex_number,
         matrix, vector, choice, multi,
-        true_false, match, order, gap, witness, code, program, text, sketch, checked,
+        true_false, match, order, gap, witness, derivation, code, program, rubric, sketch, checked,
     )
 }  # fmt: skip
 """Name to kind, in the order of the manual."""

@@ -269,6 +269,8 @@ class InputControl(msgspec.Struct, frozen=True):
         The field that is drawn in, if the answer is a drawing.
     keeps_lines : bool
         Whether lines and the blanks before them count, as in a program.
+    rows : bool
+        Whether each line is judged by itself: a terminal reads lines until an empty one.
     """
 
     form: InputForm
@@ -277,6 +279,7 @@ class InputControl(msgspec.Struct, frozen=True):
     named: bool = False
     board: DrawingField | None = None
     keeps_lines: bool = False
+    rows: bool = False
 
     @property
     def needs_working(self) -> bool:
@@ -296,7 +299,29 @@ class InputControl(msgspec.Struct, frozen=True):
 
 LINE = InputControl("line")
 
+
+class DerivedStep(NamedTuple):
+    """A line that a solution shows: its name in section ``steps``, what it states, its points."""
+
+    name: str
+    tree: Expr
+    points: Fraction
+
+
 S = TypeVar("S", bound=AnySpec)
+
+
+class SchemeRow(NamedTuple):
+    """A criterion of a mark scheme: its name, points, what it may follow from, whether in halves.
+
+    What counts and what is refused stand in the language files, in sections ``points`` (the idea),
+    ``accept`` and ``refuse``.
+    """
+
+    name: str
+    points: Fraction
+    follows: str = ""
+    halves: bool = False
 
 
 class AskedPart(msgspec.Struct, Generic[S], frozen=True):
@@ -325,6 +350,10 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         Each known mistake and the spec of which its answer would be the key.
     is_long : bool
         Whether answers are too long for a solution to print those of mistakes, too.
+    derived : tuple of DerivedStep
+        The lines of a derivation, which the solution shows as its steps.
+    scheme : tuple of SchemeRow
+        The criteria that a person marks by.
     """
 
     spec: S
@@ -338,6 +367,8 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     drawn: tuple[Line, ...] = ()
     mistakes: Mapping[str, S] = msgspec.field(default_factory=dict)
     is_long: bool = False
+    derived: tuple[DerivedStep, ...] = ()
+    scheme: tuple[SchemeRow, ...] = ()
 
 
 VALUE_OPTION = "="
@@ -368,6 +399,8 @@ class PartContext(Protocol):
     """Units of the bank, as ``bank.toml`` defines them."""
     terms: Sequence[str]
     """Words of the bank's subject."""
+    points: str
+    """Points of the part as authored."""
 
     def error(self, what: str, rule: str = "QG112") -> BankError:
         """Return an error that names the template and the part; ``rule`` is its diagnostic code."""
@@ -411,8 +444,17 @@ class PartContext(Protocol):
     def shuffle(self, names: Sequence[str], side: str) -> list[str]:
         """Return names in a drawn order, even if ``in_order`` is set."""
 
-    def accepted_words(self, name: str) -> list[str]:
-        """Return the words of a gap or of a key point, from all languages."""
+    def accepted_words(self, name: str, section: str = "gaps") -> list[str]:
+        """Return the words of a gap, or the examples of a criterion, from all languages."""
+
+    def sentences(self, section: str, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
+        """Return the sentences of a section as plain text, by language and mark."""
+
+    def model_answers(self) -> dict[str, str]:
+        """Return the model answer by language, where one is written."""
+
+    def synonyms(self, texts: Iterable[str]) -> list[list[str]]:
+        """Return the groups of words of the bank that mean the same, of which texts have one."""
 
     def has_gap(self, name: str) -> bool:
         """Return whether a language file has words for a gap of this name."""

@@ -33,11 +33,13 @@ from quizgen.grading.diagnosis.carry_forward import are_nearly_equal
 from quizgen.grading.spec import AnySpec, SpecBase
 from quizgen.kinds.contract import AskedPart, asked_quantities
 from quizgen.kinds.grade import grade_answer, show_key
+from quizgen.lint.derivations import derivation_lines, find_derivation_faults
 from quizgen.lint.examples import find_misjudged_examples
 from quizgen.lint.figures import check_figures
 from quizgen.lint.foreign_words import find_foreign_words
 from quizgen.lint.item_quality import QualityReview
 from quizgen.lint.leaks import QuestionContent, question_content
+from quizgen.lint.mark_schemes import find_unsound_schemes
 from quizgen.lint.unused_draws import find_unused_draws
 from quizgen.locale import FIRST, get_language, localise_numbers
 from quizgen.maths.notation import format_tree
@@ -153,13 +155,15 @@ def lint_template(
         for worded in composed:
             report.problems += find_unfilled_placeholders(worded)
         typed = (*_select_telling_variants(first, MARKED.count(seeds)), *known)
-        report.problems += _select_first_diagnostics(
+        derived = find_derivation_faults(first[: MARKED.count(seeds)])
+        report.problems += derived or _select_first_diagnostics(
             answer for one in typed for answer in _iter_misjudged_answers(one)
         )
         for one, worded in zip(first[:LEVELLED], composed, strict=False):
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
         report.problems += find_misjudged_examples(first)
+        report.problems += find_unsound_schemes(first)
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
         report.problems += [*_find_unused_draws(template), *find_foreign_words(template)]
         report.problems += _diagnose_quality_errors(template, lessons)
@@ -357,9 +361,10 @@ def _find_missing_texts(template: Template, lang: str) -> Iterator[tuple[str, st
     listed = {trap for part in template.rules.part for trap in part.answer.get("traps", ())}
     wanted["traps"] |= listed
     wanted["claims"] = set(template.rules.claims)
+    wanted["steps"] |= derivation_lines(template)
     known = {
         "claims": wanted["claims"],
-        "steps": {*chain.by_name, *chain.form_by_name},
+        "steps": {*chain.by_name, *chain.form_by_name, *derivation_lines(template)},
         "traps": {*chain.traps, *chain.form_traps, *listed},
     }
     for section, names in wanted.items():

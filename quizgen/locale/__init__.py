@@ -15,6 +15,7 @@ cards          short words on flashcards
 classes        the report of a marked exam
 tradeoff       the page of what accuracy costs
 web            the pages of ``quizgen serve``
+moving         their figures that move
 ============== ==================================================================
 
 A template has one ``<lang>.md``, too.

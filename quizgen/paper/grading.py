@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import msgspec
 from msgspec import structs
@@ -16,6 +16,7 @@ from quizgen.grading.spec import AnySpec
 from quizgen.grading.verdict import Verdict
 from quizgen.locale import list_languages
 from quizgen.maths.notation import FormulaReadError
+from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
 from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion, parse_answer_key
 
@@ -162,6 +163,13 @@ def _grade_question(
     return [marker.grade_part(part, answers.get(part.id, "")) for part in question.parts]
 
 
+class OwnValue(NamedTuple):
+    """A value of a learner: the number, and how many base units its unit has."""
+
+    value: float
+    factor: float
+
+
 class QuestionGrader:
     """Marks the parts of one question in order, remembering the student's own values.
 
@@ -194,6 +202,19 @@ class QuestionGrader:
         spec = part.parse_spec(proven=self.proven)
         verdict = self._judge_in_question(part, spec, typed, decimal or self.options.decimal)
         return _build_part_result(self.question, part, typed, verdict)
+
+    def own_values(self, part: KeyPart, verdict: Verdict) -> dict[str, OwnValue]:
+        """Return the values that a verdict on a part read, by quantity of the question."""
+        spec = part.parse_spec(proven=self.proven)
+        units = self.question.chain.units() if self.question.chain is not None else {}
+        rows = zip(spec.quantities(), verdict.values, spec.value_units(), strict=False)
+        return {
+            name: OwnValue(
+                to_float(value), to_float(spec.known_units().factor(unit or units.get(name, "")))
+            )
+            for name, value, unit in rows
+            if value is not None
+        }
 
     def explain_part(self, part: KeyPart, verdict: Verdict, *, reveal: bool = True) -> Verdict:
         """Return the verdict on a part with its sentences, for the person who is shown it.

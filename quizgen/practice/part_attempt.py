@@ -11,8 +11,10 @@ from msgspec import structs
 
 from quizgen.core.errors import AttemptFinishedError
 from quizgen.grading.verdict import Verdict
+from quizgen.kinds.rubric import Suggestion, suggest_marks
 from quizgen.paper.answer_key import KeyPart
-from quizgen.paper.grading import QuestionGrader
+from quizgen.paper.grading import OwnValue, QuestionGrader
+from quizgen.practice.scheduler import NAMED
 from quizgen.practice.session_state import PartOutcome, PartState
 
 TRIES = 3
@@ -166,6 +168,8 @@ class PartAttempt(Generic[P, S]):
             self.state.decimal = self._marker.options.decimal
         if then in {NextStep.AGAIN, NextStep.OUT_OF_TRIES}:
             self.state.wrong, self.state.note = typed, verdict.note
+            if verdict.note.startswith(NAMED):
+                self.state.mistakes.setdefault(verdict.note, typed)
         if then in {NextStep.RIGHT, NextStep.OUT_OF_TRIES}:
             self._finish_part(right=then is NextStep.RIGHT)
         return AnswerFeedback(verdict, then, TRIES - self.state.tries)
@@ -176,6 +180,22 @@ class PartAttempt(Generic[P, S]):
         While there are tries left, reasons that tell the right answer are held back.
         """
         return self._marker.explain_part(self._keyed, verdict, reveal=self.outcome is not None)
+
+    def own_values(self) -> dict[str, OwnValue]:
+        """Return what the learner gave instead of the right values, by quantity.
+
+        Empty where nothing could be read as numbers, or all is right.
+        """
+        if self.verdict is None or self.verdict.verdict == "correct":
+            return {}
+        return self._marker.own_values(self._keyed, self.verdict)
+
+    def explain_wrong(self) -> str:
+        """Return in words what the last wrong answer was; empty if there is none."""
+        if not self.state.wrong:
+            return ""
+        judged = self._marker.judge_part(self._keyed, self.state.wrong, self.state.decimal)
+        return str(self._marker.explain_part(self._keyed, judged.verdict, reveal=True).message)
 
     def _decide_next_step(self, verdict: Verdict) -> NextStep:
         """Return what follows a verdict; count a try unless it could not be read."""
@@ -189,12 +209,22 @@ class PartAttempt(Generic[P, S]):
             return NextStep.RIGHT
         return NextStep.AGAIN if self.state.tries < TRIES else NextStep.OUT_OF_TRIES
 
-    def self_mark(self, *, right: bool) -> None:
-        """End the part as right or wrong by the learner's own judgement."""
+    def self_mark(self, share: float) -> None:
+        """End the part with the share of its points, 0 to 1, that the learner gives it."""
         self._require_unfinished()
         if self.state.tries == 1:
-            self.state.credit = float(right)
-        self._finish_part(right=right)
+            self.state.credit = share
+        self._finish_part(right=share >= 1)
+
+    def suggest(self) -> Suggestion | None:
+        """Return what is suggested of an own sentence; None for every other kind of answer."""
+        return suggest_marks(self._keyed.parse_spec(proven=True), self.state.typed)
+
+    def wrong_ideas(self, made: Suggestion) -> list[str]:
+        """Return what to tell of the known wrong ideas in an own sentence."""
+        spec = self._keyed.parse_spec(proven=True)
+        known = spec.notes.get(self._marker.options.lang, {})
+        return [known[name] for name in made.mistakes if name in known]
 
     def _require_unfinished(self) -> None:
         """Raise ``AttemptFinishedError`` if the part has an outcome."""

@@ -183,7 +183,8 @@ def make_review_event(origin: str, parts: Sequence[PartState], level: str) -> Re
     if grade is None:
         return None
     helped = ReviewRating.HARD if level == GUIDED and grade is ReviewRating.GOOD else grade
-    return ReviewEvent(origin, helped, tuple(part.note for part in parts))
+    notes = (note for part in parts for note in (*part.mistakes, part.note))
+    return ReviewEvent(origin, helped, tuple(dict.fromkeys(notes)))
 
 
 def iter_reviewed_cards(

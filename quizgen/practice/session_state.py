@@ -81,6 +81,8 @@ class PartState(msgspec.Struct):
         How it went, once it is done.
     wrong, note : str
         The last answer that was not right, and which mistake it was.
+    mistakes : mapping of str to str
+        Every mistake with a name that was made, and what was typed.
     credit : float
         Share of the points that the first try was worth, 0 to 1.
     helped : bool
@@ -98,6 +100,7 @@ class PartState(msgspec.Struct):
     credit: float = 0.0
     helped: bool = False
     decimal: str = ""
+    mistakes: dict[str, str] = {}
 
 
 class SessionState(msgspec.Struct):

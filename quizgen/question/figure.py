@@ -14,6 +14,7 @@ from quizgen.core.errors import BankError
 from quizgen.core.untrusted import error_context
 from quizgen.figures import Figure, complete_parameters, describe_figure, draw_figure, needs_colour
 from quizgen.maths.numbers import to_float
+from quizgen.maths.units import build_unit_registry
 
 Shown = TypeVar("Shown")
 
@@ -21,6 +22,40 @@ Shown = TypeVar("Shown")
 def draw_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> Figure | None:
     """Return the figure of a question; None if it has none."""
     return _draw_question_figure(draw_figure, drawn, lang, quiz=quiz)
+
+
+def draw_marked_figure(
+    drawn: Variant, lang: str, values: Mapping[str, tuple[float, float]], *, quiz: bool
+) -> Figure | None:
+    """Return the figure of a question with values of a learner drawn into it.
+
+    Parameters
+    ----------
+    drawn : Variant
+    lang : str
+    values : mapping of str to (float, float)
+        Name of a quantity to what the learner gave, and how many base units its unit has; those
+        that the figure cannot show are left out.
+    quiz : bool
+        Whether what the question asks for is hidden.
+
+    Returns
+    -------
+    Figure or None
+        None if the figure shows none of them.
+    """
+
+    def draw(figure: ModuleType, given: Mapping[str, Any], **how: Any) -> Figure | None:
+        """Draw with the marks that the figure knows."""
+        known: Mapping[str, str] = getattr(figure, "MARKS", {})
+        marks = {
+            name: _convert_mark(*values[name], unit)
+            for name, unit in known.items()
+            if name in values
+        }
+        return draw_figure(figure, given, marks=marks, **how) if marks else None
+
+    return _draw_question_figure(draw, drawn, lang, quiz=quiz)
 
 
 def describe_question_figure(drawn: Variant, lang: str, *, quiz: bool) -> str | None:
@@ -58,6 +93,11 @@ def _draw_question_figure(
         values = complete_parameters(figure, given)
         with author_error_context(Path(str(figure.__file__))):
             return show(figure, values, quiz=quiz, lang=lang)
+
+
+def _convert_mark(value: float, factor: float, unit: str) -> float:
+    """Return a value in the unit that a figure draws it in; as it is if that is left open."""
+    return value * factor / to_float(build_unit_registry().factor(unit)) if unit else value
 
 
 def _evaluate_parameter(drawn: Variant, source: Source) -> Any:

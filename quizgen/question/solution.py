@@ -6,8 +6,9 @@ The steps come from the solver's chain; the language files add one sentence of w
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 import msgspec
 
@@ -17,10 +18,11 @@ from quizgen.figures import FieldPicture
 from quizgen.grading.spec import AnySpec, ScalarSpec, VectorSpec
 from quizgen.kinds import KINDS
 from quizgen.kinds.asking import as_student_writes
-from quizgen.kinds.contract import AskedPart
+from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow
 from quizgen.kinds.grade import show_key
-from quizgen.locale import translate
+from quizgen.locale import format_marks, translate
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.notation import format_tree
 from quizgen.maths.number_systems import NumberSystem, compile_expr, float32_system, float64_system
 from quizgen.maths.numbers import format_rounded, to_fraction
 from quizgen.maths.units import get_unit
@@ -35,6 +37,7 @@ from quizgen.question.worked_steps import (
     quantity_inlines,
     step_sides,
 )
+from quizgen.typeset import lay_out
 
 
 def inlines_to_plain(shown: tuple[Inline, ...]) -> str:
@@ -99,11 +102,29 @@ class SolvedMisconception(msgspec.Struct, frozen=True):
         return inlines_to_plain(self.shown)
 
 
+EXAMPLES_SHOWN = 4
+"""Examples of what counts that a mark scheme prints: the first ones of the list."""
+
+
+class SchemeLine(NamedTuple):
+    """A criterion in print: its points, the idea, examples of what counts, half, does not."""
+
+    name: str
+    points: Fraction
+    idea: tuple[Inline, ...]
+    accept: tuple[str, ...] = ()
+    half: tuple[str, ...] = ()
+    refuse: tuple[str, ...] = ()
+    follows: bool = False
+    halves: bool = False
+
+
 class PartSolution(msgspec.Struct, frozen=True):
     """The worked solution of one part.
 
     ``options`` tells the right answer in words, ``reasons`` why each other choice is wrong,
-    ``why`` what else explains the answer, ``drawing`` the answer if it is drawn.
+    ``why`` what else explains the answer, ``drawing`` the answer if it is drawn, ``scheme`` what a
+    person marks sentences by.
     """
 
     label: str
@@ -114,6 +135,7 @@ class PartSolution(msgspec.Struct, frozen=True):
     reasons: tuple[SolvedMisconception, ...] = ()
     why: tuple[Inline, ...] = ()
     drawing: FieldPicture | None = None
+    scheme: tuple[SchemeLine, ...] = ()
 
     @property
     def answer(self) -> str:
@@ -162,11 +184,15 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
     explained = filler.text.sentence("why", label or "a") is not None
     return PartSolution(
         label=label,
-        lines=tuple(
-            solution_step(filler, step)
-            for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps)
+        lines=(
+            *(
+                solution_step(filler, step)
+                for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps)
+            ),
+            *(_build_derived_step(filler, step) for step in built.derived),
         ),
-        shown=to_inlines(KINDS[spec.kind].explain_key(spec, filler.lang)),
+        shown=_build_model_answer(filler, label)
+        or to_inlines(KINDS[spec.kind].explain_key(spec, filler.lang)),
         mistakes=tuple(solved_misconceptions(filler, built)),
         options=tuple(
             (*_build_right_option(filler, section, name), *_format_citation(built.source))
@@ -175,6 +201,39 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
         reasons=tuple(_iter_wrong_options(filler, built)),
         why=filler.sentence("why", label or "a") if explained else (),
         drawing=FieldPicture(board, filler.lang, built.drawn) if board else None,
+        scheme=tuple(_build_scheme_line(filler, row) for row in built.scheme),
+    )
+
+
+def scheme_examples(row: SchemeLine) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the examples of a criterion, each list with the key of what stands before it."""
+    for name, examples in (("accept", row.accept), ("half_for", row.half), ("refuse", row.refuse)):
+        if examples:
+            yield name, examples
+
+
+def _build_model_answer(filler: Interpolator, label: str) -> tuple[Inline, ...]:
+    """Return the model answer of a part, filled; empty if the words have none."""
+    name = label or "a"
+    known = filler.text.sentence("model", name) is not None
+    return filler.sentence("model", name) if known else ()
+
+
+def _build_scheme_line(filler: Interpolator, row: SchemeRow) -> SchemeLine:
+    """Return a criterion as the mark scheme prints it, with the first of its examples."""
+    found = {
+        section: tuple(
+            word.strip()
+            for word in inlines_to_text(filler.sentence(section, row.name)).split("|")[
+                :EXAMPLES_SHOWN
+            ]
+        )
+        for section in ("accept", "half", "refuse")
+        if filler.text.sentence(section, row.name) is not None
+    }
+    idea = filler.sentence("points", row.name)
+    return SchemeLine(
+        row.name, row.points, idea, **found, follows=bool(row.follows), halves=row.halves
     )
 
 
@@ -191,6 +250,13 @@ def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
         quantity_inlines(filler.drawn, step.name, filler.lang),
         sides,
     )
+
+
+def _build_derived_step(filler: Interpolator, step: DerivedStep) -> SolutionStep:
+    """Return a line of a derivation as the solution shows it, with its points."""
+    maths = TypesetMaths(lay_out(step.tree), format_tree(step.tree), filler.lang)
+    worth = f" [{format_marks(step.points, filler.lang)}]" if step.points else ""
+    return SolutionStep(maths, (*filler.sentence("steps", step.name), PlainText(worth)))
 
 
 def solved_misconceptions(

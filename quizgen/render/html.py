@@ -20,6 +20,7 @@ from quizgen.question.html import (
     put_fields,
 )
 from quizgen.question.interpolation import inlines_to_text
+from quizgen.question.solution import scheme_examples
 from quizgen.render import fonts
 from quizgen.render.layouts import answer_rows, jinja_environment
 
@@ -41,6 +42,7 @@ def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
         squares=answer_rows,
         plain=inlines_to_text,
         put_fields=put_fields,
+        scheme_examples=scheme_examples,
         drawing=_read_board_file,
         svg=lambda figure: Markup(figure.inline_svg.decode()),
     )

@@ -8,7 +8,13 @@ from typing import Any
 from quizgen.locale import format_amount, format_marks, translate
 from quizgen.paper.paper import Paper, PaperItem
 from quizgen.question.compose import AnswerField, Question, QuestionPart
-from quizgen.question.solution import PartSolution, Solution, SolutionStep, SolvedMisconception
+from quizgen.question.solution import (
+    PartSolution,
+    Solution,
+    SolutionStep,
+    SolvedMisconception,
+    scheme_examples,
+)
 from quizgen.render.layouts import answer_rows
 from quizgen.render.typst_document import (
     blocks_to_typst,
@@ -340,10 +346,17 @@ class _TypstPaper:
         answer = join_languages(
             self.langs, [self._typeset_answer(p, lang) for p, lang in self._with_lang(parts)]
         )
+        schemes = [_typeset_scheme(part, lang) for part, lang in self._with_lang(parts)]
         reasons = [_typeset_reasons(part, lang) for part, lang in self._with_lang(parts)]
         drawn = filter(None, [self._typeset_drawing_field(item.number + parts[0].label, parts)])
         return "\n".join(
-            [*steps, *drawn, f"#result[{answer}]", stack_languages(self.langs, reasons)]
+            [
+                *steps,
+                *drawn,
+                f"#result[{answer}]",
+                stack_languages(self.langs, schemes),
+                stack_languages(self.langs, reasons),
+            ]
         )
 
     def _with_lang(self, parts: list[PartSolution]) -> list[tuple[PartSolution, str]]:
@@ -370,7 +383,8 @@ class _TypstPaper:
         """Return the answer of a part in a language."""
         name = translate(lang, "solution.answer")
         said = f"#strong({typst_literal(name + ':')}); {inlines_to_typst(part.shown, lang)}"
-        options = [inlines_to_typst(option, lang) for option in part.options]
+        ideas = () if part.scheme else part.options
+        options = [inlines_to_typst(one, lang) for one in ideas]
         if len(options) == 1:
             between = '#" - ";' if part.shown else ""
             return f"{said}{between}{options[0]}"
@@ -418,6 +432,24 @@ def _format_holder(paper: Paper) -> str:
 def _typeset_notes_area(part: QuestionPart) -> str:
     """Return Typst for the rest of the page: squares for calculations by points, or notes."""
     return f"#more-room({float(part.points):g})" if part.field.control.needs_working else "#rest"
+
+
+def _typeset_scheme(part: PartSolution, lang: str) -> str:
+    """Return what a person marks sentences by: a row for each criterion, its points in front."""
+    rows = []
+    for row in part.scheme:
+        lines = [typst_passage(inlines_to_typst(row.idea, lang))]
+        for name, examples in scheme_examples(row):
+            head = typst_literal(f"{translate(lang, f'solution.{name}')}: ")
+            lines.append(f"#emph({head})#{typst_literal('; '.join(examples))}")
+        if row.follows:
+            lines.append(f"#{typst_literal(translate(lang, 'solution.follows'))}")
+        points = typst_literal(format_amount(row.points, lang))
+        rows.append(f"[#{points}], [{' #linebreak() '.join(lines)}]")
+    if not rows:
+        return ""
+    title = typst_literal(translate(lang, "solution.scheme"))
+    return f"#mark-scheme({title}, {', '.join(rows)})"
 
 
 def _typeset_reasons(part: PartSolution, lang: str) -> str:

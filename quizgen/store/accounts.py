@@ -163,6 +163,12 @@ class Accounts:
         with self.database.writing() as connection:
             connection.execute(delete(SESSION).where(SESSION.c.hash == _hash_token(token)))
 
+    def end_other_sessions(self, learner: int, token: str) -> None:
+        """Delete all sessions of a learner but the one of a token."""
+        others = (SESSION.c.learner == learner, SESSION.c.hash != _hash_token(token))
+        with self.database.writing(learner) as connection:
+            connection.execute(delete(SESSION).where(*others))
+
     def signed_in(self, token: str) -> Learner | None:
         """Return the learner whose session a token is of; None if there is none."""
         query = _select_people(LEARNER.c.settings, ACCOUNT.c.manages).join(SESSION)

@@ -31,6 +31,7 @@ from quizgen.web import (
     practice,
     progress,
     questions,
+    task_pictures,
     tradeoff,
 )
 from quizgen.web.auth import AuthMiddleware
@@ -43,7 +44,8 @@ from quizgen.web.state import QuotaError, ServerState
 from quizgen.web.views import page_language_css, page_response, redirect, safe_redirect_target
 
 PAGES = (*practice.ROUTES, *exam.ROUTES, *progress.ROUTES, *formula_sheet.ROUTES, *camera.ROUTES,
-         *error_cards.ROUTES, *tradeoff.ROUTES, *questions.ROUTES)  # fmt: skip
+         *error_cards.ROUTES, *tradeoff.ROUTES, *questions.ROUTES,
+         *task_pictures.ROUTES)  # fmt: skip
 
 
 def create_app(settings: ServerSettings) -> Starlette:
@@ -98,12 +100,20 @@ def _build_routes(settings: ServerSettings) -> list[BaseRoute]:
         *(author.ROUTES if settings.examine else ()),
         *(_load_classroom_routes() if settings.classroom else ()),
         *(accounts.ROUTES if settings.accounts else ()),
+        *(_load_phone_routes() if settings.phone else ()),
         Route("/settings", set_language, methods=["POST"]),
         Route("/static/languages.css", serve_language_css),
         Mount("/static/fonts", StaticFiles(directory=WEB)),
         Mount("/static/board", StaticFiles(directory=str(files("quizgen.render") / "board"))),
         Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
     ]
+
+
+def _load_phone_routes() -> list[Route]:
+    """Return the pages for going on with a phone, imported only where one may come."""
+    from quizgen.web import phone
+
+    return phone.ROUTES
 
 
 def _load_classroom_routes() -> list[Route]:

@@ -48,8 +48,6 @@ class AuthMiddleware:
 
     def __init__(self, app: ASGIApp, site: ServerState) -> None:
         self.app, self.site = app, site
-        self._let_in: set[str] = set()
-        """Tokens that the database has said to be good, so that not each request asks it."""
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request that is not admitted, or pass it to the application."""
@@ -90,12 +88,12 @@ class AuthMiddleware:
             return await self._begin_keyed_session(scope)
         token = _read_session_cookie(scope)
         learner = await self._find_learner()
-        if token not in self._let_in:
+        if token not in self.site.admitted:
             if not token or not await run_in_threadpool(
                 store.accounts.is_session, token, learner.id
             ):
                 return plain_error("entrance", 403)
-            self._let_in.add(token)
+            self.site.admitted.add(token)
         scope.setdefault("state", {}).update(learner=learner, token=token)
         return None
 
@@ -112,7 +110,7 @@ class AuthMiddleware:
             return plain_error("entrance", 403)
         learner = await self._find_learner()
         token = await run_in_threadpool(store.accounts.start_session, learner.id)
-        self._let_in.add(token)
+        self.site.admitted.add(token)
         scope.setdefault("state", {})
         return set_session_cookie(scope, RedirectResponse("/", 303), token)
 

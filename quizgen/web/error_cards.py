@@ -22,7 +22,7 @@ from quizgen.paper.answer_key import make_key_question
 from quizgen.paper.grading import QuestionGrader
 from quizgen.paper.paper import PaperItem, rebuild_paper
 from quizgen.practice.input_fields import join_fields
-from quizgen.practice.session_state import PartState
+from quizgen.practice.scheduler import NAMED
 from quizgen.question.compose import compose_variant, draw_instance
 from quizgen.store import AttemptRecord, ExamRecord, QuestionRef
 from quizgen.web.question_attempt import PartProgress
@@ -42,15 +42,16 @@ SAT = 5
 
 @dataclass(frozen=True)
 class ErrorCardsJob:
-    """Builds flashcards of mistakes, the latest first."""
+    """Builds flashcards of mistakes, the latest first; ``named`` keeps those with a name alone."""
 
     lang: str
     sat: tuple[FinishedExam, ...]
     practised: tuple[PracticedQuestion, ...] = ()
+    named: bool = False
 
     def run(self, bank: Bank) -> bytes:
         """Return an Anki package; empty bytes if there is nothing to learn."""
-        return pack_error_cards(bank, self.lang, self.sat, self.practised)
+        return pack_error_cards(bank, self.lang, self.sat, self.practised, named=self.named)
 
 
 async def download_exam_cards(request: Request) -> Response:
@@ -75,9 +76,8 @@ async def download_all_cards(request: Request) -> Response:
         handed = [one for one in site.store.sittings.latest(learner) if one.handed is not None]
         sat = tuple(_read_exam_answers(site, one) for one in handed[:SAT])
         latest = site.store.latest(learner, LOOKED_AT)
-        return ErrorCardsJob(
-            request_language(request), sat, tuple(_iter_wrong_attempts(latest))[:PRACTISED]
-        )
+        practised = tuple(_iter_wrong_attempts(latest))[:PRACTISED]
+        return ErrorCardsJob(request_language(request), sat, practised, named=True)
 
     return await _send_cards(request, await run_in_threadpool(collect_mistakes))
 
@@ -89,24 +89,17 @@ def _read_exam_answers(site: ServerState, exam: ExamRecord) -> FinishedExam:
 
 
 def _iter_wrong_attempts(attempts: Iterable[AttemptRecord]) -> Iterator[PracticedQuestion]:
-    """Yield questions with a mistake that no later attempt had; the latest come first."""
+    """Yield each mistake with a name that no later attempt had; the latest come first."""
     known: set[tuple[str, str, str]] = set()
     for attempt in attempts:
         kept = convert(attempt.state.get("parts", {}), dict[str, PartProgress])
-        parts = tuple(_make_card_part(name, one.state) for name, one in kept.items())
-        wrong = {
-            (attempt.template, part.id, kept[part.id].state.note) for part in parts if part.wrong
-        }
-        if wrong - known:
-            known |= wrong
-            yield PracticedQuestion(attempt.which, parts)
-
-
-def _make_card_part(name: str, state: PartState) -> PracticedPart:
-    """Return the answer of a part: the wrong one, or the last before it was given up."""
-    outcome = state.outcome
-    given_up = outcome is not None and not (outcome.right or outcome.skipped)
-    return PracticedPart(name, state.wrong or state.typed, bool(state.wrong) or given_up)
+        right = {name: PracticedPart(name, one.state.typed, False) for name, one in kept.items()}
+        for name, one in kept.items():
+            for note, typed in one.state.mistakes.items():
+                if (attempt.template, name, note) not in known:
+                    known.add((attempt.template, name, note))
+                    parts = right | {name: PracticedPart(name, typed, True)}
+                    yield PracticedQuestion(attempt.which, tuple(parts.values()))
 
 
 async def _send_cards(request: Request, job: ErrorCardsJob) -> Response:
@@ -150,7 +143,12 @@ class FinishedExam(msgspec.Struct, frozen=True):
 
 
 def pack_error_cards(
-    bank: Bank, lang: str, sat: tuple[FinishedExam, ...], practised: tuple[PracticedQuestion, ...]
+    bank: Bank,
+    lang: str,
+    sat: tuple[FinishedExam, ...],
+    practised: tuple[PracticedQuestion, ...],
+    *,
+    named: bool = False,
 ) -> bytes:
     """Return cards of what went wrong, as a package for Anki; nothing if nothing did.
 
@@ -162,6 +160,8 @@ def pack_error_cards(
         The latest first: of a mistake that was made twice, the first one counts.
     practised : tuple of PracticedQuestion
         Likewise.
+    named : bool
+        Whether only mistakes with a name count: not what was left blank or is wrong without one.
     """
     from quizgen.cards.apkg import write_apkg  # here, because the server itself makes no cards
     from quizgen.cards.error_deck import deck_from_missed
@@ -172,6 +172,7 @@ def pack_error_cards(
     for one in every:
         with contextlib.suppress(QuizgenError):  # of a bank that has changed since
             found += _iter_missed_parts(bank, one, lang)
+    found = [one for one in found if not named or one.part.note.startswith(NAMED)]
     deck = deck_from_missed(found, lang, bank=bank)
     return write_apkg(deck) if deck.notes else b""
 

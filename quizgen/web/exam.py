@@ -19,15 +19,22 @@ from starlette.routing import Route
 from quizgen.bank.rules import suggested_minutes
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import BlueprintError, PaperCodeError, QuizgenError
-from quizgen.paper.blueprint import EVERYTHING, find_blueprint
+from quizgen.paper.blueprint import EVERYTHING, TRIAL, find_blueprint
 from quizgen.paper.code import LARGEST_SEED, parse_code
 from quizgen.practice.input_fields import is_complete
 from quizgen.store import ExamRecord
 from quizgen.store.exam_attempts import GRACE, ExamStore
 from quizgen.web.exam_results import ExamResults, grade_exam, outcome_records, review_events
-from quizgen.web.forms import field_text, field_texts, read_answer, read_form
+from quizgen.web.forms import (
+    field_text,
+    field_texts,
+    read_answer,
+    read_form,
+    read_ticked_criteria,
+)
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.papers import MakePaper
+from quizgen.web.question_attempt import share_of_part
 from quizgen.web.question_view import PaperView, PartView, QuestionView
 from quizgen.web.state import ServerState
 from quizgen.web.tonight import progress_of
@@ -85,9 +92,10 @@ async def list_exams(request: Request) -> Response:
 
 
 def _list_exam_choices(request: Request) -> list[ExamChoice]:
-    """Return the bank's blueprints, then its topics."""
+    """Return the bank's blueprints, the trial exam first, then its topics."""
     bank = request.app.state.site.bank
-    names = (*bank.blueprints, EVERYTHING, *bank.topics)
+    blueprints = sorted(bank.blueprints, key=lambda name: name != TRIAL)
+    names = (*blueprints, EVERYTHING, *bank.topics)
     return [found for name in names if (found := _find_exam_choice(request, name)) is not None]
 
 
@@ -297,6 +305,7 @@ async def submit_exam(request: Request) -> Response:
     now = request.app.state.site.store.clock.now()
     return page_response(request, "hand_in.html.j2", sitting=sitting, paper=paper, now=now,
                 blank=_list_unfinished_questions(paper, answers),
+                unread=await _list_unread_parts(request, paper, answers),
                 flagged=[one for one in paper.items if one.wanted.number in flags])  # fmt: skip
 
 
@@ -309,6 +318,20 @@ def _list_unfinished_questions(
         for item in paper.items
     ]
     return [(item, parts) for item, parts in found if parts]
+
+
+async def _list_unread_parts(
+    request: Request, paper: PaperView, answers: Mapping[str, list[str]]
+) -> list[tuple[QuestionView, PartView]]:
+    """Return the parts whose answer cannot be read as one; they would get no points."""
+    site: ServerState = request.app.state.site
+    results = await grade_exam(site.workers, paper, answers, {}, request.state.learner.id)
+    return [
+        (question.made, one.part)
+        for question in results.questions
+        for one in question.parts
+        if one.result.status in {"unreadable", "ambiguous"} and _is_answered(one.part, answers)
+    ]
 
 
 def _is_answered(part: PartView, answers: Mapping[str, list[str]]) -> bool:
@@ -380,11 +403,15 @@ async def save_self_mark(request: Request) -> Response:
     sitting = await _get_sitting(request)
     part, _ = _get_part(await _make_paper(request, sitting), request.path_params["part"])
     shares = {"all": 1.0, "half": 0.5, "none": 0.0}
-    share = shares.get(field_text(form, "share"))
+    marks = read_ticked_criteria(form, part.field.id)
+    share = (
+        float(share_of_part(part, marks)) if part.scheme else shares.get(field_text(form, "share"))
+    )
     if share is None or sitting.handed is None:
         raise HTTPException(400)
     store = request.app.state.site.store.sittings
-    await run_in_threadpool(store.save_self_mark, sitting, part.field.id, share)
+    ticked = {name: float(of) for name, of in marks.items() if name in part.criteria}
+    await run_in_threadpool(store.save_self_mark, sitting, part.field.id, share, ticked)
     return redirect(f"/exam/{sitting.id}#part-{part.field.id}")
 
 

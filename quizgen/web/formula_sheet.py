@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import msgspec
@@ -12,6 +13,7 @@ from starlette.routing import Route
 
 from quizgen import typeset
 from quizgen.bank.bank import Bank
+from quizgen.bank.formulas import MovingName, read_formulas
 from quizgen.core.decoding import decode_json
 from quizgen.locale import translate
 from quizgen.question.formula_sheet import NOTES, FormulaSheet, SheetFormula, compose_sheet
@@ -19,6 +21,7 @@ from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_ht
 from quizgen.question.inlines import TypesetMaths
 from quizgen.render import render_sheet
 from quizgen.render.sheet_html import sheet_css
+from quizgen.web.moving import MovingView, view_formula_figure
 from quizgen.web.question_view import Html
 from quizgen.web.state import ServerState
 from quizgen.web.views import page_response, request_language
@@ -30,6 +33,7 @@ class FormulaView(msgspec.Struct, frozen=True):
     id: str
     title: Html
     sketch: Html
+    moving: MovingView | None
     lines: list[Html]
     units: Html
     notes: list[tuple[str, Html]]
@@ -62,7 +66,8 @@ class SheetPageJob:
 
     def run(self, bank: Bank) -> bytes:
         """Return the sheet as JSON of HTML pieces."""
-        return msgspec.json.encode(_build_sheet(compose_sheet(bank, self.lang)))
+        moves = {entry.id: entry.moves for entry in read_formulas(bank)}
+        return msgspec.json.encode(_build_sheet(compose_sheet(bank, self.lang), moves))
 
 
 @dataclass(frozen=True)
@@ -76,27 +81,28 @@ class SheetFileJob:
         return render_sheet(compose_sheet(bank, self.lang), "pdf")
 
 
-def _build_sheet(one: FormulaSheet) -> SheetView:
+def _build_sheet(one: FormulaSheet, moves: Mapping[str, MovingName | None]) -> SheetView:
     """Return the sheet in its first language as HTML pieces."""
     lang = one.langs[0]
     groups = [
         FormulaTopicView(
             group.topic,
             group.titles[lang],
-            [_build_sheet_formula(line, lang) for line in group.lines],
+            [_build_sheet_formula(line, moves[line.id], lang) for line in group.lines],
         )
         for group in one.groups
     ]
     return SheetView(one.titles[lang], groups)
 
 
-def _build_sheet_formula(line: SheetFormula, lang: str) -> FormulaView:
+def _build_sheet_formula(line: SheetFormula, moves: MovingName | None, lang: str) -> FormulaView:
     """Return one formula of the sheet as HTML."""
     said = line.said[0]
     return FormulaView(
         line.id,
         str(inlines_to_html(said.title, lang)),
         line.figures[0].inline_svg.decode() if line.figures else "",
+        view_formula_figure(line.id, moves, lang) if moves else None,
         [_render_spoken_line(maths, lang) for maths in line.lines],
         str(inlines_to_html(line.units, lang)),
         [

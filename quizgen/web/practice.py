@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import time
+from dataclasses import dataclass
+from datetime import timedelta
 from typing import Any
 
 from starlette.background import BackgroundTask
@@ -12,34 +15,98 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
 from starlette.routing import Route
 
+from quizgen.bank.formulas import templates_by_formula
 from quizgen.bank.levels import GUIDED
+from quizgen.bank.rules import suggested_minutes
+from quizgen.practice.scheduler import local_date
 from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
 from quizgen.store import AttemptRecord, QuestionRef
-from quizgen.web.forms import field_text, read_answer, read_form
+from quizgen.web.block import begin_block, find_block
+from quizgen.web.forms import field_text, read_answer, read_form, read_ticked_criteria
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.question_attempt import AttemptInBrowser, AttemptPart
-from quizgen.web.question_view import QuestionRequest, QuestionView
+from quizgen.web.question_view import MarkedFigureJob, QuestionRequest, QuestionView
 from quizgen.web.state import ServerState
-from quizgen.web.tonight import MINUTES, look_at_tonight, progress_of
+from quizgen.web.tonight import MINUTES, count_days, look_at_tonight, progress_of
 from quizgen.web.views import page_response, redirect, request_language, translate_page
 
+MOST_DAYS = 400
+"""Days ahead in which an exam may be."""
 PLACED = "a-"
 """Before the name of a part whose field stands inside a text."""
+
+
+@dataclass(frozen=True)
+class WeakAttempt:
+    """A question of a block that did not go well.
+
+    Parameters
+    ----------
+    attempt, title : str
+    message : str
+        The mistake in words, if it has a name.
+    minutes : int
+    """
+
+    attempt: str
+    title: str
+    message: str
+    minutes: int
 
 
 async def show_practice(request: Request) -> Response:
     """Return the start page: where one stands, what to do now, and topics to choose from."""
     site: ServerState = request.app.state.site
-    lang = request_language(request)
-    topics = [(name, site.bank.topic_title(name, lang)) for name in site.bank.topics]
     latest = await run_in_threadpool(site.store.latest, request.state.learner.id, 1)
     going_on = latest[0] if latest and latest[0].ended is None else None
     tonight = await run_in_threadpool(look_at_tonight, request)
     return page_response(
-        request, "home.html.j2", topics=topics, going_on=going_on, tonight=tonight,
-        lengths=MINUTES, exam_set=progress_of(request).exam is not None,
+        request, "home.html.j2", going_on=going_on, tonight=tonight, lengths=MINUTES,
+        days_in_a_row=await run_in_threadpool(count_days, request), phone=site.settings.phone,
     )  # fmt: skip
+
+
+async def start_evening(request: Request) -> Response:
+    """Store when the exam is and how long there is now, and start the first block."""
+    form = await read_form(request)
+    days, minutes = field_text(form, "days"), field_text(form, "minutes")
+    chosen = {"minutes": minutes} if minutes in map(str, MINUTES) else {}
+    if days.isdecimal() and int(days) <= MOST_DAYS:
+        chosen["exam"] = str(local_date(time.time()) + timedelta(days=int(days)))
+    site: ServerState = request.app.state.site
+    await run_in_threadpool(site.store.update_settings, request.state.learner.id, chosen)
+    request.state.learner.settings.update(chosen)
+    return await _open_next_question(request, await run_in_threadpool(_plan_block, request))
+
+
+def _plan_block(request: Request) -> dict[str, Any]:
+    """Return the wish of a block of questions that fills the learner's minutes."""
+    tonight = look_at_tonight(request)
+    return begin_block(tonight.count, tonight.expected) if tonight else {}
+
+
+async def show_block_end(request: Request) -> Response:
+    """Return the page at the end of a block: what it brought, and its mistakes to try again."""
+    attempt = await _get_attempt(request)
+    store, learner = progress_of(request).store, request.state.learner.id
+    block = await run_in_threadpool(find_block, store, learner, attempt.wish)
+    tonight = await run_in_threadpool(look_at_tonight, request)
+    if block is None or tonight is None:
+        return redirect("/")
+    weak = [await _describe_weak_attempt(request, one) for one in block.weak_attempts()]
+    return page_response(request, "block.html.j2", block=block, tonight=tonight, weak=weak)
+
+
+async def _describe_weak_attempt(request: Request, attempt: AttemptRecord) -> WeakAttempt:
+    """Return the title of a question that did not go well, and its first named mistake."""
+    decimal = progress_of(request).decimal
+    site: ServerState = request.app.state.site
+    made = await _make_question(request, attempt)
+    question = AttemptInBrowser(made, attempt, decimal)
+    wrong = [place.task.explain_wrong() for place in question.places if not place.is_right]
+    minutes = max(1, round(suggested_minutes(site.bank.rules(attempt.template))))
+    return WeakAttempt(attempt.id, made.title, next(filter(None, wrong), ""), minutes)
 
 
 async def set_minutes(request: Request) -> Response:
@@ -56,16 +123,22 @@ async def set_minutes(request: Request) -> Response:
 async def start_question(request: Request) -> Response:
     """Choose a question by topic, template or an exam to repair, and redirect to it."""
     form = await read_form(request)
-    wish = {name: field_text(form, name) for name in ("topic", "tier", "repair")}
+    named = {name: field_text(form, name) for name in ("topic", "formula", "repair")}
+    wish: dict[str, Any] = {name: value for name, value in named.items() if value}
     template = field_text(form, "template")
     site: ServerState = request.app.state.site
     if template in site.bank.template_paths:
         seed = await run_in_threadpool(progress_of(request).seed_of_next)
         return await _begin_attempt(request, QuestionRef(template, seed), wish)
+    if not wish:
+        wish = await run_in_threadpool(_plan_block, request)
+    elif "repair" in wish:
+        repairs = await run_in_threadpool(progress_of(request).list_repairs, wish["repair"])
+        wish |= begin_block(max(1, len(repairs)), None)
     return await _open_next_question(request, wish)
 
 
-async def _open_next_question(request: Request, wish: dict[str, str]) -> Response:
+async def _open_next_question(request: Request, wish: dict[str, Any]) -> Response:
     """Start the next question for a request; return a page if none fits."""
     which = await _find_next_question(request, wish)
     if which is None:
@@ -75,7 +148,7 @@ async def _open_next_question(request: Request, wish: dict[str, str]) -> Respons
     return await _begin_attempt(request, which, wish)
 
 
-async def _find_next_question(request: Request, wish: dict[str, str]) -> QuestionRef | None:
+async def _find_next_question(request: Request, wish: dict[str, Any]) -> QuestionRef | None:
     """Return the next question for a request; None if none fits."""
     site: ServerState = request.app.state.site
     names = matching_templates(
@@ -83,9 +156,11 @@ async def _find_next_question(request: Request, wish: dict[str, str]) -> Questio
         PracticeRequest(
             request_language(request),
             topic=wish.get("topic") or None,
-            tier=wish.get("tier") or None,
         ),
     )
+    if wish.get("formula"):
+        about = templates_by_formula(site.bank).get(wish["formula"], ())
+        names = tuple(name for name in names if name in about)
     learning, sitting = progress_of(request), wish.get("repair")
     if names and sitting:
         repairs = await run_in_threadpool(learning.list_repairs, sitting)
@@ -145,15 +220,40 @@ async def show_question(request: Request) -> Response:
     """Return the page of a question with the learner's progress in it."""
     question = await _get_question_attempt(request)
     said = question.find_part(request.query_params.get("said", ""))
+    group = question.choose_group(said.name if said else request.query_params.get("part", ""))
+    block = await run_in_threadpool(
+        find_block, progress_of(request).store, request.state.learner.id, question.attempt.wish
+    )
     shown = page_response(
         request,
         "question.html.j2",
         turn=question,
         made=question.made,
-        said_last=question.find_group(said) if said else [],
+        group=group,
+        figure=await _choose_figure(request, question, group),
+        block=block,
+        said_last=group if said else [],
     )
     shown.background = BackgroundTask(_prepare_likely_next, request, question.attempt)
     return shown
+
+
+async def _choose_figure(
+    request: Request, question: AttemptInBrowser, group: list[AttemptPart]
+) -> str:
+    """Return the figure to show as SVG.
+
+    It is the one with the solution once every part has ended; a wrong value of the part that was
+    answered is drawn into it, where the figure can show such a value.
+    """
+    made, site = question.made, request.app.state.site
+    plain = made.solved_figure or made.figure if question.is_finished else made.figure
+    own = {name: one for place in group for name, one in place.task.own_values().items()}
+    if not plain or not own:
+        return plain
+    job = MarkedFigureJob(made.wanted, tuple(own.items()), quiz=not question.is_finished)
+    marked: bytes = await site.workers.get_result(job, request.state.learner.id)
+    return marked.decode() or plain
 
 
 async def _prepare_likely_next(request: Request, attempt: AttemptRecord) -> None:
@@ -194,6 +294,9 @@ async def submit_answer(request: Request) -> Response:
         group, (action, _, named) = question.find_group(part), field_text(form, "do").partition(":")
         for place in group:
             values, checks = _read_part(form, place.name), action in {"", "answer"}
+            if action == "marks" and place.name == (named or part.name) and place.to_judge:
+                place.give_marks(read_ticked_criteria(form, place.name))
+                continue
             if len(group) > 1 and (place.is_finished or (checks and place.has_checked(values))):
                 continue  # one button checks all: what has been checked costs no further try
             if checks or place.name == (named or part.name):
@@ -237,7 +340,7 @@ def _perform_action(
         part.task.next_hint()
         part.progress.values = values
     elif action in {"right", "wrong"} and part.to_judge:
-        part.task.self_mark(right=action == "right")
+        part.task.self_mark(float(action == "right"))
     elif action == "solution" and not part.is_finished:
         part.task.give_up()
         part.progress.values = values
@@ -288,12 +391,19 @@ async def next_question(request: Request) -> Response:
     """Start the next question for the same request, and redirect to it."""
     await read_form(request)
     attempt = await _get_attempt(request)
+    block = await run_in_threadpool(
+        find_block, progress_of(request).store, request.state.learner.id, attempt.wish
+    )
+    if block is not None and block.is_over:
+        return redirect(f"/block/{attempt.id}")
     return await _open_next_question(request, attempt.wish)
 
 
 ROUTES = [
     Route("/", show_practice),
+    Route("/start", start_evening, methods=["POST"]),
     Route("/tonight", set_minutes, methods=["POST"]),
+    Route("/block/{attempt}", show_block_end),
     Route("/practice", start_question, methods=["POST"]),
     Route("/q/{attempt}", show_question),
     Route("/q/{attempt}/again", repeat_question, methods=["POST"]),

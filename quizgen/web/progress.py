@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import date
 
@@ -62,7 +61,6 @@ class MistakeRow:
     """A mistake in words, and the template in which it was made."""
 
     card: ReviewCard
-    due: float
     template: str
     title: str
     told: Html
@@ -82,7 +80,6 @@ def _render_progress_page(request: Request, status: int = 200, problem: str = ""
         request,
         "progress.html.j2",
         status,
-        begun=bool(agenda.cards),
         exam=learning.exam or "",
         problem=problem,
         came=came if came.isdecimal() else "",
@@ -94,7 +91,6 @@ def _render_progress_page(request: Request, status: int = 200, problem: str = ""
             if (told := _describe_mistake(agenda, card, lang))
         ],
         when=relative_time(agenda.now, lang),
-        lasting=_make_duration_formatter(lang),
     )
 
 
@@ -137,7 +133,7 @@ def _describe_mistake(agenda: Agenda, card: ReviewCard, lang: str) -> MistakeRow
     if told is None:
         return None
     words = inlines_to_html(fill_inlines(told, _replace_formula_by_blank, str), found)
-    return MistakeRow(card, agenda.due(card), name, text.title, words)
+    return MistakeRow(card, name, text.title, words)
 
 
 def _replace_formula_by_blank(part: Unfilled) -> tuple[Inline, ...]:
@@ -150,23 +146,6 @@ def _replace_formula_by_blank(part: Unfilled) -> tuple[Inline, ...]:
         blanks = dict.fromkeys(names, LeafValue(Phrase(BLANK)))
         return (typeset_layout(fill_leaves(part.node, blanks)),)
     return typeset_slot(part) if isinstance(part, InlineFormula) else (PlainText(BLANK),)
-
-
-def _make_duration_formatter(lang: str) -> Callable[[float | None], str]:
-    """Return a function that says a number of days in words."""
-
-    def lasting(days: float | None) -> str:
-        """Return a number of days in words; empty for None."""
-        if days is None:
-            return ""
-        whole = round(days)
-        if whole < 1:
-            return translate_page(lang, "progress.below_day")
-        return translate_page(
-            lang, "progress.one_day" if whole == 1 else "progress.days", count=whole
-        )
-
-    return lasting
 
 
 async def set_exam(request: Request) -> Response:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
+from fractions import Fraction
 
 import msgspec
 
@@ -10,6 +12,7 @@ from quizgen.core.decoding import convert
 from quizgen.grading.offered_readings import OfferedReading, list_offered_readings
 from quizgen.grading.options import DECIMALS, GradingOptions
 from quizgen.grading.verdict import Verdict, unreadable
+from quizgen.kinds.rubric import share_of_marks
 from quizgen.paper.answer_key import KeyPart
 from quizgen.paper.grading import QuestionGrader
 from quizgen.practice.input_fields import is_complete, join_fields
@@ -22,6 +25,15 @@ from quizgen.web.read_errors import ReadErrorView, explain_read_error
 
 HALF = unreadable("values-missing")
 """Said where some fields are empty."""
+BLANK = " "
+"""Stands for an answer of which nothing was filled in."""
+LADDER = ("nudge", "formula", "step", "solution")
+"""Kinds of help, in the order in which a learner climbs them."""
+RUNGS = {"quantity": "nudge", "why": "nudge", "formula": "formula", "numbers": "step",
+         "result": "step"}  # fmt: skip
+"""Kind of a hint to its rung."""
+HINTS_FIRST = 2
+"""Hints after which the solution is offered to somebody who has not tried."""
 
 
 class PartProgress(msgspec.Struct):
@@ -55,6 +67,35 @@ class AttemptPart:
     def is_finished(self) -> bool:
         """Whether the part is answered, given up or skipped."""
         return self.task.outcome is not None
+
+    @property
+    def is_right(self) -> bool:
+        """Whether the part ended well."""
+        return self.task.outcome is not None and self.task.outcome.right
+
+    @property
+    def rungs(self) -> list[str]:
+        """Return the kinds of help there are, from a nudge to the whole solution."""
+        there = {RUNGS[hint.kind] for line in self.part.lines for hint in line.hints}
+        return [rung for rung in LADDER if rung in there or rung == LADDER[-1]]
+
+    @property
+    def height(self) -> int:
+        """Return how many rungs of the ladder have been climbed."""
+        climbed = [self.rungs.index(RUNGS[hint.kind]) for hint in self.task.hints]
+        return max(climbed, default=-1) + 1
+
+    @property
+    def next_rung(self) -> str:
+        """Return what kind of help comes next; the solution after all hints."""
+        hints = [hint for line in self.part.lines for hint in line.hints]
+        return RUNGS[hints[self.task.state.hints].kind] if self.task.more_hints else LADDER[-1]
+
+    @property
+    def may_show(self) -> bool:
+        """Whether the solution is offered: after a try or two hints, or where there is no hint."""
+        state = self.task.state
+        return bool(state.tries) or state.hints >= HINTS_FIRST or not self.task.more_hints
 
     @property
     def is_placed(self) -> bool:
@@ -97,6 +138,22 @@ class AttemptPart:
     def to_judge(self) -> bool:
         """Whether the learner must grade the own answer."""
         return not self.is_finished and self.verdict is not None and self.verdict.needs_self_marking
+
+    @property
+    def gave(self) -> float | None:
+        """The points that the learner gave to an own sentence; None where there is none."""
+        judged = self.part.scheme and self.is_finished and self.verdict is not None
+        return self.task.state.credit * self.part.points if judged else None
+
+    def give_marks(self, marks: Mapping[str, Fraction]) -> None:
+        """End the part with the points of the criteria that the learner ticked."""
+        self.task.self_mark(float(share_of_part(self.part, marks)))
+
+
+def share_of_part(part: PartView, marks: Mapping[str, Fraction]) -> Fraction:
+    """Return the share of a part's points that ticked criteria earn."""
+    points = {row.name: Fraction(str(row.points)) for row in part.scheme}
+    return share_of_marks(marks, points, Fraction(str(part.points)))
 
 
 class AttemptInBrowser:
@@ -152,22 +209,36 @@ class AttemptInBrowser:
         """Return the parts whose fields are sent together with those of a part."""
         return next(group for group in self.groups if part in group)
 
+    def choose_group(self, name: str) -> list[AttemptPart]:
+        """Return the parts to show: those of a part, else the first that are open."""
+        named = self.find_part(name)
+        if named is not None:
+            return self.find_group(named)
+        return next((group for group in self.groups if not _has_ended(group)), self.groups[-1])
+
+    def next_open(self, group: list[AttemptPart]) -> AttemptPart | None:
+        """Return the first of the parts after a group that are open, or before it; else None."""
+        at = self.groups.index(group)
+        following = [*self.groups[at + 1 :], *self.groups[:at]]
+        return next((one[0] for one in following if not _has_ended(one)), None)
+
     @property
     def is_finished(self) -> bool:
         """Whether every part has ended."""
-        return all(place.is_finished for place in self.places)
+        return _has_ended(self.places)
 
     def answer(self, place: AttemptPart, values: list[str]) -> None:
-        """Grade the fields of a part; nothing happens if they are blank or it has ended.
+        """Grade the fields of a part; nothing happens if it has ended.
 
-        A field that was left out costs no try: Enter sends all of them from any of them.
+        A field that was left out costs no try: Enter sends all of them from any of them. Where all
+        are blank that is said, unless they were sent along with those of another part.
         """
         typed = join_fields(place.part.field.control, values, place.part.field.marks)
         place.progress.values = values
-        if not typed or place.is_finished:
+        if place.is_finished or (not typed and len(self.find_group(place)) > 1):
             return
         if not _is_fully_filled(place.part, values):
-            place.verdict, place.progress.asked_back = HALF, typed
+            place.verdict, place.progress.asked_back = HALF, typed or BLANK
             return
         feedback = place.task.answer(typed)
         place.verdict = feedback.verdict
@@ -193,6 +264,11 @@ class AttemptInBrowser:
     def _build_review_event(self, place: AttemptPart) -> OutcomeRecord:
         """Return the outcome of a part, for progress."""
         return outcome_record(self.attempt, self.made.topic, place.part.label, place.task.state)
+
+
+def _has_ended(group: list[AttemptPart]) -> bool:
+    """Return whether all of some parts have ended."""
+    return all(place.is_finished for place in group)
 
 
 def _is_fully_filled(part: PartView, values: list[str]) -> bool:

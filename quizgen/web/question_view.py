@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Protocol
 
 import msgspec
@@ -32,12 +33,19 @@ from quizgen.question.compose import (
     compose_variant,
     draw_instance,
 )
+from quizgen.question.figure import draw_marked_figure
 from quizgen.question.formula_sheet import cite_formula
 from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
 from quizgen.question.inlines import name_inline
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import effective_level
-from quizgen.question.solution import PartSolution, SolutionHint, SolvedMisconception
+from quizgen.question.solution import (
+    PartSolution,
+    SolutionHint,
+    SolvedMisconception,
+    scheme_examples,
+)
+from quizgen.web.moving import MovingView, find_moving_figure
 
 _MATHS = re.compile("</?math[^>]*>")
 
@@ -87,6 +95,18 @@ class StepView(msgspec.Struct, frozen=True):
     hints: list[HintView] = []
 
 
+class SchemeView(msgspec.Struct, frozen=True):
+    """A criterion that an own sentence is marked by, as HTML."""
+
+    name: str
+    points: float
+    idea: Html
+    examples: list[tuple[str, list[str]]]
+    """What stands before a list of examples (a key of ``solution``), and the examples."""
+    follows: bool
+    halves: bool
+
+
 class PartView(msgspec.Struct, frozen=True):
     """A part with its worked solution, as HTML."""
 
@@ -102,6 +122,12 @@ class PartView(msgspec.Struct, frozen=True):
     why: Html
     reasons: list[tuple[Html, Html]]
     mistakes: list[tuple[Html, Html]]
+    scheme: list[SchemeView]
+
+    @property
+    def criteria(self) -> frozenset[str]:
+        """Return the names of the criteria that an own sentence is marked by."""
+        return frozenset(row.name for row in self.scheme)
 
 
 class QuestionRequest(msgspec.Struct, frozen=True):
@@ -133,6 +159,8 @@ class QuestionView(msgspec.Struct, frozen=True):
     """Whether its steps can be asked one after another instead."""
     bank: str = ""
     """The bank that it stands in, with version and digest, where that is said of each question."""
+    moving: MovingView | None = None
+    """The figure that moves: to be shown once no part of the question is open."""
 
 
 class PaperView(msgspec.Struct, frozen=True):
@@ -157,6 +185,31 @@ class WorkerJob(Protocol):
         ...
 
     def __hash__(self) -> int: ...
+
+
+@dataclass(frozen=True)
+class MarkedFigureJob:
+    """Draws the figure of a question with a learner's values in it; empty if it shows none.
+
+    Parameters
+    ----------
+    wanted : QuestionRequest
+    values : tuple of (str, (float, float))
+        Quantity, what the learner gave, and how many base units its unit has.
+    quiz : bool
+        Whether what is asked for stays hidden.
+    """
+
+    wanted: QuestionRequest
+    values: tuple[tuple[str, tuple[float, float]], ...]
+    quiz: bool
+
+    def run(self, bank: Bank) -> bytes:
+        """Return the figure as SVG for a page."""
+        drawn = draw_instance(bank.template(self.wanted.template), self.wanted.seed)
+        given = dict(self.values)
+        figure = draw_marked_figure(drawn, self.wanted.lang, given, quiz=self.quiz)
+        return figure.inline_svg if figure else b""
 
 
 def run_request(bank: Bank, wanted: QuestionRequest | WorkerJob) -> bytes:
@@ -266,6 +319,7 @@ def question_view(
         key=make_key_question(PaperItem(wanted.number, (question,), (key,))),
         guided=steps,
         bank=str(*record_banks(bank, [wanted.template])) if bank else "",
+        moving=find_moving_figure(bank, wanted.template, key.draw, lang) if bank else None,
     )
 
 
@@ -320,6 +374,17 @@ def _render_part(
         _render_inline(solved.why, lang),
         _render_mistakes(solved.reasons, lang),
         _render_mistakes(solved.mistakes, lang),
+        [
+            SchemeView(
+                row.name,
+                float(row.points),
+                _render_inline(row.idea, lang),
+                [(name, [*examples]) for name, examples in scheme_examples(row)],
+                row.follows,
+                row.halves,
+            )
+            for row in solved.scheme
+        ],
     )
 
 

@@ -32,8 +32,7 @@ _NAME = re.compile(r"(\[[0-9a-f:.]+\]|[^\[\]:@]+)(:[0-9]+)?")
 """A name or a number, and a port."""
 
 HEADERS = {
-    "content-security-policy": "default-src 'none'; script-src 'self'; "
-    "style-src 'self' 'unsafe-inline'; "  # figures have styles in their elements
+    "content-security-policy": "default-src 'none'; script-src 'self'; style-src 'self'; "
     "img-src 'self' data:; font-src 'self'; connect-src 'self'; form-action 'self'; "
     "base-uri 'none'; frame-ancestors 'none'",
     "x-content-type-options": "nosniff",

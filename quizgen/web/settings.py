@@ -15,6 +15,8 @@ from quizgen.bank.bank import Bank, builtin_bank
 
 LOCAL = ("127.0.0.1", "localhost")
 """Names under which a browser on this machine reaches a server of its own."""
+EVERYWHERE = "0.0.0.0"  # noqa: S104 - asked for by an option
+"""Where a server listens that other devices are to reach."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,8 @@ class ServerSettings:
         Processes that make questions and mark exams.
     papers_ahead : tuple of (str, int)
         Blueprints, and how many papers of each are to wait for those who begin.
+    phone : bool
+        Whether the sole learner may go on with a phone of the same network.
     classroom : pathlib.Path, optional
         Folder of a class whose examiner asks; without it there are no pages for decisions.
     examine : callable, optional
@@ -54,12 +58,15 @@ class ServerSettings:
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24), repr=False)
     workers: int = 2
     papers_ahead: tuple[tuple[str, int], ...] = ()
+    phone: bool = False
     classroom: Path | None = None
     examine: Callable[[Bank, str], list[str]] | None = None
 
     @property
     def accounts(self) -> bool:
-        """Whether people sign in: wherever others can reach the server."""
+        """Whether people sign in: wherever others can reach the server, but with a phone of one."""
+        if self.phone:
+            return False
         return self.behind_proxy or not (self.host in LOCAL or _is_loopback(self.host))
 
     def is_own_name(self, name: str) -> bool:
@@ -70,15 +77,22 @@ class ServerSettings:
         """
         if name in {*LOCAL, self.host, *self.names}:
             return True
-        return self.accounts and (name in _own_names() or _is_number(name))
+        return (self.accounts or self.phone) and (name in _own_names() or _is_number(name))
 
     def base_url(self, port: int) -> str:
         """Return the address of the server for browsers."""
         if self.behind_proxy and self.names:
             return f"https://{self.names[0]}"
+        if self.phone and not self.names:
+            return f"http://{LOCAL[0]}:{port}"
         everywhere = _is_number(self.host) and ipaddress.ip_address(self.host).is_unspecified
         name = self.names[0] if self.names else _find_network_address() if everywhere else self.host
         return f"http://[{name}]:{port}" if ":" in name else f"http://{name}:{port}"
+
+    def phone_url(self, port: int) -> str:
+        """Return the address of the server for another device of the network."""
+        name = self.names[0] if self.names else _find_network_address()
+        return f"http://{name}:{port}"
 
 
 @cache

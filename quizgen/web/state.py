@@ -6,6 +6,7 @@ import asyncio
 import html
 import logging
 import secrets
+import time
 from pathlib import Path
 from weakref import WeakValueDictionary
 
@@ -22,6 +23,9 @@ from quizgen.web.papers_ahead import PapersAhead
 from quizgen.web.passwords import PasswordLimits
 from quizgen.web.settings import ServerSettings
 
+SCAN_SECONDS = 600.0
+"""How long a code on the screen may be scanned."""
+
 
 class Keys:
     """Keys that let a browser of this machine in: the printed one, and one-time keys in files.
@@ -35,13 +39,22 @@ class Keys:
     def __init__(self, printed: str) -> None:
         self._printed = printed
         self._once: dict[str, Path] = {}
+        self._scanned: dict[str, float] = {}
 
     def is_good(self, given: str) -> bool:
         """Return whether a key lets in; a one-time key is used up by that, and its file deleted."""
+        if time.monotonic() < self._scanned.pop(given, 0.0):
+            return True
         if given in self._once:
             self._once.pop(given).unlink(missing_ok=True)
             return True
         return secrets.compare_digest(given.encode(), self._printed.encode())
+
+    def make_for_phone(self) -> str:
+        """Return a key to scan: good once, and for ``SCAN_SECONDS``; the one before it ends."""
+        key = secrets.token_urlsafe(24)
+        self._scanned = {key: time.monotonic() + SCAN_SECONDS}
+        return key
 
     def write_redirect(self, folder: Path, address: str) -> Path:
         """Write a private page that redirects to ``address`` with a one-time key; return its path.
@@ -99,6 +112,8 @@ class ServerState:
         self.workers = WorkerPool(settings)
         self.keys = Keys(settings.token)
         """Keys that let a browser of this machine in."""
+        self.admitted: set[str] = set()
+        """Tokens that the database has said to be good, so that not each request asks it."""
         self.papers = Papers(self.store, self.workers)
         self.papers_ahead = PapersAhead(settings, self.store, self.workers, self.papers)
         self.password_limits = PasswordLimits()

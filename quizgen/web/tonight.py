@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
+import time
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from datetime import timedelta
 from typing import TYPE_CHECKING
 
 from markupsafe import Markup
@@ -17,6 +18,7 @@ from quizgen.practice.scheduler import days_left, local_date
 from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
 from quizgen.store.learner import LearnerProgress
+from quizgen.web.lens_drawing import draw_aperture
 from quizgen.web.state import ServerState
 from quizgen.web.views import request_language
 
@@ -25,10 +27,12 @@ if TYPE_CHECKING:
 
 MINUTES = (15, 25, 45, 60, 90)
 """How long somebody may say to have; the second is meant where nobody has said."""
+LOOKED_AT = 300
+"""Attempts that are looked at for days in a row."""
+SAID = {"exam", "minutes"}
+"""Settings that somebody has who has been here before."""
 MOST_TASKS = 12
 """Questions of the exam that have a card of their own; of more only topics are shown."""
-BLADES, RADIUS = 7, 20.0
-"""Of the aperture that opens with what is known: its radius when wide open, of a picture of 48."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +62,35 @@ class ExamTask:
 
 
 @dataclass(frozen=True)
+class BlockEntry:
+    """Questions of one kind in the block that is proposed.
+
+    Parameters
+    ----------
+    title : str
+    count : int
+    minutes : int
+    gain : float
+        Points of the exam that they are expected to bring.
+    """
+
+    title: str
+    count: int
+    minutes: int
+    gain: float
+
+
+@dataclass(frozen=True)
+class TopicRow:
+    """A topic of the notes: how much of it is known, and how long going through it takes."""
+
+    name: str
+    title: str
+    minutes: int
+    aperture: Markup
+
+
+@dataclass(frozen=True)
 class TonightView:
     """What the start page says first.
 
@@ -67,8 +100,10 @@ class TonightView:
         Days until the exam.
     estimate : ScoreEstimate, optional
         None before there is evidence.
-    missing : int
-        Questions until there is some.
+    missing, missing_for_number : int
+        Questions until there is a range, and until there is a number.
+    worth : float
+        Points of the exam.
     minutes : int
         That the learner has.
     takes : int
@@ -80,11 +115,19 @@ class TonightView:
     exam_minutes : int
         How long it takes; 0 if it does not say.
     tasks : tuple of ExamTask
+    block : tuple of BlockEntry
+        What the proposed questions are about.
+    topics : tuple of TopicRow
+        The rest of the notes.
+    is_new : bool
+        Whether nothing was asked yet.
     """
 
     left: int | None
     estimate: ScoreEstimate | None
     missing: int
+    missing_for_number: int
+    worth: float
     minutes: int
     takes: int
     count: int
@@ -92,6 +135,14 @@ class TonightView:
     exam_title: str
     exam_minutes: int
     tasks: tuple[ExamTask, ...]
+    block: tuple[BlockEntry, ...]
+    topics: tuple[TopicRow, ...]
+    is_new: bool
+
+    @property
+    def expected(self) -> float | None:
+        """The points that the exam would bring today; None before there is evidence."""
+        return self.estimate.expected if self.estimate else None
 
 
 def progress_of(request: Request) -> LearnerProgress:
@@ -108,6 +159,8 @@ def readable_templates(request: Request) -> tuple[str, ...]:
 
 def look_at_tonight(request: Request) -> TonightView | None:
     """Return where the learner stands and what fits into the minutes; None without a question."""
+    from quizgen.practice.exam_plan import FROM_NUMBER  # NumPy, only where it is asked
+
     learning, names, lang = (
         progress_of(request), readable_templates(request), request_language(request),
     )  # fmt: skip
@@ -122,6 +175,8 @@ def look_at_tonight(request: Request) -> TonightView | None:
         days_left(learning.exam, local_date(plan.model.clock * 86400)),
         plan.estimate(),
         plan.missing,
+        max(0, FROM_NUMBER - plan.evidence),
+        plan.goal.points,
         minutes,
         round(block.minutes),
         len(block.templates),
@@ -129,7 +184,25 @@ def look_at_tonight(request: Request) -> TonightView | None:
         blueprint.title.get(lang, blueprint.title["en"]) if blueprint and named else "",
         longest_minutes(blueprint) if blueprint else 0,
         tuple(_list_tasks(plan, learning.bank, lang)),
+        tuple(_list_entries(plan, block.templates, learning.bank, lang)),
+        tuple(_list_topics(plan, names, learning.bank, lang)),
+        not (
+            learning.store.latest(learning.learner.id, 1)
+            or {*request.state.learner.settings} & SAID
+        ),
     )
+
+
+def count_days(request: Request) -> int:
+    """Return on how many days in a row, up to today, the learner has begun a question."""
+    learning = progress_of(request)
+    days = {local_date(one.begun) for one in learning.store.latest(learning.learner.id, LOOKED_AT)}
+    day, count = local_date(time.time()), 0
+    if day not in days:
+        day -= timedelta(days=1)
+    while day in days:
+        day, count = day - timedelta(days=1), count + 1
+    return count
 
 
 def chosen_minutes(request: Request) -> int:
@@ -154,31 +227,48 @@ def _list_tasks(plan: ExamPlan, bank: Bank, lang: str) -> Iterator[ExamTask]:
         )
 
 
+def _list_entries(
+    plan: ExamPlan, templates: Sequence[str], bank: Bank, lang: str
+) -> Iterator[BlockEntry]:
+    """Yield the questions of a block: those of one template by its title, others by topic."""
+    model = plan.model
+    minutes, rates = model.working_minutes(model.expected_credit()), plan.gain_per_minute(model)
+    groups: dict[str, list[int]] = {}
+    for name in templates:
+        groups.setdefault(bank.rules(name).topic, []).append(model.places[name])
+    for topic, places in groups.items():
+        gain = float(sum(rates[place] * minutes[place] for place in set(places)))
+        names = {model.items[place].name for place in places}
+        title = template_title(bank, min(names), lang) if len(names) == 1 else ""
+        yield BlockEntry(
+            title or bank.topic_title(topic, lang), len(places),
+            max(1, round(float(sum(minutes[place] for place in places)))), gain,
+        )  # fmt: skip
+
+
+def _list_topics(
+    plan: ExamPlan, names: Collection[str], bank: Bank, lang: str
+) -> Iterator[TopicRow]:
+    """Yield the topics of the notes with what is known of them."""
+    credit = plan.model.expected_credit()
+    seen = {one.template for one in plan.attempts}
+    for topic in bank.topics:
+        places = [
+            place
+            for place, item in enumerate(plan.model.items)
+            if item.topic == topic and item.name in names and not item.beyond
+        ]
+        if places:
+            known = [credit[p] if plan.model.items[p].name in seen else 0.0 for p in places]
+            yield TopicRow(
+                topic, bank.topic_title(topic, lang),
+                round(sum(plan.model.items[place].minutes for place in places)),
+                draw_aperture(sum(map(float, known)) / len(places)),
+            )  # fmt: skip
+
+
 def template_title(bank: Bank, name: str, lang: str) -> str:
     """Return the title of a template in a language, or in one that it is written in."""
     there = bank.template_languages(name)
     found = lang if lang in there else next(iter(there))
     return read_language_file(bank.template_paths[name] / f"{found}.md").title
-
-
-def draw_aperture(share: float) -> Markup:
-    """Return a picture of an aperture whose open area is a share of the whole, 0 to 1."""
-    opening = RADIUS * math.sqrt(min(max(share, 0.02), 1.0))
-    corners = [_corner(opening, turn) for turn in range(BLADES)]
-    rims = [_corner(RADIUS, turn + 1.6) for turn in range(BLADES)]
-    blades = " ".join(
-        f"M{x:.1f} {y:.1f}L{to_x:.1f} {to_y:.1f}"
-        for (x, y), (to_x, to_y) in zip(corners, rims, strict=True)
-    )
-    outline = " ".join(f"{x:.1f},{y:.1f}" for x, y in corners)
-    return Markup(
-        '<svg class="aperture" viewBox="0 0 48 48" width="40" height="40" aria-hidden="true">'
-        '<circle class="rim" cx="24" cy="24" r="22"/><path class="blades" d="{}"/>'
-        '<polygon class="opening" points="{}"/></svg>'
-    ).format(blades, outline)
-
-
-def _corner(radius: float, turn: float) -> tuple[float, float]:
-    """Return a point on a circle around the middle, a number of blades on from the right."""
-    angle = 2 * math.pi * turn / BLADES + 0.3
-    return 24 + radius * math.cos(angle), 24 + radius * math.sin(angle)

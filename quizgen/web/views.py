@@ -30,7 +30,11 @@ from quizgen.question.html import put_fields
 from quizgen.render.layouts import jinja_environment
 from quizgen.store import Learner
 from quizgen.web.auth import csrf_token
+from quizgen.web.lens_drawing import draw_aperture, draw_lens_scale
 from quizgen.web.state import ServerState
+
+SCALE_STEPS = 10
+"""Large ticks of a scale, but the one at 0."""
 
 
 @cache
@@ -39,8 +43,9 @@ def _build_environment() -> jinja2.Environment:
     layouts = jinja_environment("quizgen.web", "quizgen.render")
     layouts.filters["html"] = Markup  # of what was made here, see ``made.Html``
     layouts.globals.update(
-        language=get_language, put_fields=put_fields, strokes=strokes_to_svg, word=translate
-    )
+        language=get_language, put_fields=put_fields, strokes=strokes_to_svg, word=translate,
+        aperture=draw_aperture, lens_scale=draw_lens_scale,
+    )  # fmt: skip
     return layouts
 
 
@@ -71,13 +76,19 @@ def _build_menu(site: ServerState, learner: Learner) -> list[tuple[str, str]]:
         return []
     shown = [("/", "practice"), ("/exam", "exam"), ("/progress", "progress")]
     shown += [("/formulas", "formulas")] if "formulas" in site.bank.cards else []
-    # Its scenes and measurements are of the built-in bank's chapter.
-    if builtin_bank() in site.bank.members:
-        shown += [("/camera", "camera"), ("/tradeoff", "tradeoff")]
     shown += [("/author", "author")] if here.examine else []
     shown += [("/class", "class")] if here.classroom else []
     shown += [("/people", "people")] if learner.manages else []
     return shown + ([("/account", "account")] if here.accounts else [])
+
+
+def _list_rooms(site: ServerState) -> list[tuple[str, str]]:
+    """Return address and key of the name of the pages that nobody needs for an exam."""
+    rooms = [("/questions", "questions")]
+    # Scenes and measurements are of the built-in bank's chapter.
+    if builtin_bank() in site.bank.members:
+        rooms += [("/camera", "camera"), ("/tradeoff", "tradeoff")]
+    return rooms
 
 
 def page_response(request: Request, layout: str, status: int = 200, **content: object) -> Response:
@@ -108,37 +119,41 @@ def page_response(request: Request, layout: str, status: int = 200, **content: o
             points=lambda count: format_marks(Fraction(str(count)), lang),
             amount=lambda count: format_amount(count, lang),
             decimal=lambda lang: get_language(lang).decimal,
+            scale_labels=lambda of: _label_scale(of, lang),
             site=site,
             token=csrf_token(request.state.token),
             learner=request.state.learner,
             menu=_build_menu(site, request.state.learner),
+            rooms=_list_rooms(site),
             **{"here": request.url.path, "kept": {}, **content},
         )
     )
-    return HTMLResponse(html, status)
+    # Formulas and figures have styles in their elements, which the policy of pages forbids: the
+    # style sheet knows them by their text instead. What people wrote has no plain quotes here.
+    return HTMLResponse(html.replace(' style="', ' data-style="'), status)
+
+
+def _label_scale(of: float, lang: str) -> list[str]:
+    """Return the numbers of the large ticks of a scale of points: at most eleven."""
+    steps = round(of) if of == round(of) and of <= SCALE_STEPS else SCALE_STEPS
+    return [format_amount(of * k / steps, lang) for k in range(steps + 1)]
 
 
 def relative_time(now: float, lang: str) -> Callable[..., str]:
-    """Return a function that says in words when a time was, or with ``ahead`` will be.
+    """Return a function that says in words when a time was.
 
     ``now`` and its argument are in seconds since 1970.
     """
 
-    def format_moment(moment: float | None, *, ahead: bool = False) -> str:
+    def format_moment(moment: float | None) -> str:
         """Return a time in words, such as ``yesterday``; for None that it never was."""
         if moment is None:
-            return "" if ahead else translate_page(lang, "progress.never")
-        if ahead and moment <= now:
-            return translate_page(lang, "progress.now")
-        days = (local_date(moment) - local_date(now)).days
-        near = {0: "day", 1: "tomorrow", -1: "yesterday"}.get(days)
+            return translate_page(lang, "progress.never")
+        days = (local_date(now) - local_date(moment)).days
+        near = {0: "day", 1: "yesterday"}.get(days)
         if near:
             return translate_page(lang, f"progress.{near}")
-        return translate_page(
-            lang,
-            "progress.in_days" if days > 0 else "progress.days_ago",
-            count=abs(days),
-        )
+        return translate_page(lang, "progress.days_ago", count=days)
 
     return format_moment
 

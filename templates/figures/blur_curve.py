@@ -146,6 +146,10 @@ def _list_answers(values: Values) -> list[str]:
     return told
 
 
+MARKS = {"s": "m", "z_n": "m", "z_f": "m", "N_1": "", "N_2": ""}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(ax: Any, values: Values, marks: Values) -> None:
     """Draw a learner's distances ``s``, ``z_n`` and ``z_f``, and the curves of ``N_1``, ``N_2``."""
     x0, y0, x1, y1 = ax.bbox.extents

@@ -151,6 +151,10 @@ def _label_lengths(values: Values, *, quiz: bool) -> dict[str, str]:
     }
 
 
+MARKS = {"c": "mm"}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(fig: Any, values: Values, marks: dict[str, float]) -> None:
     """Draw a disc of a learner's diameter ``c`` (mm) beside the right one."""
     art, place, right = fig.sketch(zorder=6), _lay_out(values), _disc(values)

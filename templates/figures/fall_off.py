@@ -114,6 +114,10 @@ def _trace_grid(extent: float) -> Path:
     return trace_lines([[(0, tenth / 10), (extent, tenth / 10)] for tenth in range(1, 11)])
 
 
+MARKS = {"share": ""}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(ax: Any, values: Values, marks: Values) -> None:
     """Draw a learner's ``share`` of the light at the mark."""
     x0, y0, x1, y1 = ax.bbox.extents

@@ -187,25 +187,29 @@ def _format_probability(values: Values, *, quiz: bool) -> str:
     return format_equation(f"$P$({_event(values)})", 100 * _probability(values), "%", hide=quiz)
 
 
+MARKS = {"g_0": "", "P_1": ""}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(fig: Any, values: Values, marks: Values) -> None:
-    """Draw a learner's values: ``peak``, the density at the mean, and ``share`` in percent.
+    """Draw a learner's values: ``g_0``, the density at the mean, and ``P_1`` in percent.
 
     A share stands where tails of that size, on the shaded sides, would begin.
     """
-    if "peak" in marks:
-        left, height = _left_end(values), _PEAK * marks["peak"] / _peak(values["sigma"])
+    if "g_0" in marks:
+        left, height = _left_end(values), _PEAK * marks["g_0"] / _peak(values["sigma"])
         box = (left, 0.0, 2 * _MIDDLE, _PEAK + 12)
-        text = rf"$g(\mu)$ = {format_learned(marks['peak'])}"
+        text = rf"$g(\mu)$ = {format_learned(marks['g_0'])}"
         mark_point(fig, box, (left, height), text, side=-1)
-    if "share" in marks:
-        share, tails = min(max(marks["share"] / 100, 1e-9), 1 - 1e-9), int(values["tails"])
+    if "P_1" in marks:
+        share, tails = min(max(marks["P_1"] / 100, 1e-9), 1 - 1e-9), int(values["tails"])
         above = {0: (1 - share) / 2, 2: share / 2}.get(tails, share)
         u = NormalDist().inv_cdf(1 - above) * (-1 if tails == -1 else 1)
         x, y = _place(u)
         # Beside the probability a low line, above it a high one.
         top = 22.0 if abs(u) > 1.75 else max(0.63 * _PEAK, y + 8)
         box = (0.0, 0.0, 2 * _MIDDLE, top)
-        mark_place(fig, box, x, f"{format_learned(marks['share'])} %")
+        mark_place(fig, box, x, f"{format_learned(marks['P_1'])} %")
 
 
 def alt(values: Values, lang: str, *, quiz: bool) -> str:

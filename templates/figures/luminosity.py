@@ -143,6 +143,10 @@ def _reading(values: Values, number: int, wavelength: float) -> str:
     return rf"${'V' + chr(39) * night}(\lambda_{number + 1})$ ≈ {value}"
 
 
+MARKS = {"V_1": "", "V_2": ""}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(ax: Any, values: Values, marks: Values) -> None:
     """Draw a learner's heights ``V_1`` and ``V_2`` of the marked curve at the marks."""
     x0, y0, x1, y1 = ax.bbox.extents

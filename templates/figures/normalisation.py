@@ -116,6 +116,10 @@ def _draw_limits(art: Any, values: Values) -> None:
         art.label((x, _HIGH + 20), text, side if near else "c", 10, "red", part="limit-names")
 
 
+MARKS = {"I_min": "", "I_max": ""}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(fig: Any, values: Values, marks: Values) -> None:  # noqa: ARG001 - the axis is fixed
     """Draw a learner's ``I_min`` and ``I_max`` in the first histogram."""
     for name, side in (("min", "r"), ("max", "l")):

@@ -232,6 +232,10 @@ def _draw_points(art: Any, place: _Layout, words: dict[str, str], *, physical: b
     art.label(place.at(0, 0), "O", "r", shift=(-5, 9 * side))
 
 
+MARKS = {"p'_y": ""}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(fig: Any, values: Values, marks: dict[str, float]) -> None:
     """Draw the image point where a learner's ``p'_y`` puts it, and the ray that would hit it."""
     art, place = fig.sketch(zorder=6), _lay_out(values)

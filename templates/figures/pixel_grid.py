@@ -160,6 +160,10 @@ def _draw_point(frame: PictureFrame, values: Values, side: tuple[int, int], quiz
         art.label((_LEFT + 60, low - row), text, "l", part="offsets")
 
 
+MARKS = {"u": "", "v": ""}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(fig: Any, values: Values, marks: dict[str, float]) -> None:
     """Ring the pixel (``u``; ``v``) that a learner gives."""
     seen = [(values["o_x"], values["o_y"]), (values["u"], values["v"])]

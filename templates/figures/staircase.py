@@ -65,6 +65,10 @@ def _list_treads(jumps: list[float], rise: float) -> list[list[tuple[float, floa
     return [[(a, level * rise), (b, level * rise)] for level, (a, b) in ends if b > a]
 
 
+MARKS = {"n": "", "Delta": ""}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(ax: Any, values: Values, marks: Values) -> None:
     """Draw the staircase of a learner's ``n`` or ``Delta`` over the same range of intensities."""
     wanted = marks["n"] if "n" in marks else 1 + 1 / max(marks["Delta"], 1e-3)

@@ -188,6 +188,10 @@ def _draw_distances(art: Any, place: _Layout, words: dict[str, str]) -> None:
     draw_lines(art, helpers)
 
 
+MARKS = {"z'": "mm"}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(fig: Any, values: Values, marks: dict[str, float]) -> None:
     """Draw the image where a learner's ``z'`` (mm) puts it, on the central ray."""
     art, place, image = fig.sketch(zorder=6), _lay_out(values), _image_distance(values)

@@ -64,6 +64,10 @@ def _shorten(start: tuple[float, float], goal: tuple[float, float], box: Any) ->
     return tuple(s + share * (g - s) for s, g in zip(start, goal, strict=True))
 
 
+MARKS = {"u": "", "v": ""}
+"""Quantities that ``mark`` draws, and in which unit; where none is named, in that of the key."""
+
+
 def mark(fig: Any, values: Values, marks: dict[str, float]) -> None:
     """Ring the pixel (``u``; ``v``) that a learner gives."""
     seen = [(values["o_x"], values["o_y"]), image_of(values, "d")]

@@ -130,7 +130,7 @@ def test_editors_are_told_what_each_key_means(kind):
 ANSWERS = {
     "Number", "Quantity", "Angle", "Point", "Set", "Table", "Interval", "Expression", "Choice",
     "Multi", "Truth", "Match", "Order", "Gap", "Witness", "Code", "Program", "Text", "Sketch",
-    "Complex", "Equation", "Matrix", "Vector", "Checked",
+    "Complex", "Equation", "Matrix", "Vector", "Checked", "Derivation",
 }  # fmt: skip
 """Names that editors know the answers of each kind by."""
 
@@ -151,6 +151,12 @@ def test_nothing_is_told_of_a_key_that_there_is_not():
 UNUSED = {
     "checked": {"kind": "checked", "function": "judge", "traps": ["near"]},
     "set": {"kind": "set", "of": ["x"]},
+    "derivation": {
+        "kind": "derivation",
+        "symbols": {"x": "real"},
+        "let": {"x": "2"},
+        "lines": {"goal": {"is": "x = 2"}},
+    },
     "interval": {"kind": "interval", "value": "[0, 1]"},
     "equation": {"kind": "equation", "of": "c", "symbols": ["x", "y"]},
     "complex": {"kind": "complex", "of": "z", "form": "polar"},

@@ -97,7 +97,7 @@ def test_marks_of_several_curves_are_refused():
 
 def test_a_learners_peak_is_ringed_at_its_height():
     values = {"sigma": 2, "k": 2}
-    figure = draw("gaussian", values, marks={"peak": 0.1})
+    figure = draw("gaussian", values, marks={"g_0": 0.1})
     got = read_parts(figure)
     base, top = got["axis"][0][0][1], got["curve-0"][0][:, 1].max()
     height = (centre(got["learned"][0])[1] - base) / (top - base)
@@ -107,14 +107,14 @@ def test_a_learners_peak_is_ringed_at_its_height():
 
 def test_a_learners_share_stands_where_such_tails_begin():
     # 31.73 % of a normal distribution lie beyond one standard deviation
-    got = parts("gaussian", sigma=2, k=2, marks={"share": 31.731})
+    got = parts("gaussian", sigma=2, k=2, marks={"P_1": 31.731})
     mean, edge = got["mean"][0][0][0], max(line[0][0] for line in got["marks"])
     line = next(line for line in got["learned"] if len(line) == 2)
     assert (line[0][0] - mean) / (edge - mean) == pytest.approx(0.5, abs=2e-3)
 
 
 def test_a_learners_value_far_outside_is_an_arrow_at_the_edge():
-    far, farther = (draw("gaussian", {"sigma": 2}, marks={"peak": peak}) for peak in (79, 7e9))
+    far, farther = (draw("gaussian", {"sigma": 2}, marks={"g_0": peak}) for peak in (79, 7e9))
     assert far.height_pt == farther.height_pt
     assert "g(μ) = 7 · 10^9" in read_labels(farther)
 

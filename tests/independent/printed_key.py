@@ -17,7 +17,7 @@ from printed_numbers import UNITS
 
 Spec = Mapping[str, Any]
 NUMERIC = {"number", "quantity", "angle", "point", "table", "set", "interval"}
-OWED = NUMERIC | {"expression", "witness", "code", "program", "sketch"}
+OWED = NUMERIC | {"expression", "witness", "code", "program", "sketch", "derivation"}
 """Kinds of answers that every solver has to give; those of choices where numbers decide."""
 COUNTED = {"DN": 1, "stop": 1, "e-": 1, "deg": 1}
 """Units of keys that say what is counted."""
@@ -168,6 +168,52 @@ def _alike(mine: Any, theirs: Any) -> bool:
     )
 
 
+PLACES = 40
+"""Places at which the lines of a derivation are tried."""
+
+
+def _derived(mine: Callable[[Mapping[str, float]], Mapping[str, float]], spec: Spec) -> bool:
+    """Whether every line holds for the derived quantities as they were worked out, and no mistake."""
+    names = sorted(spec["symbols"])
+    places = (_place(spec, names, j) for j in range(PLACES))
+    found = [env for env in places
+             if _fits(mine, spec, env)]  # fmt: skip
+    lines = [form for line in spec["lines"].values() for form in line["forms"]]
+    right = all(_true(line, env) for line in (*lines, *spec.get("given", ())) for env in found)
+    wrong = [form for forms in spec.get("traps", {}).values() for form in forms]
+    return len(found) > 3 and right and not any(all(_true(w, e) for e in found) for w in wrong)
+
+
+def _place(spec: Spec, names: Sequence[str], j: int) -> dict[str, float]:
+    """Numbers for all names, each within its bounds."""
+    shares = {name: (0.13 + 0.37 * ((3 * i + 5 * j) % 11)) / 4 for i, name in enumerate(names)}
+    bounds = {
+        name: of if isinstance(of, list) else (0.05, 4) for name, of in spec["symbols"].items()
+    }
+    return {name: float(low) + share * (float(high) - float(low))
+            for name, share in shares.items() for low, high in [bounds[name]]}  # fmt: skip
+
+
+def _fits(mine: Callable[..., Mapping[str, float]], spec: Spec, env: dict[str, float]) -> bool:
+    """Put the derived quantities in, and say whether the place meets the conditions."""
+    env.update(mine(env))
+    return all(_python(one, env) for one in spec.get("where", ()))
+
+
+def _true(line: str, env: Mapping[str, float]) -> bool:
+    """Whether a line of a key holds at a place."""
+    if "<" in line or ">" in line:
+        return bool(_python(line, env))
+    left, right = (_python(side, env) for side in line.split("="))
+    return math.isclose(left, right, rel_tol=1e-9, abs_tol=1e-9)
+
+
+def _python(formula: str, env: Mapping[str, float]) -> Any:
+    """The value of a formula whose names may have primes."""
+    values = {name.replace("'", "_prime"): value for name, value in env.items()}
+    return calculated(formula.replace("'", "_prime"), {"log2": math.log2, **values})
+
+
 OTHERS: dict[str, Callable[[Any, Spec], bool]] = {
     "choice": lambda mine, spec: mine == set(spec["correct"]),
     "multi": lambda mine, spec: mine == set(spec["correct"]),
@@ -180,4 +226,5 @@ OTHERS: dict[str, Callable[[Any, Spec], bool]] = {
     "witness": _holds,
     "sketch": _lines,
     "program": _does_the_same,
+    "derivation": _derived,
 }

@@ -158,7 +158,7 @@ def opened(browser, served):
     """Opens a page of the server that was let in; nothing may be wrong on it."""
     from playwright.sync_api import expect
 
-    expect.set_options(timeout=30_000)
+    expect.set_options(timeout=20_000)
     contexts, wrong = [], []
 
     def said(message) -> None:
@@ -171,7 +171,7 @@ def opened(browser, served):
 
     def one(**how):
         context = browser.new_context(**{"viewport": {"width": 1000, "height": 900}, **how})
-        context.set_default_timeout(30_000)
+        context.set_default_timeout(20_000)
         contexts.append(context)
         context.on("console", said)
         context.on("weberror", lambda error: wrong.append(str(error.error)))

@@ -39,7 +39,7 @@ def full(store):
         learner, QuestionRef("rgb-to-hsv", "7"), {"topic": "colour", "tier": ""}
     )
     done = {"typed": "1", "tries": 1, "hints": 0, "wrong": "2", "note": "sign",
-            "credit": 0.5, "helped": False, "decimal": "",
+            "credit": 0.5, "helped": False, "decimal": "", "mistakes": {"trap:sign": "2"},
             "outcome": {"topic": "colour", "right": True, "first": False, "skipped": False}}  # fmt: skip
     attempt.state = {"parts": {"1a": {"state": done, "values": ["1"], "asked_back": ""}},
                      "ended": ["1a"]}  # fmt: skip

@@ -46,9 +46,14 @@ def at_once(app):
     workers.get_question = before
 
 
+def every_part(client, at: str, names) -> str:
+    """The pages of all parts, one after the other."""
+    return "".join(client.get(at, params={"part": name}).text for name in names)
+
+
 def wrong_parts(page: str, answered: str, answers, sentences) -> list[str]:
     """Parts that take their printed answers amiss, and how."""
-    part = r'<section class="part" id="part-(\w+)"'
+    part = r'<section class="part[^"]*" id="part-(\w+)"'
     forms = dict(re.findall(part + "(.*?)</section>", page, re.DOTALL))
     verdict = rf'{part}(?:(?!</section>).)*?<div class="verdict (\w+)"'
     said = dict(re.findall(verdict, answered, re.DOTALL))
@@ -70,15 +75,16 @@ def wrong(client, token, app, at_once):
     def asked(template: str, seed: str, lang: str, level: str) -> list[str]:
         store.update_settings(learner, {"lang": lang})
         at = f"/q/{store.start_attempt(learner, QuestionRef(template, seed, level), {}).id}"
-        page = client.get(at).text
+        client.get(at)
         ((question, key, _),) = at_once.values()
         answers = typed(question, key)
+        page = every_part(client, at, answers)
         for part, values in answers.items():
             sent = {"token": token, "do": "answer", "a": values}
             client.post(f"{at}/{part}", data=sent, follow_redirects=False)
         parts = zip(question.parts, key.specs, strict=True)
-        sentences = {part.field.id for part, spec in parts if spec.kind == "text"}
-        found = wrong_parts(page, client.get(at).text, answers, sentences)
+        sentences = {part.field.id for part, spec in parts if spec.kind == "rubric"}
+        found = wrong_parts(page, every_part(client, at, answers), answers, sentences)
         store.update_settings(learner, {"lang": "en"})
         return [f"{template} {seed} {lang} {level} {one}" for one in found]
 

@@ -25,6 +25,7 @@ def exam(opened, served):
         page.goto(served.address + "/exam")
         page.get_by_label("Paper", exact=True).select_option("trial")
         if not clock:
+            page.get_by_text("More", exact=True).click()
             page.get_by_label("with the clock running").uncheck()
         page.get_by_role("button", name="Begin the exam").click()
         expect(page.locator("#exam")).to_be_visible()
@@ -37,6 +38,13 @@ def exam(opened, served):
 def boxes(page):
     """The first field of each part that is typed."""
     return page.locator("#exam fieldset[data-part] input[id$='-0'][type=text]")
+
+
+def shown(field):
+    """A field, once its question is the one on the screen."""
+    field.evaluate("field => { location.hash = field.closest('.question').id; }")
+    expect(field).to_be_visible()
+    return field
 
 
 def hand_in(page):
@@ -53,7 +61,7 @@ def forgive(opened):
 
 
 def typed(page, number: int, text: str):
-    boxes(page).nth(number).fill(text)
+    shown(boxes(page).nth(number)).fill(text)
     expect(page.locator("#kept")).to_have_text(SAVED)
 
 
@@ -61,11 +69,11 @@ def typed(page, number: int, text: str):
 def test_a_reload_and_the_way_back_keep_what_was_typed(exam, served):
     page = exam()
     typed(page, 0, "12.5")
-    page.locator("#exam input[type=radio]").first.check()
+    shown(page.locator("#exam input[type=radio]").first).check()
     page.reload()
     expect(boxes(page).first).to_have_value("12.5")
     expect(page.locator("#exam input[type=radio]").first).to_be_checked()
-    boxes(page).first.fill("13")
+    shown(boxes(page).first).fill("13")
     page.goto(served.address + "/")
     page.go_back()
     expect(boxes(page).first).to_have_value("13")
@@ -75,13 +83,13 @@ def test_what_is_saved_while_the_next_page_is_on_its_way_stands_in_it(exam):
     page = exam()
     read_before = page.context.request.get(page.url)
     chosen = page.locator("#exam input[type=radio]").first
-    chosen.check()
-    shown = page.locator(f"[name={chosen.get_attribute('name').replace('a-', 'on-')}]")
-    expect(shown).to_have_value('["A"]')  # the server has it
+    shown(chosen).check()
+    kept = page.locator(f"[name={chosen.get_attribute('name').replace('a-', 'on-')}]")
+    expect(kept).to_have_value('["A"]')  # the server has it
     page.route(page.url, lambda route: route.fulfill(response=read_before))
     page.reload()
     expect(chosen).to_be_checked()
-    expect(shown).to_have_value('["A"]')
+    expect(kept).to_have_value('["A"]')
     page.unroute_all()
 
 
@@ -121,8 +129,8 @@ def test_a_second_click_begins_no_second_exam(opened, served):
 
 def test_enter_keeps_and_changes_nothing_else(exam):
     page = exam()
-    boxes(page).first.fill("7")
-    boxes(page).first.press("Enter")
+    shown(boxes(page).first).fill("7")
+    shown(boxes(page).first).press("Enter")
     expect(page.locator("#kept")).to_have_text(SAVED)
     expect(boxes(page).first).to_be_focused()
     expect(page.locator(".flagged")).to_have_count(0)
@@ -146,7 +154,7 @@ def test_what_is_typed_while_the_server_is_dead_arrives_when_it_is_back(exam, se
     page = exam()
     typed(page, 0, "1.5")
     served.kill()
-    boxes(page).nth(1).fill("2.5")
+    shown(boxes(page).nth(1)).fill("2.5")
     expect(page.locator("#kept")).to_have_text(AWAY)
     page.get_by_role("button", name="Hand in").click()
     expect(boxes(page).nth(1)).to_have_value("2.5")
@@ -161,7 +169,7 @@ def test_what_is_typed_while_the_server_is_dead_arrives_when_it_is_back(exam, se
 def test_what_is_typed_without_a_network_arrives_when_it_is_back(exam, opened):
     page = exam()
     page.context.set_offline(True)
-    boxes(page).first.fill("4.5")
+    shown(boxes(page).first).fill("4.5")
     expect(page.locator("#kept")).to_have_text(AWAY)
     page.context.set_offline(False)
     expect(page.locator("#kept")).to_have_text(SAVED)
@@ -175,7 +183,7 @@ def test_a_browser_that_ends_while_the_server_is_dead_still_sends_it_later(exam,
     page = exam()
     at = page.url
     served.kill()
-    boxes(page).first.fill("3.5")
+    shown(boxes(page).first).fill("3.5")
     expect(page.locator("#kept")).to_have_text(AWAY)
     page.close()
     served.start()
@@ -189,7 +197,7 @@ def test_a_browser_that_ends_while_the_server_is_dead_still_sends_it_later(exam,
 def end_in(page, served, seconds: float):
     """Let an exam end soon, and show it anew."""
     ends = page.evaluate("Date.now() / 1000") + seconds
-    this = SITTING.c.id == page.url.rsplit("/", 1)[1]
+    this = SITTING.c.id == page.url.partition("#")[0].rsplit("/", 1)[1]
     store = Store(served.database)
     with store.database.writing() as connection:
         connection.execute(update(SITTING).where(this).values(limit=ends - SITTING.c.begun))
@@ -221,7 +229,7 @@ def test_the_clock_counts_to_zero_and_hands_the_paper_in(exam, served):
 
 def test_a_question_to_come_back_to_is_marked_without_leaving_the_place(exam):
     page = exam()
-    button = page.get_by_role("button", name="Come back to this").nth(1)
+    button = shown(page.locator("[data-flag]").nth(1))
     button.click()
     expect(button).to_have_attribute("aria-pressed", "true")
     expect(page.locator("a.flagged")).to_have_accessible_name(re.compile("flagged"))
@@ -239,9 +247,9 @@ def test_by_keys_alone_to_the_marks(opened):
     keys.to("Begin the exam")
     page.keyboard.press("Enter")
     expect(page.locator("#exam")).to_be_visible()
-    keys.on(boxes(page).first)
+    keys.on(shown(boxes(page).first))
     page.keyboard.type("12.5")
-    keys.on(page.locator("#exam input[type=radio]").first)
+    keys.on(shown(page.locator("#exam input[type=radio]").first))
     page.keyboard.press("Space")
     expect(page.locator("#exam input[type=radio]").first).to_be_checked()
     page.keyboard.press("ArrowDown")

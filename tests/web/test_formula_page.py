@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import html
 import re
+from typing import get_args
 
 import pytest
 
+from quizgen.bank.formulas import MovingName, templates_by_formula
 from quizgen.question.formula_sheet import compose_sheet
 from quizgen.render import render_sheet
 
@@ -34,11 +36,14 @@ def test_every_formula_of_the_chapter_is_there_in_both_languages(client, token):
     assert re.search("[\u0980-\u09ff]", article(pages["bn"], "F08"))
 
 
-def test_a_question_below_a_formula_begins_practice(client, token):
+def test_a_formula_is_practised_from_the_sheet(client, token, app, bank):
     page = article(client.get("/formulas").text, "F08")
-    name = re.search(r'name="template" value="([\w-]+)"', page)[1]
-    begun = client.post("/practice", data={"token": token, "template": name})
+    assert 'name="formula" value="F08"' in page
+    begun = client.post("/practice", data={"token": token, "formula": "F08"})
     assert begun.url.path.startswith("/q/")
+    store = app.state.site.store
+    asked = store.latest(store.learner().id, 1)[0].template
+    assert asked in templates_by_formula(bank)["F08"], "which one, the plan decides"
 
 
 def test_the_sheet_to_print_is_a_pdf_of_the_same_title(client):
@@ -61,6 +66,15 @@ def test_its_style_is_that_of_the_sheet_as_a_file(client, bank):
     assert answer.headers["content-type"].startswith("text/css")
     assert answer.text in render_sheet(compose_sheet(bank, "en"), "html").decode()
     assert '<link rel="stylesheet" href="/static/sheet.css">' in client.get("/formulas").text
+
+
+def test_figures_that_move_are_folded_and_post_nothing(client):
+    folds = re.findall(
+        '<details class="moving">.*?</details>', client.get("/formulas").text, re.DOTALL
+    )
+    shown = {re.search(r'data-figure="([\w-]+)"', fold)[1] for fold in folds}
+    assert shown == set(get_args(MovingName))
+    assert not [fold for fold in folds if "style=" in fold or " open" in fold or ' name="' in fold]
 
 
 @pytest.mark.browser

@@ -32,7 +32,7 @@ def practised(opened, served):
 
 def test_from_the_first_visit_to_a_verdict_in_two_clicks(opened):
     page = opened()
-    page.get_by_role(BUTTON, name="Projection").click()
+    page.get_by_role(BUTTON, name="Start").click()
     part = page.locator("section.part").first
     fields = part.locator("input:not([type=hidden]), textarea, select")
     if fields.first.get_attribute("type") in {"radio", "checkbox"}:
@@ -57,16 +57,17 @@ def test_wrong_hint_language_right_and_a_variant(practised):
     expect(y).to_be_focused()
     page.get_by_role(BUTTON, name="Hint").click()
     expect(page.locator(".hints li")).to_have_count(1)
-    expect(page.get_by_role(BUTTON, name="Hint")).to_be_focused()
+    expect(page.get_by_role(BUTTON, name="Formula")).to_be_focused()
     page.get_by_role(BUTTON, name="বাংলা").click()
     expect(page.locator("html")).to_have_attribute("lang", "bn")
     expect(page.locator("input[type=text]").first).to_have_value("123")
     expect(page.locator(".hints li")).to_have_count(1)
     page.get_by_role(BUTTON, name="English").click()
     before = page.locator(".stem").inner_text()
-    page.get_by_role(BUTTON, name="Show the solution").click()
+    page.get_by_role(BUTTON, name="Solution").click()
     expect(page.locator(".result")).to_be_visible()
     expect(page.get_by_role(BUTTON, name="Next question")).to_be_focused()
+    page.get_by_text("More", exact=True).click()
     page.get_by_role(BUTTON, name="with new numbers").click()
     expect(page.locator(".verdict")).to_have_count(0)
     assert page.locator(".stem").inner_text() != before
@@ -88,10 +89,11 @@ def test_what_is_not_sent_yet_outlives_another_language_and_a_reload(practised):
     y.press("Enter")
     expect(page.locator(".verdict")).to_be_visible()
     y.fill("77")
-    page.get_by_role(BUTTON, name="Show the solution").click()
+    page.get_by_role(BUTTON, name="Solution").click()
     expect(page.locator(".result")).to_be_visible()
     page.reload()
     expect(y).to_have_value("77")
+    page.get_by_text("More", exact=True).click()
     page.get_by_role(BUTTON, name="Once more").click()
     expect(page.locator(".result")).to_have_count(0)
     expect(x).to_have_value("")
@@ -99,10 +101,13 @@ def test_what_is_not_sent_yet_outlives_another_language_and_a_reload(practised):
 
 def test_chosen_options_and_an_order_outlive_a_reload(practised):
     page = practised("lens-aberrations-causes-remedies")
-    page.locator("section.part select").first.select_option(index=2)
+    page.locator(".chip").nth(1).click()
+    page.reload()
+    expect(page.locator("section.part select").first).to_have_value("2")
+    expect(page.locator(".slot.filled")).to_have_count(1)
+    page = practised("stopping-down-or-opening-effects")
     page.locator("section.part input[type=radio]").nth(1).check()
     page.reload()
-    expect(page.locator("section.part select").first).not_to_have_value("")
     expect(page.locator("section.part input[type=radio]").nth(1)).to_be_checked()
     page = practised(ORDER)
     page.locator("[data-mark]").nth(1).focus()
@@ -116,11 +121,18 @@ def test_chosen_options_and_an_order_outlive_a_reload(practised):
 
 def test_working_it_through_goes_from_part_to_part(practised):
     page = practised()
+    page.get_by_text("More", exact=True).click()
     page.get_by_role(BUTTON, name="step by step").click()
-    parts = page.locator("section.part")
-    expect(parts.nth(1)).to_be_visible()
-    parts.first.get_by_role(BUTTON, name="Show the solution").click()
-    expect(parts.nth(1).locator("input, textarea").locator("visible=true").first).to_be_focused()
+    expect(page.locator("section.part")).to_have_count(1)
+    first = page.locator("section.part").get_attribute("id")
+    while page.locator("[value=solution]").count() == 0:
+        help_so_far = page.locator(".hints li").count()
+        page.locator("[value=hint]").click()
+        expect(page.locator(".hints li")).to_have_count(help_so_far + 1)
+    page.locator("[value=solution]").click()
+    expect(page.locator(".dock a.main")).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(page.locator("section.part")).not_to_have_id(first)
 
 
 def test_what_is_typed_is_read_back(practised):
@@ -178,23 +190,54 @@ def test_the_same_without_scripts(practised):
     expect(page.locator(".verdict.wrong")).to_be_visible()
     page.get_by_role(BUTTON, name="Hint").click()
     expect(page.locator(".hints li")).to_have_count(1)
-    page.get_by_role(BUTTON, name="Show the solution").click()
+    page.get_by_role(BUTTON, name="Solution").click()
     expect(page.locator(".result")).to_be_visible()
+    page.get_by_text("More", exact=True).click()
     page.get_by_role(BUTTON, name="with new numbers").click()
     expect(page.locator(".verdict")).to_have_count(0)
 
 
 def test_by_keys_alone(opened):
     page = opened()
-    to = Keys(page).to
     page.keyboard.press("Tab")
     expect(page.locator(".skip")).to_be_focused()
-    to("Projection")
+    if page.get_by_text("Choose a question yourself").count():  # the first visit
+        Keys(page).to("Choose a question yourself")
+        page.keyboard.press("Enter")
+    Keys(page).on(page.get_by_role(BUTTON, name="Projection"))
     page.keyboard.press("Enter")
     expect(page.locator("section.part").first).to_be_visible()
-    to("Show the solution")
+    Keys(page).on(page.locator(".parts a, .more summary").last)
+    page.keyboard.press("Escape")
+    expect(page.locator(".now")).to_be_visible()
+
+
+def test_keys_choose_check_and_go_on(practised):
+    page = practised("stopping-down-or-opening-effects")
+    inputs = page.locator("section.part input[type=radio]")
+    expect(inputs.first).to_be_focused()
+    page.keyboard.press("2")
+    expect(inputs.nth(1)).to_be_checked()
     page.keyboard.press("Enter")
-    expect(page.locator(".result").first).to_be_visible()
+    expect(page.locator(".verdict")).to_be_visible()
+    while page.locator(".dock a.main").count() == 0:
+        page.keyboard.press("s")
+        page.wait_for_timeout(200)
+    page.keyboard.press("Enter")
+    expect(page.locator(".parts [aria-current]")).to_have_text("b")
+
+
+def test_pairs_are_made_by_chips(practised):
+    page = practised("lens-aberrations-causes-remedies")
+    slots, chips = page.locator(".slot"), page.locator(".chip")
+    chips.nth(0).click()
+    chips.nth(2).drag_to(slots.nth(2))
+    slots.nth(1).click()
+    chips.nth(1).press("Enter")
+    values = [one.input_value() for one in page.locator("section.part select").all()]
+    assert values[:3] == ["1", "2", "3"]
+    slots.nth(0).click()
+    assert page.locator("section.part select").first.input_value() == "", "a tap empties it"
 
 
 ORDER = "add-noise-to-uint8-order"
@@ -226,7 +269,8 @@ def test_steps_are_put_in_order_by_dragging_and_by_keys(practised):
     page.locator(f"[data-mark={second}]").first.focus()
     page.keyboard.press("Delete")
     assert chosen(page)[:3] == [third, first, ""]
-    page.get_by_label("Place 3").first.select_option(second)
+    page.locator(f"[data-mark={second}]").first.focus()
+    page.keyboard.press("Enter")
     assert steps.nth(2).get_attribute("data-mark") == second
     page.get_by_role(BUTTON, name="Check").first.click()
     expect(page.locator(".verdict")).to_be_visible()

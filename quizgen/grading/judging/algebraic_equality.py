@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import lru_cache, reduce
+from math import comb
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
@@ -13,6 +14,10 @@ from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, walk_tree
 
 LARGEST_POWER = 12
 MOST_NODES = 60
+HIGHEST_DEGREE = 64
+"""Degree that a formula may have once it is multiplied out, powers of powers included."""
+MOST_TERMS = 100_000
+"""Products of terms that one multiplication may take: a formula of a line has a few hundred."""
 
 Quotient = tuple[Any, Any]
 
@@ -20,9 +25,22 @@ Quotient = tuple[Any, Any]
 def is_rational(tree: Expr) -> bool:
     """Return whether a formula uses arithmetic only, and is small enough to expand."""
     nodes = list(walk_tree(tree))
-    return len(nodes) <= MOST_NODES and all(
-        not isinstance(node, Call) or node.op in _OPERATORS for node in nodes
+    return (
+        len(nodes) <= MOST_NODES
+        and all(not isinstance(node, Call) or node.op in _OPERATORS for node in nodes)
+        and _bound_degree(tree) <= HIGHEST_DEGREE
     )
+
+
+def _bound_degree(tree: Expr) -> int:
+    """Return a degree that a formula does not exceed; a number counts, since powers lengthen it."""
+    if not isinstance(tree, Call):
+        return 1
+    if tree.op == "pow":
+        power = tree.args[1]
+        times = abs(int(power.value)) if isinstance(power, Num) else LARGEST_POWER
+        return _bound_degree(tree.args[0]) * min(times, HIGHEST_DEGREE + 1)
+    return sum(map(_bound_degree, tree.args))
 
 
 def prove_equal(first: Expr, second: Expr) -> bool:
@@ -37,6 +55,8 @@ def prove_equal(first: Expr, second: Expr) -> bool:
         top1, low1 = _of_key(first, used)
         top2, low2 = convert_to_quotient(second, used)
     except (ValueError, ZeroDivisionError):
+        return False
+    if max(len(top1) * len(low2), len(top2) * len(low1)) > MOST_TERMS:
         return False
     return bool(top1 * low2 == top2 * low1)
 
@@ -80,7 +100,7 @@ def _evaluate_quotient(tree: Expr, ctx: fmpq_mpoly_ctx, env: Mapping[str, Quotie
 
 def _add_quotients(a: Quotient, b: Quotient) -> Quotient:
     """Return the sum over the product of the denominators; nothing is cancelled."""
-    return a[0] * b[1] + b[0] * a[1], a[1] * b[1]
+    return _multiply(a[0], b[1]) + _multiply(b[0], a[1]), _multiply(a[1], b[1])
 
 
 def _negate_quotient(a: Quotient) -> Quotient:
@@ -95,7 +115,20 @@ def _subtract_quotients(a: Quotient, b: Quotient) -> Quotient:
 
 def _multiply_quotients(a: Quotient, b: Quotient) -> Quotient:
     """Return the product of the numerators over that of the denominators."""
-    return a[0] * b[0], a[1] * b[1]
+    return _multiply(a[0], b[0]), _multiply(a[1], b[1])
+
+
+def _multiply(a: Any, b: Any) -> Any:
+    """Return the product of two polynomials.
+
+    Raises
+    ------
+    ValueError
+        If they have too many terms.
+    """
+    if len(a) * len(b) > MOST_TERMS:
+        raise ValueError("too many terms")
+    return a * b
 
 
 def _divide_quotients(a: Quotient, b: Quotient) -> Quotient:
@@ -108,7 +141,7 @@ def _divide_quotients(a: Quotient, b: Quotient) -> Quotient:
     """
     if b[0] == 0:
         raise ZeroDivisionError
-    return a[0] * b[1], a[1] * b[0]
+    return _multiply(a[0], b[1]), _multiply(a[1], b[0])
 
 
 def _raise_quotient(a: Quotient, b: Quotient) -> Quotient:
@@ -117,7 +150,7 @@ def _raise_quotient(a: Quotient, b: Quotient) -> Quotient:
     Raises
     ------
     ValueError
-        If the exponent is no integer up to ``LARGEST_POWER``.
+        If the exponent is no integer up to ``LARGEST_POWER``, or there are too many terms.
     ZeroDivisionError
         If zero is raised to a negative power.
     """
@@ -126,6 +159,8 @@ def _raise_quotient(a: Quotient, b: Quotient) -> Quotient:
         return _divide_quotients(
             (a[1] ** 0, a[1] ** 0), _raise_quotient(a, (b[1] * -exponent, b[1]))
         )
+    if any(comb(len(side) + exponent, exponent) > MOST_TERMS for side in a if len(side) > 1):
+        raise ValueError("too many terms")
     return a[0] ** exponent, a[1] ** exponent
 
 

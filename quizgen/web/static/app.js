@@ -16,6 +16,7 @@ const ticks = (field) => field.type === "radio" || field.type === "checkbox";
 const values = (part) => fields(part).filter((f) => !ticks(f) || f.checked).map((f) => f.value);
 const fill = (part, kept) => fields(part).forEach((f, i) => {
   if (ticks(f)) { f.checked = kept.includes(f.value); } else { f.value = kept[i] ?? ""; }
+  f.closest("[data-pairs]")?.dispatchEvent(new Event("quizgen:filled"));
 });
 
 // Practice: what is typed and not sent yet outlives a reload and a change of language in this tab,
@@ -37,11 +38,62 @@ const fill = (part, kept) => fields(part).forEach((f, i) => {
 })();
 
 // Practice: whoever answers by keys goes on where they were, or at what comes next where that is gone.
+const TO_FILL = "section.part :is(input:not([type=hidden]), textarea, select, .slot):not([readonly], :disabled, [tabindex='-1']), section.part .dock .main";
 document.addEventListener("htmx:after:swap", () => {
+  [...document.querySelectorAll("section.part :is(.verdict, .hints > :last-child, .result)")].at(-1)?.scrollIntoView({ block: "nearest" });
   if (document.activeElement && document.activeElement !== document.body) { return; }
-  const next = document.querySelector("section.part :is(input:not([type=hidden]), textarea, select):not([readonly], :disabled), #after button.main");
-  next?.focus({ preventScroll: true });
+  document.querySelector(TO_FILL)?.focus({ preventScroll: true });
 });
+// With a mouse there is a keyboard, too; on a phone the focus would lift one over the figure.
+if (document.body.classList.contains("play") && matchMedia("(pointer: fine)").matches && !location.hash) {
+  document.querySelector(TO_FILL)?.focus({ preventScroll: true });
+}
+
+// Keys of the player: 1-9 choose, Enter goes on, letters are those of the buttons, Escape stops.
+document.addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || !document.body.classList.contains("play")) { return; }
+  const at = event.target;
+  if (at.matches("input:not([type=radio], [type=checkbox], [type=range]), textarea, select, [role=application]")) { return; }
+  const seen = (what) => [...document.querySelectorAll(what)].filter((one) => one.checkVisibility());
+  const press = (element) => { if (element) { event.preventDefault(); element.click(); element.focus(); } };
+  if (event.key === "Enter" && !at.closest("a, button, summary, [data-mark], [data-chip], [data-slot]")) { press(seen(".dock .main")[0]); }
+  else if (/^[1-9]$/.test(event.key)) { press(seen(".option > input:enabled")[event.key - 1]); }
+  else if (event.key === "Escape") { press(document.querySelector(".progress-bar a")); }
+  else { press(seen(`[aria-keyshortcuts="${CSS.escape(event.key.toLowerCase())}"]`)[0]); }
+});
+
+// The formula sheet: what holds every word that is searched for; "/" leads to the search.
+(() => {
+  const find = document.querySelector("[data-find]");
+  if (!find) { return; }
+  find.closest("[hidden]").hidden = false;
+  const formulas = [...document.querySelectorAll(".formula")];
+  const texts = formulas.map((one) => one.textContent.toLowerCase());
+  find.addEventListener("input", () => {
+    const words = find.value.toLowerCase().split(/\s+/).filter(Boolean);
+    formulas.forEach((one, i) => { one.hidden = !words.every((word) => texts[i].includes(word)); });
+    document.querySelectorAll(".topic").forEach((one) => { one.hidden = !one.querySelector(".formula:not([hidden])"); });
+    document.querySelector("[data-none]").hidden = formulas.some((one) => !one.hidden);
+  });
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "/" && !event.target.matches("input, textarea, select")) { event.preventDefault(); find.focus(); }
+  });
+})();
+
+// Signs that the keyboard of a phone hides, put where the last field had its caret.
+(() => {
+  let last = null;
+  document.addEventListener("pointerdown", (event) => { if (event.target.closest("[data-put]")) { event.preventDefault(); } });
+  document.addEventListener("focusin", (event) => { if (event.target.matches("section.part input[type=text]")) { last = event.target; } });
+  document.addEventListener("click", (event) => {
+    const sign = event.target.closest("[data-put]");
+    const field = last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])");
+    if (!sign || !field) { return; }
+    field.setRangeText(sign.dataset.put, field.selectionStart, field.selectionEnd, "end");
+    field.focus();
+    field.dispatchEvent(new Event("input", { bubbles: true }));
+  });
+})();
 
 // An exam: each change is kept in this browser first and sent to the server. While the server is
 // away it is tried again. What the server has confirmed only this tab remembers, with when: a page
@@ -146,6 +198,21 @@ document.addEventListener("htmx:after:swap", () => {
   soon(0);
   addEventListener("pagehide", () => { if (waiting.size) { flush(true); } });
   addEventListener("online", () => soon(0));
+  // One question on the screen: the one of the address, else the first.
+  const questions = [...form.querySelectorAll(".question")];
+  const turn = () => {
+    const named = location.hash ? document.getElementById(decodeURIComponent(location.hash.slice(1))) : null;
+    const shown = named?.closest(".question") ?? questions[0];
+    questions.forEach((one) => one.classList.toggle("shown", one === shown));
+    form.querySelectorAll("a[data-question]").forEach((link) => {
+      if (`question-${link.dataset.question}` === shown.id) { link.setAttribute("aria-current", "step"); } else { link.removeAttribute("aria-current"); }
+    });
+    if (named) { (named === shown ? form : named).scrollIntoView({ block: "start" }); }
+  };
+  form.querySelectorAll("[data-step]").forEach((step) => { step.hidden = false; });
+  form.dataset.one = "";
+  addEventListener("hashchange", turn);
+  turn();
   // Nobody leaves this page for one of a server that is away.
   const flag = async (button) => {
     const body = new URLSearchParams({ token: form.elements.token.value });
