@@ -267,6 +267,8 @@ class InputControl(msgspec.Struct, frozen=True):
         Whether a value needs its name before it, as cells of a table do.
     board : DrawingField, optional
         The field that is drawn in, if the answer is a drawing.
+    keeps_lines : bool
+        Whether lines and the blanks before them count, as in a program.
     rows : bool
         Whether each line is judged by itself: a terminal reads lines until an empty one.
     """
@@ -276,6 +278,7 @@ class InputControl(msgspec.Struct, frozen=True):
     boxes: tuple[InputBox, ...] = ()
     named: bool = False
     board: DrawingField | None = None
+    keeps_lines: bool = False
     rows: bool = False
 
     @property
@@ -345,6 +348,8 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         What the solution draws in the field of the control.
     mistakes : mapping of str to AnySpec
         Each known mistake and the spec of which its answer would be the key.
+    is_long : bool
+        Whether answers are too long for a solution to print those of mistakes, too.
     derived : tuple of DerivedStep
         The lines of a derivation, which the solution shows as its steps.
     scheme : tuple of SchemeRow
@@ -361,6 +366,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     source: str = ""
     drawn: tuple[Line, ...] = ()
     mistakes: Mapping[str, S] = msgspec.field(default_factory=dict)
+    is_long: bool = False
     derived: tuple[DerivedStep, ...] = ()
     scheme: tuple[SchemeRow, ...] = ()
 

@@ -285,7 +285,8 @@ def solved_misconceptions(
     """Yield the misconceptions of a part with the answers that they give."""
     for trap, wrong in built.mistakes.items():
         spec = as_student_writes(wrong, built.spec.traps[trap])
-        shown = () if built.drawn else to_inlines(_show_wrong_answer(spec, filler.lang))
+        named = built.drawn or built.is_long
+        shown = () if named else to_inlines(_show_wrong_answer(spec, filler.lang))
         yield SolvedMisconception(trap, filler.sentence("traps", trap), shown)
 
 

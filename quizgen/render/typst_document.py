@@ -65,8 +65,9 @@ def _format_maths(part: TypesetMaths, lang: str) -> str:
 
 @inlines_to_typst.register
 def _format_code(part: markdown.InlineCode, _lang: str) -> str:
-    """Return inline code as Typst markup."""
-    return f"#raw({typst_literal(part.text)});"
+    """Return inline code as Typst markup; a whole program is a block."""
+    block = "block: true, " if "\n" in part.text else ""
+    return f"#raw({block}{typst_literal(part.text)});"
 
 
 @inlines_to_typst.register
