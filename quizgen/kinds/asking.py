@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import msgspec
+from flint import fmpq
 
 from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
@@ -193,6 +194,41 @@ def _get_key_numbers(spec: ScalarSpec | VectorSpec) -> KeyNumbers:
 def numeric_hints(spec: ScalarSpec | VectorSpec, lang: str, *sentences: str) -> tuple[str, ...]:
     """Return the sentences that are not empty, and how exactly the numbers must be given."""
     return nonempty(*sentences, rounding_hint(spec, _get_key_numbers(spec), lang))
+
+
+def precision_on_paper(spec: NumericSpec, lang: str) -> tuple[str, ...]:
+    """Return how exactly the numbers must be given, where the cover does not say it already."""
+    return nonempty(rule_on_paper(spec, lang))
+
+
+def rule_on_paper(spec: NumericSpec, lang: str) -> str:
+    """Return in few words how exactly an answer must be given; empty if three figures do."""
+    rule, number = spec.stated_rule or ("", "")
+    if rule == "decimals":
+        name = f"on_paper.decimals_{number}" if number in {0, 1} else "on_paper.decimals"
+        return translate(lang, name, n=number)
+    if rule == "sigfigs" and number != USUAL_FIGURES:
+        return translate(lang, "on_paper.sigfigs", n=number)
+    if rule == "exact":
+        return translate(lang, "on_paper.exact")
+    if rule == "rel" and parse_exact(str(number)) < USUAL_SHARE:
+        percent = pretty.format_number(f"{to_float(parse_exact(str(number)) * 100):g}")
+        return f"± {percent} %"
+    return f"± {pretty.format_number(str(number))}" if rule == "abs" else ""
+
+
+USUAL_FIGURES, USUAL_SHARE = 3, fmpq(1, 200)
+"""What the cover asks for, and how far a number of so many figures may be from its value."""
+
+
+def say_on_paper(*keys: str) -> Callable[[AnySpec, str], tuple[TextOrInlines, ...]]:
+    """Return the function ``paper_hints`` of a kind with the same sentences for every key."""
+
+    def paper_hints(_spec: AnySpec, lang: str) -> tuple[TextOrInlines, ...]:
+        """Return the sentences in a language."""
+        return tuple(translate(lang, key) for key in keys)
+
+    return paper_hints
 
 
 def hint(key: str, **program: str) -> Callable[[AnySpec, str], tuple[TextOrInlines, ...]]:

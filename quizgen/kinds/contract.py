@@ -9,7 +9,9 @@ A kind is one module of this folder that ends in a ``KIND``: an ``AnswerKind`` o
 ``ask``
     from a part of a variant to an ``AskedPart``,
 ``input_hints``, ``explain_key``
-    how to type an answer, and the key as the solution states it.
+    how to type an answer, and the key as the solution states it,
+``paper_hints``
+    what stands beside its field on paper.
 """
 
 from __future__ import annotations
@@ -454,6 +456,11 @@ class PartContext(Protocol):
         """Return the answers that an author gives as examples, and the share that each earns."""
 
 
+def no_paper_hints(_spec: AnySpec, _lang: str) -> tuple[TextOrInlines, ...]:
+    """Return nothing: on paper the field itself shows how it is filled in."""
+    return ()
+
+
 @dataclass(frozen=True)
 class AnswerKind(Generic[S]):
     """One kind of answer: all that differs between kinds.
@@ -474,6 +481,9 @@ class AnswerKind(Generic[S]):
         field for each leaves it out.
     explain_key : callable
         The key as the solution states it; empty where sentences tell it.
+    paper_hints : callable
+        What is said beside the field on paper, where nothing is typed and units are printed:
+        a word on precision or form, most often nothing.
     """
 
     authored: type[AuthoredAnswer | AuthoredMeasured]
@@ -481,6 +491,7 @@ class AnswerKind(Generic[S]):
     ask: Callable[[PartContext], AskedPart[S]]
     input_hints: Callable[[S, str], tuple[TextOrInlines, ...]]
     explain_key: Callable[[S, str], TextOrInlines] = show_spec
+    paper_hints: Callable[[S, str], tuple[TextOrInlines, ...]] = no_paper_hints
 
     @property
     def name(self) -> str:

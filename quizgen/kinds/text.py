@@ -151,7 +151,7 @@ FEW = 2
 
 def input_hints(spec: TextSpec, lang: str) -> tuple[str, ...]:
     """Return the sentence on own words, as short as the key points allow."""
-    count = len(spec.points)
+    count = spec.needed or len(spec.points)
     return (
         translate(lang, "ask.text")
         if count <= FEW
@@ -164,4 +164,4 @@ def explain_key(_spec: TextSpec, _lang: str) -> str:
     return ""
 
 
-KIND = AnswerKind(AuthoredText, TextSpec, ask, input_hints, explain_key)
+KIND = AnswerKind(AuthoredText, TextSpec, ask, input_hints, explain_key, input_hints)
