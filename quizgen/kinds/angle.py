@@ -17,7 +17,13 @@ from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import ScalarSpec
 from quizgen.grading.verdict import Verdict, attach_values, wrong
-from quizgen.kinds.asking import ask_numeric, numeric_hints, precision_on_paper, show_exact_first
+from quizgen.kinds.asking import (
+    accept_within_tolerance,
+    ask_numeric,
+    numeric_hints,
+    precision_on_paper,
+    show_exact_first,
+)
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartContext
 from quizgen.kinds.quantity import DEGREES
 from quizgen.locale import translate
@@ -152,4 +158,12 @@ def input_hints(spec: AngleSpec, lang: str) -> tuple[str, ...]:
     return numeric_hints(spec, lang, translate(lang, "ask.degrees"))
 
 
-KIND = AnswerKind(AuthoredAngle, AngleSpec, ask, input_hints, show_exact_first, precision_on_paper)
+KIND = AnswerKind(
+    AuthoredAngle,
+    AngleSpec,
+    ask,
+    input_hints,
+    show_exact_first,
+    precision_on_paper,
+    accept_within_tolerance,
+)

@@ -323,6 +323,8 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         a matching, in the order in which they are shown.
     right : tuple of (str, str)
         Section and name of the sentences that tell the right answer in words.
+    shares : tuple of Fraction
+        What share of the points each of these earns, where an answer may have some of them.
     reasons : tuple of (str, str)
         What a learner may choose wrongly (an option's mark, a pair of marks) and the name of the
         sentence in section ``reasons`` that says why it is wrong.
@@ -343,6 +345,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     options: tuple[LabelledName, ...] = ()
     targets: tuple[LabelledName, ...] = ()
     right: tuple[LabelledName, ...] = ()
+    shares: tuple[Fraction, ...] = ()
     reasons: tuple[LabelledName, ...] = ()
     statements: tuple[LabelledName, ...] = ()
     source: str = ""
@@ -461,6 +464,11 @@ def no_paper_hints(_spec: AnySpec, _lang: str) -> tuple[TextOrInlines, ...]:
     return ()
 
 
+def accept_nothing_else(_spec: AnySpec, _lang: str) -> str:
+    """Return nothing: the printed answer is the only one."""
+    return ""
+
+
 @dataclass(frozen=True)
 class AnswerKind(Generic[S]):
     """One kind of answer: all that differs between kinds.
@@ -484,6 +492,8 @@ class AnswerKind(Generic[S]):
     paper_hints : callable
         What is said beside the field on paper, where nothing is typed and units are printed:
         a word on precision or form, most often nothing.
+    accepted : callable
+        What a marker accepts besides the printed answer, in few words; empty for nothing.
     """
 
     authored: type[AuthoredAnswer | AuthoredMeasured]
@@ -492,6 +502,7 @@ class AnswerKind(Generic[S]):
     input_hints: Callable[[S, str], tuple[TextOrInlines, ...]]
     explain_key: Callable[[S, str], TextOrInlines] = show_spec
     paper_hints: Callable[[S, str], tuple[TextOrInlines, ...]] = no_paper_hints
+    accepted: Callable[[S, str], str] = accept_nothing_else
 
     @property
     def name(self) -> str:

@@ -41,6 +41,7 @@ from quizgen.grading.spec import ScalarSpec, is_whole_number
 from quizgen.grading.verdict import Verdict, attach_values, unreadable, wrong
 from quizgen.kinds import quantity
 from quizgen.kinds.asking import (
+    accept_within_tolerance,
     ask_numeric,
     numeric_hints,
     precision_on_paper,
@@ -330,4 +331,12 @@ def explain_key(spec: NumberSpec, lang: str) -> str:
     return show_spec(spec, lang) if spec.percent else show_exact_first(spec, lang)
 
 
-KIND = AnswerKind(AuthoredNumber, NumberSpec, ask, input_hints, explain_key, precision_on_paper)
+KIND = AnswerKind(
+    AuthoredNumber,
+    NumberSpec,
+    ask,
+    input_hints,
+    explain_key,
+    precision_on_paper,
+    accept_within_tolerance,
+)

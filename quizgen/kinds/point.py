@@ -43,6 +43,7 @@ from quizgen.grading.verdict import (
     wrong,
 )
 from quizgen.kinds.asking import (
+    accept_within_tolerance,
     ask_numeric,
     numeric_hints,
     precision_on_paper,
@@ -273,4 +274,12 @@ def input_hints(spec: PointSpec, lang: str) -> tuple[str, ...]:
     return numeric_hints(spec, lang, shape, unit_hint(spec.unit, lang))
 
 
-KIND = AnswerKind(AuthoredPoint, PointSpec, ask, input_hints, show_exact_first, precision_on_paper)
+KIND = AnswerKind(
+    AuthoredPoint,
+    PointSpec,
+    ask,
+    input_hints,
+    show_exact_first,
+    precision_on_paper,
+    accept_within_tolerance,
+)

@@ -23,7 +23,13 @@ from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import COUNTED, ScalarSpec, is_whole_number
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
-from quizgen.kinds.asking import ask_numeric, numeric_hints, precision_on_paper, show_exact_first
+from quizgen.kinds.asking import (
+    accept_within_tolerance,
+    ask_numeric,
+    numeric_hints,
+    precision_on_paper,
+    show_exact_first,
+)
 from quizgen.kinds.contract import (
     AnswerKind,
     AskedPart,
@@ -248,5 +254,11 @@ def input_hints(spec: QuantitySpec, lang: str) -> tuple[str, ...]:
 
 
 KIND = AnswerKind(
-    AuthoredQuantity, QuantitySpec, ask, input_hints, show_exact_first, precision_on_paper
+    AuthoredQuantity,
+    QuantitySpec,
+    ask,
+    input_hints,
+    show_exact_first,
+    precision_on_paper,
+    accept_within_tolerance,
 )

@@ -31,6 +31,7 @@ from quizgen.grading.verdict import (
 )
 from quizgen.kinds import angle, number, quantity
 from quizgen.kinds.asking import (
+    accept_within_tolerance,
     ask_numeric,
     explain_assigned,
     nonempty,
@@ -329,4 +330,12 @@ def explain_key(spec: TableSpec, lang: str) -> TextOrInlines:
     return explain_assigned((name, show_spec(cell_spec(spec, name), lang)) for name in spec.values)
 
 
-KIND = AnswerKind(AuthoredTable, TableSpec, ask, input_hints, explain_key, precision_on_paper)
+KIND = AnswerKind(
+    AuthoredTable,
+    TableSpec,
+    ask,
+    input_hints,
+    explain_key,
+    precision_on_paper,
+    accept_within_tolerance,
+)

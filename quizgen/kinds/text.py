@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from functools import lru_cache
 
 from quizgen.grading.echo import safe_echo
@@ -142,7 +143,9 @@ def ask(part: PartContext) -> AskedPart[TextSpec]:
     points = part.answer["points"]
     spec = make_spec(TextSpec, part, points={name: part.accepted_words(name) for name in points})
     right = tuple(("points", name) for name in points)
-    return AskedPart(spec, InputControl("lines", lines=4), right=right)
+    needed = spec.needed or len(points)
+    shares = (Fraction(1, max(needed, 1)),) * len(points)
+    return AskedPart(spec, InputControl("lines", lines=4), right=right, shares=shares)
 
 
 FEW = 2

@@ -25,6 +25,7 @@ from quizgen.kinds import KINDS
 from quizgen.kinds.contract import InputBox, InputControl
 from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import format_for_key
+from quizgen.maths.units import format_unit
 from quizgen.question.data_files import build_file_paragraphs
 from quizgen.question.figure import draw_question_figure
 from quizgen.question.html import blocks_to_html, inlines_to_html
@@ -83,6 +84,17 @@ class AnswerField(msgspec.Struct, frozen=True):
     def hint(self) -> tuple[Inline, ...]:
         """Return what to type, as one run of sentences."""
         return join_inlines(self.asks, " ")
+
+    @property
+    def boxes(self) -> tuple[InputBox, ...]:
+        """Return the boxes of an answer on paper, each with its unit as it is printed."""
+        boxes = self.control.boxes or (self.box,)
+        return tuple(InputBox(b.name, format_unit(b.unit) if b.unit else "") for b in boxes)
+
+    @property
+    def has_unit(self) -> bool:
+        """Return whether the answer has a unit that earns something: a percentage has none."""
+        return any(box.unit not in {"", "%", "1"} for box in self.boxes)
 
     @property
     def hint_on_paper(self) -> tuple[Inline, ...]:

@@ -7,14 +7,22 @@ estimated here from the length of texts; Typst does the rest.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
-from quizgen.bank.markdown import Inline, Paragraph
-from quizgen.bank.pictures import PictureFile
+import msgspec
+
+from quizgen.bank.markdown import (
+    Emphasis,
+    Inline,
+    InlineCode,
+    ListBlock,
+    Paragraph,
+    TableBlock,
+)
 from quizgen.figures import Figure
-from quizgen.maths.units import format_unit
 from quizgen.question.compose import AnswerField, Question, QuestionPart
 from quizgen.question.inlines import PlacedPicture, name_inline
 from quizgen.question.interpolation import inlines_to_text
@@ -90,17 +98,35 @@ class PaperPart(NamedTuple):
         )
 
 
+Prose = TypeVar("Prose")
+
+
+def typeset_letters(said: Prose) -> Prose:
+    """Return prose with program text that is one letter, such as ``p_x``, as a formula.
+
+    On a screen it says what to type; on paper a letter is a letter.
+    """
+    return _typeset_letters(said)
+
+
+def _typeset_letters(said: Any) -> Any:
+    """Return the same structure, whatever it is made of."""
+    if isinstance(said, InlineCode):
+        return name_inline(said.text) if _LETTER.fullmatch(said.text) else said
+    if isinstance(said, Paragraph | ListBlock | TableBlock | Emphasis):
+        fields = {name: _typeset_letters(getattr(said, name)) for name in said.__struct_fields__}
+        return msgspec.structs.replace(said, **fields)
+    return tuple(map(_typeset_letters, said)) if isinstance(said, tuple) else said
+
+
+_LETTER = re.compile(r"[A-Za-z]'?(_\w{1,3})?")
+
+
 def _count_characters(text: tuple[Inline, ...]) -> int:
     """Return about how many characters a text is wide; a picture is as wide as it is."""
-    pictures = [part.picture for part in text if isinstance(part, PlacedPicture)]
-    wide = sum(_width_mm(picture) for picture in pictures) * CHARACTERS / TEXT_MM
+    wide = sum(part.picture.width_pt for part in text if isinstance(part, PlacedPicture))
     words = inlines_to_text(part for part in text if not isinstance(part, PlacedPicture))
-    return len(words) + math.ceil(wide)
-
-
-def _width_mm(picture: PictureFile) -> float:
-    """Return the natural width of a picture in millimetres."""
-    return picture.width_pt / 72 * 25.4
+    return len(words) + math.ceil(wide / mm_to_pt(TEXT_MM) * CHARACTERS)
 
 
 def count_columns(longest: int, count: int, share: float = 1.0) -> int:
@@ -218,10 +244,10 @@ def _typeset_steps(one: PaperPart) -> str:
 def _typeset_values(one: PaperPart) -> str:
     """Return a box for each value, with its name and unit."""
     field = one.first.field
-    boxes = field.control.boxes or (field.box,)
+    boxes = field.boxes
     rows = [
         f"([{inlines_to_typst((name_inline(box.name),), one.langs[0]) if box.name else ''}], "
-        f"[#{typst_literal(format_unit(box.unit) if box.unit else '')};])"
+        f"[#{typst_literal(box.unit)};])"
         for box in boxes
     ]
     named = any(box.name or box.unit for box in boxes)

@@ -21,6 +21,7 @@ from quizgen.question.html import (
     put_fields,
 )
 from quizgen.question.interpolation import inlines_to_text
+from quizgen.question.mark_scheme import mark_lines
 from quizgen.render import fonts
 from quizgen.render.layouts import count_working_rows, jinja_environment
 
@@ -40,6 +41,7 @@ def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
         marks=format_marks,
         amount=format_amount,
         decimal=lambda lang: get_language(lang).decimal,
+        mark_lines=mark_lines,
         squares=count_working_rows,
         plain=inlines_to_text,
         put_fields=put_fields,

@@ -6,8 +6,11 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
+import msgspec
+
 from quizgen.locale import format_amount, format_marks, translate
 from quizgen.paper.paper import Paper, PaperItem
+from quizgen.question.compose import Question
 from quizgen.render.answer_fields import (
     BOARD_SCALE,
     GUTTER,
@@ -19,6 +22,7 @@ from quizgen.render.answer_fields import (
     is_ticked,
     mm_to_pt,
     typeset_hint,
+    typeset_letters,
     typeset_part,
     typeset_room,
     typeset_text,
@@ -99,7 +103,7 @@ class _TypstPaper:
         facts = self._typeset_facts()
         if self.kind == "solutions":
             return "\n".join(
-                [head, *others, "#v(0.6em)", facts, *self._typeset_citation_note(), "#v(0.6em)"]
+                [head, *others, "#v(0.6em)", facts, *self._typeset_scheme_note(), "#v(0.6em)"]
             )
         unknown = () if self.paper.holder else ("name", "matriculation")
         labels = ", ".join(f"[{translate_all(self.langs, f'paper.{name}')}]" for name in unknown)
@@ -169,19 +173,15 @@ class _TypstPaper:
         ]
         return f"#facts({', '.join(named)})"
 
-    def _typeset_citation_note(self) -> list[str]:
-        """Return a note on what the numbers next to steps refer to; none without such numbers."""
-        if not self.paper.cited_formula:
-            return []
-        said = {
-            lang: translate(lang, "solution.cited", formula=self.paper.cited_formula)
-            for lang in self.langs
-        }
-        return [
-            stack_languages(
-                self.langs, [f"#hint[#{typst_literal(said[lang])};]" for lang in self.langs]
-            )
-        ]
+    def _typeset_scheme_note(self) -> list[str]:
+        """Return a note on the points and, if there are any, the numbers of formulas at steps."""
+        cited = self.paper.cited_formula
+        said = []
+        for lang in self.langs:
+            lines = [translate(lang, "scheme.rule")]
+            lines += [translate(lang, "solution.cited", formula=cited)] if cited else []
+            said.append(f"#hint[#{typst_literal(' '.join(lines))};]")
+        return [stack_languages(self.langs, said)]
 
     def _typeset_mark_table(self) -> str:
         """Return the table of questions and points, with room for the points given."""
@@ -245,16 +245,16 @@ class _TypstPaper:
 
     def _typeset_stem(self, item: PaperItem) -> str:
         """Return what stands before the parts of a question, in all languages."""
-        return stack_languages(
-            self.langs, [blocks_to_typst(q.stem, q.lang) for q in item.questions]
-        )
+        questions = write_for_paper(item)
+        return stack_languages(self.langs, [blocks_to_typst(q.stem, q.lang) for q in questions])
 
     def _list_parts(self, item: PaperItem) -> list[PaperPart]:
         """Return the parts of a question, each in all languages."""
+        questions = write_for_paper(item)
         return [
             PaperPart(
                 self.langs,
-                tuple(q.parts[index] for q in item.questions),
+                tuple(q.parts[index] for q in questions),
                 tuple(key.solution.parts[index] for key in item.keys),
             )
             for index in range(len(item.questions[0].parts))
@@ -341,6 +341,24 @@ class _TypstPaper:
             f"hold: {str(hold or bool(room) or not is_last).lower()})"
             f"[{typeset_text(one)}#box(height: 1em);{said}]\n{room}"
         )
+
+
+def write_for_paper(item: PaperItem) -> tuple[Question, ...]:
+    """Return a question in its languages; where a formula is asked, its letters are no code."""
+    fields = [part.field for part in item.questions[0].parts]
+    if not any(field.control.form == "line" and not field.is_number for field in fields):
+        return item.questions
+    return tuple(
+        msgspec.structs.replace(
+            question,
+            stem=typeset_letters(question.stem),
+            parts=tuple(
+                msgspec.structs.replace(part, body=typeset_letters(part.body))
+                for part in question.parts
+            ),
+        )
+        for question in item.questions
+    )
 
 
 def _format_holder(paper: Paper) -> str:

@@ -1,4 +1,4 @@
-"""Worked solutions on paper: each step on lines that break before its signs, reasons beside them.
+"""Worked solutions on paper: each step on lines that break before its signs, with what it earns.
 
 In: a part of a question with its solution in the languages of a paper. Out: calls of
 ``pages/paper.typ``.
@@ -7,11 +7,13 @@ In: a part of a question with its solution in the languages of a paper. Out: cal
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from functools import lru_cache
 
 from quizgen import typeset
 from quizgen.locale import format_amount, translate
 from quizgen.question.inlines import name_inline
+from quizgen.question.mark_scheme import SideMark, mark_steps
 from quizgen.question.solution import PartSolution, Solution, SolutionStep, SolvedMisconception
 from quizgen.render.answer_fields import PaperPart, count_columns, typeset_text
 from quizgen.render.typst_document import (
@@ -20,13 +22,10 @@ from quizgen.render.typst_document import (
     inlines_to_typst,
     join_languages,
     stack_languages,
-    typst_equation,
+    translate_all,
     typst_literal,
     typst_passage,
 )
-
-SIDE = 0.3
-"""Share of the width that reasons beside a solution take."""
 
 
 def typeset_solved_part(one: PaperPart, drawing: str) -> str:
@@ -38,21 +37,24 @@ def typeset_solved_part(one: PaperPart, drawing: str) -> str:
     drawing : str
         The picture of the solved drawing; empty without one.
     """
+    marks = mark_steps(one.solved[0], one.first.points, has_unit=one.first.field.has_unit)
     steps = [
-        _typeset_step([solved.lines[index] for solved in one.solved], one.langs)
-        for index in range(len(one.solved[0].lines))
+        _typeset_step([solved.lines[index] for solved in one.solved], one.langs, earned)
+        for index, earned in enumerate(marks)
     ]
-    drawn = [f"#drawn({drawing})"] if drawing else []
-    body = [_typeset_listed(one), *steps, *drawn, _typeset_result(one), _typeset_why(one)]
+    body = [
+        _typeset_listed(one),
+        *steps,
+        f"#drawn({drawing})" if drawing else "",
+        _typeset_result(one),
+        _typeset_scheme(one),
+        _typeset_why(one),
+        _typeset_wrong_answers(one),
+    ]
     worth = format_amount(one.first.points, one.langs[0])
-    reasons = [
-        "\n".join(_typeset_wrong(wrong, lang) for wrong in (*solved.reasons, *solved.mistakes))
-        for solved, lang in zip(one.solved, one.langs, strict=True)
-    ]
     return (
         f"#solved({typst_literal(one.first.label)}, {typst_literal(worth)})"
         f"[{typeset_text(one)}][{chr(10).join(filter(None, body))}]"
-        f"[{stack_languages(one.langs, reasons)}]"
     )
 
 
@@ -69,15 +71,22 @@ def _typeset_listed(one: PaperPart) -> str:
 def _count_columns(one: PaperPart, side: str) -> int:
     """Return in how many columns the options of a side stand."""
     count = len(getattr(one.first.field, side))
-    return count_columns(one.count_option_characters(side), count, 1 - SIDE)
+    return count_columns(one.count_option_characters(side), count)
 
 
-def _typeset_step(lines: Sequence[SolutionStep], langs: tuple[str, ...]) -> str:
-    """Return one step: a row for each side, and its sentence in each language."""
+def _typeset_step(
+    lines: Sequence[SolutionStep], langs: tuple[str, ...], earned: Sequence[SideMark]
+) -> str:
+    """Return one step: a row for each side with its points, and its sentence in each language."""
     first, lang = lines[0], langs[0]
     name = inlines_to_typst((name_inline(first.name),), lang) if first.sides else ""
-    rows = [f"({typst_literal(side.sign)}, {typst_side(side.node, lang)})" for side in first.sides]
-    whole = "" if rows else typst_equation(first.maths, lang, block=False)
+    rows = [
+        f"({typst_literal(side.sign)}, {typst_side(side.node, lang)}, {_typeset_mark(mark, lang)})"
+        for side, mark in zip(first.sides, earned, strict=False)
+    ]
+    if not rows:
+        whole = typst_side(first.maths.node, lang)
+        rows = [f"([], {whole}, {_typeset_mark(earned[0], lang)})"]
     why = stack_languages(
         langs,
         [
@@ -85,9 +94,27 @@ def _typeset_step(lines: Sequence[SolutionStep], langs: tuple[str, ...]) -> str:
             for line, one in zip(lines, langs, strict=True)
         ],
     )
-    shown = f"#work([{name}], {', '.join(rows)})" if rows else f"#work-line[{whole}]"
-    cite = f"#cite-formula({typst_literal(first.formula)})\n" if first.formula else ""
-    return f"{cite}{shown}\n#why[{why}]"
+    cite = typst_literal(first.formula)
+    return f"#work([{name}], {cite}, {', '.join(rows)})\n#why[{why}]"
+
+
+def _typeset_mark(mark: SideMark, lang: str) -> str:
+    """Return what a side earns, and what for."""
+    if not mark.points:
+        return "[]"
+    words = ", ".join(translate(lang, f"scheme.{name}") for name in mark.earned)
+    return f"earned({typst_literal(format_quarters(mark.points, lang))}, {typst_literal(words)})"
+
+
+QUARTERS = {Fraction(1, 4): "¼", Fraction(1, 2): "½", Fraction(3, 4): "¾"}
+
+
+def format_quarters(points: Fraction, lang: str) -> str:
+    """Return points with their quarters as one sign: 1½."""
+    whole, part = divmod(points, 1)
+    if part and part not in QUARTERS:
+        return format_amount(points, lang)
+    return f"{whole or ''}{QUARTERS[part]}" if part else str(whole)
 
 
 @lru_cache(maxsize=1 << 12)
@@ -99,16 +126,53 @@ def typst_side(node: typeset.Node, lang: str) -> str:
 
 def _typeset_result(one: PaperPart) -> str:
     """Return the answer of a part in each language."""
+    points = one.first.points
     answers = [
-        _typeset_answer(solved, lang) for solved, lang in zip(one.solved, one.langs, strict=True)
+        _typeset_answer(solved, lang, points)
+        for solved, lang in zip(one.solved, one.langs, strict=True)
     ]
-    return f"#result[{join_languages(one.langs, answers)}]" if any(answers) else ""
+    is_whole = not one.solved[0].lines and not one.solved[0].shares
+    worth = format_quarters(points, one.langs[0]) if is_whole else ""
+    said = join_languages(one.langs, answers)
+    return f"#result({typst_literal(worth)})[{said}]" if any(answers) else ""
 
 
-def _typeset_answer(solved: PartSolution, lang: str) -> str:
-    """Return the answer of a part in a language."""
-    shown = f"#strong[{inlines_to_typst(solved.shown, lang)}]; " if solved.shown else ""
+def _typeset_scheme(one: PaperPart) -> str:
+    """Return what a marker accepts, and whether a slip of an earlier part counts again."""
+    first, rows = one.solved[0], []
+    if first.accepted:
+        said = [f"#{typst_literal(solved.accepted)};" for solved in one.solved]
+        also = translate_all(one.langs, "scheme.also")
+        rows.append(f"#accept([{also}], [{join_languages(one.langs, said)}])")
+    if first.follows:
+        labels = ", ".join(first.follows)
+        rows.append(f"#why[{translate_all(one.langs, 'scheme.follow', labels=labels)}]")
+    return "\n".join(rows)
+
+
+def _typeset_wrong_answers(one: PaperPart) -> str:
+    """Return the wrong answers that are known, in each language."""
+    texts = [
+        "\n".join(
+            _typeset_wrong(wrong, lang, one.first.points)
+            for wrong in (*solved.reasons, *solved.mistakes)
+        )
+        for solved, lang in zip(one.solved, one.langs, strict=True)
+    ]
+    return stack_languages(one.langs, texts)
+
+
+def _typeset_answer(solved: PartSolution, lang: str, points: Fraction) -> str:
+    """Return the answer of a part in a language; what earns points of its own with these."""
+    is_told = solved.shown and not solved.drawing  # nobody reads a drawing as its points
+    shown = f"#strong[{inlines_to_typst(solved.shown, lang)}]; " if is_told else ""
     options = [inlines_to_typst(option, lang) for option in solved.options]
+    if solved.shares:
+        shares = [format_quarters(points * share, lang) for share in solved.shares]
+        options = [
+            f"{option} #strong({typst_literal(share)});"
+            for option, share in zip(options, shares, strict=True)
+        ]
     if len(options) <= 1:
         return shown + "".join(options)
     return f"{shown}#list({', '.join(f'[{option}]' for option in options)});"
@@ -123,12 +187,13 @@ def _typeset_why(one: PaperPart) -> str:
     return f"#why[{stack_languages(one.langs, texts)}]" if any(texts) else ""
 
 
-def _typeset_wrong(wrong: SolvedMisconception, lang: str) -> str:
-    """Return a wrong answer, and what is wrong with it."""
+def _typeset_wrong(wrong: SolvedMisconception, lang: str, points: Fraction) -> str:
+    """Return a wrong answer, what it earns, and what is wrong with it."""
     shown, sentence = (
         typst_passage(inlines_to_typst(said, lang)) for said in (wrong.shown, wrong.sentence)
     )
-    return f"#slip([{shown}], [{sentence}])"
+    earns = format_quarters(points * wrong.share, lang) if wrong.share else ""
+    return f"#slip({typst_literal(earns)}, [{shown}], [{sentence}])"
 
 
 def typeset_remarks(solutions: Sequence[Solution]) -> str:
