@@ -16,6 +16,9 @@ A language file has a title, a stem, one section per part and lists of named sen
     ## reasons        why an option or a claim is wrong (or right), a pair does not fit, a step
                       comes later, a gap takes its word
     ## words          wording of drawn phrases
+    ## points         the ideas that sentences are marked by, by criterion
+    ## accept         examples of what counts for one, with | between; then half, refuse
+    ## model          the model answer, by part
     ## note           a remark shown with the solution (where the notes differ, and why)
 
 Sentences are written in the subset of ``prose``. A named sentence may be told by a condition,
@@ -44,7 +47,20 @@ from quizgen.core import untrusted
 from quizgen.core.errors import BankError
 
 NAMED_SECTIONS = frozenset(
-    {"steps", "traps", "options", "words", "gaps", "points", "reasons", "claims"}
+    {
+        "steps",
+        "traps",
+        "options",
+        "words",
+        "gaps",
+        "points",
+        "accept",
+        "half",
+        "refuse",
+        "model",
+        "reasons",
+        "claims",
+    }
 )
 PROSE_SECTIONS = frozenset({"why", "check", "note"})
 _TEXTS = CompileCache("prose", LanguageFile, "markdown_it", "math_core")

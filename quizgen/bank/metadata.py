@@ -30,7 +30,8 @@ class BankMetadata(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 
     ``languages`` are those it is written in, ``title`` is the chapter's by language, and
     ``topics`` are its topics in order, each with its title by language. ``terms`` are words of the
-    subject, none of which is another one misspelt; ``counted`` has the words that may stand beside
+    subject, none of which is another one misspelt; ``synonyms`` are groups of them that mean the
+    same in a learner's sentence, each under a name; ``counted`` has the words that may stand beside
     a number, by the name that an answer gives as ``counts``; ``units`` are those besides the listed
     ones, each as Pint defines units; ``photographs`` are the figures that are pictures of a camera,
     of which a blueprint may ask for some. ``requires`` are the versions of quizgen that it works
@@ -44,6 +45,7 @@ class BankMetadata(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     requires: str = ""
     languages: tuple[str, ...] = ()
     terms: tuple[str, ...] = ()
+    synonyms: dict[str, tuple[str, ...]] = {}
     counted: dict[str, tuple[str, ...]] = {}
     title: dict[str, str] = {}
     topics: dict[str, dict[str, str]] = {}
@@ -170,5 +172,7 @@ def grading_words(about: BankMetadata, answers: Sequence[Mapping[str, object]]) 
         yield msgspec.json.encode(about.counted)
     if any(answer.get("kind") == "gap" for answer in answers):
         yield msgspec.json.encode(about.terms)
+    if any(answer.get("kind") == "rubric" for answer in answers):
+        yield msgspec.json.encode(about.synonyms)
     if about.units:
         yield msgspec.json.encode(about.units)

@@ -129,6 +129,7 @@ class Rules(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     minutes: int | None = None
     solver: str = ""
     covers: tuple[str, ...] = ()
+    verbs: dict[str, str] = {}
     draw: dict[str, DrawRule] = {}
     data: dict[str, DataRule] = {}
     files: dict[str, tuple[str, ...]] = {}

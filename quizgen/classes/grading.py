@@ -198,7 +198,7 @@ def _apply_decisions(
 ) -> GradedClassPart:
     """Return the mark of an answer after the rulings about it."""
     asked = found.status in TO_DECIDE
-    words = part.spec["kind"] == "text"
+    words = part.spec["kind"] == "rubric"
     group = ""
     if asked or rulings:
         group = answer_group(item, part.parse_spec(proven=True).show(), found.typed, words=words)

@@ -3,7 +3,7 @@
 Answers are equal when they are the same but for blanks and, in sentences, capitals. Sentences are
 similar, and one decision may settle them, when they differ only by slips in spelling and by words
 that say nothing: never by a number, a negation or an opposite. What is nearest stands next. Nothing
-here gives points: key points that were found are a suggestion.
+here gives points: criteria that were recognised are a suggestion.
 """
 
 from __future__ import annotations
@@ -36,12 +36,14 @@ from quizgen.grading.judging.spelling import (
     typo_distance,
 )
 from quizgen.grading.options import GradingOptions
-from quizgen.kinds.text import TextSpec as Text
+from quizgen.kinds.rubric import RubricSpec, Status
 from quizgen.maths.numbers import parse_written_number
 from quizgen.paper.answer_key import AnswerKey, KeyPart
 from quizgen.paper.grading import round_to_quarters
 
 FILE = "decisions.csv"
+EXAMPLES = 4
+"""Examples of a criterion that stand beside it."""
 SIMILAR = 85
 """Of 100, how alike the letters of two sentences are at least, before their words are compared."""
 MOST_CHAINED = 2000
@@ -90,6 +92,34 @@ class AnswerGroupMember:
 
 
 @dataclass(frozen=True)
+class CriterionCase:
+    """A criterion that a sentence is marked by, and what is suggested of it.
+
+    Parameters
+    ----------
+    name : str
+    points : Fraction
+    idea : str
+    accept, refuse : tuple of str
+        Examples of what counts and what does not.
+    halves : bool
+        Whether half its points may be given.
+    status : Status
+    quote : str
+        The clause that the suggestion goes by.
+    """
+
+    name: str
+    points: Fraction
+    idea: str
+    accept: tuple[str, ...]
+    refuse: tuple[str, ...]
+    halves: bool
+    status: Status
+    quote: str
+
+
+@dataclass(frozen=True)
 class DecisionCase:
     """A group of equal answers with what helps a person to decide.
 
@@ -99,21 +129,26 @@ class DecisionCase:
     key : str
         The right answer.
     seen : str
-        Key points that were found, or why it was asked back.
+        Criteria that were recognised, or why it was asked back.
     suggestion : Fraction or None
-        Points that the key points found would give.
-    sentence : bool
-        Whether sentences are asked for.
+        Points that the criteria recognised would give.
+    criteria : tuple of CriterionCase
+        What sentences are marked by; empty for other answers.
     spots : tuple of (int, int)
-        Where in the answer the key points stand.
+        Where in the answer stands what the suggestion goes by.
     """
 
     answer: AnswerGroupMember
     key: str
     seen: str
     suggestion: Fraction | None = None
-    sentence: bool = False
+    criteria: tuple[CriterionCase, ...] = ()
     spots: tuple[tuple[int, int], ...] = ()
+
+    @property
+    def sentence(self) -> bool:
+        """Whether sentences are asked for."""
+        return bool(self.criteria)
 
 
 def undecided_answers(
@@ -171,30 +206,34 @@ def decision_cases(
 
 
 def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> DecisionCase:
-    """Return an answer with its key, the key points found, and the points they suggest."""
+    """Return an answer with its key, the criteria recognised, and the points they suggest."""
     spec = part.parse_spec(proven=True)
-    verdict = explain_verdict(spec, judge_answer(spec, answer.typed, GradingOptions(lang)), lang)
-    if not isinstance(spec, Text):
-        return DecisionCase(answer, spec.show_in(lang), verdict.message)
-    found = tuple(map(str, _require_names(verdict.fields.get("found"))))
-    needed = spec.needed or len(spec.key_points())
+    if not isinstance(spec, RubricSpec):
+        judged = judge_answer(spec, answer.typed, GradingOptions(lang))
+        verdict = explain_verdict(spec, judged, lang)
+        share = verdict.fields.get("share")  # of a derivation whose reasons a person reads
+        worth = share * Fraction(answer.worth) if isinstance(share, Fraction) else None
+        suggested = None if worth is None else round_to_quarters(worth)
+        return DecisionCase(answer, spec.show_in(lang), verdict.message, suggested)
+    made, ideas = spec.suggest(answer.typed), spec.list_ideas(lang)
+    criteria = tuple(
+        CriterionCase(
+            found.name,
+            one.worth,
+            ideas.get(found.name, found.name),
+            tuple(one.accept[:EXAMPLES]),
+            tuple(one.refuse[:EXAMPLES]),
+            bool(one.half),
+            found.status,
+            found.quote,
+        )
+        for found, one in zip(made.findings, spec.criteria.values(), strict=True)
+    )
     suggested = round_to_quarters(
-        Fraction(answer.worth) * min(Fraction(len(found), needed), Fraction(1))
+        made.points / parse_written_number(spec.full) * Fraction(answer.worth)
     )
-    shown = f"{len(found)} / {needed}: {', '.join(found)}" if found else f"0 / {needed}"
-    return DecisionCase(
-        answer,
-        spec.show_in(lang),
-        shown,
-        suggested,
-        sentence=True,
-        spots=spec.keyword_positions(answer.typed),
-    )
-
-
-def _require_names(found: object) -> tuple[object, ...]:
-    """Return the value if it is a tuple, else an empty one: verdict fields have no fixed type."""
-    return found if isinstance(found, tuple) else ()
+    shown = "; ".join(f"{one.name}: {one.status}" for one in made.findings)
+    return DecisionCase(answer, spec.show_in(lang), shown, suggested, criteria, made.spots)
 
 
 def group_cases(found: Iterable[DecisionCase]) -> list[list[DecisionCase]]:

@@ -45,7 +45,7 @@ from quizgen.render.typst_document import (
 )
 
 MOST_TO_REVISE = 5
-NOT_TYPED = frozenset({"text", "sketch"})
+NOT_TYPED = frozenset({"rubric", "sketch"})
 """Kinds whose key nobody types."""
 PACKAGE = "quizgen.classes"
 

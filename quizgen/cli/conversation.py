@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from fractions import Fraction
 from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
@@ -21,13 +22,14 @@ from quizgen.grading.offered_readings import (
     list_offered_readings,
 )
 from quizgen.grading.verdict import Verdict
-from quizgen.locale import FIRST
+from quizgen.kinds.rubric import Suggestion, share_of_marks
+from quizgen.locale import FIRST, format_amount, translate
 from quizgen.practice.part_attempt import NextStep, PartAttempt
 from quizgen.practice.session import QuestionAttempt, Session
 from quizgen.practice.session_store import SessionStore
 from quizgen.question.compose import QuestionPart
 from quizgen.question.formula_sheet import cite_formula
-from quizgen.question.solution import PartSolution
+from quizgen.question.solution import PartSolution, scheme_examples
 from quizgen.render.text import blocks_to_plain_text, inlines_to_plain_text
 
 if TYPE_CHECKING:
@@ -256,7 +258,9 @@ class Conversation:
                 self._print_lines(verdict)
                 print_wrapped(verdict.message)
                 self._show_solution(task)
-                task.self_mark(right=self._ask_self_mark(task))
+                made = task.suggest()
+                share = self._ask_criteria(task, made) if made else self._ask_whether_right()
+                task.self_mark(share)
                 return
         lang = self.session.state.wish.lang
         if verdict.lines:
@@ -296,9 +300,35 @@ class Conversation:
         if self.learning is not None:
             self.learning.save_decimal(decimal)
 
-    def _ask_self_mark(self, task: PartAttempt[QuestionPart, PartSolution]) -> bool:
-        """Return whether the learner judges the own answer right."""
-        self._print_sentence("self-mark", points=task.solved.answer)
+    def _ask_criteria(
+        self, task: PartAttempt[QuestionPart, PartSolution], made: Suggestion
+    ) -> float:
+        """Return the share that the learner gives an own sentence, asked criterion by criterion."""
+        lang, rows = self.session.state.wish.lang, task.solved.scheme
+        for told in task.wrong_ideas(made):
+            print_wrapped(told, "   ", "   ", fg="yellow")
+        marks: dict[str, Fraction] = {}
+        for row, finding in zip(rows, made.findings, strict=True):
+            idea = inlines_to_plain_text(row.idea)
+            print_wrapped(f"[{format_amount(row.points, lang)}] {idea}", "   ", "      ")
+            for name, examples in scheme_examples(row):
+                listed = f"{translate(lang, f'solution.{name}')}: {'; '.join(examples)}"
+                print_wrapped(listed, "      ", "      ", dim=True)
+            told = translate(lang, f"suggested.{finding.status}", quote=finding.quote)
+            print_wrapped(told, "      ", "      ")
+            self._print_sentence("self-mark")
+            if self._ask_yes_or_no():
+                marks[row.name] = Fraction(1)
+        full = Fraction(task.part.points)
+        return float(share_of_marks(marks, {row.name: row.points for row in rows}, full))
+
+    def _ask_whether_right(self) -> float:
+        """Return 1 if the learner judges the own answer right, else 0."""
+        self._print_sentence("was-right")
+        return float(self._ask_yes_or_no())
+
+    def _ask_yes_or_no(self) -> bool:
+        """Return whether the learner says yes."""
         while True:
             typed = self._read_line(self.words["yes-or-no"])
             if self._is_word_for("yes-words", typed):
@@ -325,5 +355,6 @@ class Conversation:
             print_wrapped(inlines_to_plain_text(line.why), "      ", "      ")
         print_wrapped(self.words["answer"].format(answer=task.solved.answer), bold=True)
         solved = task.solved
-        for sentence in (*solved.options, *filter(None, [solved.why])):
+        ideas = () if solved.scheme else solved.options
+        for sentence in (*ideas, *filter(None, [solved.why])):
             print_wrapped(inlines_to_plain_text(sentence), "   ", "   ")

@@ -259,6 +259,11 @@ _CODES = {
                   "let points of lines and reasons add up to points of the part"),
     "QG243": Rule("Hardly any numbers meet the conditions of a derivation.",
                   "widen where, or give the symbols bounds"),
+    "QG230": Rule("A criterion names what there is not, or its points are no points."),
+    "QG231": Rule("An example of what counts is not recognised, or one that is refused is.",
+                  "put it in other words, or take it out of the list"),
+    "QG232": Rule("The model answer does not meet a criterion.",
+                  "say it in the model answer, or add how it is said there to section accept"),
     # Item writing: whether a question teaches and cannot be guessed.
     "QG301": Rule("The answer hardly varies.",
                   "let other options, statements or pairs be right in turn"),

@@ -64,7 +64,7 @@ def feedback_sentence(lang: str, note: str, fields: Mapping[str, object]) -> str
     return sentence.format_map(shown).translate(marks)
 
 
-AS_TYPED = frozenset({"code", "gap", "text"})
+AS_TYPED = frozenset({"code", "gap", "rubric"})
 """Kinds whose answers are words, or what a program prints: their points are no decimal signs."""
 
 

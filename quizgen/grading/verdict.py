@@ -18,7 +18,14 @@ UNREADABLE = "unreadable"
 AMBIGUOUS = "ambiguous"
 
 SELF_MARKED = frozenset(
-    {"self-mark", "self-mark-none", "self-mark-lines", "self-mark-lines-none", "unchecked"}
+    {
+        "self-mark",
+        "self-mark-open",
+        "self-mark-none",
+        "self-mark-lines",
+        "self-mark-lines-none",
+        "unchecked",
+    }
 )
 """Notes on what a person marks: free text, and what only its bank could check."""
 

@@ -30,10 +30,10 @@ from quizgen.kinds import (
     order,
     point,
     quantity,
+    rubric,
     sets,
     sketch,
     table,
-    text,
     true_false,
     vector,
     witness,
@@ -45,7 +45,7 @@ KINDS: dict[str, AnswerKind[Any]] = {
     for module in (
         number, quantity, angle, point, sets, table, interval, expression, equation, complex_number,
         matrix, vector, choice, multi,
-        true_false, match, order, gap, witness, derivation, code, text, sketch, checked,
+        true_false, match, order, gap, witness, derivation, code, rubric, sketch, checked,
     )
 }  # fmt: skip
 """Name to kind, in the order of the manual."""

@@ -310,6 +310,19 @@ class DerivedStep(NamedTuple):
 S = TypeVar("S", bound=AnySpec)
 
 
+class SchemeRow(NamedTuple):
+    """A criterion of a mark scheme: its name, points, what it may follow from, whether in halves.
+
+    What counts and what is refused stand in the language files, in sections ``points`` (the idea),
+    ``accept`` and ``refuse``.
+    """
+
+    name: str
+    points: Fraction
+    follows: str = ""
+    halves: bool = False
+
+
 class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     """One part of a variant as its kind asks it.
 
@@ -338,6 +351,8 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         Each known mistake and the spec of which its answer would be the key.
     derived : tuple of DerivedStep
         The lines of a derivation, which the solution shows as its steps.
+    scheme : tuple of SchemeRow
+        The criteria that a person marks by.
     """
 
     spec: S
@@ -352,6 +367,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     drawn: tuple[Line, ...] = ()
     mistakes: Mapping[str, S] = msgspec.field(default_factory=dict)
     derived: tuple[DerivedStep, ...] = ()
+    scheme: tuple[SchemeRow, ...] = ()
 
 
 VALUE_OPTION = "="
@@ -382,6 +398,8 @@ class PartContext(Protocol):
     """Units of the bank, as ``bank.toml`` defines them."""
     terms: Sequence[str]
     """Words of the bank's subject."""
+    points: str
+    """Points of the part as authored."""
 
     def error(self, what: str, rule: str = "QG112") -> BankError:
         """Return an error that names the template and the part; ``rule`` is its diagnostic code."""
@@ -425,8 +443,17 @@ class PartContext(Protocol):
     def shuffle(self, names: Sequence[str], side: str) -> list[str]:
         """Return names in a drawn order, even if ``in_order`` is set."""
 
-    def accepted_words(self, name: str) -> list[str]:
-        """Return the words of a gap or of a key point, from all languages."""
+    def accepted_words(self, name: str, section: str = "gaps") -> list[str]:
+        """Return the words of a gap, or the examples of a criterion, from all languages."""
+
+    def sentences(self, section: str, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
+        """Return the sentences of a section as plain text, by language and mark."""
+
+    def model_answers(self) -> dict[str, str]:
+        """Return the model answer by language, where one is written."""
+
+    def synonyms(self, texts: Iterable[str]) -> list[list[str]]:
+        """Return the groups of words of the bank that mean the same, of which texts have one."""
 
     def has_gap(self, name: str) -> bool:
         """Return whether a language file has words for a gap of this name."""

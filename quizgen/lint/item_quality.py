@@ -278,11 +278,11 @@ READING = 0.5
 """Minutes for the stem and the figure."""
 PART, OPERATION = 0.5, 0.3
 """Minutes for writing down a calculation, and for each operation of a step not done before."""
-ENTRY = {"choice": 0.15, "multi": 0.4, "match": 0.3, "order": 0.5, "gap": 0.4, "text": 0.75,
+ENTRY = {"choice": 0.15, "multi": 0.4, "match": 0.3, "order": 0.5, "gap": 0.4, "rubric": 0.75,
          "sketch": 1.0, "derivation": 1.0}  # fmt: skip
-"""Minutes for each option, pair, step, gap, key point or feature that is shown or asked."""
+"""Minutes for each option, pair, step, gap, criterion or feature that is shown or asked."""
 LISTED = {"choice": "options", "multi": "options", "match": "pairs", "order": "steps",
-          "gap": "gaps", "text": "points", "sketch": "features",
+          "gap": "gaps", "rubric": "criteria", "sketch": "features",
           "derivation": "lines"}  # fmt: skip
 WHOLE = {"tf": 0.5, "code": 1.5, "witness": 3.0, "expression": 2.0}
 """Minutes for a part that has no entries."""
@@ -291,7 +291,7 @@ FAR = 2.0
 
 
 def estimate_minutes(template: Template) -> float:
-    """Return the minutes that a template takes, by its operations, options and key points."""
+    """Return the minutes that a template takes, by its operations, options and criteria."""
     done: set[str] = set()
     parts = (
         _estimate_part_minutes(template, index, done) for index in range(len(template.rules.part))

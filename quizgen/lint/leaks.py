@@ -3,7 +3,7 @@
 A question is looked through as it is printed: stem, hints, figure's words, options, pairs, claims,
 programs. What it may not hold is what another question asks: formulas of the steps to its answer
 (and a keyed formula), its number where nobody would hit it by chance, the sentence that is right,
-the key points of a text, the order of steps. What a question prints itself is no secret of it.
+the criteria of sentences, the order of steps. What a question prints itself is no secret of it.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from quizgen.bank.markdown import (
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import FormulaError
 from quizgen.grading.spec import AnySpec
-from quizgen.kinds import NUMERIC, choice, gap, match, order, text
+from quizgen.kinds import NUMERIC, choice, gap, match, order, rubric
 from quizgen.kinds.grade import show_key
 from quizgen.maths.canonical import CanonicalForm, canonical_forms, formulas_in_program
 from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula
@@ -47,7 +47,7 @@ WORDS = 5
 SAME = 0.85
 """Share of a sentence's words that another one must have to say the same."""
 POINTS = 2
-"""Key points of a text that one sentence of another question must name to tell them."""
+"""Criteria of a text that one sentence of another question must name to tell them."""
 NUMBERS = NUMERIC | {"code"}
 
 _SENTENCE = re.compile(r"(?<=[.।?;]) ")
@@ -92,14 +92,9 @@ class PrintedContent:
         return [(sentence, _extract_word_stems(sentence)) for sentence in self.sentences]
 
     @cached_property
-    def lines(self) -> list[tuple[str, str]]:
-        """Return each sentence, and the same folded to lower case for searching."""
-        return [(sentence, f" {sentence.casefold()}") for sentence in self.sentences]
-
-    @cached_property
     def text(self) -> str:
         """Return all sentences as one text, so that most searches end after one pass."""
-        return "\n".join(line for _, line in self.lines)
+        return "\n".join(self.sentences)
 
     @cached_property
     def vocabulary(self) -> frozenset[str]:
@@ -115,22 +110,24 @@ class AskedContent:
     formulas: Mapping[CanonicalForm, str]
     numbers: frozenset[str]
     sentences: tuple[tuple[str, str], ...]
-    points: text.TextSpec | None
+    scheme: rubric.RubricSpec | None
     steps: tuple[str, ...]
 
     @property
     def is_checkable(self) -> bool:
         """Whether the part has anything that another question could give away."""
-        return bool(
-            self.formulas or self.numbers or self.words or self.named_key_points or self.steps
-        )
+        return bool(self.formulas or self.numbers or self.words or self.criteria or self.steps)
 
     @cached_property
-    def named_key_points(self) -> dict[str, list[str]]:
-        """Return each key point with the terms that name it; empty if they are too few to leak."""
-        points = self.points.key_points() if self.points else {}
-        named = {name: [f" {t.casefold()}" for t in terms] for name, terms in points.items()}
-        return named if len(named) >= POINTS else {}
+    def criteria(self) -> dict[str, list[frozenset[str]]]:
+        """Return the word stems of each criterion's examples; empty if they are too few to leak."""
+        criteria = self.scheme.criteria if self.scheme else {}
+        if len(criteria) < POINTS:
+            return {}
+        return {
+            name: [*filter(None, map(_extract_word_stems, one.accept))]
+            for name, one in criteria.items()
+        }
 
     @cached_property
     def words(self) -> list[tuple[str, frozenset[str], frozenset[str]]]:
@@ -216,22 +213,29 @@ def _iter_leaks(secret: AskedContent, other: PrintedContent) -> Iterator[tuple[s
             for line, others in other.words:
                 if needed <= others and len(words & others) >= SAME * len(words):
                     yield f"'{sentence}' in {line!r}", line
-    if secret.named_key_points:
-        yield from _named_points(secret.named_key_points, other)
+    if secret.scheme is not None and secret.criteria:
+        yield from _met_criteria(secret.scheme, secret.criteria, other)
     places = [other.sentences.index(step) for step in secret.steps if step in other.sentences]
     if len(places) > 1 and places == sorted(places):
         yield f"order of {len(places)} steps", other.sentences[places[0]]
 
 
-def _named_points(
-    named: Mapping[str, Sequence[str]], other: PrintedContent
+def _met_criteria(
+    scheme: rubric.RubricSpec,
+    criteria: Mapping[str, Sequence[frozenset[str]]],
+    other: PrintedContent,
 ) -> Iterator[tuple[str, str]]:
-    """Yield sentences that name several key points, and most of them."""
-    there = [name for name, terms in named.items() if any(term in other.text for term in terms)]
-    for sentence, line in other.lines if len(there) >= POINTS else ():
-        found = [name for name in there if any(term in line for term in named[name])]
-        if len(found) >= POINTS and 2 * len(found) > len(named):
-            yield f"key points {', '.join(found)} in {sentence!r}", sentence
+    """Yield sentences that meet several criteria, and most of them.
+
+    Only one that has all words of an example for each of them is read.
+    """
+    for sentence, stems in other.words:
+        near = [name for name, listed in criteria.items() if any(one <= stems for one in listed)]
+        if len(near) < POINTS:
+            continue
+        met = [one.name for one in scheme.suggest(sentence).findings if one.status == "found"]
+        if len(met) >= POINTS and 2 * len(met) > len(criteria):
+            yield f"criteria {', '.join(met)} in {sentence!r}", sentence
 
 
 def printed_content(question: Question, drawn: Variant) -> PrintedContent:
@@ -293,7 +297,7 @@ def asked_content(
             {form: name for form, name in asked.items() if form not in own.formulas},
             frozenset(_iter_notable_numbers(shown)) - own.numbers,
             tuple(_right_sentences(question, index, spec)),
-            spec if isinstance(spec, text.TextSpec) else None,
+            spec if isinstance(spec, rubric.RubricSpec) else None,
             tuple(options[mark] for mark in steps),
         )
 

@@ -39,6 +39,7 @@ from quizgen.lint.figures import check_figures
 from quizgen.lint.foreign_words import find_foreign_words
 from quizgen.lint.item_quality import QualityReview
 from quizgen.lint.leaks import QuestionContent, question_content
+from quizgen.lint.mark_schemes import find_unsound_schemes
 from quizgen.lint.unused_draws import find_unused_draws
 from quizgen.locale import FIRST, get_language, localise_numbers
 from quizgen.maths.notation import format_tree
@@ -162,6 +163,7 @@ def lint_template(
             report.problems += check_levels(one)
             report.heard += [question_content(question, key) for question, key in worded.values()]
         report.problems += find_misjudged_examples(first)
+        report.problems += find_unsound_schemes(first)
         report.problems += [*check_figures(first), *_find_constant_answers(template, report)]
         report.problems += [*_find_unused_draws(template), *find_foreign_words(template)]
         report.problems += _diagnose_quality_errors(template, lessons)

@@ -29,7 +29,7 @@ Floats: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 
 GUESSED: Mapping[str, float] = {
-    "tf": 0.5, "multi": 0.45, "match": 0.2, "order": 0.2, "gap": 0.1, "sketch": 0.1, "text": 0.1,
+    "tf": 0.5, "multi": 0.45, "match": 0.2, "order": 0.2, "gap": 0.1, "sketch": 0.1, "rubric": 0.1,
     "code": 0.05, "table": 0.05, "point": 0.03,
 }  # fmt: skip
 """Share of a part's points that is got by guessing, by kind; that of ``choice`` follows from it."""

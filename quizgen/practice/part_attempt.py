@@ -11,6 +11,7 @@ from msgspec import structs
 
 from quizgen.core.errors import AttemptFinishedError
 from quizgen.grading.verdict import Verdict
+from quizgen.kinds.rubric import Suggestion, suggest_marks
 from quizgen.paper.answer_key import KeyPart
 from quizgen.paper.grading import OwnValue, QuestionGrader
 from quizgen.practice.scheduler import NAMED
@@ -208,12 +209,22 @@ class PartAttempt(Generic[P, S]):
             return NextStep.RIGHT
         return NextStep.AGAIN if self.state.tries < TRIES else NextStep.OUT_OF_TRIES
 
-    def self_mark(self, *, right: bool) -> None:
-        """End the part as right or wrong by the learner's own judgement."""
+    def self_mark(self, share: float) -> None:
+        """End the part with the share of its points, 0 to 1, that the learner gives it."""
         self._require_unfinished()
         if self.state.tries == 1:
-            self.state.credit = float(right)
-        self._finish_part(right=right)
+            self.state.credit = share
+        self._finish_part(right=share >= 1)
+
+    def suggest(self) -> Suggestion | None:
+        """Return what is suggested of an own sentence; None for every other kind of answer."""
+        return suggest_marks(self._keyed.parse_spec(proven=True), self.state.typed)
+
+    def wrong_ideas(self, made: Suggestion) -> list[str]:
+        """Return what to tell of the known wrong ideas in an own sentence."""
+        spec = self._keyed.parse_spec(proven=True)
+        known = spec.notes.get(self._marker.options.lang, {})
+        return [known[name] for name in made.mistakes if name in known]
 
     def _require_unfinished(self) -> None:
         """Raise ``AttemptFinishedError`` if the part has an outcome."""

@@ -13,6 +13,7 @@ from quizgen.bank.rules import get_claim
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
+from quizgen.grading.judging.statements import used_synonyms
 from quizgen.kinds import KINDS
 from quizgen.kinds.contract import (
     AskedPart,
@@ -61,7 +62,7 @@ class VariantPart(PartContext):
         self.answer = template.rules.part[index].answer
         self.shown, self.shown_values, self.words = drawn.shown, drawn.shown_values, drawn.words
         self.units, self.defined_units = template.units, template.about.units
-        self.terms = template.about.terms
+        self.terms, self.points = template.about.terms, str(template.rules.part[index].points)
         self.lists, self.check_digest = drawn.lists, template.check_digest
 
     def error(self, what: str, rule: str = "QG112") -> BankError:
@@ -130,7 +131,7 @@ class VariantPart(PartContext):
 
     def misconception_notes(self, mistakes: Iterable[str]) -> dict[str, dict[str, str]]:
         """Return what to tell somebody who made a mistake, by language and mistake."""
-        return self._sentences("traps", [(name, name) for name in mistakes])
+        return self.sentences("traps", [(name, name) for name in mistakes])
 
     def with_reason(self, names: Iterable[LabelledName]) -> tuple[LabelledName, ...]:
         """Return those of the marks and names for which some language has a reason."""
@@ -140,9 +141,9 @@ class VariantPart(PartContext):
     def reasons(self, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
         """Return the reasons as plain text, by language and mark; empty if none is written."""
         found = self.with_reason(names)
-        return self._sentences("reasons", found) if found else {}
+        return self.sentences("reasons", found) if found else {}
 
-    def _sentences(self, section: str, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
+    def sentences(self, section: str, names: Iterable[LabelledName]) -> dict[str, dict[str, str]]:
         """Return filled sentences of a section as plain text, by language and mark.
 
         Their numbers have the decimal sign of the language: a key may quote them as they are.
@@ -178,16 +179,33 @@ class VariantPart(PartContext):
         place = f"{drawn.seed}/{drawn.slot}/order/{self.index}{side}"
         return shuffle(f"{template.origin}/{template.rules.version}/{place}", names)
 
-    def accepted_words(self, name: str) -> list[str]:
-        """Return the words of a gap or of a key point, of all languages, each once.
+    def accepted_words(self, name: str, section: str = "gaps") -> list[str]:
+        """Return the words of a gap, or the examples of a criterion, of all languages, each once.
 
-        A learner may answer in any language of the bank, whichever the paper is printed in.
+        A learner may answer in any language of the bank, whichever the paper is printed in. Only
+        words of a gap must be there in every language.
         """
         found: list[str] = []
-        for lang in self.drawn.template.texts:
-            words = inlines_as_typed(Interpolator(self.drawn, lang).sentence("gaps", name))
-            found += [word.strip() for word in words.split("|")]
+        for lang, text in self.drawn.template.texts.items():
+            if section == "gaps" or text.sentence(section, name) is not None:
+                words = inlines_as_typed(Interpolator(self.drawn, lang).sentence(section, name))
+                found += [word.strip() for word in words.split("|") if word.strip()]
         return list(dict.fromkeys(found))
+
+    def model_answers(self) -> dict[str, str]:
+        """Return the model answer by language, where section ``model`` has one for the part."""
+        label = self.drawn.template.labels[self.index] or "a"
+        fillers = {lang: Interpolator(self.drawn, lang) for lang in self.drawn.template.texts}
+        return {
+            lang: localise_numbers(lang, inlines_to_text(filler.sentence("model", label)))
+            for lang, filler in fillers.items()
+            if filler.text.sentence("model", label) is not None
+        }
+
+    def synonyms(self, texts: Iterable[str]) -> list[list[str]]:
+        """Return the groups of ``[synonyms]`` in ``bank.toml`` of which texts have a word."""
+        known = self.drawn.template.about.synonyms
+        return [[*known[name]] for name in used_synonyms(known, texts)]
 
     def has_gap(self, name: str) -> bool:
         """Return whether a language file has words for a gap of this name."""

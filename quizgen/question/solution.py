@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 import msgspec
 
@@ -18,7 +18,7 @@ from quizgen.figures import FieldPicture
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, VectorSpec
 from quizgen.kinds import KINDS
 from quizgen.kinds.asking import as_student_writes
-from quizgen.kinds.contract import AskedPart, DerivedStep, asked_quantities
+from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow, asked_quantities
 from quizgen.kinds.grade import show_key
 from quizgen.locale import translate
 from quizgen.maths.chain import ChainStep
@@ -108,11 +108,29 @@ class SolvedMisconception(msgspec.Struct, frozen=True):
         return inlines_to_plain(self.shown)
 
 
+EXAMPLES_SHOWN = 4
+"""Examples of what counts that a mark scheme prints: the first ones of the list."""
+
+
+class SchemeLine(NamedTuple):
+    """A criterion in print: its points, the idea, examples of what counts, half, does not."""
+
+    name: str
+    points: Fraction
+    idea: tuple[Inline, ...]
+    accept: tuple[str, ...] = ()
+    half: tuple[str, ...] = ()
+    refuse: tuple[str, ...] = ()
+    follows: bool = False
+    halves: bool = False
+
+
 class PartSolution(msgspec.Struct, frozen=True):
     """The worked solution of one part.
 
     ``options`` tells the right answer in words, ``reasons`` why each other choice is wrong,
-    ``why`` what else explains the answer, ``drawing`` the answer if it is drawn.
+    ``why`` what else explains the answer, ``drawing`` the answer if it is drawn, ``scheme`` what a
+    person marks sentences by.
 
     For markers: ``shares`` of the points that each of the options earns, what is ``accepted``
     besides the answer, ``follows``: labels of parts whose values it works on with.
@@ -129,6 +147,7 @@ class PartSolution(msgspec.Struct, frozen=True):
     shares: tuple[Fraction, ...] = ()
     accepted: str = ""
     follows: tuple[str, ...] = ()
+    scheme: tuple[SchemeLine, ...] = ()
 
     @property
     def answer(self) -> str:
@@ -184,7 +203,8 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
             ),
             *(_build_derived_step(filler, step) for step in built.derived),
         ),
-        shown=to_inlines(KINDS[spec.kind].explain_key(spec, filler.lang)),
+        shown=_build_model_answer(filler, label)
+        or to_inlines(KINDS[spec.kind].explain_key(spec, filler.lang)),
         mistakes=tuple(solved_misconceptions(filler, built)),
         options=tuple(
             (*_build_right_option(filler, section, name), *_format_citation(built.source))
@@ -196,6 +216,7 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
         shares=built.shares,
         accepted=KINDS[spec.kind].accepted(spec, filler.lang),
         follows=_list_followed(drawn, index),
+        scheme=tuple(_build_scheme_line(filler, row) for row in built.scheme),
     )
 
 
@@ -213,6 +234,38 @@ def _list_followed(drawn: Variant, index: int) -> tuple[str, ...]:
         drawn.template.labels[place]
         for place in range(index)
         if used & set(asked_quantities(drawn.template.rules.part[place].answer))
+    )
+
+
+def scheme_examples(row: SchemeLine) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the examples of a criterion, each list with the key of what stands before it."""
+    for name, examples in (("accept", row.accept), ("half_for", row.half), ("refuse", row.refuse)):
+        if examples:
+            yield name, examples
+
+
+def _build_model_answer(filler: Interpolator, label: str) -> tuple[Inline, ...]:
+    """Return the model answer of a part, filled; empty if the words have none."""
+    name = label or "a"
+    known = filler.text.sentence("model", name) is not None
+    return filler.sentence("model", name) if known else ()
+
+
+def _build_scheme_line(filler: Interpolator, row: SchemeRow) -> SchemeLine:
+    """Return a criterion as the mark scheme prints it, with the first of its examples."""
+    found = {
+        section: tuple(
+            word.strip()
+            for word in inlines_to_text(filler.sentence(section, row.name)).split("|")[
+                :EXAMPLES_SHOWN
+            ]
+        )
+        for section in ("accept", "half", "refuse")
+        if filler.text.sentence(section, row.name) is not None
+    }
+    idea = filler.sentence("points", row.name)
+    return SchemeLine(
+        row.name, row.points, idea, **found, follows=bool(row.follows), halves=row.halves
     )
 
 

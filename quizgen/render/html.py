@@ -22,6 +22,7 @@ from quizgen.question.html import (
 )
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.mark_scheme import mark_lines
+from quizgen.question.solution import scheme_examples
 from quizgen.render import fonts
 from quizgen.render.layouts import count_working_rows, jinja_environment
 
@@ -45,6 +46,7 @@ def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
         squares=count_working_rows,
         plain=inlines_to_text,
         put_fields=put_fields,
+        scheme_examples=scheme_examples,
         drawing=_read_board_file,
         svg=lambda figure: Markup(figure.inline_svg.decode()),
     )

@@ -14,7 +14,14 @@ from quizgen import typeset
 from quizgen.locale import format_amount, translate
 from quizgen.question.inlines import name_inline
 from quizgen.question.mark_scheme import SideMark, mark_steps
-from quizgen.question.solution import PartSolution, Solution, SolutionStep, SolvedMisconception
+from quizgen.question.solution import (
+    PartSolution,
+    SchemeLine,
+    Solution,
+    SolutionStep,
+    SolvedMisconception,
+    scheme_examples,
+)
 from quizgen.render.answer_fields import PaperPart, count_columns, typeset_text
 from quizgen.render.typst_document import (
     blocks_to_typst,
@@ -47,7 +54,8 @@ def typeset_solved_part(one: PaperPart, drawing: str) -> str:
         *steps,
         f"#drawn({drawing})" if drawing else "",
         _typeset_result(one),
-        _typeset_scheme(one),
+        _typeset_accepted(one),
+        _typeset_criteria(one),
         _typeset_why(one),
         _typeset_wrong_answers(one),
     ]
@@ -131,13 +139,14 @@ def _typeset_result(one: PaperPart) -> str:
         _typeset_answer(solved, lang, points)
         for solved, lang in zip(one.solved, one.langs, strict=True)
     ]
-    is_whole = not one.solved[0].lines and not one.solved[0].shares
+    first = one.solved[0]
+    is_whole = not (first.lines or first.shares or first.scheme)
     worth = format_quarters(points, one.langs[0]) if is_whole else ""
     said = join_languages(one.langs, answers)
     return f"#result({typst_literal(worth)})[{said}]" if any(answers) else ""
 
 
-def _typeset_scheme(one: PaperPart) -> str:
+def _typeset_accepted(one: PaperPart) -> str:
     """Return what a marker accepts, and whether a slip of an earlier part counts again."""
     first, rows = one.solved[0], []
     if first.accepted:
@@ -148,6 +157,27 @@ def _typeset_scheme(one: PaperPart) -> str:
         labels = ", ".join(first.follows)
         rows.append(f"#why[{translate_all(one.langs, 'scheme.follow', labels=labels)}]")
     return "\n".join(rows)
+
+
+def _typeset_criteria(one: PaperPart) -> str:
+    """Return what a person marks sentences by, in each language."""
+    texts = [
+        "\n".join(_typeset_criterion(row, lang) for row in solved.scheme)
+        for solved, lang in zip(one.solved, one.langs, strict=True)
+    ]
+    return stack_languages(one.langs, texts)
+
+
+def _typeset_criterion(row: SchemeLine, lang: str) -> str:
+    """Return a criterion with its points, what counts, what counts half, and what does not."""
+    lines = [typst_passage(inlines_to_typst(row.idea, lang))]
+    for name, examples in scheme_examples(row):
+        head = typst_literal(f"{translate(lang, f'solution.{name}')}: ")
+        lines.append(f"#small[#strong({head}) #{typst_literal('; '.join(examples))};]")
+    if row.follows:
+        lines.append(f"#small[#{typst_literal(translate(lang, 'solution.follows'))};]")
+    points = typst_literal(format_quarters(row.points, lang))
+    return f"#criterion({points})[{' #linebreak() '.join(lines)}]"
 
 
 def _typeset_wrong_answers(one: PaperPart) -> str:
@@ -166,7 +196,8 @@ def _typeset_answer(solved: PartSolution, lang: str, points: Fraction) -> str:
     """Return the answer of a part in a language; what earns points of its own with these."""
     is_told = solved.shown and not solved.drawing  # nobody reads a drawing as its points
     shown = f"#strong[{inlines_to_typst(solved.shown, lang)}]; " if is_told else ""
-    options = [inlines_to_typst(option, lang) for option in solved.options]
+    ideas = () if solved.scheme else solved.options
+    options = [inlines_to_typst(option, lang) for option in ideas]
     if solved.shares:
         shares = [format_quarters(points * share, lang) for share in solved.shares]
         options = [

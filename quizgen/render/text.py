@@ -7,12 +7,12 @@ from functools import singledispatch
 from itertools import chain
 
 from quizgen.bank import markdown
-from quizgen.locale import translate
+from quizgen.locale import format_amount, translate
 from quizgen.paper.paper import PaperItem
 from quizgen.question.compose import QuestionKey
 from quizgen.question.figure import describe_question_figure
 from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
-from quizgen.question.solution import PartSolution
+from quizgen.question.solution import PartSolution, scheme_examples
 
 
 @singledispatch
@@ -107,6 +107,17 @@ def _iter_remark_lines(key: QuestionKey, lang: str) -> Iterator[str]:
         yield from ("", f"{translate(lang, title)}:", *found) if found else ()
 
 
+def _iter_scheme_lines(part: PartSolution, lang: str) -> Iterator[str]:
+    """Yield the mark scheme of a part: each criterion with its points and examples."""
+    yield f"{translate(lang, 'solution.scheme')}:"
+    for row in part.scheme:
+        yield f"   [{format_amount(row.points, lang)}] {inlines_to_plain_text(row.idea)}"
+        for name, examples in scheme_examples(row):
+            yield f"       {translate(lang, f'solution.{name}')}: {'; '.join(examples)}"
+        if row.follows:
+            yield f"       {translate(lang, 'solution.follows')}"
+
+
 def _iter_solution_lines(part: PartSolution, lang: str) -> Iterator[str]:
     """Yield the steps and reasons of one part."""
     yield f"{translate(lang, 'solution.steps')}:"
@@ -115,7 +126,10 @@ def _iter_solution_lines(part: PartSolution, lang: str) -> Iterator[str]:
         yield f"   {inlines_to_plain_text(line.maths)}{cite}"
         yield f"      {inlines_to_plain_text(line.why)}"
     yield f"{translate(lang, 'solution.answer')}: {part.answer}".rstrip()
-    yield from (f"   - {inlines_to_plain_text(option)}" for option in part.options)
+    if part.scheme:
+        yield from _iter_scheme_lines(part, lang)
+    else:
+        yield from (f"   - {inlines_to_plain_text(option)}" for option in part.options)
     if part.why:
         yield f"   {inlines_to_plain_text(part.why)}"
     for mistake in (*part.reasons, *part.mistakes):

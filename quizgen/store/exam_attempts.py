@@ -212,12 +212,19 @@ class ExamStore:
 
         return self.database.write(sitting.learner, work)
 
-    def save_self_mark(self, sitting: ExamRecord, part: str, share: float) -> None:
-        """Store the share of the points (0 to 1) that a learner gave to an own sentence."""
+    def save_self_mark(
+        self, sitting: ExamRecord, part: str, share: float, criteria: Mapping[str, float]
+    ) -> None:
+        """Store the share of the points (0 to 1) that a learner gave to an own sentence.
+
+        ``criteria`` are those that were ticked, each with its share.
+        """
         with self.database.writing(sitting.learner) as connection:
             known = _find_sitting(connection, sitting.learner, sitting.id)
             if known is not None and known.handed is not None:
-                _update_sitting(connection, sitting, marks={**known.marks, part: share})
+                others = {n: v for n, v in known.marks.items() if not n.startswith(f"{part}/")}
+                ticked = {f"{part}/{name}": value for name, value in criteria.items()}
+                _update_sitting(connection, sitting, marks={**others, part: share, **ticked})
 
 
 def _find_sitting(connection: Connection, learner: int, name: str) -> ExamRecord | None:

@@ -168,7 +168,8 @@ class ExamRecord(msgspec.Struct, frozen=True):
     handed : float, optional
         When it was handed in.
     marks : mapping
-        Part to the share of its points that the learner gave to a sentence.
+        Part to the share of its points that the learner gave to a sentence; part and criterion,
+        ``1a/eye``, to the share of those of a criterion.
     paper : str or None
         Id of what it shows; None for one of before papers were kept.
     practice : bool

@@ -25,9 +25,16 @@ from quizgen.practice.input_fields import is_complete
 from quizgen.store import ExamRecord
 from quizgen.store.exam_attempts import GRACE, ExamStore
 from quizgen.web.exam_results import ExamResults, grade_exam, outcome_records, review_events
-from quizgen.web.forms import field_text, field_texts, read_answer, read_form
+from quizgen.web.forms import (
+    field_text,
+    field_texts,
+    read_answer,
+    read_form,
+    read_ticked_criteria,
+)
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.papers import MakePaper
+from quizgen.web.question_attempt import share_of_part
 from quizgen.web.question_view import PaperView, PartView, QuestionView
 from quizgen.web.state import ServerState
 from quizgen.web.tonight import progress_of
@@ -396,11 +403,15 @@ async def save_self_mark(request: Request) -> Response:
     sitting = await _get_sitting(request)
     part, _ = _get_part(await _make_paper(request, sitting), request.path_params["part"])
     shares = {"all": 1.0, "half": 0.5, "none": 0.0}
-    share = shares.get(field_text(form, "share"))
+    marks = read_ticked_criteria(form, part.field.id)
+    share = (
+        float(share_of_part(part, marks)) if part.scheme else shares.get(field_text(form, "share"))
+    )
     if share is None or sitting.handed is None:
         raise HTTPException(400)
     store = request.app.state.site.store.sittings
-    await run_in_threadpool(store.save_self_mark, sitting, part.field.id, share)
+    ticked = {name: float(of) for name, of in marks.items() if name in part.criteria}
+    await run_in_threadpool(store.save_self_mark, sitting, part.field.id, share, ticked)
     return redirect(f"/exam/{sitting.id}#part-{part.field.id}")
 
 

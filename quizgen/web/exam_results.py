@@ -17,7 +17,8 @@ from quizgen.core.decoding import decode_json
 from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.verdict import Verdict
-from quizgen.paper.answer_key import KeyQuestion
+from quizgen.kinds.rubric import Suggestion, suggest_marks
+from quizgen.paper.answer_key import KeyPart, KeyQuestion
 from quizgen.paper.grading import PartResult, QuestionGrader, round_to_quarters
 from quizgen.practice.input_fields import join_fields
 from quizgen.practice.scheduler import ReviewEvent, ReviewRating
@@ -40,6 +41,12 @@ class ExamPartResult:
     own: float | None
     """The share of its points that the learner gave it, where a person has to decide."""
     lang: str
+    ticked: Mapping[str, float]
+    """Criteria that the learner ticked, each with its share."""
+    suggestion: Suggestion | None = None
+    """What is suggested of an own sentence."""
+    wrong_ideas: Sequence[str] = ()
+    """What to tell of the known wrong ideas in it."""
 
     @property
     def verdict(self) -> Verdict:
@@ -211,11 +218,27 @@ async def grade_exam(
     results = pickle.loads(data)  # noqa: S301 - from a process of our own
     return ExamResults(tuple(
         ExamQuestionResult(item, tuple(
-            ExamPartResult(part, given, result, own.get(part.field.id), lang)
-            for part, given, result in zip(item.parts, *told, strict=True)
+            _build_part_result(part, given, result, key, own, lang)
+            for part, given, result, key in zip(item.parts, *told, item.key.parts, strict=True)
         ))
         for item, *told in zip(paper.items, values, results, strict=True)
     ))  # fmt: skip
+
+
+def _build_part_result(
+    part: PartView,
+    values: Sequence[str],
+    result: PartResult,
+    key: KeyPart,
+    own: Mapping[str, float],
+    lang: str,
+) -> ExamPartResult:
+    """Return a part with its result and, for an own sentence, what is suggested of it."""
+    name, spec = part.field.id, key.parse_spec(proven=True)
+    ticked = {one: own[f"{name}/{one}"] for one in part.criteria if f"{name}/{one}" in own}
+    made = suggest_marks(spec, result.typed)
+    wrong = tuple(spec.notes.get(lang, {}).get(n, "") for n in made.mistakes) if made else ()
+    return ExamPartResult(part, values, result, own.get(name), lang, ticked, made, wrong)
 
 
 def review_events(bank: Bank, results: ExamResults) -> list[ReviewEvent]:

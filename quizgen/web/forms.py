@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+from fractions import Fraction
 
 from starlette.datastructures import FormData, UploadFile
 from starlette.exceptions import HTTPException
@@ -64,6 +65,15 @@ def field_text(form: FormData, name: str) -> str:
 def field_texts(form: FormData, name: str) -> list[str]:
     """Return all texts of fields with a name, in order."""
     return [value for value in form.getlist(name) if isinstance(value, str)]
+
+
+def read_ticked_criteria(form: FormData, part: str) -> dict[str, Fraction]:
+    """Return the criteria of a part that are ticked, each with its share.
+
+    That is a half where only the half is ticked.
+    """
+    halves = {name: Fraction(1, 2) for name in field_texts(form, f"half-{part}")}
+    return halves | {name: Fraction(1) for name in field_texts(form, f"mark-{part}")}
 
 
 def read_answer(form: FormData, name: str) -> list[str]:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import getpass
 from collections.abc import Sequence
+from contextlib import suppress
+from fractions import Fraction
 from pathlib import Path
 from urllib.parse import urlencode
 
 from markupsafe import Markup, escape
 from starlette.concurrency import run_in_threadpool
+from starlette.datastructures import FormData
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
@@ -36,6 +39,8 @@ from quizgen.classes.rulings import (
 )
 from quizgen.core.errors import ClassError, FormulaError
 from quizgen.core.executor import InlineExecutor
+from quizgen.maths.numbers import parse_written_number
+from quizgen.paper.grading import round_to_quarters
 from quizgen.web.forms import field_text, field_texts, read_form
 from quizgen.web.state import ServerState
 from quizgen.web.views import page_response, redirect, request_language, translate_page
@@ -108,14 +113,15 @@ async def save_decision(request: Request) -> Response:
     form = await read_form(request)
     folder = _get_class_folder(request)
     second = bool(field_text(form, "second"))
+    points, met = _read_points(form)
     made = [
         Ruling(
             SECOND if second else DECIDE,
             field_text(form, "item"),
             field_text(form, f"answer-{group}"),
-            field_text(form, "points").strip().replace(",", "."),
+            points,
             who=field_text(form, "who").strip(),
-            comment=field_text(form, "comment").strip(),
+            comment=field_text(form, "comment").strip() or met,
             group=group,
         )
         for group in field_texts(form, "group")
@@ -130,6 +136,27 @@ async def save_decision(request: Request) -> Response:
     except ClassError as error:  # another command writes there
         return redirect(_build_page_url(who, second=second, wrong=str(error)))
     return redirect(_build_page_url(who, second=second))
+
+
+def _read_points(form: FormData) -> tuple[str, str]:
+    """Return the points given, and the names of the criteria that they are for.
+
+    Points typed outrank ticks. Ticked criteria are worth at most the part; of a criterion ticked
+    whole and half the whole counts.
+    """
+    typed = field_text(form, "points").strip().replace(",", ".")
+    ticked: dict[str, Fraction] = {}
+    for mark in field_texts(form, "mark"):
+        points, _, name = mark.partition(":")
+        with suppress(FormulaError):
+            ticked[name] = max(ticked.get(name, Fraction(0)), parse_written_number(points))
+    if typed or "criteria" not in form:
+        return typed, ""
+    with suppress(FormulaError):
+        worth = parse_written_number(field_text(form, "worth"))
+        given = round_to_quarters(min(sum(ticked.values(), Fraction(0)), worth))
+        return f"{float(given):g}", " + ".join(ticked)
+    return "", ""
 
 
 def _find_form_problem(made: Sequence[Ruling], worth: str) -> str:

@@ -23,7 +23,7 @@ from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
 from quizgen.store import AttemptRecord, QuestionRef
 from quizgen.web.block import begin_block, find_block
-from quizgen.web.forms import field_text, read_answer, read_form
+from quizgen.web.forms import field_text, read_answer, read_form, read_ticked_criteria
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.question_attempt import AttemptInBrowser, AttemptPart
 from quizgen.web.question_view import MarkedFigureJob, QuestionRequest, QuestionView
@@ -294,6 +294,9 @@ async def submit_answer(request: Request) -> Response:
         group, (action, _, named) = question.find_group(part), field_text(form, "do").partition(":")
         for place in group:
             values, checks = _read_part(form, place.name), action in {"", "answer"}
+            if action == "marks" and place.name == (named or part.name) and place.to_judge:
+                place.give_marks(read_ticked_criteria(form, place.name))
+                continue
             if len(group) > 1 and (place.is_finished or (checks and place.has_checked(values))):
                 continue  # one button checks all: what has been checked costs no further try
             if checks or place.name == (named or part.name):
@@ -337,7 +340,7 @@ def _perform_action(
         part.task.next_hint()
         part.progress.values = values
     elif action in {"right", "wrong"} and part.to_judge:
-        part.task.self_mark(right=action == "right")
+        part.task.self_mark(float(action == "right"))
     elif action == "solution" and not part.is_finished:
         part.task.give_up()
         part.progress.values = values

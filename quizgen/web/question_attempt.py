@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
+from fractions import Fraction
 
 import msgspec
 
@@ -10,6 +12,7 @@ from quizgen.core.decoding import convert
 from quizgen.grading.offered_readings import OfferedReading, list_offered_readings
 from quizgen.grading.options import DECIMALS, GradingOptions
 from quizgen.grading.verdict import Verdict, unreadable
+from quizgen.kinds.rubric import share_of_marks
 from quizgen.paper.answer_key import KeyPart
 from quizgen.paper.grading import QuestionGrader
 from quizgen.practice.input_fields import is_complete, join_fields
@@ -135,6 +138,22 @@ class AttemptPart:
     def to_judge(self) -> bool:
         """Whether the learner must grade the own answer."""
         return not self.is_finished and self.verdict is not None and self.verdict.needs_self_marking
+
+    @property
+    def gave(self) -> float | None:
+        """The points that the learner gave to an own sentence; None where there is none."""
+        judged = self.part.scheme and self.is_finished and self.verdict is not None
+        return self.task.state.credit * self.part.points if judged else None
+
+    def give_marks(self, marks: Mapping[str, Fraction]) -> None:
+        """End the part with the points of the criteria that the learner ticked."""
+        self.task.self_mark(float(share_of_part(self.part, marks)))
+
+
+def share_of_part(part: PartView, marks: Mapping[str, Fraction]) -> Fraction:
+    """Return the share of a part's points that ticked criteria earn."""
+    points = {row.name: Fraction(str(row.points)) for row in part.scheme}
+    return share_of_marks(marks, points, Fraction(str(part.points)))
 
 
 class AttemptInBrowser:

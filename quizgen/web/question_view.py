@@ -39,7 +39,12 @@ from quizgen.question.html import blocks_to_html, chain_to_html, inlines_to_html
 from quizgen.question.inlines import name_inline
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import effective_level
-from quizgen.question.solution import PartSolution, SolutionHint, SolvedMisconception
+from quizgen.question.solution import (
+    PartSolution,
+    SolutionHint,
+    SolvedMisconception,
+    scheme_examples,
+)
 from quizgen.web.moving import MovingView, find_moving_figure
 
 _MATHS = re.compile("</?math[^>]*>")
@@ -90,6 +95,18 @@ class StepView(msgspec.Struct, frozen=True):
     hints: list[HintView] = []
 
 
+class SchemeView(msgspec.Struct, frozen=True):
+    """A criterion that an own sentence is marked by, as HTML."""
+
+    name: str
+    points: float
+    idea: Html
+    examples: list[tuple[str, list[str]]]
+    """What stands before a list of examples (a key of ``solution``), and the examples."""
+    follows: bool
+    halves: bool
+
+
 class PartView(msgspec.Struct, frozen=True):
     """A part with its worked solution, as HTML."""
 
@@ -105,6 +122,12 @@ class PartView(msgspec.Struct, frozen=True):
     why: Html
     reasons: list[tuple[Html, Html]]
     mistakes: list[tuple[Html, Html]]
+    scheme: list[SchemeView]
+
+    @property
+    def criteria(self) -> frozenset[str]:
+        """Return the names of the criteria that an own sentence is marked by."""
+        return frozenset(row.name for row in self.scheme)
 
 
 class QuestionRequest(msgspec.Struct, frozen=True):
@@ -351,6 +374,17 @@ def _render_part(
         _render_inline(solved.why, lang),
         _render_mistakes(solved.reasons, lang),
         _render_mistakes(solved.mistakes, lang),
+        [
+            SchemeView(
+                row.name,
+                float(row.points),
+                _render_inline(row.idea, lang),
+                [(name, [*examples]) for name, examples in scheme_examples(row)],
+                row.follows,
+                row.halves,
+            )
+            for row in solved.scheme
+        ],
     )
 
 

@@ -21,9 +21,12 @@ from quizgen.classes.rulings import Ruling, RulingBook
 from quizgen.core.errors import ClassError
 from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
 
-POINTS = {"light": ["light", "আলো"], "noise": ["noise"]}
+POINTS = {
+    "light": {"points": "1", "accept": ["light", "আলো"]},
+    "noise": {"points": "1", "accept": ["noise"]},
+}
 KEY = AnswerKey("quizgen-key/2", [
-    KeyQuestion("1", [KeyPart("1", "2", {"kind": "text", "points": POINTS})], template="why"),
+    KeyQuestion("1", [KeyPart("1", "2", {"kind": "rubric", "full": "2", "criteria": POINTS})], template="why"),
     KeyQuestion("2", [KeyPart("2", "1", {"kind": "quantity", "value": "1/2", "unit": "m"})], template="far"),
 ])  # fmt: skip
 
@@ -69,9 +72,9 @@ def test_case_and_signs_matter_in_what_is_no_sentence():
     assert len(groups(numbers=["5 or 6 MW", "5 or 6 mW", "5 or 6  mW"])) == 2
 
 
-def test_key_points_are_a_suggestion_and_are_shown_where_they_stand():
+def test_criteria_are_a_suggestion_and_are_shown_where_they_stand():
     [[case]] = groups(["More Light!"])
-    assert (case.seen, case.suggestion) == ("1 / 2: light", 1)
+    assert (case.seen, case.suggestion) == ("light: found; noise: missing", 1)
     assert [case.answer.typed[start:end] for start, end in case.spots] == ["Light"]
     assert case.answer.marks is None
 

@@ -105,7 +105,7 @@ def walked(tmp_path_factory):
     insert(
         kinds / "__init__.py",
         ("    gap,\n", "    hex_colour,\n"),
-        ("text, sketch,", " hex_colour,"),
+        ("rubric, sketch,", " hex_colour,"),
     )
     insert(words / "interface.toml", ("[ask]\n", hint))
     insert(words / "messages.toml", ("[notes]\n", notes))

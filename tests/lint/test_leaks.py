@@ -16,7 +16,7 @@ from quizgen.paper.paper import build_paper
 
 HEAD = 'topic = "light"\ntier = "A"\npool = 9\n[draw]\nn = { pick = [1, 2, 3] }\n'
 ASK = "## options\n- a: The light is spread by diffraction at the narrow opening.\n- b: no\n- c: yes\n"
-TEXT = '[[part]]\nanswer = { kind = "text", points = ["shift", "spill", "lamp"] }\n'
+TEXT = '[[part]]\npoints = 3\nanswer = { kind = "rubric", criteria = { shift = 1, spill = 1, lamp = 1 } }\n'
 ASKERS = {
     "formula": ('[[part]]\nanswer = { kind = "expression", value = "f*X/Z", symbols = { f = [1, 9], X = [1, 9], Z = [1, 9] } }\n',
                 "Where is the image?\n"),
@@ -25,7 +25,7 @@ ASKERS = {
     "code": ('[[part]]\nanswer = { kind = "code", output = "15367" }\n', "What is printed?\n"),
     "share": ('[[part]]\nanswer = { kind = "code", output = "0.8333" }\n', "What is printed?\n"),
     "third": ('[[part]]\nanswer = { kind = "code", output = "0.3333" }\n', "What is printed?\n"),
-    "text": (TEXT, "Why?\n## points\n- shift: One.\n- spill: Two.\n- lamp: Three.\n## gaps\n- shift: shift\n- spill: spill | overflow\n- lamp: lamp\n"),
+    "rubric": (TEXT, "Why?\n## points\n- shift: One.\n- spill: Two.\n- lamp: Three.\n## accept\n- shift: shift of charge\n- spill: it spills | it overflows\n- lamp: a lamp\n"),
     "order": ('[[part]]\nanswer = { kind = "order", steps = ["a", "b", "c"] }\n',
               "In order?\n## options\n- a: Load it.\n- b: Scale it.\n- c: Store it.\n"),
     "gap": ('[[part]]\nanswer = { kind = "gap", gaps = ["a"] }\n',
@@ -85,7 +85,7 @@ def told(folder, asker, teller):
         ("code", stem("It has 15367 pixels."), "number 15367"),
         ("code", stem("It has 15 367 pixels."), "number 15367"),
         ("share", stem("It lets 0.8333 of it pass."), "number 0.8333"),
-        ("text", options("a shift of charge, until a lamp makes it overflow"), "key points"),
+        ("rubric", options("a shift of charge, until a lamp makes it overflow"), "criteria"),
         ("order", stem("- Load it.\n- Scale it."), "order of 2 steps"),
         ("gap", stem("The light of points is spread by diffraction at the narrow opening."),
          "diffraction"),
@@ -105,7 +105,7 @@ def test_what_is_told_is_found(tmp_path, asker, teller, what):
         ("choice", stem("At a narrow opening the light is weak.")),
         ("code", stem("It has 15368 pixels, 115367 or 1.15367.")),
         ("third", stem("It lets 0.3333 of it pass.")),
-        ("text", options("a shift to the left")),
+        ("rubric", options("a shift to the left")),
         ("order", stem("- Scale it.\n- Load it.")),
         ("gap", stem("The narrow opening spreads the light of points by interference.")),
         ("match", stem("Smear: charge spills over into all bright neighbours.")),

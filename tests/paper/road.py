@@ -59,7 +59,9 @@ def fields(paper: Paper, lang: str) -> Iterator[Printed]:
                     (m.name, m.value or "; ".join(spec.traps[m.name].values()))
                     for m in solved.mistakes if m.name in spec.traps
                 )  # fmt: skip
-                yield Printed(part.field.id, key.template, part.field.control.form,
+                control = part.field.control
+                form = "rows" if control.rows else control.form
+                yield Printed(part.field.id, key.template, form,
                               " ".join(part.field.hints), solved.answer, mistakes)  # fmt: skip
 
 
@@ -70,6 +72,8 @@ def typed(field: Printed, printed: str, side: int = 0) -> str:
     """
     sides = printed.split(" ≈ ")
     text = sides[min(side, len(sides) - 1)]
+    if field.form == "rows":
+        return text
     if field.form == "pairs":
         return text.replace(":", "").replace(",", "")
     pairs = [NAMED.fullmatch(cell) for cell in text.split("; ")]

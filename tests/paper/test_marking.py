@@ -70,7 +70,11 @@ KEY = {
                 {
                     "id": "2a",
                     "points": "1",
-                    "spec": {"kind": "text", "points": [["grid"], ["value"]]},
+                    "spec": {
+                        "kind": "rubric",
+                        "full": "1",
+                        "criteria": {"grid": {"points": "1", "accept": ["a grid"]}},
+                    },
                 },
                 {
                     "id": "2b",

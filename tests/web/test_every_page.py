@@ -83,7 +83,7 @@ def wrong(client, token, app, at_once):
             sent = {"token": token, "do": "answer", "a": values}
             client.post(f"{at}/{part}", data=sent, follow_redirects=False)
         parts = zip(question.parts, key.specs, strict=True)
-        sentences = {part.field.id for part, spec in parts if spec.kind == "text"}
+        sentences = {part.field.id for part, spec in parts if spec.kind == "rubric"}
         found = wrong_parts(page, every_part(client, at, answers), answers, sentences)
         store.update_settings(learner, {"lang": "en"})
         return [f"{template} {seed} {lang} {level} {one}" for one in found]

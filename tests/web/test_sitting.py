@@ -78,7 +78,7 @@ def test_printed_answers_give_all_points_that_a_machine_gives(client, token, exa
     paper = paper_of(page)
     done = client.post(at, data=body(token, typed(paper), do="hand-in"))
     key = make_answer_key(paper)
-    sentences = {p.id for q in key.questions for p in q.parts if p.spec["kind"] == "text"}
+    sentences = {p.id for q in key.questions for p in q.parts if p.spec["kind"] == "rubric"}
     wrong = re.findall(
         r'id="part-(\w+)">(?:(?!id="part-).)*?<div class="verdict (?!correct)(\w+)"',
         done.text,

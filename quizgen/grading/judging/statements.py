@@ -1,0 +1,955 @@
+"""Whether a sentence in a learner's own words says an idea, denies it, or neither.
+
+A sentence is cut into clauses. An idea is stated by examples, each a few words as a learner would
+write them; an example is found in a clause that has all its words in any order, each in any of its
+forms, slips of the fingers allowed. Words on a scale (more and less, bright and dark) also meet
+their opposites, which turn the statement, as words of denial do. Words for all of this stand in
+``statements.toml`` of each language; a sentence may mix languages, so all of them hold at once.
+
+Nothing is learnt and nothing is guessed: what is neither said nor denied stays open.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache, lru_cache
+from typing import Literal, NamedTuple
+
+from quizgen.grading.judging.spelling import (
+    allowed_typos,
+    fold_word,
+    is_another_word,
+    typo_distance,
+)
+from quizgen.locale import list_languages, load_words
+
+Meaning = Literal["said", "half", "denied", "open"]
+"""What a clause does with an idea; ``open`` where its words are there and its sign is not sure."""
+
+WIDEST = 3
+"""Clauses next to each other that one example may be spread over."""
+SHORTEST = 4
+"""Letters of a word that others may go on from; fewer in scripts that write fewer letters."""
+
+_SYMBOLS = {"²": "^2", "³": "^3", "√": "sqrt ", "∝": "~", "∼": "~", "×": "x", "·": "*", "−": "-",
+            "σ": "sigma", "λ": "lambda", "µ": "u", "μ": "mu", "Σ": "sigma", "≈": "~", "⁄": "/",
+            "’": "'", "→": ">", "∞": "infinity"}  # fmt: skip
+_MARKS = "\u0300-\u036f\u0981-\u0983\u09bc-\u09cd\u09d7\u200c\u200d"
+_TOKEN = re.compile(rf"\d+(?:[.,:]\d+)*|[^\W\d_](?:[^\W_]|[{_MARKS}'])*|[^\s\w]|_")
+_STOP = frozenset(".!?।;\n")
+_PAUSE = frozenset(',:()[]{}–—|>"“”„')
+_TIED = frozenset("^/=~*+<%.-_'")
+"""Signs that make what stands around them a formula, if no blank is between."""
+
+
+class WordToken(NamedTuple):
+    """A word, a number or a sign of a sentence.
+
+    Parameters
+    ----------
+    text : str
+        As it is compared.
+    start, end : int
+        Where it stands.
+    tied : bool
+        Whether no blank stands before it.
+    """
+
+    text: str
+    start: int
+    end: int
+    tied: bool
+
+
+def split_tokens(typed: str) -> list[WordToken]:
+    """Return the words, numbers and signs of a text, each with its place."""
+    letters, places = [], []
+    for place, sign in enumerate(typed):
+        for letter in _SYMBOLS.get(sign) or unicodedata.normalize("NFKC", sign).casefold():
+            letters.append(letter)
+            places.append(place)
+    places.append(len(typed))
+    text = "".join(letters)
+    found: list[WordToken] = []
+    last = -1
+    for match in _TOKEN.finditer(text):
+        for word in _split_prefix(unicodedata.normalize("NFC", match[0])):
+            start, end = places[match.start()], places[match.end() - 1] + 1
+            found.append(WordToken(word, start, end, match.start() == last))
+            last = match.end()
+    return _drop_brackets(found)
+
+
+def _drop_brackets(tokens: list[WordToken]) -> list[WordToken]:
+    """Return tokens without brackets around the one argument of a root: ``sqrt(N)`` is ``√N``."""
+    texts, dropped = [token.text for token in tokens], set[int]()
+    for place, text in enumerate(texts[:-3]):
+        if text == "sqrt" and texts[place + 1] == "(" and texts[place + 3] == ")":
+            dropped |= {place + 1, place + 3}
+    tied = {place + 1 for place in dropped}
+    return [
+        token._replace(tied=True) if place in tied and token.tied else token
+        for place, token in enumerate(tokens)
+        if place not in dropped
+    ]
+
+
+def _split_prefix(word: str) -> tuple[str, ...]:
+    """Return a word folded, a prefix or an ending that denies it apart: nonlinear, doesn't."""
+    if word.endswith("n't") or word in _vocabulary().contracted:
+        return ("not",)
+    word = word.removesuffix("'s").strip("'")
+    folded = fold_word(word) or word
+    for prefix in ("non", "nicht"):
+        if folded.startswith(prefix) and len(folded) >= len(prefix) + SHORTEST + 1:
+            return ("not", folded.removeprefix(prefix))
+    return (folded,)
+
+
+Scale = tuple[str, int]
+"""The name of a scale, and 1 or -1 for its end."""
+
+
+@dataclass(frozen=True)
+class _Vocabulary:
+    """The words of all languages that turn, join or compare statements, folded."""
+
+    contracted: frozenset[str]
+    breaks: frozenset[str]
+    denials: frozenset[str]
+    ahead: frozenset[str]
+    harmless: frozenset[tuple[str, ...]]
+    frames: tuple[tuple[str, ...], ...]
+    corrections: frozenset[tuple[str, ...]]
+    than: frozenset[str]
+    than_behind: frozenset[str]
+    helpers: frozenset[str]
+    degrees: frozenset[str]
+    fillers: frozenset[str]
+    scales: Mapping[str, tuple[Scale, ...]]
+    stems: tuple[tuple[str, Scale], ...]
+    phrases: tuple[tuple[tuple[str, ...], Scale], ...]
+    equal: tuple[frozenset[str], ...]
+
+
+@cache
+def _vocabulary() -> _Vocabulary:
+    """Return the words of all languages, read once."""
+    tables = [table for lang in list_languages() if (table := load_words(lang, "statements"))]
+
+    def rows(name: str) -> list[tuple[str, ...]]:
+        """Return the rows of words of a list."""
+        return [_fold_row(row) for table in tables for row in table["clauses"].get(name, ())]
+
+    def words(name: str) -> frozenset[str]:
+        """Return the words of a list, each a row of its own."""
+        return frozenset(word for row in rows(name) for word in row)
+
+    ends = [
+        (word, (name, sign))
+        for table in tables
+        for name, listed in table["scales"].items()
+        for sign, end in ((1, "one"), (-1, "other"))
+        for word in listed[end]
+    ]
+    return _Vocabulary(
+        words("contracted"),
+        words("breaks"),
+        words("denials"),
+        words("ahead"),
+        frozenset(rows("harmless")),
+        tuple(rows("frames")),
+        frozenset(rows("corrections")),
+        words("than"),
+        words("than_behind"),
+        words("helpers"),
+        words("degrees"),
+        words("fillers"),
+        _group_scales(ends),
+        tuple((fold_word(word[:-1]), end) for word, end in ends if word.endswith("-")),
+        tuple((_fold_row(word), end) for word, end in ends if " " in word),
+        _group_equal_words(table["words"] for table in tables),
+    )
+
+
+def _group_scales(ends: Iterable[tuple[str, Scale]]) -> dict[str, tuple[Scale, ...]]:
+    """Return each single word with the ends of scales that it stands for."""
+    found: dict[str, tuple[Scale, ...]] = {}
+    for word, end in ends:
+        if " " not in word and not word.endswith("-"):
+            key = fold_word(word)
+            found[key] = (*found.get(key, ()), end)
+    return found
+
+
+def _group_equal_words(
+    tables: Iterable[Mapping[str, Sequence[str]]],
+) -> tuple[frozenset[str], ...]:
+    """Return the groups of words that mean the same, those of all languages under one name."""
+    found: dict[str, set[str]] = {}
+    for table in tables:
+        for name, listed in table.items():
+            found.setdefault(name, set()).update(map(fold_word, listed))
+    return tuple(map(frozenset, found.values()))
+
+
+def _fold_row(text: str) -> tuple[str, ...]:
+    """Return the folded words of a row such as ``not only``."""
+    return tuple(fold_word(word) for word in text.split())
+
+
+@lru_cache(maxsize=8192)
+def _scales_of(word: str, *, slips: bool = True) -> tuple[Scale, ...]:
+    """Return the ends of scales that a word stands for, with ``slips`` those of the fingers too."""
+    known = _vocabulary()
+    if word in known.scales:
+        return known.scales[word]
+    found = tuple(scale for stem, scale in known.stems if word.startswith(stem))
+    if found or not slips or len(word) <= SHORTEST:
+        return found
+    if word in known.fillers or word in known.breaks:
+        return ()
+    near = [
+        scale for stem, scale in known.stems if len(stem) > SHORTEST and _is_near_stem(word, stem)
+    ]
+    near += [
+        scale
+        for other, scales in known.scales.items()
+        if len(other) > SHORTEST and _is_slip(word, other)
+        for scale in scales
+    ]
+    return tuple(dict.fromkeys(near))
+
+
+def _is_slip(word: str, wanted: str) -> bool:
+    """Return whether a word is another one with a slip of the fingers, and no word of its own."""
+    allowed = allowed_typos(wanted)
+    if not allowed or typo_distance(word, wanted, allowed) > allowed:
+        return False
+    return not is_another_word(word, wanted, ())
+
+
+def _is_near_stem(word: str, stem: str) -> bool:
+    """Return whether a word begins with a stem that has a slip of the fingers in it."""
+    return any(_is_slip(word[:size], stem) for size in (len(stem) - 1, len(stem), len(stem) + 1))
+
+
+_ENDINGS = (
+    ("ation", "ations", "ating", "ated", "ates", "ate", "ator", "ational"),
+    ("ity", "ities", "ive", "ively", "ion", "ions", "ing", "ings", "ed", "es", "s", "er", "ers",
+     "est", "ly", "y", "al", "ally", "ment", "ness", "e", "ier", "iest", "ies", "ied"),
+    ("ieren", "iert", "ierte", "ierten", "ierung", "en", "em", "ste", "sten", "ere", "eren",
+     "t", "te", "ten", "et", "ung", "ungen", "n"),
+    ("এর", "ের", "তে", "টা", "টি", "টার", "টির", "গুলো", "গুলোর", "গুলি", "কে", "য়", "র", "ে",
+     "রা", "দের", "ায়", "া", "েই", "ই", "ও"),
+)  # fmt: skip
+_PLAIN = frozenset({"s", "ed", "ing", "es"})
+"""Endings that leave a stem of three letters, too: adds, added."""
+_SUFFIXES = sorted({end for group in _ENDINGS for end in group}, key=len, reverse=True)
+
+
+@lru_cache(maxsize=8192)
+def _stems(word: str) -> frozenset[str]:
+    """Return a folded word, and what is left of it without each ending that leaves a stem."""
+    least = SHORTEST if word.isascii() else 2
+    found = {word}
+    for end in _SUFFIXES:
+        if word.endswith(end):
+            stem = word[: -len(end)]
+            found |= {stem, stem[:-1]} if stem[-1:] == stem[-2:-1] else {stem}
+    return frozenset(stem for stem in found if len(stem) >= least or stem == word or (
+        len(stem) == least - 1 and any(word == stem + end for end in _PLAIN)
+    ))  # fmt: skip
+
+
+@lru_cache(maxsize=65536)
+def is_form_of(word: str, wanted: str, *, slips: bool = True) -> bool:
+    """Return whether a word is a form of the wanted one, or with ``slips`` one of the fingers."""
+    if word == wanted:
+        return True
+    if wanted[:1].isdigit() or not word[:1].isalpha():
+        return False
+    short = SHORTEST if wanted.isascii() else 3
+    if len(wanted) >= short and word.startswith(wanted):
+        return True
+    if _stems(word) & _stems(wanted):
+        return True
+    if not slips:
+        return False
+    return _is_slip(word, wanted) or any(
+        len(stem) > SHORTEST + 1 and len(word) - len(stem) <= SHORTEST and _is_near_stem(word, stem)
+        for stem in _stems(wanted)
+    )
+
+
+@dataclass(frozen=True)
+class _Item:
+    """One thing that an example says: any of some rows of words, or an end of a scale."""
+
+    rows: tuple[tuple[str, ...], ...] = ()
+    scales: tuple[Scale, ...] = ()
+    formula: bool = False
+
+    @property
+    def is_general(self) -> bool:
+        """Whether it says nothing of a subject."""
+        return bool(self.scales)
+
+    @property
+    def is_opposed(self) -> bool:
+        """Whether the other end of its scale denies it: *some* need not deny *all* of another."""
+        return all(name not in {"totality", "sameness"} for name, _ in self.scales)
+
+
+@dataclass(frozen=True)
+class Example:
+    """An example of how an idea is put, ready to be looked for.
+
+    Parameters
+    ----------
+    text : str
+        As its author wrote it.
+    meaning : Meaning
+        What it means for the idea.
+    steps : tuple of tuple of _Item
+        What must be said; several where one follows the other.
+    denied : bool
+        Whether it holds a word of denial itself.
+    compared : bool
+        Whether it compares with something itself.
+    """
+
+    text: str
+    meaning: Meaning
+    steps: tuple[tuple[_Item, ...], ...]
+    denied: bool
+    compared: bool
+
+    @property
+    def size(self) -> int:
+        """Number of things that it says; the more, the better it fits what it is found in."""
+        return sum(map(len, self.steps)) + self.denied
+
+
+Synonyms = Sequence[Sequence[str]]
+"""Groups of words or rows of words that mean the same in a subject."""
+
+
+@lru_cache(maxsize=4096)
+def read_example(text: str, meaning: Meaning, synonyms: tuple[tuple[str, ...], ...]) -> Example:
+    """Return an example of an idea, ready to be looked for.
+
+    Parameters
+    ----------
+    text : str
+        A few words; ``->`` between what is said first and what follows.
+    meaning : Meaning
+    synonyms : tuple of tuple of str
+        Of the subject.
+    """
+    known = _vocabulary()
+    steps: list[list[_Item]] = []
+    denied = compared = False
+    for piece in text.replace("→", "->").split("->"):
+        tokens = split_tokens(piece)
+        steps.append([])
+        place = 0
+        while place < len(tokens):
+            item, length = _read_item(tokens, place, synonyms)
+            words = [token.text for token in tokens[place : place + length]]
+            if item is None and words[0] in known.denials | known.ahead:
+                denied = not denied
+            compared |= item is None and words[0] in known.than | known.than_behind
+            steps[-1] += [item] if item else []
+            place += length
+    return Example(text, meaning, tuple(map(tuple, filter(None, steps))), denied, compared)
+
+
+def _read_item(
+    tokens: Sequence[WordToken], place: int, synonyms: Synonyms
+) -> tuple[_Item | None, int]:
+    """Return what an example says from a token on, and how many tokens that takes."""
+    rows, length = _find_synonyms(tokens, place, synonyms)
+    if rows:
+        return _Item(rows), length
+    end = place + 1
+    while end < len(tokens) and _is_in_formula(tokens, end):
+        end += 1
+    if end > place + 1:
+        return _Item((tuple(token.text for token in tokens[place:end]),), formula=True), end - place
+    for row, scale in _vocabulary().phrases:
+        if _has_row(tokens, place, row):
+            return _Item(scales=(scale,)), len(row)
+    return _read_word(tokens[place].text), 1
+
+
+def _read_word(word: str) -> _Item | None:
+    """Return what a single word of an example says; None if it only joins, denies or compares."""
+    known = _vocabulary()
+    if word in known.denials | known.ahead | known.than | known.than_behind:
+        return None
+    scales = _scales_of(word, slips=False)
+    if scales:
+        return _Item(scales=scales)
+    if word in known.fillers or word in known.breaks or not word[0].isalnum():
+        return None
+    same = {other for group in known.equal if word in group for other in group}
+    return _Item(tuple((other,) for other in sorted({word, *same})))
+
+
+def _is_in_formula(tokens: Sequence[WordToken], place: int) -> bool:
+    """Return whether a token is tied to the one before it by a sign, as in ``D^2``."""
+    one, before = tokens[place], tokens[place - 1]
+    signs = _TIED - {"-", "'", "."}
+    if before.text == "sqrt":
+        return True
+    return one.tied and (
+        one.text in signs or before.text in signs or one.text in "()" or before.text == "("
+    )
+
+
+def _find_synonyms(
+    tokens: Sequence[WordToken], place: int, synonyms: Synonyms
+) -> tuple[tuple[tuple[str, ...], ...], int]:
+    """Return the rows of the group of which a row stands here, the longest; and its length."""
+    best: tuple[tuple[tuple[str, ...], ...], int] = ((), 0)
+    for rows in _fold_synonyms(tuple(map(tuple, synonyms))):
+        for row in rows:
+            if len(row) > best[1] and _has_stems(tokens, place, row):
+                best = (rows, len(row))
+    return best
+
+
+@lru_cache(maxsize=512)
+def _fold_synonyms(
+    synonyms: tuple[tuple[str, ...], ...],
+) -> tuple[tuple[tuple[str, ...], ...], ...]:
+    """Return synonyms as rows of folded words."""
+    return tuple(
+        tuple(tuple(token.text for token in split_tokens(one)) for one in group)
+        for group in synonyms
+    )
+
+
+def _has_row(
+    tokens: Sequence[WordToken],
+    place: int,
+    row: Sequence[str],
+    *,
+    exactly: bool = False,
+    known: frozenset[str] = frozenset(),
+) -> bool:
+    """Return whether a row of words begins at a token; hyphens between them do not count.
+
+    A ``known`` word is never another one misspelt.
+    """
+    for word in row:
+        while place < len(tokens) and tokens[place].text == "-" and word != "-":
+            place += 1
+        if place >= len(tokens):
+            return False
+        typed = tokens[place].text
+        if typed != word and (exactly or not is_form_of(typed, word, slips=typed not in known)):
+            return False
+        place += 1
+    return True
+
+
+def _has_stems(tokens: Sequence[WordToken], place: int, row: Sequence[str]) -> bool:
+    """Return whether a row of words begins at a token, but for their endings."""
+    found = [token.text for token in tokens[place : place + len(row)]]
+    return len(found) == len(row) and all(
+        typed == word or bool(_stems(typed) & _stems(word))
+        for typed, word in zip(found, row, strict=True)
+    )
+
+
+@dataclass
+class _Clause:
+    """A clause: the indices of its tokens, what denies it, and what is only compared with."""
+
+    sentence: int
+    places: list[int] = field(default_factory=list)
+    denials: list[int] = field(default_factory=list)
+    whole: int = 0
+    ahead: list[int] = field(default_factory=list)
+    compared: set[int] = field(default_factory=set)
+    corrects: bool = False
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a clause, or a few of them, does with an idea.
+
+    Parameters
+    ----------
+    meaning : Meaning
+    example : str
+        By which it was recognised.
+    first, last : int
+        The clauses.
+    size : int
+        How much of it was recognised.
+    places : tuple of int
+        The tokens that were.
+    turned : bool
+        Whether an opposite word alone made it a denial.
+    """
+
+    meaning: Meaning
+    example: str
+    first: int
+    last: int
+    size: int
+    places: tuple[int, ...]
+    turned: bool = False
+
+
+class Statement:
+    """A text of a learner, cut into clauses.
+
+    Parameters
+    ----------
+    typed : str
+    synonyms : tuple of tuple of str
+        Of the subject: words in them neither end nor deny a clause.
+    """
+
+    def __init__(self, typed: str, synonyms: tuple[tuple[str, ...], ...] = ()) -> None:
+        self.typed, self._known = typed, frozenset[str]()
+        self.tokens = split_tokens(typed)
+        self._held = self._find_held(synonyms)
+        self.clauses = self._cut()
+
+    def _find_held(self, synonyms: Synonyms) -> set[int]:
+        """Return the tokens in the middle of a row of the subject, such as ``salt and pepper``."""
+        held: set[int] = set()
+        for place in range(len(self.tokens)):
+            _, length = _find_synonyms(self.tokens, place, synonyms)
+            held |= set(range(place, place + length)) if length > 1 else set()
+        return held
+
+    def _cut(self) -> list[_Clause]:
+        """Return the clauses, each with what denies it."""
+        known, found, sentence = _vocabulary(), [_Clause(0)], 0
+        for place, token in enumerate(self.tokens):
+            if place in self._held:
+                found[-1].places.append(place)
+                continue
+            if token.text in _STOP and self._ends_sentence(place):
+                sentence += 1
+                found.append(_Clause(sentence))
+            elif self._pauses(place):
+                found.append(_Clause(sentence))
+            elif token.text in known.breaks:
+                found.append(_Clause(sentence, [place]))
+            else:
+                found[-1].places.append(place)
+        found = [clause for clause in found if clause.places]
+        for clause in found:
+            self._read_denials(clause)
+        self._spread_frames(found)
+        return found
+
+    def _ends_sentence(self, place: int) -> bool:
+        """Return whether a stop ends a sentence and no abbreviation or number."""
+        token = self.tokens[place]
+        if token.text != ".":
+            return True
+        before = self.tokens[place - 1].text if place else ""
+        after = self.tokens[place + 1] if place + 1 < len(self.tokens) else None
+        return len(before) > 1 and before not in {"vs", "etc", "ca"} and not (after and after.tied)
+
+    def _pauses(self, place: int) -> bool:
+        """Return whether a sign parts two clauses."""
+        token = self.tokens[place]
+        if token.text == "-":
+            after = self.tokens[place + 1] if place + 1 < len(self.tokens) else None
+            return not token.tied and after is not None and not after.tied
+        if token.text in "()":
+            return not self._is_call(place)
+        return token.text in _PAUSE
+
+    def _is_call(self, place: int) -> bool:
+        """Return whether a bracket stands around the argument of a function, as in ``V(λ)``."""
+        opened = place
+        while opened >= 0 and self.tokens[opened].text != "(":
+            opened -= 1
+        return opened > 0 and self.tokens[opened].tied
+
+    def _read_denials(self, clause: _Clause) -> None:
+        """Find the words of a clause that deny it, or what follows them, and what is compared."""
+        known, words = _vocabulary(), [self.tokens[at].text for at in clause.places]
+        clause.corrects = tuple(words) in known.corrections or any(
+            tuple(words[: len(row)]) == row for row in known.corrections if len(row) > 1
+        )
+        if clause.corrects:
+            return
+        for index, (place, word) in enumerate(zip(clause.places, words, strict=True)):
+            if place in self._held:
+                continue
+            if any(tuple(words[index : index + len(row)]) == row for row in known.harmless):
+                continue
+            if word in known.denials:
+                clause.denials.append(place)
+                clause.whole += self._is_whole(words, index)
+            elif word in known.ahead:
+                clause.ahead.append(place)
+            if word in known.than and any(
+                name == "amount" for one in words[:index] for name, _ in _scales_of(one)
+            ):
+                clause.compared |= set(clause.places[index + 1 :])
+            elif word in known.than_behind and index:
+                clause.compared |= set(clause.places[max(index - 1, 0) : index])
+
+    def _is_whole(self, words: Sequence[str], index: int) -> bool:
+        """Return whether a denial covers its clause, not just what follows: ``thin, not thick``."""
+        if index == 0 or index == len(words) - 1:
+            return True
+        if words[index] == "no":
+            return words[index - 1] != "with"
+        nearby = words[max(0, index - 3) : index]
+        return words[index] != "not" or any(word in _vocabulary().helpers for word in nearby)
+
+    def _spread_frames(self, clauses: list[_Clause]) -> None:
+        """Deny all of a sentence that begins with ``it is not true that``."""
+        for index, clause in enumerate(clauses):
+            words = [self.tokens[at].text for at in clause.places]
+            framed = any(
+                tuple(words[at : at + len(row)]) == row
+                for row in _vocabulary().frames
+                for at in range(len(words))
+            )
+            if not framed:
+                continue
+            clause.denials, clause.whole = [], 0
+            mark = clause.places[-1]
+            for other in clauses[index:]:
+                if other.sentence == clause.sentence:
+                    other.denials.append(mark)
+                    other.whole += 1
+            if index and clauses[index - 1].sentence == clause.sentence and len(words) <= 5:
+                clauses[index - 1].denials.append(mark)
+                clauses[index - 1].whole += 1
+
+    def know(self, examples: Iterable[Example]) -> None:
+        """Take the words of examples for words of their own, none of which misspells another."""
+        rows = (row for one in examples for step in one.steps for item in step for row in item.rows)
+        self._known = frozenset(word for row in rows for word in row)
+
+    def find(self, examples: Iterable[Example]) -> list[Evidence]:
+        """Return what the clauses do with an idea, by its examples; the best fit for each clause.
+
+        After a word of correction (*no: brighter*), what was said of the idea before is dropped.
+        """
+        found = [one for example in examples for one in self._iter_evidence(example)]
+        kept: list[Evidence] = []
+        for one in sorted(found, key=_rank):
+            if not any(other.first <= one.last and one.first <= other.last for other in kept):
+                kept.append(one)
+        for index, clause in enumerate(self.clauses):
+            if clause.corrects and any(one.first > index for one in kept):
+                kept = [one for one in kept if one.first > index]
+        return sorted(kept, key=lambda one: one.first)
+
+    def touches(self, examples: Iterable[Example]) -> bool:
+        """Return whether any word of the examples that belongs to the subject is there."""
+        everywhere = list(range(len(self.tokens)))
+        return any(
+            self._find_rows(item, everywhere)
+            for example in examples
+            for step in example.steps
+            for item in step
+            if not item.is_general
+        )
+
+    def _iter_evidence(self, example: Example) -> Iterator[Evidence]:
+        """Yield where an example is found, in one clause and, if nothing turns it, in several."""
+        if len(example.steps) > 1:
+            yield from self._find_order(example)
+            return
+        (items,) = example.steps or ((),)
+        single: set[int] = set()
+        for index, clause in enumerate(self.clauses):
+            fit = self._fit(items, clause.places, example)
+            if fit:
+                single.add(index)
+                yield from self._weigh(example, index, fit)
+        for width in range(2, WIDEST + 1):
+            for first in range(len(self.clauses) - width + 1):
+                last = first + width - 1
+                window = self.clauses[first : last + 1]
+                if single & set(range(first, last + 1)) or len({c.sentence for c in window}) > 1:
+                    continue
+                if any(c.corrects for c in window) or all(item.is_general for item in items):
+                    continue
+                if example.meaning == "denied" and not self._are_joined(window):
+                    continue
+                fit = self._fit(items, [at for c in window for at in c.places], example)
+                if fit and fit[0] > 0 and not self._spread_denial(window, fit[1], example):
+                    single |= set(range(first, last + 1))
+                    yield Evidence(example.meaning, example.text, first, last, example.size, fit[1])
+
+    def _are_joined(self, window: Sequence[_Clause]) -> bool:
+        """Return whether clauses are joined by words such as *and*, and no sign parts them."""
+        breaks = _vocabulary().breaks
+        return all(self.tokens[clause.places[0]].text in breaks for clause in window[1:])
+
+    def _spread_denial(
+        self, window: Sequence[_Clause], places: tuple[int, ...], example: Example
+    ) -> bool:
+        """Return whether a clause that is needed of several is denied, or has nothing of them."""
+        used = [clause for clause in window if set(clause.places) & set(places)]
+        if window[0] not in used or window[-1] not in used:
+            return True
+        return any(c.denials or c.ahead for c in used) or example.denied
+
+    def _fit(
+        self, items: Sequence[_Item], places: Sequence[int], example: Example
+    ) -> tuple[int, tuple[int, ...]] | None:
+        """Return 1 (as stated), -1 (by an opposite), 0 (both), and the tokens; None if absent."""
+        if not items:
+            return None
+        taken: list[int] = []
+        blocked = {at for clause in self.clauses for at in clause.compared}
+        blocked = set() if example.compared else blocked
+        for item in items:
+            if item.scales:
+                continue
+            rows = self._find_rows(item, places)
+            rows = [row for row in rows if not set(row) & (blocked | set(taken))]
+            if not rows:
+                return None
+            taken += _nearest_row(rows, taken)
+        sign, flips = 1, 0
+        for item in items:
+            if not item.scales:
+                continue
+            end, place = self._find_end(item, places, taken)
+            if place is None or (end < 0 and not item.is_opposed):
+                return None
+            flips += end < 0
+            sign *= end
+            taken += [place]
+        general = all(item.is_general for item in items)
+        return (0 if general and flips > 1 else sign), tuple(sorted(taken))
+
+    def _find_end(
+        self, item: _Item, places: Sequence[int], taken: Sequence[int]
+    ) -> tuple[int, int | None]:
+        """Return which end of a scale is said nearest to other words, and where.
+
+        That is 1 for the end of the item, -1 for the other one if only that is said, else 0.
+        """
+        found: dict[int, set[int]] = {}
+        for at in places:
+            if at not in taken:
+                ends = {
+                    sign * end
+                    for name, sign in item.scales
+                    for other, end in self._scales_at(at)
+                    if name == other
+                }
+                found |= {at: ends} if ends else {}
+        if not found:
+            return 0, None
+        away = {at: min((abs(at - other) for other in taken), default=0) for at in found}
+        nearest = [at for at in found if away[at] == min(away.values())]
+        right = [at for at in nearest if found[at] == {1}]
+        if right and (taken or len(right) == len(found)):
+            both = any(-1 in found[at] for at in nearest)
+            return (0 if both and len(taken) < 2 else 1), right[0]
+        alone = all(1 not in ends for ends in found.values())
+        return (-1 if alone else 0), nearest[0]
+
+    def _scales_at(self, place: int) -> tuple[Scale, ...]:
+        """Return the ends of scales at a token, rows of words such as ``nimmt ab`` included."""
+        rows = tuple(
+            scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
+        )
+        word = self.tokens[place].text
+        return rows or _scales_of(word, slips=word not in self._known)
+
+    def _has_loose_row(self, place: int, row: Sequence[str]) -> bool:
+        """Return whether a row begins here, with up to three words between: ``nimmt stark ab``."""
+        if not is_form_of(self.tokens[place].text, row[0]) or len(self.tokens[place].text) < 2:
+            return False
+        after = [token.text for token in self.tokens[place + 1 : place + 5]]
+        return all(word in after for word in row[1:])
+
+    def _find_rows(self, item: _Item, places: Sequence[int]) -> list[tuple[int, ...]]:
+        """Return the tokens of each place where a row of an item stands."""
+        inside = set(places)
+        return [
+            tuple(range(at, at + len(row)))
+            for at in places
+            for row in item.rows
+            if self._stands(item, row, at) and at + len(row) - 1 in inside
+        ]
+
+    def _stands(self, item: _Item, row: Sequence[str], place: int) -> bool:
+        """Return whether a row stands at a token; a formula only if it goes on neither way.
+
+        A word in the middle of another row of the subject is no word of its own.
+        """
+        if len(row) == 1 and place in self._held:
+            return False
+        if not _has_row(self.tokens, place, row, exactly=item.formula, known=self._known):
+            return False
+        if not item.formula and len(row[0]) > 1:
+            return True
+        before = self.tokens[place - 1] if place else None
+        end = place + len(row)
+        after = self.tokens[end] if end < len(self.tokens) else None
+        if after is not None and after.text in {"^", "/"}:
+            return False
+        return before is None or before.text not in {"^", "/", "sqrt"}
+
+    def _weigh(
+        self, example: Example, index: int, fit: tuple[int, tuple[int, ...]]
+    ) -> Iterator[Evidence]:
+        """Yield what a clause that has all words of an example says of its idea.
+
+        The contrary of what is refused says nothing of it.
+        """
+        sign, places = fit
+        if sign == 0 and example.meaning == "denied":
+            return
+        clause = self.clauses[index]
+        denied = self._is_denied(clause, places)
+        turned = sign < 0
+        if sign == 0 or denied is None or self._has_degree(clause, places, example):
+            meaning: Meaning = "open"
+        else:
+            if sign < 0 and self._belongs_elsewhere(clause, places):
+                return
+            flips = (sign < 0) ^ denied ^ example.denied
+            lone = example.denied and example.size <= 3  # *not linear* does not deny every *linear*
+            if flips and (example.meaning == "denied" or (lone and not denied)):
+                return
+            meaning = "denied" if flips else example.meaning
+        yield Evidence(
+            meaning, example.text, index, index, example.size, places,
+            turned=turned and meaning == "denied",
+        )  # fmt: skip
+
+    def _belongs_elsewhere(self, clause: _Clause, places: tuple[int, ...]) -> bool:
+        """Return whether a word on a scale stands before another word than one that is meant.
+
+        In *the discs of more distances*, no disc is larger.
+        """
+        fillers = _vocabulary().fillers
+        return any(
+            name == "amount"
+            and at + 1 in clause.places
+            and at + 1 not in places
+            and self.tokens[at + 1].text not in fillers
+            and self.tokens[at + 1].text[0].isalpha()
+            for at in places
+            for name, _ in self._scales_at(at)
+        )
+
+    def _is_denied(self, clause: _Clause, places: tuple[int, ...]) -> bool | None:
+        """Return whether a clause denies what it says at some tokens; None if twice."""
+        heads = [at for at in clause.denials if at not in places]
+        count = clause.whole if heads else 0
+        if not count:
+            count = sum(any(place > at for place in places) for at in heads)
+        count += sum(any(place > at for place in places) for at in clause.ahead)
+        return None if count > 1 else bool(count)
+
+    def _has_degree(self, clause: _Clause, places: tuple[int, ...], example: Example) -> bool:
+        """Return whether a word of low degree, such as ``less``, stands before one that is meant.
+
+        An example without a scale would not see that it is turned.
+        """
+        if any(item.scales for step in example.steps for item in step):
+            return False
+        known = _vocabulary().degrees
+        return any(
+            self.tokens[at].text in known
+            and at not in places
+            and (at + 1 in places or (at - 1 in places and not self.tokens[at].text.isascii()))
+            for at in clause.places
+        )
+
+    def _find_order(self, example: Example) -> Iterator[Evidence]:
+        """Yield what the text says of steps that follow each other."""
+        everywhere = [at for clause in self.clauses for at in clause.places]
+        denied = {at for c in self.clauses if c.denials or c.ahead for at in c.places}
+        ends: list[list[int]] = []
+        for step in example.steps:
+            rows = [self._fit(step, clause.places, example) for clause in self.clauses]
+            ends.append([fit[1][0] for fit in rows if fit and fit[0] > 0])
+        if not all(ends) or not everywhere:
+            return
+        chosen, last = [], -1
+        for places in ends:
+            after = [at for at in places if at > last]
+            if not after:
+                break
+            last = after[0]
+            chosen.append(last)
+        ordered = len(chosen) == len(ends)
+        used = tuple(chosen) if ordered else tuple(places[0] for places in ends)
+        clauses = [self._clause_of(place) for place in used]
+        wrong = bool(set(used) & denied)
+        if not ordered and example.meaning == "denied":
+            return
+        meaning: Meaning = "open" if wrong else example.meaning if ordered else "denied"
+        first, last = min(clauses), max(clauses)
+        yield Evidence(meaning, example.text, first, last, example.size, tuple(sorted(used)))
+
+    def _clause_of(self, place: int) -> int:
+        """Return the index of the clause of a token."""
+        return next(i for i, clause in enumerate(self.clauses) if place in clause.places)
+
+    def quote(self, evidence: Evidence) -> str:
+        """Return the clauses that evidence stands in, as they were typed."""
+        places = [at for c in self.clauses[evidence.first : evidence.last + 1] for at in c.places]
+        known = _vocabulary().breaks
+        while len(places) > 1 and self.tokens[places[0]].text in known:
+            places = places[1:]
+        return self.typed[self.tokens[places[0]].start : self.tokens[places[-1]].end]
+
+    def spans(self, evidence: Evidence) -> list[tuple[int, int]]:
+        """Return where the words of evidence stand: first character, and the one behind."""
+        return [(self.tokens[at].start, self.tokens[at].end) for at in evidence.places]
+
+
+def _nearest_row(rows: Sequence[tuple[int, ...]], taken: Sequence[int]) -> tuple[int, ...]:
+    """Return the one of some rows of tokens that stands nearest to the middle of others."""
+    middle = sum(taken) / len(taken) if taken else rows[0][0]
+    return min(rows, key=lambda row: abs(row[0] - middle))
+
+
+_ORDER = {"denied": 0, "half": 1, "said": 2, "open": 3}
+
+
+def _rank(evidence: Evidence) -> tuple[bool, int, int]:
+    """Return what the best fit comes first by.
+
+    That is one clause before several, then how much was recognised, then the careful meaning.
+    """
+    return (evidence.last > evidence.first, -evidence.size, _ORDER[evidence.meaning])
+
+
+def used_synonyms(groups: Mapping[str, Sequence[str]], texts: Iterable[str]) -> list[str]:
+    """Return the names of the groups of synonyms of which a text has a word.
+
+    Parameters
+    ----------
+    groups : mapping of str to sequence of str
+    texts : iterable of str
+    """
+    tokens = [split_tokens(text) for text in texts]
+    return [
+        name
+        for name, group in groups.items()
+        if any(
+            _find_synonyms(row, place, (group,))[0] for row in tokens for place in range(len(row))
+        )
+    ]
