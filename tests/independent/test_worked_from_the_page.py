@@ -138,18 +138,14 @@ def spoiled(spec: dict[str, Any]) -> dict[str, Any]:
 
 
 def _other_lines(spec: dict[str, Any]) -> dict[str, Any]:
-<<<<<<< HEAD
-    """The lines of a known mistake, where lines are drawn or derived."""
-    if "lines" not in spec:
+    """What a known mistake draws, derives or writes, where that is asked."""
+    field = next((name for name in ("lines", "solution") if name in spec), "")
+    if not field:
         return {}
     wrong = next(iter(spec["traps"].values()))
-    derived = spec["kind"] == "derivation"
-    return {"lines": {"wrong": {"forms": wrong}} if derived else wrong, "traps": {}}
-=======
-    """What a known mistake draws or writes, where that is asked."""
-    field = next((name for name in ("lines", "solution") if name in spec), "")
-    return {field: next(iter(spec["traps"].values()))} if field else {}
->>>>>>> verbs
+    if spec["kind"] == "derivation":
+        return {"lines": {"wrong": {"forms": wrong}}, "traps": {}}
+    return {field: wrong}
 
 
 def _other_number(spec: dict[str, Any]) -> dict[str, Any]:

@@ -227,7 +227,6 @@ def test_a_reading_chosen_declares_the_decimal_sign_which_is_kept(client, token,
     assert declared.format("auto") in client.get(at).text
 
 
-<<<<<<< HEAD
 SENTENCES = "why-bayer-green-and-demosaicing"
 
 
@@ -246,7 +245,8 @@ def test_a_sentence_is_judged_by_criteria(client, token):
     client.post(f"{at}/{part}", data={**ticked, f"mark-{part}": ["eye", "detail"]})
     page = client.get(f"{at}?part={part}").text
     assert "You gave yourself 1 point." in page  # what has ended stays
-=======
+
+
 @pytest.mark.skipif(not can_run_programs(), reason="no process can be locked here")
 def test_a_function_is_written_line_by_line(client, token, begin):
     at = begin("write-hue-shift")
@@ -259,4 +259,3 @@ def test_a_function_is_written_line_by_line(client, token, begin):
         f"{at}/1", data={"token": token, "a": typed.replace("degrees\r", "degrees // 2\r")}
     )
     assert verdicts(right.text)[-1] == "correct"
->>>>>>> verbs
