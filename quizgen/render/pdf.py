@@ -27,6 +27,7 @@ from quizgen.render.answer_fields import (
     typeset_room,
     typeset_text,
 )
+from quizgen.render.cover import list_cover_facts, typeset_house_rules
 from quizgen.render.layouts import MOST_ROWS
 from quizgen.render.solved_parts import typeset_remarks, typeset_solved_part
 from quizgen.render.typst_document import (
@@ -116,6 +117,7 @@ class _TypstPaper:
                 *self._typeset_printing_note(),
                 f"#blanks({labels})" if labels else "",
                 self._typeset_rules(),
+                *typeset_house_rules(self.paper),
                 self._typeset_mark_table(),
                 ends,
             ]
@@ -151,10 +153,9 @@ class _TypstPaper:
         """Return code, points and minutes; before an exam also what may lie on the desk."""
         paper, main = self.paper, self.main
         minutes = translate(main, "paper.minutes")
-        more = f" + {paper.holder.extra} {minutes}" if paper.holder and paper.holder.extra else ""
         count = "question" if len(paper.items) == 1 else "contents"
         total = (
-            f"{format_marks(paper.points, main)}, {paper.minutes} {minutes}{more}, "
+            f"{format_marks(paper.points, main)}, {paper.minutes} {minutes}, "
             f"{len(paper.items)} {translate(main, f'paper.{count}')}"
         )
         rows = [("code", f"raw({typst_literal(paper.code)})"), ("total", typst_literal(total))]
@@ -168,6 +169,8 @@ class _TypstPaper:
                 ),
                 *rows,
             ]
+        if self.kind == "exam":
+            rows = [*list_cover_facts(paper), *rows]
         named = [
             f"([{translate_all(self.langs, f'paper.{name}')}], {value})" for name, value in rows
         ]
@@ -363,7 +366,8 @@ def write_for_paper(item: PaperItem) -> tuple[Question, ...]:
 
 def _format_holder(paper: Paper) -> str:
     """Return whose paper it is, for the foot of every page."""
-    known = (paper.holder.name, paper.holder.id) if paper.holder else ()
+    holder = paper.holder
+    known = (holder.name, holder.id) if holder and not holder.hidden else ()
     return " · ".join(map(replace_unprintable, filter(None, known)))
 
 
