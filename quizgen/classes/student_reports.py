@@ -64,7 +64,7 @@ from quizgen.render.typst_document import (
 )
 
 MOST_TO_REVISE = 5
-NOT_TYPED = frozenset({"sketch"})
+NOT_TYPED = frozenset({"program", "sketch"})
 """Kinds whose key nobody types."""
 PACKAGE = "quizgen.classes"
 
