@@ -47,13 +47,19 @@ def all_templates(bank: Bank, seed: int, lang: str = "both", level: str = "exam"
     return build_paper(bank, blueprint, seed, lang, figures=False)
 
 
+IN_PROCESSES = {"program"}
+"""Kinds whose answers take a process each: tests/templates/test_programs_run.py."""
+
+
 def fields(paper: Paper, lang: str) -> Iterator[Printed]:
     """The fields that a machine marks; free text has no printed answer and is left out."""
     place = paper.langs.index(lang)
     for item in paper.items:
         question, key = item.questions[place], item.keys[place]
         for part, solved, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):
-            if solved.answer:  # what is no trap is a reason for one option, pair or step
+            if (
+                solved.answer and spec.kind not in IN_PROCESSES
+            ):  # what is no trap is a reason for one option, pair or step
                 mistakes = tuple(
                     # of a drawing no wrong points are printed: those of the key are typed
                     (m.name, m.value or "; ".join(spec.traps[m.name].values()))
