@@ -32,7 +32,7 @@ from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, solve_in
 COUNTED = Path(__file__).parents[1] / "quizgen" / "tradeoff" / "counted.json"
 ROUND = 10_000
 """Questions that are drawn."""
-FREE = frozenset({"text", "witness", "sketch"})
+FREE = frozenset({"program", "text", "witness", "sketch"})
 """Kinds without one printed answer."""
 _NUMBER = re.compile(r"[-−]?\d[\d\u202f]*(?:\.\d+)?(?:/\d+)?(?:·10[⁻⁰¹²³⁴-⁹]+)?")
 _PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789", "\u202f")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import statistics
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
@@ -25,6 +27,7 @@ from quizgen.classes.student_reports import report_css, report_environment
 from quizgen.classes.variant_difficulty import VariantEffect
 from quizgen.core.errors import ClassError
 from quizgen.core.files import PRIVATE, write_all
+from quizgen.core.untrusted import escape_csv_formula
 from quizgen.figures import Figure, plot_figure
 from quizgen.grading.options import GradingOptions
 from quizgen.locale import FIRST, language_css, load_words, localise_numbers
@@ -32,14 +35,18 @@ from quizgen.paper.answer_key import AnswerKey
 from quizgen.paper.grading import QuestionGrader
 from quizgen.render.fonts import bangla_faces
 
-FILE = "analysis.html"
+FILE, TABLE = "analysis.html", "items.csv"
+ITEM_COLUMNS = ("number", "item", "points", "students", "difficulty", "discrimination", "blank",
+                "undecided", "mistakes", "never chosen")  # fmt: skip
 SURE = 0.05
 """Corrected probability below which a difference is shown as one."""
 MOST_MISTAKES, MOST_PLOTS = 3, 6
 
 
 def write_analysis_page(folder: ClassFolder, lang: str = FIRST) -> tuple[ClassAnalysis, Path]:
-    """Analyse the graded papers of a class and write ``analysis.html``; return both.
+    """Analyse the graded papers of a class; return the analysis and the path of its page.
+
+    Writes ``analysis.html`` and the statistics of the items as ``items.csv``.
 
     Raises
     ------
@@ -74,15 +81,42 @@ def write_analysis_page(folder: ClassFolder, lang: str = FIRST) -> tuple[ClassAn
             told=lambda mistake: mistake_sentence(mistake, keys.key, lang),
         )
     )
-    return found, write_all(folder.path / FOLDER, {FILE: page.encode()}, PRIVATE)[0]
+    made = {TABLE: _format_items(found), FILE: page.encode()}
+    return found, write_all(folder.path / FOLDER, made, PRIVATE)[-1]
+
+
+def _format_items(found: ClassAnalysis) -> bytes:
+    """Return the statistics of the items as CSV, a row for each, by their printed numbers."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(ITEM_COLUMNS)
+    for item in found.items:
+        figures = (item.points, item.students, item.difficulty, item.discrimination)
+        mistakes = "; ".join(f"{one.students} {one.note}" for one in item.mistakes)
+        writer.writerow(
+            [
+                item.number,
+                escape_csv_formula(item.item),
+                *("" if value is None else f"{value:.4g}" for value in figures),
+                item.blank,
+                item.undecided,
+                *map(escape_csv_formula, (mistakes, "; ".join(item.never))),
+            ]
+        )
+    return out.getvalue().encode("utf-8-sig")
 
 
 def _iter_marks_with_outlines(
     history: GradingHistory, keys: KeyIndex
 ) -> Iterator[tuple[StudentMarks, PaperOutline]]:
-    """Yield each student's current marks with the outline of that student's paper."""
+    """Yield each student's current marks with the outline of that student's paper.
+
+    Whose key was edited is left out.
+    """
+    changed = keys.find_changed()
     for marks in history.current():
-        yield marks, keys.outline(marks.student)
+        if marks.student not in changed:
+            yield marks, keys.outline(marks.student)
 
 
 def _select_significant_effects(found: ClassAnalysis) -> list[object]:
@@ -94,8 +128,8 @@ def _draw_plots(found: ClassAnalysis, scale: GradeScale, lang: str) -> dict[str,
     """Return the plots of the page as inline SVG, by the names that its layout uses."""
     passing = float(scale.grade_bounds()[-1][1] * Fraction(found.points))
     rows = [
-        (str(number), item.difficulty, item.discrimination)
-        for number, item in enumerate(found.items, 1)
+        (item.number, item.difficulty, item.discrimination)
+        for item in found.items
         if item.difficulty is not None and item.discrimination is not None
     ]
     shown = max(1, min(len(_select_significant_effects(found)), MOST_PLOTS))

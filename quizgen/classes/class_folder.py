@@ -27,12 +27,14 @@ from quizgen.paper.answer_key import AnswerKey, answer_key_digest, parse_answer_
 
 SETTINGS, ROSTER, KEYS = "class.toml", "roster.csv", "keys.jsonl"
 PAPERS, SOLUTIONS, FORMS, ANSWERS = "papers", "solutions", "forms", "answers"
+SHEETS = "sheets"
+"""Compact answer sheets, where the class has them."""
 DATA = "data"
 """Files with drawn data, in a folder for each student whose questions name some."""
 
 
 class ClassSettings(msgspec.Struct, frozen=True):
-    """What a class was generated from; written once, to ``class.toml``.
+    """What a class is generated from: ``class.toml``, which stays as it is once there are papers.
 
     Parameters
     ----------
@@ -50,6 +52,8 @@ class ClassSettings(msgspec.Struct, frozen=True):
         Of the blueprint and the templates.
     templates : tuple of tuple of str
         For each question, the templates that it may be made from.
+    without : tuple of str
+        Templates that no question may be made from: those of earlier classes.
     """
 
     name: str
@@ -59,6 +63,7 @@ class ClassSettings(msgspec.Struct, frozen=True):
     lang: str
     digest: str
     templates: tuple[tuple[str, ...], ...]
+    without: tuple[str, ...] = ()
 
 
 class PrintedHead(msgspec.Struct, frozen=True):
@@ -77,6 +82,8 @@ class PrintedHead(msgspec.Struct, frozen=True):
         Of the key as it was written: who edits it by hand is told.
     former : tuple of str
         Codes that the paper had in another language: it may have been handed out.
+    minutes : int
+        Working time of the paper; 0 if it is not known.
     """
 
     id: str
@@ -86,6 +93,7 @@ class PrintedHead(msgspec.Struct, frozen=True):
     beside: tuple[str, ...] = ()
     digest: str = ""
     former: tuple[str, ...] = ()
+    minutes: int = 0
 
     @property
     def codes(self) -> tuple[str, ...]:
@@ -158,9 +166,22 @@ class ClassFolder:
 
         Settings come first: no paper may exist that they do not explain.
         """
-        contents = {ROSTER: write_roster(students), KEYS: b"", SETTINGS: _format_toml(settings)}
+        contents = {ROSTER: write_roster(students), KEYS: b"", SETTINGS: format_settings(settings)}
         write_all(self.path, contents, mode=PRIVATE)
         restrict_folder(self.path)  # it may have been there, empty
+
+    def change_settings(self, settings: ClassSettings) -> None:
+        """Replace the settings of a class that has no papers yet.
+
+        Raises
+        ------
+        ClassError
+            If there are papers, which would no longer follow from them.
+        """
+        if self.places():
+            raise ClassError(f"{self.path}: has papers; other questions need a new folder (--out)")
+        write_all(self.path, {SETTINGS: format_settings(settings)}, PRIVATE)
+        self.__dict__.pop("settings", None)
 
     def students(self) -> list[RosterStudent]:
         """Return the students of the roster, in the order of their seats."""
@@ -263,11 +284,15 @@ class _Line(msgspec.Struct):
 _LINE = json_decoder(_Line).decode
 
 
-def format_record(head: PrintedHead, key: AnswerKey) -> bytes:
-    """Return a paper as a line of ``keys.jsonl``, with the digest of its key."""
+def format_record(head: PrintedHead, key: AnswerKey, **more: object) -> bytes:
+    """Return a paper as a line of ``keys.jsonl``, with the digest of its key.
+
+    ``more`` stands beside the key, such as places of an answer sheet; what is empty is left out.
+    """
     written = msgspec.json.encode(key)
     whole = msgspec.structs.replace(head, digest=_compute_key_digest(written))
-    table = {**msgspec.structs.asdict(whole), "key": msgspec.Raw(written)}
+    shown = {name: value for name, value in more.items() if value}
+    table = {**msgspec.structs.asdict(whole), "key": msgspec.Raw(written), **shown}
     return msgspec.json.encode(table) + b"\n"
 
 
@@ -306,7 +331,7 @@ def _decode_head(line: bytes) -> PrintedHead | None:
         return None
 
 
-def _format_toml(settings: ClassSettings) -> bytes:
+def format_settings(settings: ClassSettings) -> bytes:
     """Return the settings as TOML: its strings and arrays are written as those of JSON."""
     table: Mapping[str, Any] = msgspec.structs.asdict(settings)
     lines = [f"{name} = {json.dumps(value, ensure_ascii=False)}" for name, value in table.items()]

@@ -10,9 +10,9 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from typing import NamedTuple
 
 import msgspec
@@ -26,16 +26,20 @@ from quizgen.classes.class_folder import (
     FORMS,
     PAPERS,
     SETTINGS,
+    SHEETS,
     SOLUTIONS,
     ClassFolder,
     ClassSettings,
     PrintedHead,
     format_record,
 )
+from quizgen.classes.exam_details import FILE as EXAM
+from quizgen.classes.exam_details import ExamDetails, read_exam_details
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.pseudonyms import form_seal, new_secret, student_code, student_seed
 from quizgen.classes.roster import RosterStudent, seat_neighbours
-from quizgen.core.errors import ClassError
+from quizgen.classes.sheet_codes import format_sheet_code
+from quizgen.core.errors import BlueprintError, ClassError
 from quizgen.core.executor import map_unordered
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context
@@ -43,17 +47,32 @@ from quizgen.paper.answer_form import has_answers, write_blank_form
 from quizgen.paper.answer_key import make_answer_key
 from quizgen.paper.blueprint import Blueprint
 from quizgen.paper.code import PaperCode, source_digest
-from quizgen.paper.paper import Paper, PaperHolder, ProgressCallback, compose_paper
+from quizgen.paper.paper import (
+    Paper,
+    PaperCover,
+    PaperHolder,
+    ProgressCallback,
+    compose_paper,
+)
 from quizgen.paper.provenance import describe_differences
-from quizgen.paper.selection import alternatives, select_templates, slot_levels
+from quizgen.paper.selection import (
+    alternatives,
+    select_instead,
+    select_templates,
+    slot_levels,
+)
 from quizgen.paper.variants import draw_variants, shared_content
 from quizgen.render import KINDS, render_paper
+from quizgen.render.answer_sheet import make_answer_sheet
 from quizgen.render.typst_document import evict_cache
 
 CHUNK = 8
 """Papers of a job: what a killed worker costs."""
 PRETENDED = 1
 """Documents after each paper: a tenth of a worker's memory is what papers before it left."""
+PREVIEW = "preview"
+"""Stands for a student on the paper that is looked at before there are others, and names its
+files."""
 CLASS = "class"
 """Stands for the seed where a code would show one."""
 
@@ -71,6 +90,10 @@ class GenerationJob:
         To whom each of them gives way, and those in turn.
     former : mapping of str to tuple of str
         Codes that each has had.
+    exam : ExamDetails
+        What covers say.
+    sheet : bool
+        Whether there are compact answer sheets, too.
     """
 
     settings: ClassSettings
@@ -78,6 +101,8 @@ class GenerationJob:
     students: tuple[RosterStudent, ...]
     neighbours: Mapping[str, tuple[str, ...]]
     former: Mapping[str, tuple[str, ...]]
+    exam: ExamDetails
+    sheet: bool = False
 
 
 class GeneratedPaper(NamedTuple):
@@ -115,7 +140,13 @@ class GenerationReport:
 
 
 def create_settings(
-    name: str, bank: Bank, blueprint: Blueprint, lang: str, *, vary: bool = False
+    name: str,
+    bank: Bank,
+    blueprint: Blueprint,
+    lang: str,
+    *,
+    vary: bool = False,
+    without: Sequence[str] = (),
 ) -> ClassSettings:
     """Return the settings of a new class, with a new random secret.
 
@@ -128,10 +159,14 @@ def create_settings(
         Of students whose row of the roster names none.
     vary : bool
         Whether a question may be made from any template of a family, or from one for all.
+    without : sequence of str
+        Templates that no question may be made from.
     """
     secret = new_secret()
-    chosen = select_templates(bank, blueprint, student_seed(secret))
-    templates = alternatives(bank, blueprint, chosen) if vary else [(one,) for one in chosen]
+    chosen = select_templates(bank, blueprint, student_seed(secret), without)
+    templates = (
+        alternatives(bank, blueprint, chosen, without) if vary else [(one,) for one in chosen]
+    )
     own = blueprint.name not in bank.blueprints and blueprint.file
     return ClassSettings(
         name=name,
@@ -141,7 +176,63 @@ def create_settings(
         lang=lang,
         digest=_compute_class_digest(bank, blueprint, templates),
         templates=tuple(templates),
+        without=tuple(without),
     )
+
+
+def replace_template(
+    settings: ClassSettings, bank: Bank, blueprint: Blueprint, number: int, template: str = ""
+) -> ClassSettings:
+    """Return the settings with another template for one question.
+
+    Parameters
+    ----------
+    settings : ClassSettings
+    bank : Bank
+    blueprint : Blueprint
+    number : int
+        Of the question, from 1.
+    template : str
+        Which; by default any that fits the slot and is worth as much.
+
+    Raises
+    ------
+    ClassError
+        If there is no such question, or nothing else that may stand there.
+    """
+    if not 1 <= number <= len(settings.templates):
+        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
+    chosen = [family[0] for family in settings.templates]
+    without = settings.without
+    if template and template not in bank.template_paths:
+        raise ClassError(f"there is no template {template!r}")
+    if template:
+        without = (*without, *({*bank.template_paths} - {template}))
+    try:
+        chosen = select_instead(bank, blueprint, chosen, number - 1, new_secret(), without)
+    except BlueprintError as error:
+        what = f"{template} cannot" if template else "nothing else can"
+        raise ClassError(f"{what} stand for question {number}: {error}") from None
+    vary = any(len(family) > 1 for family in settings.templates)
+    templates = (
+        alternatives(bank, blueprint, chosen, settings.without)
+        if vary
+        else [(one,) for one in chosen]
+    )
+    return msgspec.structs.replace(
+        settings,
+        templates=tuple(templates),
+        digest=_compute_class_digest(bank, blueprint, templates),
+    )
+
+
+def make_preview(settings: ClassSettings, blueprint: Blueprint, exam: ExamDetails) -> Paper:
+    """Return a paper as students will get it, with numbers that nobody gets."""
+    sample = RosterStudent(PREVIEW, PREVIEW)
+    job = GenerationJob(settings, blueprint, (sample,), {PREVIEW: ()}, {}, exam)
+    drawing = _Drawing(job)
+    made = _compose_student_paper(job, sample, drawing.bank, drawing.of(PREVIEW))
+    return _assign_student_code(job, sample, made)
 
 
 def _compute_class_digest(
@@ -166,6 +257,8 @@ def generate_papers(
 ) -> GenerationReport:
     """Generate the papers that are missing, or whose roster row has changed.
 
+    A class that has a folder for compact answer sheets gets these, too.
+
     Raises
     ------
     ClassError
@@ -174,14 +267,21 @@ def generate_papers(
     """
     with lock_folder(folder.path):
         _check_bank_unchanged(folder, blueprint)
-        heads = folder.heads()
-        todo = [one for one in students if not _is_up_to_date(folder, one, heads.get(one.id))]
+        heads, exam = folder.heads(), read_exam_details(folder.path / EXAM) or ExamDetails()
+        todo = [one for one in students if not _is_up_to_date(folder, one, exam, heads.get(one.id))]
         folder.write_roster(students)
         done: list[GeneratedPaper] = []
         former = {one: head.codes for one, head in heads.items()}
-        jobs = _iter_jobs(
-            folder.settings, blueprint, todo, _assign_neighbours(students, heads), former
+        whole = GenerationJob(
+            folder.settings,
+            blueprint,
+            tuple(todo),
+            _assign_neighbours(students, heads),
+            former,
+            exam,
+            (folder.path / SHEETS).exists(),
         )
+        jobs = _iter_jobs(whole)
         for results in map_unordered(executor, run_generation_job, jobs, ahead):
             _write_papers_and_keys(folder, results)
             for one in results:
@@ -215,18 +315,16 @@ def _check_bank_unchanged(folder: ClassFolder, blueprint: Blueprint) -> None:
         )
 
 
-def _iter_jobs(
-    settings: ClassSettings,
-    blueprint: Blueprint,
-    todo: Sequence[RosterStudent],
-    neighbours: Mapping[str, tuple[str, ...]],
-    former: Mapping[str, tuple[str, ...]],
-) -> Iterator[GenerationJob]:
+def _iter_jobs(whole: GenerationJob) -> Iterator[GenerationJob]:
     """Yield jobs of ``CHUNK`` students, each with the neighbours its papers depend on."""
-    for at in range(0, len(todo), CHUNK):
-        chunk = tuple(todo[at : at + CHUNK])
-        had = {one.id: former.get(one.id, ()) for one in chunk}
-        yield GenerationJob(settings, blueprint, chunk, _select_neighbours(chunk, neighbours), had)
+    for at in range(0, len(whole.students), CHUNK):
+        chunk = whole.students[at : at + CHUNK]
+        yield replace(
+            whole,
+            students=chunk,
+            neighbours=_select_neighbours(chunk, whole.neighbours),
+            former={one.id: whole.former.get(one.id, ()) for one in chunk},
+        )
 
 
 def _write_papers_and_keys(folder: ClassFolder, results: Sequence[GeneratedPaper]) -> None:
@@ -244,17 +342,25 @@ def _write_papers_and_keys(folder: ClassFolder, results: Sequence[GeneratedPaper
     folder.append(one.line for one in results)
 
 
-def _compute_student_digest(settings: ClassSettings, one: RosterStudent) -> str:
+def _compute_student_digest(settings: ClassSettings, one: RosterStudent, exam: ExamDetails) -> str:
     """Return a digest of all that a student's files depend on."""
-    row = [one.id, one.name, one.lang or settings.lang, one.extra, settings.digest]
+    row: list[object] = [one.id, one.name, one.lang or settings.lang, one.extra, settings.digest]
+    shown = exam.build_cover(one)
+    if shown != PaperCover() or exam.title or exam.pseudonyms:
+        row.append([msgspec.to_builtins(shown), exam.title, exam.pseudonyms])
     return hashlib.sha256(json.dumps(row).encode()).hexdigest()[:16]
 
 
-def _is_up_to_date(folder: ClassFolder, one: RosterStudent, head: PrintedHead | None) -> bool:
+def _is_up_to_date(
+    folder: ClassFolder, one: RosterStudent, exam: ExamDetails, head: PrintedHead | None
+) -> bool:
     """Return whether a student's files exist and are up to date."""
-    if head is None or head.stamp != _compute_student_digest(folder.settings, one):
+    if head is None or head.stamp != _compute_student_digest(folder.settings, one, exam):
         return False
-    return all((folder.path / name).exists() for name in _list_student_files(one))
+    names = [*_list_student_files(one)]
+    if (folder.path / SHEETS).exists():
+        names.append(f"{SHEETS}/{one.file}.pdf")
+    return all((folder.path / name).exists() for name in names)
 
 
 def _list_student_files(one: RosterStudent) -> tuple[str, ...]:
@@ -337,7 +443,7 @@ def _make_student_files(
     """Return one student's paper with its files, key and report."""
     drawn, neighbours = drawing.of(one.id), job.neighbours[one.id]
     made = _compose_student_paper(job, one, drawing.bank, drawn)
-    paper = _assign_student_code(job.settings, one, made)
+    paper = _assign_student_code(job, one, made)
     sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
     evict_cache(PRETENDED)
     former = tuple(sorted({*job.former[one.id]} - {paper.code}))
@@ -345,16 +451,22 @@ def _make_student_files(
         one.id,
         paper.code,
         made.code,
-        _compute_student_digest(job.settings, one),
+        _compute_student_digest(job.settings, one, job.exam),
         neighbours,
         former=former,
+        minutes=paper.minutes,
     )
     files = dict(zip(_list_student_files(one), [*sheets, write_blank_form(paper)], strict=True))
+    places = None
+    if job.sheet:
+        files[f"{SHEETS}/{one.file}.pdf"], places = make_answer_sheet(
+            paper, partial(format_sheet_code, job.settings.secret, paper.code)
+        )
     files |= {f"{DATA}/{one.file}/{name}": data for name, data in paper.data_files.items()}
     return GeneratedPaper(
         one.id,
         files,
-        format_record(head, make_answer_key(paper)),
+        format_record(head, make_answer_key(paper), sheet=places),
         paper.points,
         paper.minutes,
         "".join(item.questions[0].tier for item in paper.items),
@@ -371,16 +483,20 @@ def _compose_student_paper(
     return compose_paper(bank, job.blueprint, drawn, named)
 
 
-def _assign_student_code(settings: ClassSettings, one: RosterStudent, paper: Paper) -> Paper:
-    """Return the paper with the student's name, code and seal.
+def _assign_student_code(job: GenerationJob, one: RosterStudent, paper: Paper) -> Paper:
+    """Return the paper with the student's name, cover, code and seal.
 
     The code is a message authentication code: it reveals nothing about the numbers.
     """
+    cover, secret = job.exam.build_cover(one), job.settings.secret
+    titled = msgspec.structs.replace(job.blueprint, title=dict(job.exam.titles))
     return msgspec.structs.replace(
         paper,
-        code=student_code(settings.secret, one.id, paper.digest),
-        seal=form_seal(settings.secret, one.id, paper.digest),
-        holder=PaperHolder(one.id, one.name, one.extra_minutes(paper.minutes)),
+        code=student_code(secret, one.id, paper.digest),
+        seal=form_seal(secret, one.id, paper.digest),
+        holder=PaperHolder(one.id, one.name, job.exam.pseudonyms),
+        cover=None if cover == PaperCover() else cover,
+        blueprint=titled if job.exam.title else paper.blueprint,
     )
 
 

@@ -21,6 +21,21 @@ FAILED = "5.0"
 Share = str | int
 
 
+class BonusRule(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How points that were earned before the exam count.
+
+    Parameters
+    ----------
+    most : str or int
+        Points that count at most.
+    needs_pass : bool
+        They count only for those who pass without them.
+    """
+
+    most: Share = 100
+    needs_pass: bool = True
+
+
 class GradeScale(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """How grades follow from points.
 
@@ -40,6 +55,8 @@ class GradeScale(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         The grade below.
     steps : mapping of str to str or int
         Percent for a grade, where they do not lie evenly.
+    bonus : BonusRule
+        What is added of a student's ``bonus`` in the roster.
     """
 
     passed: Share = 50
@@ -49,6 +66,7 @@ class GradeScale(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     grades: tuple[str, ...] = GERMAN
     fail: str = FAILED
     steps: dict[str, Share] = {}
+    bonus: BonusRule = BonusRule()
 
     def grade_bounds(self) -> list[tuple[str, Fraction]]:
         """Return each grade with the least share of the points (0 to 1) for it, best first."""
@@ -78,6 +96,8 @@ class GradeScale(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
             raise ClassError("passed, best, steps: percent, each less than the one before")
         if parse_written_number(self.round_to) < 0:
             raise ClassError("round_to: less than 0")
+        if parse_written_number(self.bonus.most) < 0:
+            raise ClassError("bonus.most: less than 0")
 
     def round_points(self, marks: Fraction) -> Fraction:
         """Return the points rounded as the scale says, exactly."""
@@ -92,6 +112,25 @@ class GradeScale(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         """Return the grade for ``marks`` of at most ``points``."""
         counted = self.round_points(marks)
         return next((g for g, share in self.grade_bounds() if counted >= share * points), self.fail)
+
+    def count_bonus(self, bonus: Fraction, marks: Fraction, points: Fraction) -> Fraction:
+        """Return how many points of a student's bonus count: never beyond the points there are.
+
+        Parameters
+        ----------
+        bonus : Fraction
+            Earned before the exam.
+        marks, points : Fraction
+            Reached in the exam, and the most that can be.
+        """
+        if self.bonus.needs_pass and not self.passes(self.grade(marks, points)):
+            return Fraction(0)
+        room = max(points - self.round_points(marks), Fraction(0))
+        return min(bonus, parse_written_number(self.bonus.most), room)
+
+    def grade_with_bonus(self, bonus: Fraction, marks: Fraction, points: Fraction) -> str:
+        """Return the grade for the points of the exam and those that count of the bonus."""
+        return self.grade(marks + self.count_bonus(bonus, marks, points), points)
 
     def passes(self, grade: str) -> bool:
         """Return whether a grade passes."""

@@ -4,20 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
+from itertools import accumulate
 
 import msgspec
 
+from quizgen.classes.grade_scale import GradeScale
 from quizgen.classes.rulings import (
     ACCEPT,
+    ALWAYS,
     DECIDE,
     DROP,
     GIVE,
+    POINTS,
     TOLERANCE,
     Ruling,
     RulingBook,
     answer_group,
     fold_answer,
+    is_on_paper,
 )
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.grading.options import GradingOptions
@@ -30,6 +36,9 @@ from quizgen.paper.grading import PartResult, QuestionGrader
 TO_DECIDE = frozenset({"open", "unreadable", "ambiguous"})
 """What a person is asked about."""
 DROPPED = "dropped"
+KEPT = "kept: better with it"
+WHOLE = frozenset({DROP, GIVE, POINTS})
+"""Rulings that hold whatever was typed, or if nothing was."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +107,11 @@ class StudentMarks(msgspec.Struct, frozen=True, omit_defaults=True):
     decimal: str = "auto"
     file: str = ""
     minutes: float | None = None
-    unknown: tuple[str, ...] = ()
+
+    @property
+    def filled_count(self) -> int:
+        """Return the number of parts in which something was written."""
+        return sum(bool(part.typed.strip()) for part in self.parts)
 
     @property
     def marks(self) -> float:
@@ -131,7 +144,9 @@ def item_name_from_parts(template: str, number: str, part: str) -> str:
     return f"{template}/{label}" if label else template
 
 
-def grade_submission(key: AnswerKey, sheet: Submission, book: RulingBook) -> StudentMarks:
+def grade_submission(
+    key: AnswerKey, sheet: Submission, book: RulingBook, scale: GradeScale | None = None
+) -> StudentMarks:
     """Return the marks of a submission, with all rulings applied.
 
     Parameters
@@ -141,6 +156,8 @@ def grade_submission(key: AnswerKey, sheet: Submission, book: RulingBook) -> Stu
     sheet : Submission
     book : RulingBook
         What was decided.
+    scale : GradeScale, optional
+        How points are rounded, on which depends whom a dropped item would harm.
 
     Raises
     ------
@@ -156,11 +173,46 @@ def grade_submission(key: AnswerKey, sheet: Submission, book: RulingBook) -> Stu
         for question in key.questions
         for one in _iter_graded_parts(question, sheet, book, options)
     ]
-    mine = {part.id for part in parts}
-    unknown = tuple(n for n, text in sheet.answers.items() if n not in mine and text.strip())
+    counted = _drop_items(parts, book, sheet.student, scale or GradeScale())
     return StudentMarks(
-        sheet.student, tuple(parts), lang, sheet.decimal, sheet.file, sheet.minutes, unknown
+        sheet.student, tuple(counted), lang, sheet.decimal, sheet.file, sheet.minutes
     )
+
+
+def _drop_items(
+    parts: list[GradedClassPart], book: RulingBook, student: str, scale: GradeScale
+) -> list[GradedClassPart]:
+    """Return the parts after items were dropped: each only where it does not harm the student.
+
+    Of the shares of the points that are reached with the best of the dropped items, with the best
+    two, and so on, the largest counts; with none and with all of them are among these.
+    """
+    dropped = {part.item: ruling for part in parts
+               if (ruling := book.find_drop(part.item, student)) is not None}  # fmt: skip
+    if not dropped:
+        return parts
+    rest = [part for part in parts if part.item not in dropped]
+    own = [p for p in parts if p.item in dropped and p.marks and dropped[p.item].value != ALWAYS]
+    own.sort(key=lambda part: -Fraction(part.marks or 0) / Fraction(part.points))
+    steps = accumulate(own, lambda before, part: [*before, part], initial=list[GradedClassPart]())
+    best = max(steps, key=lambda kept: (_compute_share([*rest, *kept], scale), -len(kept)))
+    kept = {part.item for part in best}
+    return [_drop_item(part, dropped[part.item], kept) if part.item in dropped else part
+            for part in parts]  # fmt: skip
+
+
+def _compute_share(parts: Iterable[GradedClassPart], scale: GradeScale) -> Fraction:
+    """Return the share of the points (0 to 1) that is reached, rounded as for the grade."""
+    marks = sum((Fraction(part.marks or 0) for part in parts), Fraction(0))
+    points = sum((Fraction(part.points) for part in parts), Fraction(0))
+    return scale.round_points(marks) / points if points else Fraction(0)
+
+
+def _drop_item(part: GradedClassPart, ruling: Ruling, kept: set[str]) -> GradedClassPart:
+    """Return a part whose item is dropped; if it is among those kept, only with who said so."""
+    if part.item in kept:
+        return _apply_ruling(ruling, part, by=f"{ruling.describe}, {KEPT}")
+    return _apply_ruling(ruling, part, marks=0.0, points=0.0, status=DROPPED, group="")
 
 
 def _iter_graded_parts(
@@ -173,10 +225,10 @@ def _iter_graded_parts(
         rulings = book.rulings_for(item, sheet.student)
         if not typed.strip():
             blank = GradedClassPart(part.id, item, typed, "blank", float(part.points_exact()), 0.0)
-            yield _apply_rulings(blank, [one for one in rulings if one.what in {DROP, GIVE}])
+            yield _apply_rulings(blank, [one for one in rulings if one.what in WHOLE])
             continue
         found = marker.judge_part(_with_tolerance(part, item, rulings), typed)
-        yield _apply_decisions(found, part, item, rulings)
+        yield _apply_decisions(found, part, item, rulings, sheet.student)
 
 
 def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyPart:
@@ -193,15 +245,26 @@ def _with_tolerance(part: KeyPart, item: str, rulings: Iterable[Ruling]) -> KeyP
     return ruled
 
 
+def stands_alone(kind: str, typed: str) -> bool:
+    """Return whether equal words of two students may stand for different answers.
+
+    Those that describe a drawing, or say that the answer is on paper.
+    """
+    return kind == "sketch" or is_on_paper(typed)
+
+
 def _apply_decisions(
-    found: PartResult, part: KeyPart, item: str, rulings: list[Ruling]
+    found: PartResult, part: KeyPart, item: str, rulings: list[Ruling], student: str
 ) -> GradedClassPart:
     """Return the mark of an answer after the rulings about it."""
     asked = found.status in TO_DECIDE
-    words = part.spec["kind"] == "rubric"
+    kind = part.spec["kind"]
+    words = kind == "rubric"
     group = ""
     if asked or rulings:
-        group = answer_group(item, part.parse_spec(proven=True).show(), found.typed, words=words)
+        shown = part.parse_spec(proven=True).show()
+        whose = f"\0{student}" if stands_alone(kind, found.typed) else ""
+        group = answer_group(item, shown + whose, found.typed, words=words)
     plain = GradedClassPart(
         found.id,
         item,
@@ -219,19 +282,31 @@ def _apply_decisions(
 
 
 def _apply_rulings(plain: GradedClassPart, rulings: list[Ruling]) -> GradedClassPart:
-    """Return the mark after its rulings: those for the whole item outrank those for answers."""
-    whole = [one for one in rulings if one.what in {DROP, GIVE}]
-    answers = [one for one in rulings if one.what in {DECIDE, ACCEPT}]
-    tolerances = [one for one in rulings if one.what == TOLERANCE]
-    if whole and whole[-1].what == DROP:
-        return _apply_ruling(whole[-1], plain, marks=0.0, points=0.0, status=DROPPED)
+    """Return the mark after its rulings: those for the whole item outrank those for answers.
+
+    A dropped item is seen to where all parts of the student are known.
+    """
+    whole = [one for one in rulings if one.what in {GIVE, POINTS}]
     if whole:
-        return _apply_ruling(whole[-1], plain, marks=plain.points)
-    if answers and not answers[-1].is_revoked:
-        given = answers[-1].points
-        marks = plain.points if given is None else min(float(given), plain.points)
-        return _apply_ruling(answers[-1], plain, marks=marks)
-    return _apply_ruling(tolerances[-1], plain) if tolerances else plain
+        given = plain.points if whole[-1].what == GIVE else _limit_points(whole[-1], plain)
+        return _apply_ruling(whole[-1], plain, marks=given)
+    found = plain
+    for one in sorted(rulings, key=lambda one: one.what != TOLERANCE):
+        if one.what == TOLERANCE:
+            found = _apply_ruling(one, found)
+        elif one.is_revoked:
+            found = plain
+        elif one.what in {DECIDE, ACCEPT}:
+            given = _limit_points(one, plain)
+            if one.what == DECIDE or found.marks is None or given > found.marks:
+                found = _apply_ruling(one, found, marks=given)
+    return found
+
+
+def _limit_points(ruling: Ruling, part: GradedClassPart) -> float:
+    """Return the points that a ruling gives, all where it names none."""
+    given = ruling.points
+    return part.points if given is None else min(float(given), part.points)
 
 
 def _apply_ruling(
@@ -247,7 +322,7 @@ def _is_ruling_about(ruling: Ruling, found: PartResult, group: str, *, words: bo
 
     ``words``: the answer is a sentence, in which capitals do not matter.
     """
-    if ruling.what in {DROP, GIVE, TOLERANCE}:
+    if ruling.what in {*WHOLE, TOLERANCE}:
         return True
     if ruling.group:
         return ruling.group == group

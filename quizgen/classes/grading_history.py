@@ -41,6 +41,14 @@ class MarkChange(NamedTuple):
     why: str
 
 
+class TotalChange(NamedTuple):
+    """What a student reached of which points, before a run and after it."""
+
+    student: str
+    before: tuple[float, float]
+    after: tuple[float, float]
+
+
 class GradingOutcome(NamedTuple):
     """How many students a run graded, how many were new, what is undecided or changed."""
 
@@ -48,6 +56,7 @@ class GradingOutcome(NamedTuple):
     new: int
     undecided: int
     changes: list[MarkChange]
+    totals: list[TotalChange]
 
 
 class GradingHistory:
@@ -98,13 +107,15 @@ class GradingHistory:
                 found += [(path.stem, one) for one in marked]
         return found
 
-    def write(self, marked: Iterable[StudentMarks]) -> GradingOutcome:
+    def write(self, marked: Iterable[StudentMarks], *, keep: bool = True) -> GradingOutcome:
         """Append the marks that changed as a new run; return what changed.
 
         Parameters
         ----------
         marked : iterable of StudentMarks
             At most one for each student.
+        keep : bool
+            Whether anything is written, or only found out.
 
         Raises
         ------
@@ -118,6 +129,7 @@ class GradingHistory:
         fresh = final.with_suffix(".part")
         students = new = undecided = written = 0
         changes: list[MarkChange] = []
+        totals: list[TotalChange] = []
         with _Lines() as lines, open_private(fresh, truncate=True) as stream:
             for one in marked:
                 students, undecided = students + 1, undecided + one.undecided_count
@@ -129,16 +141,20 @@ class GradingHistory:
                 stream.write(line)
                 written += 1
                 new += not before
-                changes += _iter_changed_parts(_decode_marks(old, final), one) if before else []
+                if before:
+                    was = _decode_marks(old, final)
+                    changes += _iter_changed_parts(was, one)
+                    both = (was.marks, was.points), (one.marks, one.points)
+                    totals += [TotalChange(one.student, *both)] if both[0] != both[1] else []
             _sync(stream)
-        if written:
+        if written and keep:
             self._stage_changes(changes, number)
             fresh.replace(final)
             sync_folder(final.parent)
             self._settle_changes()
         else:
             fresh.unlink()
-        return GradingOutcome(students, new, undecided, changes)
+        return GradingOutcome(students, new, undecided, changes, totals)
 
     def _stage_changes(self, changes: list[MarkChange], number: int) -> None:
         """Write what ``changes.csv`` is to be as soon as the marks of a run are there."""

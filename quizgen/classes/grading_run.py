@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import islice
 from pathlib import Path
+from typing import NamedTuple
 
 from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.grade_scale import GradeScale, read_grade_scale
 from quizgen.classes.grading import StudentMarks, Submission, grade_submission
-from quizgen.classes.grading_history import GradingHistory, GradingOutcome
+from quizgen.classes.grading_history import GradingHistory, GradingOutcome, TotalChange
 from quizgen.classes.key_index import KeyIndex, read_key_at
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.manual_grading import (
@@ -20,8 +23,17 @@ from quizgen.classes.manual_grading import (
     undecided_answers,
     write_queue,
 )
-from quizgen.classes.rulings import FILE, Ruling, RulingBook, note_rulings, read_rulings
-from quizgen.classes.submissions import Submissions
+from quizgen.classes.rulings import (
+    FILE,
+    USE,
+    Ruling,
+    RulingBook,
+    find_files_in_use,
+    note_rulings,
+    read_rulings,
+)
+from quizgen.classes.statuses import find_blank_students
+from quizgen.classes.submissions import RivalAnswers, Submissions, write_problems, write_rivals
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.executor import map_ordered
 from quizgen.core.untrusted import error_context
@@ -42,11 +54,23 @@ class GradingJob:
     rulings : tuple of Ruling
     sheets : tuple of (Submission, int)
         Each with where its key begins.
+    scale : GradeScale
     """
 
     keys: Path
     rulings: tuple[Ruling, ...]
     sheets: tuple[tuple[Submission, int], ...]
+    scale: GradeScale
+
+
+class GradeChange(NamedTuple):
+    """A student whose grade is another one after a run, with the share of the points (0 to 1)."""
+
+    student: str
+    before: str
+    after: str
+    share_before: float
+    share_after: float
 
 
 @dataclass(frozen=True)
@@ -62,16 +86,28 @@ class GradingRun:
         Of answers that are still to be decided.
     problems : tuple of str
         What was not marked, and why.
+    rivals : tuple of RivalAnswers
+        Answers of one student that differ, until a person says which of them count.
+    grades : tuple of GradeChange
+    filled : mapping of str to (int, int)
+        Of each student, how many parts were filled in, and how many there are.
     """
 
     outcome: GradingOutcome
     decided: int
     groups: int
     problems: tuple[str, ...]
+    rivals: tuple[RivalAnswers, ...]
+    grades: tuple[GradeChange, ...]
+    filled: Mapping[str, tuple[int, int]]
 
 
-def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
+def grade_class(
+    folder: ClassFolder, executor: Executor, ahead: int, *, keep: bool = True
+) -> GradingRun:
     """Grade every submission of a class with all rulings; record marks and open decisions.
+
+    With ``keep`` false nothing is recorded: the run says what would change.
 
     Raises
     ------
@@ -80,43 +116,105 @@ def grade_class(folder: ClassFolder, executor: Executor, ahead: int) -> GradingR
         nothing is changed then.
     """
     with lock_folder(folder.path):
-        return _grade_locked_folder(folder, executor, ahead)
+        return _grade_locked_folder(folder, executor, ahead, keep=keep)
 
 
-def _grade_locked_folder(folder: ClassFolder, executor: Executor, ahead: int) -> GradingRun:
+def _grade_locked_folder(
+    folder: ClassFolder, executor: Executor, ahead: int, *, keep: bool
+) -> GradingRun:
     """Grade the class while its folder is locked."""
     filled, kept = read_queue(folder.path)
     before = read_rulings(folder.path)
     rulings = (*before, *filled)
     keys, history = KeyIndex(folder), GradingHistory(folder.path)
-    _check_items(rulings, keys)
-    collected = Submissions(folder.path, keys)
-    jobs = _iter_jobs(collected, keys, rulings)
+    check_rulings(rulings, keys)
+    scale = read_grade_scale(folder.path)
+    marked = {one.student: one.file for one in history.current()}
+    collected = Submissions(
+        folder.path,
+        keys,
+        marked,
+        find_files_in_use(rulings),
+        find_blank_students(folder, keys),
+    )
+    jobs = _iter_jobs(collected.collect(), keys, rulings, scale)
     chunks = map_ordered(executor, run_grading_job, jobs, ahead)
-    outcome = history.write(one for chunk in chunks for one in chunk)
-    if filled:  # now: a run that ends before this one does reads the same queue again
+    counts: dict[str, tuple[int, int]] = {}
+    outcome = history.write(_count_filled_parts(chunks, counts), keep=keep)
+    if filled and keep:  # now: a run that ends before this one does reads the same queue again
         note_rulings(folder.path, filled)
     groups = group_cases(decision_cases(undecided_answers(history.current()), keys.key, FIRST))
-    write_queue(folder.path, groups, kept)
-    return GradingRun(outcome, len(filled), len(groups), tuple(collected.problems))
+    if keep:
+        write_queue(folder.path, groups, kept)
+        write_rivals(folder.path, collected.rivals)
+        write_problems(folder.path, collected.problems)
+    return GradingRun(
+        outcome,
+        len(filled),
+        len(groups),
+        tuple(collected.problems),
+        tuple(collected.rivals),
+        tuple(_iter_grade_changes(outcome.totals, folder, scale)),
+        counts,
+    )
 
 
-def _check_items(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
-    """Raise ``ClassError`` for a ruling about an item that no paper has."""
-    named = {one.item for one in rulings}
-    unknown = named - keys.items() if named else ()
-    if unknown:
-        file = keys.folder.path / FILE
-        raise ClassError(f"{file}: item {min(unknown)!r} is in no paper of this class")
+def _count_filled_parts(
+    chunks: Iterable[Iterable[StudentMarks]], counts: dict[str, tuple[int, int]]
+) -> Iterator[StudentMarks]:
+    """Yield the marks of all chunks, noting how many parts of each student were filled in."""
+    for chunk in chunks:
+        for one in chunk:
+            counts[one.student] = one.filled_count, len(one.parts)
+            yield one
+
+
+def _iter_grade_changes(
+    totals: Iterable[TotalChange], folder: ClassFolder, scale: GradeScale
+) -> Iterator[GradeChange]:
+    """Yield the students whose grade is another one than before."""
+    bonus = {one.id: one.bonus_points for one in folder.students()} if totals else {}
+    for one in totals:
+        own = bonus.get(one.student, Fraction(0))
+        (before, had), (after, has) = (
+            (scale.grade_with_bonus(own, Fraction(marks), Fraction(points)), marks / (points or 1))
+            for marks, points in (one.before, one.after)
+        )
+        if before != after:
+            yield GradeChange(one.student, before, after, had, has)
+
+
+def check_rulings(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
+    """Raise ``ClassError`` for a ruling about an item or a student that there is not.
+
+    Raises
+    ------
+    ClassError
+        Naming the file, also if one gives more points than its item is worth.
+    """
+    stated = [one for one in rulings if one.what != USE]
+    worth = keys.worth() if stated else {}
+    file = keys.folder.path / FILE
+    for one in stated:
+        if one.item not in worth:
+            raise ClassError(f"{file}: item {one.item!r} is in no paper of this class")
+        try:
+            one.check_worth(worth[one.item])
+        except ClassError as error:
+            raise ClassError(f"{file}: {one.what} {one.item}: {error}") from None
+    for one in rulings:
+        if one.student and one.student not in keys.places:
+            raise ClassError(f"{file}: {one.what} {one.item}: student: nobody of this class has "
+                             f"the number {one.student!r}")  # fmt: skip
 
 
 def _iter_jobs(
-    sheets: Iterable[Submission], keys: KeyIndex, rulings: tuple[Ruling, ...]
+    sheets: Iterable[Submission], keys: KeyIndex, rulings: tuple[Ruling, ...], scale: GradeScale
 ) -> Iterator[GradingJob]:
     """Yield jobs of ``CHUNK`` submissions, each with the byte offset of its key."""
     found = iter(sheets)
     while chunk := tuple((sheet, keys.places[sheet.student][1]) for sheet in islice(found, CHUNK)):
-        yield GradingJob(keys.path, rulings, chunk)
+        yield GradingJob(keys.path, rulings, chunk, scale)
 
 
 def run_grading_job(job: GradingJob) -> list[StudentMarks]:
@@ -124,5 +222,6 @@ def run_grading_job(job: GradingJob) -> list[StudentMarks]:
     book = RulingBook(job.rulings)
     with error_context(job.keys, KeyFileError):
         return [
-            grade_submission(read_key_at(job.keys, at), sheet, book) for sheet, at in job.sheets
+            grade_submission(read_key_at(job.keys, at), sheet, book, job.scale)
+            for sheet, at in job.sheets
         ]

@@ -59,6 +59,8 @@ class ItemStatistics:
         The most frequent first.
     options : tuple of (str, int, int)
         Option, how many had it, how many chose it; the least chosen first.
+    numbers : tuple of str
+        Under which it is printed: one, where all papers have the same order.
     """
 
     item: str
@@ -70,6 +72,12 @@ class ItemStatistics:
     undecided: int
     mistakes: tuple[ClassMistake, ...]
     options: tuple[tuple[str, int, int], ...]
+    numbers: tuple[str, ...] = ()
+
+    @property
+    def number(self) -> str:
+        """Return what the item is called on paper, such as ``7b``."""
+        return " / ".join(self.numbers)
 
     @property
     def never(self) -> list[str]:
@@ -121,10 +129,12 @@ class _Counts:
         self.examples: dict[str, MistakeExample] = {}
         self.had: Counter[str] = Counter()
         self.chosen: Counter[str] = Counter()
+        self.numbers: dict[str, None] = {}
 
     def add(self, part: GradedClassPart, student: str, options: Iterable[str]) -> None:
         """Count one student's part; ``options`` are those its paper showed."""
         self.points = max(self.points, part.points)
+        self.numbers[part.id] = None
         self.blank += part.status == "blank"
         self.undecided += part.needs_decision
         if options:
@@ -244,4 +254,5 @@ def _compute_item_figures(
         counts.undecided,
         counts.mistakes(),
         counts.options(),
+        tuple(counts.numbers),
     )

@@ -16,7 +16,7 @@ from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
-from quizgen.classes.grading import StudentMarks, item_name
+from quizgen.classes.grading import StudentMarks, item_name, stands_alone
 from quizgen.classes.rulings import (
     DECIDE,
     SECOND,
@@ -48,9 +48,10 @@ SIMILAR = 85
 """Of 100, how alike the letters of two sentences are at least, before their words are compared."""
 MOST_CHAINED = 2000
 """Groups of one item that are put beside the nearest."""
-COLUMNS = ("item", "together", "answer", "students", "key", "seen", "suggestion", "worth",
-           "points", "second", "comment", "who", "group")  # fmt: skip
-"""``points`` is for the one who marks, ``second`` for a second marker, where there is one."""
+COLUMNS = ("item", "number", "together", "answer", "students", "key", "seen", "suggestion",
+           "worth", "points", "second", "comment", "who", "group")  # fmt: skip
+"""``number`` is the part as one of the papers prints it, ``points`` is for the one who marks,
+``second`` for a second marker, where there is one."""
 
 _WORD = re.compile(r"[^\s.,;:!?()\"'।/-]+")
 _FILLERS = frozenset(
@@ -136,6 +137,8 @@ class DecisionCase:
         What sentences are marked by; empty for other answers.
     spots : tuple of (int, int)
         Where in the answer stands what the suggestion goes by.
+    alone : bool
+        Whether the same words of another student may mean another answer.
     """
 
     answer: AnswerGroupMember
@@ -144,6 +147,7 @@ class DecisionCase:
     suggestion: Fraction | None = None
     criteria: tuple[CriterionCase, ...] = ()
     spots: tuple[tuple[int, int], ...] = ()
+    alone: bool = False
 
     @property
     def sentence(self) -> bool:
@@ -208,11 +212,14 @@ def decision_cases(
 def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> DecisionCase:
     """Return an answer with its key, the criteria recognised, and the points they suggest."""
     spec = part.parse_spec(proven=True)
+    alone = stands_alone(part.spec["kind"], answer.typed)
     if not isinstance(spec, RubricSpec):
-        verdict = judge_answer(spec, answer.typed, GradingOptions(lang))
-        return DecisionCase(
-            answer, spec.show_in(lang), explain_verdict(spec, verdict, lang).message
-        )
+        judged = judge_answer(spec, answer.typed, GradingOptions(lang))
+        verdict = explain_verdict(spec, judged, lang)
+        share = verdict.fields.get("share")  # of a derivation whose reasons a person reads
+        worth = share * Fraction(answer.worth) if isinstance(share, Fraction) else None
+        suggested = None if worth is None else round_to_quarters(worth)
+        return DecisionCase(answer, spec.show_in(lang), verdict.message, suggested, alone=alone)
     made, ideas = spec.suggest(answer.typed), spec.list_ideas(lang)
     criteria = tuple(
         CriterionCase(
@@ -231,7 +238,7 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
         made.points / parse_written_number(spec.full) * Fraction(answer.worth)
     )
     shown = "; ".join(f"{one.name}: {one.status}" for one in made.findings)
-    return DecisionCase(answer, spec.show_in(lang), shown, suggested, criteria, made.spots)
+    return DecisionCase(answer, spec.show_in(lang), shown, suggested, criteria, made.spots, alone)
 
 
 def group_cases(found: Iterable[DecisionCase]) -> list[list[DecisionCase]]:
@@ -242,7 +249,8 @@ def group_cases(found: Iterable[DecisionCase]) -> list[list[DecisionCase]]:
     groups: dict[tuple[object, ...], dict[str, list[DecisionCase]]] = {}
     for case in found:
         words = _extract_comparable_words(case)
-        about = (case.answer.item, case.key, case.seen if case.sentence else "")
+        whose = case.answer.group if case.alone else ""
+        about = (case.answer.item, case.key, case.seen if case.sentence else "", whose)
         leaders = groups.setdefault(about, {})
         leaders.setdefault(
             _find_group_leader(words, leaders.keys()) if case.sentence else words, []
@@ -330,8 +338,8 @@ def _format_table_row(case: DecisionCase, number: int, kept: Mapping[str, str]) 
     """Return the cells of a case, in the order of ``COLUMNS``."""
     answer = case.answer
     suggested = "" if case.suggestion is None else f"{float(case.suggestion):g}"
-    return [answer.item, str(number), answer.typed, str(answer.students), case.key, case.seen,
-            suggested, f"{answer.worth:g}", "", "", kept.get(answer.group, ""), "",
+    return [answer.item, answer.part, str(number), answer.typed, str(answer.students), case.key,
+            case.seen, suggested, f"{answer.worth:g}", "", "", kept.get(answer.group, ""), "",
             answer.group]  # fmt: skip
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 from contextlib import ExitStack
+from pathlib import Path
 
-from quizgen.classes.class_folder import PAPERS, ClassFolder
+from quizgen.classes.class_folder import PAPERS, SHEETS, ClassFolder
 from quizgen.classes.roster import RosterStudent
 from quizgen.core.errors import ClassError, require_extra
 from quizgen.core.files import PRIVATE, write_all
@@ -15,7 +16,7 @@ PRINT = "print.pdf"
 
 
 def write_print_file(folder: ClassFolder, students: Sequence[RosterStudent]) -> None:
-    """Write all papers to ``print.pdf``, each from a right-hand page.
+    """Write all papers and answer sheets to ``print.pdf``, each from a right-hand page.
 
     A blank page follows where needed, so that in two-sided print no sheet has pages of two
     students.
@@ -33,8 +34,7 @@ def write_print_file(folder: ClassFolder, students: Sequence[RosterStudent]) -> 
     out = io.BytesIO()
     with ExitStack() as opened:
         whole = opened.enter_context(pikepdf.new())
-        for one in students:
-            file = folder.path / PAPERS / f"{one.file}.pdf"
+        for file in (file for one in students for file in _list_printed_files(folder, one)):
             source = file.read_bytes()
             try:
                 paper = opened.enter_context(pikepdf.open(io.BytesIO(source)))
@@ -56,3 +56,9 @@ def write_print_file(folder: ClassFolder, students: Sequence[RosterStudent]) -> 
                 ) from None
         whole.save(out, deterministic_id=True)
     write_all(folder.path, {PRINT: out.getvalue()}, PRIVATE)
+
+
+def _list_printed_files(folder: ClassFolder, one: RosterStudent) -> list[Path]:
+    """Return the files of a student that are printed: the paper, and the answer sheet if any."""
+    sheet = folder.path / SHEETS / f"{one.file}.pdf"
+    return [folder.path / PAPERS / f"{one.file}.pdf", *([sheet] if sheet.exists() else [])]

@@ -51,6 +51,11 @@ def form_seal(secret: str, student: str, digest: str) -> str:
     return _compute_mac(secret, "seal", student, digest)[:8].hex()
 
 
+def sheet_seal(secret: str, code: str, version: int, page: int) -> str:
+    """Return 8 hexadecimal digits in capitals that sign a page of an answer sheet."""
+    return _compute_mac(secret, "sheet", code, str(version), str(page))[:4].hex().upper()
+
+
 def _compute_mac(secret: str, *words: str) -> bytes:
     """Return the HMAC-SHA-256 of some words under the secret (32 bytes)."""
     return hmac.new(bytes.fromhex(secret), json.dumps(words).encode(), hashlib.sha256).digest()

@@ -1,8 +1,9 @@
 """The roster: who sits the exam, in the order in which they sit.
 
-A CSV file with a row per student. ``id`` is needed; ``name``, ``lang`` (a language or ``both``),
-``extra`` (time: ``25%`` or ``30`` minutes), ``group`` and ``seat`` may follow. Without seats, who
-stands in the row before sits in the seat before. Groups do not see each other.
+A table (CSV or XLSX) with a row per student. ``id`` is needed; ``name`` (or the names in two
+columns), ``lang`` (a language or ``both``), ``extra`` (time: ``25%`` or ``30`` minutes), ``group``,
+``seat`` and ``bonus`` may follow. Without seats, who stands in the row before sits in the seat
+before. Groups do not see each other.
 """
 
 from __future__ import annotations
@@ -14,27 +15,42 @@ import math
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
 
 import msgspec
 
-from quizgen.core.errors import ClassError
+from quizgen.core.errors import ClassError, FormulaError
+from quizgen.core.spreadsheets import iter_spreadsheet_rows
 from quizgen.core.untrusted import (
     escape_control_characters,
     escape_csv_formula,
     is_identifier,
-    parse_csv,
-    read_text,
     unescape_csv_formula,
 )
 from quizgen.locale import BOTH, list_language_choices
 from quizgen.locale.custom import is_language_tag
+from quizgen.maths.numbers import parse_written_number
 from quizgen.paper.paper import ProgressCallback, silent
 
-COLUMNS = ("id", "name", "lang", "extra", "group", "seat")
-ALSO_CALLED = {"lang": ("language",), "extra": ("extra time", "extra_time")}
+COLUMNS = ("id", "name", "lang", "extra", "group", "seat", "bonus")
+FIRST_NAME, LAST_NAME = "first name", "last name"
+ALSO_CALLED = {
+    "id": ("matriculation", "matriculation number", "student number", "student id", "matrikel",
+           "matrikelnr", "matrikel-nr", "matrikel-nr.", "matrikelnr.", "matrikelnummer", "mtknr"),
+    "name": ("full name",),
+    FIRST_NAME: ("firstname", "given name", "forename", "vorname"),
+    LAST_NAME: ("lastname", "surname", "family name", "nachname", "familienname"),
+    "lang": ("language", "sprache"),
+    "extra": ("extra time", "extra_time", "zeitzuschlag"),
+    "group": ("room", "gruppe", "raum", "hörsaal"),
+    "seat": ("platz", "sitzplatz", "platznummer"),
+    "bonus": ("bonus points", "bonuspunkte"),
+}  # fmt: skip
 """Other names under which a column is known."""
+JOIN = "+"
+"""Between the names of two columns that are one of ours together."""
 LONGEST = 200
 """Characters of a cell."""
 LONGEST_FILE = 60
@@ -59,6 +75,8 @@ class RosterStudent(msgspec.Struct, frozen=True):
     group : str
         A room or a sitting: only within it are there neighbours.
     seat : str
+    bonus : str
+        Points earned before the exam, as ``scale.toml`` counts them.
     """
 
     id: str
@@ -67,6 +85,12 @@ class RosterStudent(msgspec.Struct, frozen=True):
     extra: str = ""
     group: str = ""
     seat: str = ""
+    bonus: str = ""
+
+    @property
+    def bonus_points(self) -> Fraction:
+        """Return the points earned before the exam; none where the roster says nothing."""
+        return parse_written_number(self.bonus.replace(",", ".")) if self.bonus else Fraction(0)
 
     @property
     def file(self) -> str:
@@ -105,9 +129,10 @@ def read_roster(
     Parameters
     ----------
     path : pathlib.Path
-        A CSV file.
+        CSV or XLSX.
     columns : mapping of str to str, optional
-        What each of ``COLUMNS`` is called in the file, where it is called otherwise.
+        What each of ``COLUMNS`` is called in the file, where it is called otherwise: one name, or
+        several with ``+`` between them.
     tell : callable, optional
         Told each column that is not read.
 
@@ -116,12 +141,12 @@ def read_roster(
     ClassError
         Naming the file and the line or the column.
     """
-    rows = parse_csv(read_text(path, ClassError), path, ClassError)
+    rows = [*iter_spreadsheet_rows(path, ClassError)]
     if not rows:
         raise ClassError(f"{path}: is empty (a row of column names is needed, then one a student)")
     places = _find_columns(rows[0][1], columns or {}, path)
     for place, name in enumerate(map(clean_cell, rows[0][1])):
-        if name and place not in places.values():
+        if name and not any(place in own for own in places.values()):
             tell(escape_control_characters(name))
     found: dict[str, tuple[int, RosterStudent]] = {}
     for line, row in rows[1:]:
@@ -134,45 +159,66 @@ def read_roster(
     return sorted((one for _, one in found.values()), key=_make_seating_key)
 
 
-def _find_columns(head: Sequence[str], columns: Mapping[str, str], path: Path) -> dict[str, int]:
-    """Return the index of each roster column that the file has.
+def find_roster_column(name: str) -> str:
+    """Return the column of a roster that a name means, in any language; empty if none."""
+    folded = name.casefold()
+    if folded in COLUMNS:
+        return folded
+    return next((ours for ours, names in ALSO_CALLED.items() if folded in (ours, *names)), "")
+
+
+def _find_columns(
+    head: Sequence[str], columns: Mapping[str, str], path: Path
+) -> dict[str, tuple[int, ...]]:
+    """Return the indices of each roster column that the file has: two where names stand apart.
 
     ``columns`` gives the file's name of a column where it differs from ours.
     """
     there = {clean_cell(cell).casefold(): place for place, cell in reversed([*enumerate(head)])}
     said = ", ".join(escape_control_characters(clean_cell(cell)) for cell in head)
+    found: dict[str, tuple[int, ...]] = {}
     for ours, theirs in columns.items():
         if ours not in COLUMNS:
             raise ClassError(f"no column {ours!r} of a roster (there are {', '.join(COLUMNS)})")
-        if clean_cell(theirs).casefold() not in there:
-            raise ClassError(f"{path}: has no column {theirs!r} (it has {said})")
-    names = {
-        ours: [clean_cell(columns[ours]).casefold()]
-        if ours in columns
-        else _list_column_names(ours)
-        for ours in COLUMNS
-    }
-    found = {
-        ours: next((there[one] for one in theirs if one in there), None)
-        for ours, theirs in names.items()
-    }
-    if found["id"] is None:
+        whole = clean_cell(theirs).casefold()
+        names = [whole] if whole in there else [clean_cell(one) for one in whole.split(JOIN)]
+        if missing := [one for one in names if one not in there]:
+            shown = theirs if len(names) == 1 else missing[0]
+            raise ClassError(f"{path}: has no column {shown!r} (it has {said})")
+        found[ours] = tuple(there[one] for one in names)
+    used = {place for own in found.values() for place in own}
+    for name, place in there.items():
+        ours = find_roster_column(name)
+        if ours and ours not in columns and place not in used:
+            before = found.get(ours)
+            found[ours] = before if before and name != ours else (place,)
+    if "id" not in found:
         raise ClassError(
             f"{path}: has no column 'id' (it has {said}); name the one that is: --columns id=NAME"
         )
-    return {ours: place for ours, place in found.items() if place is not None}
+    return _join_names(found, columns)
 
 
-def _list_column_names(column: str) -> list[str]:
-    """Return the names that a column may have in a file."""
-    return [column, *ALSO_CALLED.get(column, ())]
+def _join_names(
+    found: dict[str, tuple[int, ...]], columns: Mapping[str, str]
+) -> dict[str, tuple[int, ...]]:
+    """Return the columns with a first name before the last name, where they stand apart."""
+    first, last = found.pop(FIRST_NAME, ()), found.pop(LAST_NAME, ())
+    if "name" in columns:
+        return found
+    whole = first + (last or found.get("name", ()) if first else last)
+    return {**found, "name": whole} if whole and (first or "name" not in found) else found
 
 
-def _parse_student(row: Sequence[str], places: Mapping[str, int], where: str) -> RosterStudent:
+def _parse_student(
+    row: Sequence[str], places: Mapping[str, tuple[int, ...]], where: str
+) -> RosterStudent:
     """Return the student of a row; ``ClassError`` located by ``where`` if a cell is wrong."""
     cells = {
-        name: unescape_csv_formula(clean_cell(row[place])) if place < len(row) else ""
-        for name, place in places.items()
+        name: " ".join(
+            filter(None, (unescape_csv_formula(clean_cell(row[p])) for p in own if p < len(row)))
+        )
+        for name, own in places.items()
     }
     for name, cell in cells.items():
         if len(cell) > LONGEST:
@@ -183,6 +229,11 @@ def _parse_student(row: Sequence[str], places: Mapping[str, int], where: str) ->
     if one.lang and one.lang != BOTH and not is_language_tag(one.lang):
         known = ", ".join(list_language_choices())
         raise ClassError(f"{where}: lang {one.lang!r} (allowed: {known}, or another of the bank)")
+    try:
+        if one.bonus_points < 0:
+            raise ClassError(f"{where}: bonus {one.bonus!r} is less than 0")
+    except FormulaError:
+        raise ClassError(f"{where}: bonus {one.bonus!r} (points are a number)") from None
     if one.extra and not _EXTRA.fullmatch(one.extra):
         raise ClassError(f"{where}: extra {one.extra!r} (allowed: such as 25%, or 30 for minutes)")
     return one

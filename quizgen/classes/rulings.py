@@ -8,11 +8,13 @@ what       of                             and
 ========== ============================== ==========================================
 decide     a group of equal answers       its points; none: nobody has decided after all
 second     the same, by a second marker   the points that this one would give
-accept     an answer, or ``trap:NAME``    its points, all if left out
+accept     an answer, or ``trap:NAME``    its points, all if left out; never fewer than without
+points     an item of one student         its points, whatever stands there, or nothing
 tolerance  an item                        ``rel=0.05``, ``abs=0.1``, ``decimals=2``, ``sigfigs=3``
-drop       an item                        counts for nobody
+drop       an item                        counts for nobody whom it would not help; ``always``
 give       an item                        all the points for everybody who had it
-restore    an item                        undoes these four; decisions on its answers stay
+restore    an item                        undoes these five; decisions on its answers stay
+use        a file of one student          its answers count, where others differ
 ========== ============================== ==========================================
 
 With a student's id in ``student`` a line is about that student alone.
@@ -34,22 +36,28 @@ import msgspec
 from quizgen.classes.lock import lock_folder
 from quizgen.core.errors import ClassError, FormulaError
 from quizgen.core.files import PRIVATE, write_all
-from quizgen.core.untrusted import (
-    format_csv,
-    parse_csv,
-    read_bytes,
-    read_text,
-    unescape_csv_formula,
-)
+from quizgen.core.spreadsheets import iter_spreadsheet_rows
+from quizgen.core.untrusted import format_csv, read_bytes, unescape_csv_formula
 from quizgen.maths.numbers import parse_written_number
 from quizgen.paper.grading import QUARTERS
 
 FILE = "rulings.csv"
-DECIDE, SECOND, ACCEPT, TOLERANCE, DROP, GIVE, RESTORE = WHAT = (
-    "decide", "second", "accept", "tolerance", "drop", "give", "restore"
+DECIDE, SECOND, ACCEPT, POINTS, TOLERANCE, DROP, GIVE, RESTORE, USE = WHAT = (
+    "decide", "second", "accept", "points", "tolerance", "drop", "give", "restore", "use"
 )  # fmt: skip
+ALWAYS = "always"
+"""Value of a ``drop`` that counts for those, too, who reached a larger share of the item's points
+than of the others."""
+OF_ONE = frozenset({POINTS, USE})
+"""What is about one student."""
 LONGEST = 10_000
 """Characters of a cell."""
+_ON_PAPER = re.compile(
+    r"\W*((see|s\.?|siehe|vgl\.?|on|auf|cf\.?)\s+(the\s+|own\s+|dem\s+|der\s+)?"
+    r"(paper|sheet|back|page|drawing|sketch|over|blatt|rück|seite|papier|bogen|skizze|zeichnung)"
+    r"|(খাতায়|কাগজে|পেছনে))"
+)
+"""Words of whoever copies answers from paper."""
 _ENDS = " .,;:!?।"
 _TOLERANCE = re.compile(r"(decimals|sigfigs)\s*=\s*(\d{1,2})|(rel|abs)\s*=\s*(\d+(?:[./]\d+)?)")
 
@@ -110,21 +118,48 @@ class Ruling(msgspec.Struct, frozen=True):
             raise ClassError(f"what: {self.what[:40]!r} (there are {', '.join(WHAT)})")
         if not self.item:
             raise ClassError("item: missing")
-        if self.what == TOLERANCE and not _TOLERANCE.fullmatch(self.value):
-            raise ClassError(f"value: {self.value[:40]!r} (rel=0.05, abs=0.1, decimals=2, ...)")
-        if self.what in {DECIDE, SECOND, ACCEPT}:
+        if self.what in OF_ONE and not self.student:
+            raise ClassError(f"student: missing ({self.what} is about one)")
+        if self.answer and self.what not in {DECIDE, SECOND, ACCEPT}:
+            raise ClassError(f"answer: {self.what} is about none (accept and decide are)")
+        self._check_value()
+
+    def _check_value(self) -> None:
+        """Raise ``ClassError`` unless the value is what this kind of ruling takes."""
+        if self.what == TOLERANCE:
+            if not _TOLERANCE.fullmatch(self.value):
+                raise ClassError(f"value: {self.value[:40]!r} (rel=0.05, abs=0.1, decimals=2, ...)")
+        elif self.what in {DECIDE, SECOND, ACCEPT, POINTS}:
             self._check_points()
+        elif self.value and (self.what, self.value) != (DROP, ALWAYS):
+            raise ClassError(
+                f"value: {self.what} takes none (points --student ID --value P gives some of them)"
+            )
 
     def _check_points(self) -> None:
         """Raise ``ClassError`` unless there is an answer, and points in quarters if any."""
-        if not (self.answer or self.group):
+        if self.what != POINTS and not (self.answer or self.group):
             raise ClassError("answer: missing")
+        if self.what == POINTS and not self.value:
+            raise ClassError("value: missing (how many points)")
         try:
             points = self.points
         except FormulaError as error:
             raise ClassError(f"value: {error}") from None
         if points is not None and (points < 0 or points * QUARTERS % 1):
             raise ClassError(f"value: {self.value[:40]!r} (points, in quarters)")
+
+    def check_worth(self, worth: float) -> None:
+        """Raise ``ClassError`` if the ruling gives more points than its item is worth.
+
+        Raises
+        ------
+        ClassError
+            If there are more.
+        """
+        points = None if self.what == TOLERANCE else self.what != DROP and self.points
+        if points and points > Fraction(worth):
+            raise ClassError(f"value: {float(points):g} points of {worth:g}")
 
     def tolerance(self) -> dict[str, int | str]:
         """Return the tolerance as keys of a specification, such as ``{"rel": "0.05"}``."""
@@ -135,6 +170,7 @@ class Ruling(msgspec.Struct, frozen=True):
 
 
 COLUMNS = ("when", "who", "what", "item", "answer", "value", "student", "comment", "group")
+_HEAD = ",".join(COLUMNS).encode()
 
 
 def read_rulings(folder: Path) -> list[Ruling]:
@@ -166,7 +202,7 @@ def read_filled_rows(path: Path, needed: set[str]) -> list[tuple[int, dict[str, 
     """
     if not path.exists():
         return []
-    rows = parse_csv(read_text(path, ClassError), path, ClassError)
+    rows = [*iter_spreadsheet_rows(path, ClassError)]
     head = [cell.strip().lower() for cell in rows[0][1]] if rows else []
     if missing := needed - {*head}:
         raise ClassError(f"{path}: the first row names no column {min(missing)!r}")
@@ -206,11 +242,18 @@ def note_rulings(folder: Path, rulings: Iterable[Ruling]) -> list[Ruling]:
     for one in added:
         one.check()
     path = folder / FILE
-    rows = [[getattr(one, name) for name in COLUMNS] for one in added]
     before = read_bytes(path, ClassError) if path.exists() else format_csv([COLUMNS]).encode()
     end = b"" if before.endswith(b"\n") else b"\n"  # somebody has edited it
-    write_all(folder, {FILE: before + end + format_csv(rows).encode()}, PRIVATE)
+    if not before.startswith(_HEAD):  # a spreadsheet has saved it with other signs or columns
+        before, end = _format_rulings(read_rulings(folder), COLUMNS), b""
+    write_all(folder, {FILE: before + end + _format_rulings(added)}, PRIVATE)
     return added
+
+
+def _format_rulings(rulings: Iterable[Ruling], *above: Iterable[str]) -> bytes:
+    """Return rulings as lines of ``rulings.csv``; ``above`` are rows that stand before them."""
+    rows = [[getattr(one, name) for name in COLUMNS] for one in rulings]
+    return format_csv([*above, *rows]).encode()
 
 
 def fold_answer(answer: str, *, words: bool) -> str:
@@ -224,6 +267,11 @@ def fold_answer(answer: str, *, words: bool) -> str:
     """
     text = " ".join(unicodedata.normalize("NFKC", answer).split())
     return text.casefold().strip(_ENDS) if words else text
+
+
+def is_on_paper(answer: str) -> bool:
+    """Return whether an answer only says that the real one stands on the student's paper."""
+    return _ON_PAPER.match(unicodedata.normalize("NFKC", answer).casefold()) is not None
 
 
 def answer_group(item: str, key: str, answer: str, *, words: bool) -> str:
@@ -242,8 +290,13 @@ def latest_rulings(rulings: Iterable[Ruling], what: str) -> dict[str, Ruling]:
     return {group: one for group, one in last.items() if one.value}
 
 
+def find_files_in_use(rulings: Iterable[Ruling]) -> dict[str, str]:
+    """Return the file whose answers shall count, of each student of whom somebody said so."""
+    return {one.student: one.item for one in rulings if one.what == USE}
+
+
 class RulingBook:
-    """All rulings but those of a second marker, indexed by item.
+    """All rulings but those of a second marker and those on files, indexed by item.
 
     Parameters
     ----------
@@ -254,7 +307,7 @@ class RulingBook:
     def __init__(self, rulings: Iterable[Ruling]) -> None:
         self.items: dict[str, list[Ruling]] = {}
         for one in rulings:
-            if one.what != SECOND:
+            if one.what not in {SECOND, USE}:
                 self.items.setdefault(one.item, []).append(one)
 
     def rulings_for(self, item: str, student: str) -> list[Ruling]:
@@ -268,3 +321,8 @@ class RulingBook:
             else:
                 found.append(one)
         return found
+
+    def find_drop(self, item: str, student: str) -> Ruling | None:
+        """Return the ruling that drops an item for a student; None if it counts."""
+        whole = [one for one in self.rulings_for(item, student) if one.what in {DROP, GIVE, POINTS}]
+        return whole[-1] if whole and whole[-1].what == DROP else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -12,12 +12,32 @@ import jinja2
 from markupsafe import Markup
 
 from quizgen.classes.class_folder import ClassFolder
-from quizgen.classes.grade_scale import read_grade_scale
-from quizgen.classes.gradebook import FOLDER, GradedStudent, grade_students, write_grades
-from quizgen.classes.grading import DROPPED, GradedClassPart, StudentMarks, item_name
+from quizgen.classes.exam_details import FILE as EXAM
+from quizgen.classes.exam_details import ExamDetails, read_exam_details
+from quizgen.classes.grade_scale import GradeScale, read_grade_scale
+from quizgen.classes.gradebook import (
+    FOLDER,
+    KEY_CHANGED,
+    GradeBasis,
+    GradedStudent,
+    grade_students,
+    write_grades,
+)
+from quizgen.classes.grading import (
+    DROPPED,
+    TO_DECIDE,
+    GradedClassPart,
+    StudentMarks,
+    item_name,
+)
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
+from quizgen.classes.objections import Objection, read_objections
+from quizgen.classes.office_tables import build_office_tables
+from quizgen.classes.rulings import DROP, TOLERANCE
+from quizgen.classes.statuses import PRESENT, read_statuses
+from quizgen.classes.submissions import has_problems, read_rivals
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context, escape_control_characters
@@ -26,7 +46,6 @@ from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
 from quizgen.kinds.grade import show_key
 from quizgen.locale import (
-    FIRST,
     fallback_language,
     format_amount,
     language_css,
@@ -45,7 +64,7 @@ from quizgen.render.typst_document import (
 )
 
 MOST_TO_REVISE = 5
-NOT_TYPED = frozenset({"rubric", "sketch"})
+NOT_TYPED = frozenset({"program", "sketch"})
 """Kinds whose key nobody types."""
 PACKAGE = "quizgen.classes"
 
@@ -62,7 +81,7 @@ class ReportPart:
     message : str
         What the checker says of the answer.
     said : str
-        What people decided of it.
+        What people decided of it, and what was said about that.
     """
 
     label: str
@@ -95,12 +114,6 @@ class ReportQuestion:
     def worth(self) -> str:
         """Return marks and points, such as ``2.5 / 4``."""
         return localise_numbers(self.lang, f"{self.marks:g} / {self.points:g}")
-
-    @property
-    def practise(self) -> str:
-        """Return the shell command that practises the question's topic."""
-        own = "" if self.lang == FIRST else f" --lang {self.lang}"
-        return f"quizgen practice --topic {self.topic}{own}"
 
     def format_loss(self, words: Mapping[str, str]) -> str:
         """Return the sentence on how many points were lost."""
@@ -171,7 +184,13 @@ class StudentReport:
         return self.words[name].format(count=count) if count else ""
 
 
-def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False) -> StudentReport:
+def make_report(
+    line: GradedStudent,
+    key: AnswerKey,
+    objections: Sequence[Objection] = (),
+    *,
+    anonymous: bool = False,
+) -> StudentReport:
     """Return the report of a student whose answers came back.
 
     Parameters
@@ -180,6 +199,8 @@ def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False)
         Somebody whose answers came back.
     key : AnswerKey
         Of the student's paper.
+    objections : sequence of Objection
+        Those of the student, with what was replied.
     anonymous : bool
         Leave name and id out.
     """
@@ -187,21 +208,25 @@ def make_report(line: GradedStudent, key: AnswerKey, *, anonymous: bool = False)
     marks = line.marks
     lang = fallback_language(marks.lang)
     who = "" if anonymous else ", ".join(filter(None, (line.student.name, line.student.id)))
-    sections = tuple(_build_section(question, marks) for question in key.questions)
+    sections = tuple(_build_section(one, marks, objections) for one in key.questions)
     title = key.title.get(lang) or next(iter(key.title.values()), "")
     return StudentReport(
         lang, title, escape_control_characters(who, ""), line.code, line.grade, marks, sections
     )
 
 
-def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion:
+def _build_section(
+    question: KeyQuestion,
+    marks: StudentMarks,
+    objections: Sequence[Objection],
+) -> ReportQuestion:
     """Return one question of a student's report: its parts, and its points in sum.
 
     ``marks`` are all of the student's; title and topic come from the key.
     """
     given = {part.id: part for part in marks.parts}
     mine = [given[part.id] for part in question.parts if part.id in given]
-    rows = tuple(_iter_report_rows(question, marks))
+    rows = tuple(_iter_report_rows(question, marks, objections))
     title = question.title.get(marks.lang) or next(iter(question.title.values()), "")
     return ReportQuestion(
         question.number,
@@ -215,8 +240,15 @@ def _build_section(question: KeyQuestion, marks: StudentMarks) -> ReportQuestion
     )
 
 
-def _iter_report_rows(question: KeyQuestion, marks: StudentMarks) -> Iterator[ReportPart]:
-    """Yield each part with its feedback in the student's language."""
+def _iter_report_rows(
+    question: KeyQuestion,
+    marks: StudentMarks,
+    objections: Sequence[Objection],
+) -> Iterator[ReportPart]:
+    """Yield each part with its feedback in the student's language.
+
+    Where a person decides, only what that person says stands there.
+    """
     lang = fallback_language(marks.lang)
     words = load_words(lang, "classes")["report"]
     marker = QuestionGrader(question, GradingOptions(lang, marks.decimal))
@@ -226,15 +258,23 @@ def _iter_report_rows(question: KeyQuestion, marks: StudentMarks) -> Iterator[Re
         if found is None:
             continue
         again = marker.grade_part(part, found.typed)
-        message = "" if again.is_blank or found.marks == found.points else again.verdict.message
+        full = again.is_blank or found.marks == found.points
+        message = "" if full or _is_persons(found) else again.verdict.message
+        said = [_format_remark(found, words), *_iter_objection_lines(part.id, objections, words)]
         yield ReportPart(
             part.id.removeprefix(question.number),
             _format_typed_answer(found.typed, part.spec["kind"], words, lang),
             _format_right_answer(part, lang),
             _format_points(found, lang),
             message,
-            _format_remark(found, words),
+            "\n".join(filter(None, said)),
         )
+
+
+def _is_persons(part: GradedClassPart) -> bool:
+    """Return whether a person decides, or has decided, what an answer is worth."""
+    by_rule = part.by.startswith((TOLERANCE, DROP))  # these leave judging to the machine
+    return part.needs_decision or part.status in TO_DECIDE or bool(part.by and not by_rule)
 
 
 def _format_right_answer(part: KeyPart, lang: str) -> str:
@@ -273,6 +313,16 @@ def _format_remark(part: GradedClassPart, words: Mapping[str, str]) -> str:
     return f"{words['remark']}: {remark}" if remark else words["decided"]
 
 
+def _iter_objection_lines(
+    part: str, objections: Iterable[Objection], words: Mapping[str, str]
+) -> Iterator[str]:
+    """Yield what the student said against the marks of a part, and what was replied."""
+    for one in objections:
+        if one.part == part:
+            name, text = ("reply", one.reply) if one.reply else ("objection", one.objection)
+            yield f"{words[name]}: {escape_control_characters(text, '')}"
+
+
 def report_to_html(report: StudentReport) -> bytes:
     """Return the report as one self-contained page in UTF-8."""
     made = (
@@ -301,8 +351,14 @@ def report_css() -> Markup:
     return Markup(write_theme_css() + page)
 
 
-def report_to_pdf(report: StudentReport) -> bytes:
+def report_to_pdf(report: StudentReport, *, room: bool = False) -> bytes:
     """Return the report as a tagged PDF.
+
+    Parameters
+    ----------
+    report : StudentReport
+    room : bool
+        Whether lines follow on which the student may object, and sign for having seen it.
 
     Raises
     ------
@@ -321,6 +377,9 @@ def report_to_pdf(report: StudentReport) -> bytes:
     )
     heads = ", ".join(typst_literal(words[name]) for name in ("part", "yours", "right", "points"))
     body = "\n".join(_typeset_question(section, heads) for section in report.sections)
+    if room:
+        names = ("objections", "part", "objection", "objections_about", "signature")
+        body += f"\n#object({', '.join(typst_literal(words[name]) for name in names)})"
     return compile_pdf(
         document_files("report.typ", f"{head}\n{_typeset_revision_list(report)}\n{body}\n", PACKAGE)
     )
@@ -332,11 +391,10 @@ def _typeset_revision_list(report: StudentReport) -> str:
     if not report.revise:
         return f"#block({typst_literal(report.nothing)})" if report.nothing else ""
     rows = ", ".join(
-        f"({typst_literal(one.name)}, {typst_literal(one.format_loss(words))}"
-        f", {typst_literal(one.practise)})"
+        f"({typst_literal(one.name)}, {typst_literal(one.format_loss(words))})"
         for one in report.revise
     )
-    sentences = (words["revise"], words["revise_about"], words["practise"])
+    sentences = (words["revise"], words["revise_about"])
     return f"#revise({', '.join(map(typst_literal, sentences))}, ({rows},))"
 
 
@@ -368,7 +426,7 @@ CHUNK = 50
 
 
 def write_grades_and_reports(
-    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool = False
+    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool = False, office: str = ""
 ) -> tuple[list[GradedStudent], list[str], list[Path]]:
     """Write grades and reports; return lines, ids not on the roster, and paths.
 
@@ -380,6 +438,8 @@ def write_grades_and_reports(
     anonymous : bool
         Reports bear the code instead of the name, also as the name of their file,
         in a folder of their own.
+    office : str
+        Language of the tables for the examination office; by default as ``exam.toml`` says.
 
     Raises
     ------
@@ -388,25 +448,54 @@ def write_grades_and_reports(
     RenderError
         If something cannot be written.
     """
+    folder.settings  # noqa: B018 - a folder that is none of a class says so
     with lock_folder(folder.path):
-        return _write_locked_folder(folder, formats, anonymous=anonymous)
+        return _write_locked_folder(folder, formats, anonymous=anonymous, office=office)
 
 
 def _write_locked_folder(
-    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool
+    folder: ClassFolder, formats: Sequence[str], *, anonymous: bool, office: str
 ) -> tuple[list[GradedStudent], list[str], list[Path]]:
     """Write grades and reports while the folder is locked."""
     marked = {one.student: one for one in GradingHistory(folder.path).current()}
     if not marked:
         raise ClassError(f"{folder.path}: nothing has been marked yet (quizgen class mark)")
-    scale = read_grade_scale(folder.path)
-    lines = grade_students(folder.students(), folder.heads(), marked, scale)
-    files = write_grades(folder.path, lines, scale)
-    keys, place = KeyIndex(folder), folder.path / FOLDER / (ANONYMOUS if anonymous else REPORTS)
-    for chunk in _iter_chunks([one for one in lines if one.marks] if formats else []):
-        write_all(place, _render_reports(keys, chunk, formats, anonymous), PRIVATE)
+    keys = KeyIndex(folder)
+    scale, lines = grade_folder(folder, keys, marked)
+    exam = read_exam_details(folder.path / EXAM) or ExamDetails()
+    tables = build_office_tables(lines, scale, office or exam.office)
+    files = write_grades(folder.path, lines, scale, tables)
+    place = folder.path / FOLDER / (ANONYMOUS if anonymous else REPORTS)
+    graded = [one for one in lines
+              if one.marks and one.status == PRESENT and one.held != KEY_CHANGED]  # fmt: skip
+    objections = read_objections(folder.path) if formats else []
+    for chunk in _iter_chunks(graded if formats else []):
+        made = _render_reports(keys, chunk, formats, objections, anonymous)
+        write_all(place, made, PRIVATE)
+    for line in lines:
+        if line not in graded:  # a report from before must not be handed out
+            name = line.code if anonymous else line.student.file
+            for form in ("html", "pdf"):
+                (place / f"{name}.{form}").unlink(missing_ok=True)
     left = marked.keys() - {one.student.id for one in lines}
     return lines, sorted(left), [*files, *([place] if formats else [])]
+
+
+def grade_folder(
+    folder: ClassFolder, keys: KeyIndex, marked: Mapping[str, StudentMarks]
+) -> tuple[GradeScale, list[GradedStudent]]:
+    """Return the scale of a class, and every student of its roster with marks and grade."""
+    scale = read_grade_scale(folder.path)
+    basis = GradeBasis(
+        folder.heads(),
+        marked,
+        scale,
+        {who: one.status for who, one in read_statuses(folder.path).items()},
+        keys.find_changed(),
+        read_rivals(folder.path),
+        has_problems(folder.path),
+    )
+    return scale, grade_students(folder.students(), basis)
 
 
 def _iter_chunks(lines: Sequence[GradedStudent]) -> Iterator[Sequence[GradedStudent]]:
@@ -416,14 +505,20 @@ def _iter_chunks(lines: Sequence[GradedStudent]) -> Iterator[Sequence[GradedStud
 
 
 def _render_reports(
-    keys: KeyIndex, lines: Sequence[GradedStudent], formats: Sequence[str], anonymous: bool
+    keys: KeyIndex,
+    lines: Sequence[GradedStudent],
+    formats: Sequence[str],
+    objections: Sequence[Objection],
+    anonymous: bool,
 ) -> dict[str, bytes]:
     """Return the bytes of each report file by its name."""
     render = {"html": report_to_html, "pdf": report_to_pdf}
     made: dict[str, bytes] = {}
     for line in lines:
         with error_context(keys.path, KeyFileError):
-            report = make_report(line, keys.key(line.student.id), anonymous=anonymous)
+            who = line.student.id
+            own = [one for one in objections if one.student == who]
+            report = make_report(line, keys.key(who), own, anonymous=anonymous)
         name = line.code if anonymous else line.student.file
         made |= {f"{name}.{form}": render[form](report) for form in formats}
     return made

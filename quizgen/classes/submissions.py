@@ -1,27 +1,31 @@
 """What came back: forms (TOML, JSON, CSV), and tables with a row for each student or each answer.
 
-A file or a row that cannot be read, is of another paper, or contradicts itself becomes a problem
-with its place and reason; it never stops the others, and nothing of it is marked.
+A file or a row that cannot be read, is of another paper, names a part that there is not, or
+contradicts itself becomes a problem with its place and reason; it never stops the others, and
+nothing of it is marked. Where a student's answers came twice and differ, those that were marked
+stay until a person says which of them count.
 """
 
 from __future__ import annotations
 
-import hashlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from quizgen.classes.class_folder import ANSWERS
 from quizgen.classes.grading import Submission
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
-from quizgen.classes.roster import clean_cell
+from quizgen.classes.part_names import PartNames
+from quizgen.classes.roster import clean_cell, find_roster_column
+from quizgen.classes.rulings import read_filled_rows
 from quizgen.core.errors import KeyFileError, QuizgenError
 from quizgen.core.files import PRIVATE, write_all
+from quizgen.core.spreadsheets import iter_spreadsheet_rows
 from quizgen.core.untrusted import (
     LARGEST_PICTURE,
-    detect_encoding,
     escape_control_characters,
-    iter_csv_rows,
+    format_csv,
     read_bytes,
     unescape_csv_formula,
 )
@@ -30,9 +34,13 @@ from quizgen.grading.options import DECIMALS
 from quizgen.locale import list_languages
 from quizgen.paper.answer_form import read_filled_form
 
-FORMS = (".toml", ".json", ".csv")
-ABOUT = ("id", "name", "lang", "decimal", "minutes", "code")
-"""Columns of a table that are no answers."""
+TABLES = (".csv", ".xlsx")
+FORMS = (".toml", ".json", *TABLES)
+ABOUT = ("decimal", "minutes", "code")
+"""Columns of a table that are no answers, apart from those of a roster."""
+CONFLICTS, PROBLEMS = "conflicts.csv", "problems.csv"
+NOTE = "#"
+"""What the name of a column begins with that is nobody's answer."""
 
 
 def store_submissions(folder: Path, paths: Iterable[Path]) -> list[str]:
@@ -70,30 +78,78 @@ def _find_free_name(folder: Path, path: Path, data: bytes) -> str:
     return name
 
 
+class RivalAnswers(NamedTuple):
+    """One of several differing answers of a student: where it stands, and whether it counts."""
+
+    student: str
+    file: str
+    filled: int
+    counts: bool
+
+
 class Submissions:
-    """Iterates over what a class handed in; problems are listed as they are met.
+    """What a class handed in; problems and rivals are listed as they are met.
 
     Parameters
     ----------
     folder : pathlib.Path
         That of the class.
     keys : KeyIndex
+    marked : mapping of str to str
+        The file that each student's marks are made from.
+    ruled : mapping of str to str
+        The file that a person said shall count, by student.
+    blank : container of str
+        Students who are known to have handed in nothing but blank paper.
     """
 
-    def __init__(self, folder: Path, keys: KeyIndex) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        keys: KeyIndex,
+        marked: Mapping[str, str] | None = None,
+        ruled: Mapping[str, str] | None = None,
+        blank: Iterable[str] = (),
+    ) -> None:
         self.folder, self.keys = folder / ANSWERS, keys
+        self.marked, self.ruled, self.blank = marked or {}, ruled or {}, frozenset(blank)
         self.problems: list[str] = []
-        self._seen: dict[str, tuple[bytes, str]] = {}
+        self.rivals: list[RivalAnswers] = []
         self._codes = {code: head.id for head, _ in keys.places.values() for code in head.codes}
         self._ids = {one.casefold(): one for one in keys.places}
 
-    def __iter__(self) -> Iterator[Submission]:
+    def collect(self) -> Iterator[Submission]:
+        """Yield the answers of each student that count, in the order of their files."""
+        found: dict[str, list[Submission]] = {}
         for path in sorted(self.folder.rglob("*"), key=lambda one: (one.stem, one.suffix)):
-            if path.is_dir() or path.name.startswith("."):
-                continue
-            for sheet in self._iter_sheets(path):
-                if self._is_first_submission(sheet):
-                    yield sheet
+            if not path.is_dir() and not path.name.startswith("."):
+                for sheet in self._iter_sheets(path):
+                    found.setdefault(sheet.student, []).append(sheet)
+        for student, sheets in found.items():
+            chosen = self._choose_sheet(student, sheets)
+            if chosen is not None:
+                yield chosen
+
+    def _choose_sheet(self, student: str, sheets: list[Submission]) -> Submission | None:
+        """Return the answers of a student that count; None if a person has to say which."""
+        written = [one for one in sheets if count_filled(one)]
+        if not written and student not in self.blank:
+            who = safe_echo(student)
+            self.problems.append(
+                f"{who}: nothing is filled in {safe_echo(sheets[0].file)}; if blank paper was "
+                f"handed in: quizgen class status {self.folder.parent} {who} present"
+            )
+            return None
+        known = [self.ruled.get(student), self.marked.get(student)]
+        by_file = {one.file: one for one in reversed(written or sheets)}
+        chosen = next((by_file[file] for file in known if file in by_file), None)
+        if len({*map(_sort_answers, written)}) < 2:
+            return chosen or next(iter(written or sheets))
+        if known[0] not in by_file:
+            self.rivals += [
+                RivalAnswers(student, one.file, count_filled(one), one is chosen) for one in written
+            ]
+        return chosen
 
     def _iter_sheets(self, path: Path) -> Iterator[Submission]:
         """Yield the submissions in a file: one of a form, several of a table."""
@@ -101,14 +157,14 @@ class Submissions:
             self._add_problem(path, f"no form ({', '.join(FORMS)})")
             return
         try:
-            table = _Table.find_in_file(path)
+            table = AnswerTable.find_in_file(path)
             if table is None:
                 yield self._read_form_sheet(path)
             else:
                 yield from self._iter_table_sheets(table)
         except QuizgenError as error:
             self._add_problem(path, str(error).removeprefix(f"{path}: "))
-        except (UnicodeError, OSError) as error:
+        except OSError as error:
             self._add_problem(path, str(error))
 
     def _read_form_sheet(self, path: Path) -> Submission:
@@ -120,13 +176,34 @@ class Submissions:
         former = form.code.strip().upper() in self.keys.places[student][0].former
         if form.paper and form.paper != paper and not former:
             raise KeyFileError(f"is for other questions than the paper of {safe_echo(student)}")
-        return Submission(student, form.list_typed_texts(), about.lang, about.decimal, path.name)
+        answers, unknown = self._name_parts(student).sort_answers(form.list_typed_texts())
+        typed = form.list_typed_texts()
+        if odd := [name for name in unknown if typed[name].strip()]:
+            raise KeyFileError(self._describe_unknown_parts(student, odd))
+        return Submission(student, answers, about.lang, about.decimal, self._name_file(path))
+
+    def _name_parts(self, student: str) -> PartNames:
+        """Return the names of the parts of a student's paper."""
+        return PartNames(self.keys.outline(student).items)
+
+    def _name_file(self, path: Path) -> str:
+        """Return what a file is called in the folder of answers."""
+        return path.relative_to(self.folder).as_posix()
+
+    def _describe_unknown_parts(self, student: str, names: Sequence[str]) -> str:
+        """Return that the paper of a student has no parts of these names, and which it has."""
+        said = ", ".join(map(safe_echo, names[:5])) + (" ..." if len(names) > 5 else "")
+        parts = [*self.keys.outline(student).items]
+        return (
+            f"the paper of {safe_echo(student)} has no part {said} (it has {parts[0]} to "
+            f"{parts[-1]})"
+        )
 
     def _identify_student(self, code: str, student: str) -> str:
         """Return the student's id by the code or the typed id, which must agree."""
         student = unescape_csv_formula(clean_cell(student))
         owner = self._codes.get(code.strip().upper(), "")
-        if code and not owner:
+        if code.strip() and not owner:
             raise KeyFileError(f"code {safe_echo(code)} is of no paper of this class")
         if owner and student and _simplify_student_id(student) != _simplify_student_id(owner):
             raise KeyFileError(
@@ -150,39 +227,98 @@ class Submissions:
             raise KeyFileError(f"nobody of this class has the number {safe_echo(student)!r}{hint}")
         return found
 
-    def _iter_table_sheets(self, table: _Table) -> Iterator[Submission]:
-        """Yield the submissions in a table; a wrong row becomes a problem."""
-        for line, cells, answers in table.students():
+    def _iter_table_sheets(self, table: AnswerTable) -> Iterator[Submission]:
+        """Yield the submissions in a table; a wrong row becomes a problem.
+
+        Raises ``KeyFileError`` if a column is a part of nobody's paper, or two are the same.
+        """
+        read: list[tuple[int, Submission, dict[str, str]]] = []
+        for line, cells, typed in table.students():
             try:
                 student = self._identify_student(cells.get("code", ""), cells.get("id", ""))
-                yield Submission(
-                    student,
-                    answers,
-                    *_read_language_and_decimal(cells),
-                    table.path.name,
-                    _parse_minutes(cells),
-                )
-            except KeyFileError as error:
+                parts = self._name_parts(student)
+            except QuizgenError as error:
                 self._add_problem(table.path, f"line {line}: {error}")
-
-    def _is_first_submission(self, sheet: Submission) -> bool:
-        """Return whether it is the student's first; note a second that differs."""
-        answers = sorted((part, text) for part, text in sheet.answers.items() if text.strip())
-        digest = hashlib.sha256(repr(answers).encode()).digest()[:8]
-        before = self._seen.get(sheet.student)
-        if before is None:
-            self._seen[sheet.student] = digest, sheet.file
-            return True
-        if before[0] != digest:
-            self.problems.append(
-                f"{safe_echo(sheet.student)} handed in twice, {safe_echo(before[1])} and "
-                f"{safe_echo(sheet.file)}: the first counts; remove the one that shall not"
+                continue
+            answers, unknown = parts.sort_answers(typed)
+            about = *_read_language_and_decimal(cells), self._name_file(table.path)
+            sheet = Submission(student, answers, *about, _parse_minutes(cells))
+            read.append((line, sheet, {name: typed[name].strip() for name in unknown}))
+        if odd := "" if table.is_long else _find_foreign_column([one for *_, one in read]):
+            raise KeyFileError(
+                f"column {safe_echo(odd)!r} is no part of the papers; rename it, or begin its "
+                f"name with {NOTE} if it holds no answers"
             )
-        return False
+        yield from self._iter_sound_rows(read, table.path)
+
+    def _iter_sound_rows(
+        self, read: Iterable[tuple[int, Submission, Mapping[str, str]]], path: Path
+    ) -> Iterator[Submission]:
+        """Yield rows of a table whose parts are all known, of students who stand there once."""
+        lines: dict[str, tuple[int, Submission]] = {}
+        for line, sheet, unknown in read:
+            before, first = lines.setdefault(sheet.student, (line, sheet))
+            if filled := [name for name, text in unknown.items() if text]:
+                said = self._describe_unknown_parts(sheet.student, filled)
+                self._add_problem(path, f"line {line}: {said}")
+            elif before == line:
+                yield sheet
+            elif _sort_answers(first) != _sort_answers(sheet):
+                self._add_problem(
+                    path,
+                    f"line {line}: {safe_echo(sheet.student)} has other answers in line {before}, "
+                    "which count",
+                )
 
     def _add_problem(self, path: Path, reason: str) -> None:
         """Note why a file or row was not read, without control characters."""
         self.problems.append(escape_control_characters(f"{path.name}: {reason}", ""))
+
+
+def write_rivals(folder: Path, rivals: Sequence[RivalAnswers]) -> None:
+    """Write answers that differ to ``conflicts.csv``; delete the file if there are none."""
+    if not rivals:
+        (folder / CONFLICTS).unlink(missing_ok=True)
+        return
+    rows = [
+        (one.student, one.file, str(one.filled), "yes" if one.counts else "no") for one in rivals
+    ]
+    text = format_csv([("student", "file", "filled", "counts"), *rows])
+    write_all(folder, {CONFLICTS: text.encode("utf-8-sig")}, PRIVATE)
+
+
+def write_problems(folder: Path, problems: Sequence[str]) -> None:
+    """Write what could not be marked to ``problems.csv``; delete the file if there is nothing."""
+    if not problems:
+        (folder / PROBLEMS).unlink(missing_ok=True)
+        return
+    text = format_csv([("problem",), *((one,) for one in problems)])
+    write_all(folder, {PROBLEMS: text.encode("utf-8-sig")}, PRIVATE)
+
+
+def has_problems(folder: Path) -> bool:
+    """Return whether something that came back could not be marked."""
+    return (folder / PROBLEMS).exists()
+
+
+def read_rivals(folder: Path) -> set[str]:
+    """Return the students whose answers came twice and differ, none of which counts yet."""
+    path = folder / CONFLICTS
+    rows = [cells for _, cells in read_filled_rows(path, {"student", "counts"})]
+    settled = {cells["student"] for cells in rows if cells["counts"] == "yes"}
+    return {cells["student"] for cells in rows} - settled
+
+
+def count_filled(sheet: Submission) -> int:
+    """Return the number of parts in which something was written."""
+    return sum(bool(text.strip()) for text in sheet.answers.values())
+
+
+def _sort_answers(sheet: Submission) -> tuple[tuple[str, str], ...]:
+    """Return the answers that are not blank, to be compared."""
+    return tuple(
+        sorted((part, text.strip()) for part, text in sheet.answers.items() if text.strip())
+    )
 
 
 def _simplify_student_id(student: str) -> str:
@@ -202,64 +338,96 @@ def _parse_minutes(cells: Mapping[str, str]) -> float | None:
     return float(text) if text.replace(".", "", 1).isdecimal() and text.isascii() else None
 
 
-class _Table:
-    """A CSV file with a row for each student, or for each answer; read as it goes.
+class AnswerTable:
+    """A table with a row for each student, or for each answer.
 
     Parameters
     ----------
     path : pathlib.Path
-    encoding : str
     head : list of str
+        Names of the columns; those that are no answers by the names they have here.
+    rows : iterator of (int, list of str)
     """
 
-    def __init__(self, path: Path, encoding: str, head: list[str]) -> None:
-        self.path, self.encoding, self.head = path, encoding, head
+    def __init__(self, path: Path, head: list[str], rows: Iterator[tuple[int, list[str]]]) -> None:
+        self.path, self.head, self.rows = path, head, rows
+        self.is_long = {"part", "answer"} <= {*head}
 
     @classmethod
-    def find_in_file(cls, path: Path) -> _Table | None:
-        """Return the table in a file; None if it has no column of ids or codes."""
-        if path.suffix.lower() != ".csv":
+    def find_in_file(cls, path: Path) -> AnswerTable | None:
+        """Return the table in a file; None if it is a form, or has no column of ids or codes.
+
+        Raises
+        ------
+        KeyFileError
+            If it is empty, or two columns have one name.
+        """
+        if path.suffix.lower() not in TABLES:
             return None
-        with path.open("rb") as stream:
-            encoding = detect_encoding(stream.read(2))
-        with path.open(encoding=encoding, newline="") as text:
-            _, cells = next(iter_csv_rows(text, path, KeyFileError), (0, []))
-        head = [cell.strip() for cell in cells]
-        known = [
-            cell.lower() if cell.lower() in (*ABOUT, "part", "answer") else cell for cell in head
-        ]
-        if not {"id", "code"} & {*known}:
+        rows = iter_spreadsheet_rows(path, KeyFileError)
+        _, cells = next(rows, (0, []))
+        if not cells:
+            raise KeyFileError("is empty")
+        head = [_name_column(cell) for cell in cells]
+        if not {"id", "code"} & {*head}:
+            if path.suffix.lower() != ".csv":
+                raise KeyFileError("the first row names no column 'id' or 'code'")
             return None
-        return cls(path, encoding, known)
+        named = [name for name in head if name and not name.startswith(NOTE)]
+        if twin := next((name for name in named if named.count(name) > 1), ""):
+            raise KeyFileError(f"two columns are called {safe_echo(twin)!r}")
+        return cls(path, head, rows)
 
     def students(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
         """Yield line number, cells by column, and answers by part of each student."""
-        long = {"part", "answer"} <= {*self.head}
-        yield from self._iter_long_rows() if long else self._iter_wide_rows()
+        yield from self._iter_long_rows() if self.is_long else self._iter_wide_rows()
 
     def _iter_cells(self) -> Iterator[tuple[int, dict[str, str]]]:
         """Yield line number and cells by column of each row."""
-        with self.path.open(encoding=self.encoding, newline="") as stream:
-            rows = iter_csv_rows(stream, self.path, KeyFileError)
-            next(rows)
-            for line, row in rows:
-                if len(row) > len(self.head):
-                    raise KeyFileError(f"line {line}: more cells than columns")
-                yield line, dict(zip(self.head, row, strict=False))
+        for line, row in self.rows:
+            if any(map(str.strip, row[len(self.head) :])):
+                raise KeyFileError(f"line {line}: more cells than columns")
+            cells = list(zip(self.head, row, strict=False))
+            if any(text.strip() for name, text in cells if not name):
+                raise KeyFileError(f"line {line}: something stands in a column without a name")
+            yield line, dict(cells)
 
     def _iter_wide_rows(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
         """Yield the students of a table with one column for each part."""
         for line, cells in self._iter_cells():
-            answers = {name: text for name, text in cells.items() if name not in ABOUT}
+            answers = {
+                name: text
+                for name, text in cells.items()
+                if name and name not in ABOUT and not find_roster_column(name) and name[0] != NOTE
+            }
             yield line, cells, answers
 
     def _iter_long_rows(self) -> Iterator[tuple[int, dict[str, str], dict[str, str]]]:
         """Yield the students of a table with one row for each answer, in any order."""
         found: dict[tuple[str, str], tuple[int, dict[str, str], dict[str, str]]] = {}
         for line, cells in self._iter_cells():
-            who = cells.get("id", ""), cells.get("code", "")
+            who = cells.get("id", "").strip(), cells.get("code", "").strip()
             _, _, answers = found.setdefault(who, (line, cells, {}))
-            if cells["part"].strip() in answers:
-                raise KeyFileError(f"line {line}: {safe_echo(cells['part'])} stands there twice")
-            answers[cells["part"].strip()] = cells.get("answer", "")
+            part = cells["part"].strip()
+            if part in answers:
+                raise KeyFileError(f"line {line}: {safe_echo(part)} stands there twice")
+            answers[part] = cells.get("answer", "")
         yield from found.values()
+
+
+def _find_foreign_column(unknown: Sequence[Mapping[str, str]]) -> str:
+    """Return a column with answers that is a part of nobody's paper; empty if there is none.
+
+    ``unknown`` is what each student wrote under names that are no part of the own paper.
+    """
+    shared = set.intersection(*map(set, unknown)) if unknown else set()
+    return next((name for one in unknown for name in one if one[name] and name in shared), "")
+
+
+def _name_column(cell: str) -> str:
+    """Return the name of a column: ours for one that is no answer, else as it stands there."""
+    name = clean_cell(cell)
+    ours = find_roster_column(name)
+    if ours or name.casefold() in (*ABOUT, "part", "answer"):
+        return ours or name.casefold()
+    return name

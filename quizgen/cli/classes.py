@@ -19,9 +19,16 @@ from quizgen.cli.options import (
     split_names,
     worthwhile_processes,
 )
-from quizgen.cli.terminal import ProgressLine, format_count, print_sentence, to_one_line
+from quizgen.cli.terminal import (
+    ProgressLine,
+    format_count,
+    print_sentence,
+    print_table,
+    to_one_line,
+)
 from quizgen.core.errors import ClassError, require_extra
-from quizgen.locale import default_language
+from quizgen.core.files import PRIVATE, write_all
+from quizgen.locale import FIRST, default_language
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -52,6 +59,10 @@ class ClassMakeOptions(BankOptions):
     lang: str | None
     vary: bool
     one_file: bool
+    sheet: bool
+    about: Path | None
+    preview: bool
+    not_from: tuple[Path, ...]
     jobs: int | None
     scheduler: str
 
@@ -64,17 +75,27 @@ class ClassMakeOptions(BankOptions):
 @click.option("--lang", type=LanguageParam(both=True),
               help="Of who has none in the roster; English if the bank has it.")  # fmt: skip
 @click.option("--vary", is_flag=True, help="Other templates of the same kind, too.")
+@click.option(
+    "--about",
+    type=click.Path(path_type=Path),
+    help="TOML file: course, date, room, rules, for the covers.",
+)
+@click.option("--preview", is_flag=True, help="One sample and the list of questions, no papers.")
+@click.option("--not-from", type=click.Path(path_type=Path), multiple=True,
+              help="Folder of an earlier class, none of whose questions is asked.")  # fmt: skip
+@click.option("--sheet", is_flag=True, help="Compact answer sheets, too, for a scanner.")
 @click.option("--one-file", is_flag=True, help="Write print.pdf, too: all papers, for the printer.")
 @jobs_option
 @click.option("--scheduler", default="", help="Dask scheduler that makes them: tcp://HOST:8786.")
 @bank_options
 def make(**options: Unpack[ClassMakeOptions]) -> None:
-    """Make a paper for each student of ROSTER, a CSV file with a column id.
+    """Make a paper for each student of ROSTER, a CSV or XLSX file with a column id.
 
     All papers have the same questions with other numbers. A second run makes only what is missing
     or whose row has changed.
     """
-    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.class_folder import SHEETS, ClassFolder
+    from quizgen.classes.exam_details import FILE as EXAM
     from quizgen.classes.generation import generate_papers
     from quizgen.classes.print_file import write_print_file
     from quizgen.classes.roster import read_roster
@@ -82,33 +103,105 @@ def make(**options: Unpack[ClassMakeOptions]) -> None:
 
     if options["one_file"]:
         require_extra("print", "quizgen class make --one-file")
+    about = _read_about(options["about"])
     unread: list[str] = []
     students = read_roster(options["roster"], _parse_columns(options["columns"]), unread.append)
+    _report_roster(options["roster"], unread)
     folder = ClassFolder(options["out"])
     count = worthwhile_processes(options["jobs"], len(students) * A_PAPER)
     with open_executor(count, options["scheduler"]) as (executor, ahead):  # before any folder
         blueprint = _open_class_blueprint(folder, students, options)
+        if about:
+            write_all(folder.path, {EXAM: about}, PRIVATE)
+        if options["preview"]:
+            _write_preview(folder, blueprint)
+            return
+        if options["sheet"]:  # a later run finds it, and makes sheets, too
+            (folder.path / SHEETS).mkdir(mode=0o700, exist_ok=True)
         with ProgressLine("paper", len(students)) as progress:
             report = generate_papers(folder, students, blueprint, executor, ahead, progress)
     if options["one_file"]:
         write_print_file(folder, students)
     _report_papers(folder, report)
     _report_unprintable_names(students)
-    if unread:
-        print_sentence(
-            f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)"
-        )
 
 
 @class_.command()
 @click.argument("folder", type=click.Path(path_type=Path))
 @click.argument("printed")
 def code(folder: Path, printed: str) -> None:
-    """Say whose paper of the class in FOLDER has the PRINTED code, and that it is unaltered."""
-    from quizgen.classes.class_folder import ClassFolder
+    """Say whose paper of the class in FOLDER has the PRINTED code, and that it is unaltered.
 
+    What the square code on a page of an answer sheet says is taken, too.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.sheet_codes import find_sheet_page
+
+    if ":" in printed:
+        head, page = find_sheet_page(ClassFolder(folder), printed)
+        click.echo(f"{head.code}: {to_one_line(head.id)}, page {page} of the answer sheet")
+        return
     found = ClassFolder(folder).find_by_code(printed)
     click.echo(f"{found.head.code}: {to_one_line(found.head.id)}")
+
+
+@class_.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.argument("number", type=int)
+@click.option("--template", default="", help="Which. [default: any that fits]")
+def redraw(folder: Path, number: int, template: str) -> None:
+    """Ask something else as question NUMBER of the class in FOLDER, which has no papers yet.
+
+    What is asked instead fits the same slot and is worth as many points, and what the blueprint
+    asks of the whole paper still holds. Writes the preview again.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.generation import open_class_bank, replace_template
+    from quizgen.classes.lock import lock_folder
+    from quizgen.paper.blueprint import load_blueprint
+
+    found = ClassFolder(folder)
+    settings = found.settings
+    bank = open_class_bank(settings)
+    blueprint = load_blueprint(settings.blueprint, bank)
+    with lock_folder(folder):
+        found.change_settings(replace_template(settings, bank, blueprint, number, template))
+        _write_preview(found, blueprint)
+
+
+@class_.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option("--lang", type=LanguageParam(), default=FIRST, help="Of the lists.")
+def lists(folder: Path, lang: str) -> None:
+    """Write the lists for the rooms of the class in FOLDER.
+
+    lists/attendance.pdf has names and is signed; lists/seats.pdf has ids alone, to hang at the
+    door; lists/more-time.pdf is for those who watch.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.room_lists import write_room_lists
+
+    for path in write_room_lists(ClassFolder(folder), lang):
+        print_sentence(str(path))
+
+
+@class_.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@click.option("--yes", is_flag=True, help="Do it: nothing brings it back.")
+def forget(folder: Path, *, yes: bool) -> None:
+    """Delete names, ids, codes, papers and free text of the class in FOLDER; keep statistics.
+
+    What stays are the questions, points under pseudonyms that nobody can undo, and answers that
+    were numbers or ticks. No papers can be made of it any more.
+    """
+    from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.forgetting import forget_class
+
+    if not yes:
+        raise click.UsageError(f"this deletes the papers, answers and names in {folder}: add --yes")
+    count = forget_class(ClassFolder(folder))
+    print_sentence(f"{folder}: {format_count(count, 'student')} forgotten. "
+                   f"What is left: quizgen class analyse {folder}")  # fmt: skip
 
 
 @class_.command()
@@ -132,6 +225,40 @@ def take(keys: Path, reports: tuple[Path, ...], out: Path) -> None:
          f"Next: quizgen class mark {out}")  # fmt: skip
 
 
+def _write_preview(folder: ClassFolder, blueprint: Blueprint) -> None:
+    """Write a sample paper with its solutions, and print which questions it has."""
+    from quizgen.classes.exam_details import FILE as EXAM
+    from quizgen.classes.exam_details import ExamDetails, read_exam_details
+    from quizgen.classes.generation import PREVIEW, make_preview
+    from quizgen.render import KINDS, render_paper
+
+    exam = read_exam_details(folder.path / EXAM) or ExamDetails()
+    paper = make_preview(folder.settings, blueprint, exam)
+    names = (f"{PREVIEW}.pdf", f"{PREVIEW}-solutions.pdf")
+    sheets = [render_paper(paper, kind, "pdf") for kind in KINDS]
+    write_all(folder.path, dict(zip(names, sheets, strict=True)), PRIVATE)
+    rows = [
+        (item.number, f"{float(item.points):g}", item.keys[0].template, item.questions[0].title)
+        for item in paper.items
+    ]
+    print_table(("no.", "points", "template", "title"), rows)
+    print_sentence(f"{float(paper.points):g} points, {paper.minutes} min. "
+                   f"Look at {folder.path / names[0]} and {folder.path / names[1]}")  # fmt: skip
+    print_sentence(f"Another question 1: quizgen class redraw {folder.path} 1")
+    print_sentence(f"The papers: quizgen class make {folder.path}/roster.csv --out {folder.path}")
+
+
+def _read_about(path: Path | None) -> bytes:
+    """Return the bytes of the file on the exam, checked; none if no file was named."""
+    from quizgen.classes.exam_details import read_exam_details
+
+    if path is None:
+        return b""
+    if read_exam_details(path) is None:
+        raise click.BadParameter(f"there is no file {path}", param_hint="--about")
+    return path.read_bytes()
+
+
 def _parse_columns(text: str | None) -> Mapping[str, str]:
     """Return the file's name of each roster column in ``id=Matrikel,name=Name``."""
     pairs = [name.partition("=") for name in split_names(text)]
@@ -145,6 +272,7 @@ def _open_class_blueprint(
     folder: ClassFolder, students: list[RosterStudent], options: ClassMakeOptions
 ) -> Blueprint:
     """Return the blueprint of the class; create the class if there is none yet."""
+    from quizgen.classes.class_folder import ClassFolder
     from quizgen.classes.generation import create_settings, open_class_bank
     from quizgen.paper.blueprint import default_blueprint_name, load_blueprint
 
@@ -153,11 +281,22 @@ def _open_class_blueprint(
         blueprint = load_blueprint(options["blueprint"] or default_blueprint_name(bank), bank)
         name = folder.path.resolve().name
         lang = options["lang"] or default_language(bank.languages)
-        folder.create(create_settings(name, bank, blueprint, lang, vary=options["vary"]), students)
+        without = {
+            name
+            for earlier in options["not_from"]
+            for family in ClassFolder(earlier).settings.templates
+            for name in family
+        }
+        settings = create_settings(
+            name, bank, blueprint, lang, vary=options["vary"], without=sorted(without)
+        )
+        folder.create(settings, students)
         return blueprint
     settings = folder.settings
     if not settings.digest:
-        raise ClassError(f"{folder.path}: is of a quiz that was played, and has no papers")
+        raise ClassError(
+            f"{folder.path}: is of a quiz that was played, or was forgotten: it has no papers"
+        )
     _check_same_options(folder, options)
     return load_blueprint(options["blueprint"] or settings.blueprint, open_class_bank(settings))
 
@@ -185,6 +324,19 @@ def _check_same_options(folder: ClassFolder, options: ClassMakeOptions) -> None:
             )
     if options["vary"] and not any(len(family) > 1 for family in settings.templates):
         raise ClassError(f"{folder.path}: was made without --vary; name a new folder (--out)")
+
+
+def _report_roster(roster: Path, unread: list[str]) -> None:
+    """Print what was guessed of a roster, and the columns of it that were not read."""
+    from quizgen.core.spreadsheets import is_old_encoding
+
+    if is_old_encoding(roster.read_bytes()):
+        print_sentence(f"{roster}: is not UTF-8, and was read as Windows-1252; "
+                       "see that the names are right")  # fmt: skip
+    if unread:
+        print_sentence(
+            f"Not read of the roster: {', '.join(unread)} (--columns names what a column is)"
+        )
 
 
 def _report_papers(folder: ClassFolder, report: GenerationReport) -> None:

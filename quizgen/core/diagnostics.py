@@ -210,6 +210,8 @@ _CODES = {
                   "use what docs/formulas.md lists"),
     "QG160": Rule("The field of a part stands where it cannot.",
                   "write {{ ?b }} once, in section b or in that of a part before it"),
+    "QG260": Rule("The points of steps are not those of their part.",
+                  "let the points in scheme add up to the points of the part"),
     # Proofs over many draws: soundness of units, answers, languages.
     "QG201": Rule("A drawn unit is of another kind than the solver's.",
                   "give it a unit of the kind that the solver works with"),

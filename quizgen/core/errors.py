@@ -47,7 +47,7 @@ EXTRA_MODULES = {
         "starlette", "uvicorn", "python_multipart", "sqlalchemy", "alembic", "fsrs", "argon2",
         "segno",
     ),
-    "class": ("xlsxwriter",),
+    "class": ("xlsxwriter", "segno"),
     "lms": (),
     "anki": (),
     "print": ("pikepdf",),

@@ -64,7 +64,7 @@ def feedback_sentence(lang: str, note: str, fields: Mapping[str, object]) -> str
     return sentence.format_map(shown).translate(marks)
 
 
-AS_TYPED = frozenset({"code", "gap", "rubric"})
+AS_TYPED = frozenset({"code", "gap", "program", "rubric"})
 """Kinds whose answers are words, or what a program prints: their points are no decimal signs."""
 
 
@@ -95,10 +95,14 @@ def _is_quotable(value: object) -> bool:
 
 _NAMES = frozenset({"names", "detail"})
 """Fields that name quantities."""
+_PROGRAM_TEXT = frozenset({"call", "code", "got"})
+"""Fields that are program text, whose points are no decimal signs."""
 
 
 def _format_message_field(lang: str, key: str, value: object) -> str:
     """Return what a blank is filled with; names of quantities and powers as people write them."""
+    if key in _PROGRAM_TEXT:
+        return _format_shown_value(lang, value)
     if key == "power":
         return pretty.format_power_of_ten(str(value))
     if key in _NAMES and isinstance(value, (tuple, list)):

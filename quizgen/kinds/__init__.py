@@ -29,6 +29,7 @@ from quizgen.kinds import (
     number,
     order,
     point,
+    program,
     quantity,
     rubric,
     sets,
@@ -45,7 +46,7 @@ KINDS: dict[str, AnswerKind[Any]] = {
     for module in (
         number, quantity, angle, point, sets, table, interval, expression, equation, complex_number,
         matrix, vector, choice, multi,
-        true_false, match, order, gap, witness, derivation, code, rubric, sketch, checked,
+        true_false, match, order, gap, witness, derivation, code, program, rubric, sketch, checked,
     )
 }  # fmt: skip
 """Name to kind, in the order of the manual."""

@@ -8,7 +8,7 @@ costs once.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -19,29 +19,25 @@ from quizgen.core.decoding import convert
 from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judge import read_error_verdict
-from quizgen.grading.judging.relations import (
-    Relation,
-    World,
-    build_world,
-    find_lost_solution,
-    implies,
-    solve_for,
+from quizgen.grading.judging.derivation import (
+    DerivationKey,
+    DerivationMarker,
+    MarkedDerivation,
+    ScoredLine,
 )
-from quizgen.grading.judging.sampled_equality import Domain, are_equal, compare_by_sampling
+from quizgen.grading.judging.relations import Relation, World, build_world
+from quizgen.grading.judging.sampled_equality import Domain
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
-from quizgen.grading.reading.derivations import DerivationReader, DerivedLine, LineReadError
+from quizgen.grading.reading.derivations import DerivationReader, LineReadError
 from quizgen.grading.reading.formulas import parse_authored
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import (
     FULL,
-    HALF,
     Verdict,
     ambiguous,
-    correct,
     partial,
     verdict_by_share,
-    wrong,
 )
 from quizgen.kinds.asking import make_spec, sentence_with_code
 from quizgen.kinds.contract import (
@@ -55,20 +51,22 @@ from quizgen.kinds.contract import (
     PartContext,
     SymbolDomain,
 )
-from quizgen.kinds.equation import RELATIONS
+from quizgen.kinds.equation import RELATIONS as SAME_SIGN
 from quizgen.kinds.forms import typeset_key
 from quizgen.kinds.rubric import Criterion, RubricSpec
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import format_tree, parse_formula, pretty
 from quizgen.maths.numbers import format_for_key, to_fraction
 from quizgen.maths.tidy import tidy_formula
-from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, substitute, walk_tree
+from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, substitute
 
 if TYPE_CHECKING:
     from quizgen.question.inlines import TextOrInlines
 
-MOST_ERRORS = 5
-"""Wrong lines that are followed up; after them nobody can say what follows from what."""
+RELATIONS = (*SAME_SIGN, "ne")
+"""Signs of a line."""
+LONGEST_SHOWN = 200
+"""Characters of all lines that are shown back."""
 ROOM = 3
 """Lines that a learner may need besides those that earn points."""
 
@@ -206,11 +204,22 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
         domains = {name: tuple(of) if isinstance(of, list) else of
                    for name, of in self.symbols.items()}  # fmt: skip
         definitions = tuple((name, self._parse(text)) for name, text in self.let.items())
-        return build_world(tuple(domains.items()), definitions, self.conditions())
+        return build_world(tuple(domains.items()), definitions, tuple(map(self._parse, self.where)))
 
-    def conditions(self) -> tuple[Expr, ...]:
-        """Return the conditions on the names."""
-        return tuple(map(self._parse, self.where))
+    def marking_key(self) -> DerivationKey:
+        """Return what the lines are marked by."""
+        return DerivationKey(
+            self.right_world(),
+            {name: ScoredLine(self._relations(line.forms), _points(line), line.needed)
+             for name, line in self.lines.items()},
+            self._relations(self.given),
+            {name: self._relations(texts) for name, texts in self.traps.items()},
+            bool(self.reasons),
+        )  # fmt: skip
+
+    def _relations(self, texts: Iterable[str]) -> tuple[Relation, ...]:
+        """Return several relations of the key."""
+        return tuple(map(self.relation, texts))
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return the verdict on typed lines: each of them a cell, the first fault as its note.
@@ -220,6 +229,7 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
         FormulaReadError
             If there are no lines, too many, or invisible characters.
         """
+        key = self.marking_key()
         reader = DerivationReader(self.symbols, options.decimal, self.goal.left)
         try:
             lines = reader.read(typed)
@@ -227,7 +237,33 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
             found = read_error_verdict(error.why)
             fields = {**found.fields, "at_line": error.number}
             return msgspec.structs.replace(found, fields=fields)
-        return _Marking(self).mark(lines)
+        shown = safe_echo("; ".join(line.shown for line in lines if line.relations), LONGEST_SHOWN)
+        marked = DerivationMarker(key).mark(lines)
+        words = " ".join(line.words for line in lines if line.words)
+        found = self._suggest(marked, words, shown) if self.reasons else self._sum_up(marked, shown)
+        return msgspec.structs.replace(found, cells=marked.cells)
+
+    def _sum_up(self, marked: MarkedDerivation, shown: str) -> Verdict:
+        """Return the verdict on all lines by their points."""
+        found = verdict_by_share(marked.points / self.total, shown, marked.note, **marked.fields)
+        if marked.note == "line-undecided" and found.credit < 1:
+            return ambiguous(marked.note, shown, **marked.fields)
+        if found.credit == 1 and any(cell.note == "line-wrong" for cell in marked.cells):
+            return partial(FULL, shown, marked.note, **marked.fields)
+        return found
+
+    def _suggest(self, marked: MarkedDerivation, words: str, shown: str) -> Verdict:
+        """Return the points of the lines, and the reasons that seem to be there, for a person."""
+        criteria = {
+            name: Criterion(points=one.points, accept=one.words)
+            for name, one in self.reasons.items()
+        }
+        looked = RubricSpec(kind="rubric", full=0, criteria=criteria)
+        found = looked.judge(words, GradingOptions()).fields.get("found", ()) if words else ()
+        names = found if isinstance(found, tuple) else ()
+        share = marked.points + sum((_points(self.reasons[name]) for name in names), Fraction(0))
+        fields = {**marked.fields, "found": names, "share": share / self.total}
+        return ambiguous("self-mark-lines" if names else "self-mark-lines-none", shown, **fields)
 
     def show(self) -> str:
         """Return the lines as they can be typed back, the first form of each."""
@@ -244,7 +280,7 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
         for name, text in (*forms, *(("given", text) for text in self.given)):
             if world.holds(self.relation(text)) is not True:
                 yield "QG240", f"{name}: {text} does not hold where the names are what let says"
-        known = _Marking(self).known
+        known = DerivationMarker(self.marking_key()).known
         for name, text in forms:
             if known.holds(self.relation(text)) is True:
                 yield "QG241", f"{name}: {text} holds before anything is written"
@@ -257,420 +293,6 @@ LEAST_POINTS = 8
 def _points(one: KeyLine | KeyReason) -> Fraction:
     """Return the points of a line or reason."""
     return to_fraction(parse_exact(one.points))
-
-
-class _Marking:
-    """Judges the lines of one derivation in order.
-
-    ``right`` is the world of true lines, ``wrong`` that of the first errors, ``known`` what the
-    true lines written so far say: in it the author's lines that follow from them hold. ``led`` is
-    the same without lines that state the goal, which must not stand for what leads to it.
-    """
-
-    def __init__(self, spec: DerivationSpec) -> None:
-        """Begin with nothing written."""
-        self.spec, self.goal = spec, spec.goal
-        self.conditions = spec.conditions()
-        self.right = spec.right_world()
-        self.wrong: World | None = None
-        self.errors = 0
-        self.derived = list(spec.let)
-        self.given = [spec.relation(text) for text in spec.given]
-        self.known = self.led = self._build_known_world()
-        self.earned: dict[str, Fraction] = {}
-        self.reached: dict[str, int] = {}
-        self.spoilt: set[str] = set()
-        self.before: tuple[Relation, ...] = ()
-        self.goal_name = [*spec.lines][-1]
-        self.forms = {name: [spec.relation(text) for text in line.forms]
-                      for name, line in spec.lines.items()}  # fmt: skip
-
-    def _build_known_world(self) -> World:
-        """Return what is known before anything is written: what given names stand for."""
-        named = {one.left.name: one.right for one in self.given
-                 if isinstance(one.left, Sym) and one.left.name in self.derived}  # fmt: skip
-        return World(self.spec.symbols, named, self.conditions)
-
-    def mark(self, lines: Sequence[DerivedLine]) -> Verdict:
-        """Return the verdict on all lines."""
-        cells = tuple(self._mark_line(line) for line in lines)
-        credit = sum(
-            (share * _points(self.spec.lines[name]) for name, share in self.earned.items()),
-            Fraction(0),
-        )
-        shown = safe_echo("; ".join(line.shown for line in lines if line.relations), 200)
-        missing = tuple(name for name in self.spec.lines if self.earned.get(name, 0) < 1)
-        fields: dict[str, object] = {
-            "right": len(self.spec.lines) - len(missing),
-            "of": len(self.spec.lines),
-            "because": missing,
-        }
-        note, more = self._find_fault(lines, cells, missing)
-        fields |= more
-        if self.spec.reasons:
-            return self._suggest(lines, cells, credit, shown, fields)
-        found = verdict_by_share(credit / self.spec.total, shown, note, **fields)
-        if note == "line-undecided" and found.credit < 1:
-            found = ambiguous(note, shown, **fields)
-        if found.credit == 1 and any(cell.note == "line-wrong" for cell in cells):
-            found = partial(FULL, shown, note, **fields)
-        return msgspec.structs.replace(found, cells=cells)
-
-    def _suggest(
-        self,
-        lines: Sequence[DerivedLine],
-        cells: tuple[Verdict, ...],
-        credit: Fraction,
-        shown: str,
-        fields: dict[str, object],
-    ) -> Verdict:
-        """Return the points of the lines, and the reasons that seem to be there, for a person."""
-        reasons = self.spec.reasons
-        criteria = {
-            name: Criterion(points=one.points, accept=one.words) for name, one in reasons.items()
-        }
-        words = RubricSpec(kind="rubric", full=0, criteria=criteria)
-        text = " ".join(line.words for line in lines if line.words)
-        found = words.judge(text, GradingOptions()).fields if text else {}
-        there = found.get("found", ())
-        names = there if isinstance(there, tuple) else ()
-        share = credit + sum((_points(reasons[name]) for name in names), Fraction(0))
-        fields |= {"found": names, "share": share / self.spec.total}
-        note = "self-mark-lines" if names else "self-mark-lines-none"
-        return msgspec.structs.replace(ambiguous(note, shown, **fields), cells=cells)
-
-    def _find_fault(
-        self, lines: Sequence[DerivedLine], cells: Sequence[Verdict], missing: Sequence[str]
-    ) -> tuple[str, dict[str, object]]:
-        """Return the note of the first fault with its fields; that of what is missing if none."""
-        for line, cell in zip(lines, cells, strict=True):
-            if cell.note in {"line-wrong", "line-undecided"}:
-                fields = dict(cell.fields) if cell.note == "line-wrong" else {}
-                note = str(fields.pop("why", cell.note))
-                return note, {**fields, "at_line": line.number}
-        for line, cell in zip(lines, cells, strict=True):
-            if cell.note == "line-lost":
-                return cell.note, {**cell.fields, "at_line": line.number}
-        skipped = [name for name in missing if self.spec.lines[name].needed]
-        later = [number for name, number in self.reached.items()
-                 if skipped and self._is_behind(name, skipped[0])]  # fmt: skip
-        if later:
-            return "line-jump", {"at_line": min(later)}
-        if [*missing] == [self.goal_name]:
-            return "line-goal", {}
-        return "lines-missing", {}
-
-    def _is_behind(self, name: str, other: str) -> bool:
-        """Return whether a line of the key comes after another one."""
-        order = list(self.spec.lines)
-        return order.index(name) > order.index(other)
-
-    def _mark_line(self, line: DerivedLine) -> Verdict:
-        """Return the verdict on one line, and remember what it says."""
-        shown = safe_echo(line.shown, LONGEST_LINE)
-        if not line.relations:
-            return ambiguous("line-words", shown)
-        if line.defines:
-            self._define(line)
-        relations = self._choose_reading(line)
-        cells = [self._mark_relation(one, line.number, shown) for one in relations]
-        worst = min(cells, key=lambda cell: _SEVERITY.index(cell.note))
-        if line.both_ways and worst.note == "line-right" and self._is_one_way(relations):
-            worst = correct(shown, "line-one-way")
-        self.before = relations
-        if line.defines and worst.note == "line-right" and len(relations) == 1:
-            return correct(shown, "line-defines")
-        return worst
-
-    def _is_one_way(self, relations: Sequence[Relation]) -> bool:
-        """Return whether a step that is called an equivalence gains a solution: squaring."""
-        return any(
-            find_lost_solution(relation, one, self.right.domains, self.conditions)
-            for one in self.before
-            for relation in relations
-        )
-
-    def _choose_reading(self, line: DerivedLine) -> tuple[Relation, ...]:
-        """Return the relations of a line by that reading of its numbers that holds, if one does."""
-        if not line.others or all(self.right.holds(one) for one in line.relations):
-            return line.relations
-        return line.others if all(self.right.holds(one) for one in line.others) else line.relations
-
-    def _define(self, line: DerivedLine) -> None:
-        """Add a name that the learner gives a meaning to every world."""
-        meaning = line.relations[0].right
-        worlds = [self.right, self.known, self.led, self.wrong]
-        self.right, self.known, self.led, self.wrong = (  # type: ignore[assignment]
-            world and (world.define(line.defines, meaning) or world) for world in worlds
-        )
-        self.derived.append(line.defines)
-
-    def _mark_relation(self, relation: Relation, number: int, shown: str) -> Verdict:
-        """Return the verdict on one relation, and remember what it says."""
-        holds = self.right.holds(relation)
-        if holds is None:
-            return ambiguous("line-undecided", shown)
-        if holds:
-            return self._mark_true(relation, number, shown)
-        if self.wrong is not None and self.wrong.holds(relation):
-            self._credit_carried(relation, number)
-            return partial(FULL, shown, "line-carried")
-        return self._mark_wrong(relation, shown)
-
-    def _mark_true(self, relation: Relation, number: int, shown: str) -> Verdict:
-        """Return the verdict on what holds; credit the lines of the key that follow from it."""
-        if any(self._says_the_same(relation, one) for one in self.given):
-            return correct(shown, "line-given")
-        lost = self._find_lost(relation)
-        self.known = self._learn(self.known, relation)
-        if not self._states_goal(relation):
-            self.led = self._learn(self.led, relation)
-        share = HALF if lost else FULL
-        for name in self._iter_reached(relation):
-            self.earned[name] = share
-            self.reached.setdefault(name, number)
-        if lost:
-            return partial(HALF, shown, "line-lost", detail=lost)
-        return correct(shown, "line-right")
-
-    def _find_lost(self, relation: Relation) -> str:
-        """Return what the step from the line before divides by, or loses; empty if it is safe."""
-        domains = self.right.domains
-        for one in self.before:
-            if lost := find_lost_solution(one, relation, domains, self.conditions):
-                return lost
-        return ""
-
-    def _iter_reached(self, relation: Relation) -> Iterator[str]:
-        """Yield the lines of the key that are there now and were not before."""
-        for name, forms in self.forms.items():
-            if name in self.earned or name in self.spoilt:
-                continue
-            needed = self.spec.lines[name].needed
-            if (
-                self._states_goal(relation)
-                if name == self.goal_name
-                else any(self._follows(form, relation, needed=needed) for form in forms)
-            ):
-                yield name
-
-    def _follows(self, form: Relation, relation: Relation, *, needed: bool) -> bool:
-        """Return whether a form of the key follows from what is written, or says it in numbers."""
-        if form.op != "eq":
-            return self._is_in_numbers(relation, form) or implies(
-                relation, form, self.right.domains, self.derived
-            )
-        if (self.led if needed else self.known).holds(form) is True:
-            return True
-        hidden = needed and self._states_goal(relation)
-        return not hidden and implies(relation, form, self.right.domains, self.derived)
-
-    def _states_goal(self, relation: Relation) -> bool:
-        """Return whether a true relation is the goal: its left side alone, and nothing beyond it.
-
-        What may stand on the other side are the names that the goal has there, in a formula that is
-        about as short.
-        """
-        goal = self.goal
-        if goal.op != "eq":
-            return self._follows(goal, relation, needed=False)
-        most = _size(goal.right)
-        return any(
-            own == goal.left
-            and names_in(other) <= names_in(goal.right)
-            and _size(other) <= most + max(1, most // 4)
-            for own, other in _both_ways(relation)
-        )
-
-    def _is_in_numbers(self, relation: Relation, form: Relation) -> bool:
-        """Return whether an inequality is one of the key with values put in on its sides."""
-        sides = zip((relation.left, relation.right), (form.left, form.right), strict=True)
-        return relation.op == form.op != "eq" and all(
-            self.right.holds(Relation("eq", *pair)) for pair in sides
-        )
-
-    def _says_the_same(self, relation: Relation, given: Relation) -> bool:
-        """Return whether a relation is a given one as it stands, its sides maybe exchanged."""
-        if relation.op != given.op:
-            return False
-        domains = self.right.domains
-        return any(
-            are_equal(given.left, left, domains) and are_equal(given.right, right, domains)
-            for left, right in _both_ways(relation)
-        )
-
-    def _learn(self, known: World, relation: Relation) -> World:
-        """Return a world with what a true relation says of a name that was free in it.
-
-        Where each of its names is known, it may say something of those that they are made of.
-        """
-        if self.right.holds(relation, rounded=False) and not [
-            name for name in self._subjects(relation) if name not in known.definitions
-        ]:
-            left, right = (_unfold(one, known.definitions) for one in relation.tree.args)
-            relation = Relation(relation.op, left, right)
-        for name in self._subjects(relation):
-            if name in known.definitions:
-                continue
-            exactly = self.right.holds(relation, rounded=False)
-            formulas = solve_for(relation, name) if exactly else (self.right.definitions[name],)
-            for formula in formulas:
-                world = known.define(name, formula)
-                is_true = exactly is not True or self.right.holds(
-                    Relation("eq", Sym(name), formula)
-                )
-                if world is not None and is_true and world.holds(relation) is True:
-                    return world
-        return known
-
-    def _subjects(self, relation: Relation) -> list[str]:
-        """Return the derived names of a relation, first those that it may be about.
-
-        A name that is a side by itself comes first, then the later ones before those they need.
-        """
-        alone = [side.name for side in (relation.left, relation.right)
-                 if isinstance(side, Sym) and side.name in self.derived]  # fmt: skip
-        own = [name for name in self.derived if name in self.spec.let]
-        rest = [*own[::-1], *(name for name in self.derived if name not in own)]
-        return list(dict.fromkeys([*alone, *(name for name in rest if name in relation.names)]))
-
-    def _mark_wrong(self, relation: Relation, shown: str) -> Verdict:
-        """Return why a relation does not hold, and what follows from it from now on."""
-        self.errors += 1
-        if self.errors > MOST_ERRORS:
-            return wrong(shown, "line-wrong")
-        why, fields = self._explain_wrong(relation) if self.errors == 1 else ("", {})
-        subjects = self._subjects(relation)
-        self._spoil(subjects)
-        base = self.wrong or self.right
-        for name in subjects:
-            worlds = (base.define(name, formula) for formula in solve_for(relation, name)
-                      if name not in names_in(formula))  # fmt: skip
-            found = next((w for w in worlds if w is not None and w.holds(relation)), None)
-            if found is not None:
-                self.wrong = found
-                break
-        return wrong(shown, "line-wrong", why=why, **fields)
-
-    def _spoil(self, subjects: Sequence[str]) -> None:
-        """Give up the next line of the key about the same quantity: it is what went wrong.
-
-        If all of them are there, the last one is given up: what is written last counts.
-        """
-        about = [
-            name
-            for name, forms in self.forms.items()
-            if name not in self.spoilt and self._subjects(forms[0])[:1] == [*subjects[:1]]
-        ]
-        if about:
-            name = next((name for name in about if name not in self.earned), about[-1])
-            self.earned.pop(name, None)
-            self.spoilt.add(name)
-
-    def _credit_carried(self, relation: Relation, number: int) -> None:
-        """Credit the next line of the key about what follows from an error."""
-        about = self._subjects(relation)[:1]
-        for name, forms in self.forms.items():
-            if name in self.earned or name in self.spoilt or self._subjects(forms[0])[:1] != about:
-                continue
-            if name == self.goal_name and not self._is_solved_for_goal(relation):
-                return
-            self.earned[name] = FULL
-            self.reached[name] = number
-            return
-
-    def _is_solved_for_goal(self, relation: Relation) -> bool:
-        """Return whether a relation says what the left side of the goal is, by free names alone."""
-        return any(
-            own == self.goal.left and not names_in(other) & {*self.derived}
-            for own, other in _both_ways(relation)
-        )
-
-    def _explain_wrong(  # noqa: PLR0911 - one for each cause
-        self, relation: Relation
-    ) -> tuple[str, dict[str, object]]:
-        """Return the note of what is wrong with a relation, as far as it is certain."""
-        domains = self.right.domains
-        for name, texts in self.spec.traps.items():
-            traps = map(self.spec.relation, texts)
-            if any(
-                implies(*pair, domains, self.derived)
-                for trap in traps
-                for pair in ((relation, trap), (trap, relation))
-            ):
-                return f"trap:{name}", {}
-        left, right = relation.left, relation.right
-        if relation.op != "eq":
-            turned = {"lt": "gt", "le": "ge", "gt": "lt", "ge": "le"}[relation.op]
-            held = self.right.holds(Relation(turned, left, right))
-            return ("line-inequality" if held else "line-false"), {}
-        if self.right.holds(Relation("eq", left, Call("neg", (right,)))):
-            return "line-sign", {}
-        if self.right.holds(Relation("eq", left, Call("div", (Num(Fraction(1)), right)))):
-            return "line-upside-down", {}
-        if names := self._assumed_positive(relation):
-            return "line-assumes", {"names": names}
-        if self._is_off_by_a_factor(relation):
-            return "line-factor", {}
-        return "line-false", {}
-
-    def _assumed_positive(self, relation: Relation) -> tuple[str, ...]:
-        """Return the names that must be positive for a relation to hold; none if that is not it."""
-        real = [name for name in sorted(relation.names - {*self.derived})
-                if self.right.domains[name] == "real"]  # fmt: skip
-        if not real:
-            return ()
-        domains = {**self.right.domains, **dict.fromkeys(real, "positive")}
-        world = World(domains, self.right.definitions, self.right.where)
-        return tuple(real) if world.holds(relation) is True else ()
-
-    def _is_off_by_a_factor(self, relation: Relation) -> bool:
-        """Return whether one side is the other times a number, the same at all points."""
-        free = {name: of for name, of in self.right.domains.items() if name not in self.derived}
-        definitions = self.right.definitions
-        left, right = (_unfold(side, definitions) for side in (relation.left, relation.right))
-        if (
-            not names_in(left) & names_in(right)
-            or not names_in(left) | names_in(right) <= free.keys()
-        ):
-            return False
-        return compare_by_sampling(left, right, free).ratio is not None
-
-
-LONGEST_LINE = 120
-"""Characters of a line that are shown back."""
-_SEVERITY = (
-    "line-wrong",
-    "line-undecided",
-    "line-lost",
-    "line-carried",
-    "line-right",
-    "line-given",
-)
-"""Notes on the relations of one line, the worst first."""
-
-
-def _both_ways(relation: Relation) -> tuple[tuple[Expr, Expr], tuple[Expr, Expr]]:
-    """Return both sides in either order."""
-    return (relation.left, relation.right), (relation.right, relation.left)
-
-
-def _size(tree: Expr) -> int:
-    """Return the number of names, numbers and operators of a formula."""
-    return sum(1 for _ in walk_tree(tidy_formula(tree)))
-
-
-def _unfold(tree: Expr, definitions: Mapping[str, Expr]) -> Expr:
-    """Return a formula with defined names replaced by what they are; a few levels at most."""
-    for _ in range(8):
-        if not names_in(tree) & definitions.keys() or _size(tree) > MOST_UNFOLDED:
-            break
-        tree = substitute(tree, definitions)
-    return tree
-
-
-MOST_UNFOLDED = 200
-"""Names, numbers and operators of a formula that is unfolded no further."""
 
 
 def ask(part: PartContext) -> AskedPart[DerivationSpec]:

@@ -394,4 +394,4 @@ def explain_key(spec: RubricSpec, lang: str) -> str:
     return spec.model.get(lang, "")
 
 
-KIND = AnswerKind(AuthoredRubric, RubricSpec, ask, input_hints, explain_key)
+KIND = AnswerKind(AuthoredRubric, RubricSpec, ask, input_hints, explain_key, input_hints)

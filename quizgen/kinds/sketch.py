@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
@@ -239,6 +239,9 @@ def ask(part: PartContext) -> AskedPart[SketchSpec]:
         If the authored answer is not complete.
     """
     answer = convert(part.answer, AuthoredSketch)
+    curves = [*answer.lines.values(), *answer.given.values()]
+    if "t" in part.shown_values and any(isinstance(one, ParametricCurve) for one in curves):
+        raise part.error("'t' is drawn, and the parameter of a curve as well", "QG125")
     right = _TemplateFormulas({name: to_float(value) for name, value in part.shown_values.items()})
     traps = {
         trap: _format_typed_lines(right.with_changes(changed).lines(answer.lines))
@@ -271,9 +274,16 @@ def ask(part: PartContext) -> AskedPart[SketchSpec]:
         spec,
         InputControl("lines", lines=4, board=board),
         right=tuple(("points", name) for name in features),
+        shares=_list_shares(features.values()),
         drawn=tuple(map(tuple, lines.values())),
         mistakes=misconception_specs(spec, "lines"),
     )
+
+
+def _list_shares(features: Iterable[Mapping[str, Any]]) -> tuple[Fraction, ...]:
+    """Return what share of the points each feature earns."""
+    weights = [Fraction(feature.get("worth", 1)) for feature in features]
+    return tuple(weight / sum(weights) for weight in weights)
 
 
 class _TemplateFormulas:
@@ -291,7 +301,7 @@ class _TemplateFormulas:
 
     def number(self, formula: Scalar) -> float:
         """Return the value of a formula."""
-        return self._compile_formula(formula)(0.0)
+        return self._compile_formula(formula)(self._values.get("t", 0.0))
 
     def point(self, formulas: Formulas) -> FieldPoint:
         """Return the values of two formulas."""
@@ -318,7 +328,7 @@ class _TemplateFormulas:
 
     def _compile_formula(self, formula: Scalar) -> Callable[[float], float]:
         """Return a formula as a function of the curve's parameter ``t``."""
-        compiled = _compile_template_formula(str(formula), (*self._values, "t"))
+        compiled = _compile_template_formula(str(formula), tuple({**self._values, "t": 0}))
         return lambda t: float(compiled({**self._values, "t": t}))
 
 

@@ -27,16 +27,30 @@ from quizgen.grading.reading.lists import (
     strip_brackets,
 )
 from quizgen.grading.reading.normalise import normalise_typed
-from quizgen.grading.reading.numbers import ReadNumber, as_percent, percent_to_fraction
+from quizgen.grading.reading.numbers import (
+    ReadNumber,
+    as_percent,
+    percent_to_fraction,
+    scale_number,
+)
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.units import listed_unit
 from quizgen.grading.rounding import format_exact_or_figures
 from quizgen.grading.spec import WordSpec
-from quizgen.grading.verdict import Verdict, ambiguous, attach_values, correct, wrong
+from quizgen.grading.verdict import (
+    Verdict,
+    ambiguous,
+    attach_values,
+    correct,
+    verdict_by_share,
+    wrong,
+)
 from quizgen.kinds.asking import explain_assigned, make_spec, sentence_with_code
 from quizgen.kinds.contract import (
     AnswerKind,
     AskedPart,
     AuthoredAnswer,
+    FieldProblem,
     InputBox,
     InputControl,
     PartContext,
@@ -49,36 +63,63 @@ from quizgen.maths.numbers import format_exact, format_for_key
 from quizgen.maths.operators import CONDITIONS
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr, Num, substitute
+from quizgen.maths.units import format_unit
 
 if TYPE_CHECKING:
     from quizgen.question.inlines import TextOrInlines
 
 
-class AuthoredWitness(AuthoredAnswer, kw_only=True, tag="witness", frozen=True):
-    """Any values that meet a condition."""
+class Demand(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """A relation that a design has to satisfy, and what it weighs among the others."""
 
-    predicate: str
+    holds: str
+    worth: int = 1
+
+
+class AuthoredWitness(AuthoredAnswer, kw_only=True, tag="witness", frozen=True):
+    """Any values that meet a condition, or as many of several demands as they can."""
+
     symbols: dict[str, SymbolDomain] | tuple[str, ...]
+    predicate: str = ""
+    demands: dict[str, Demand] = msgspec.field(default_factory=dict)
     where: tuple[str, ...] = ()
     let: dict[str, str] = msgspec.field(default_factory=dict)
+    units: dict[str, str] = msgspec.field(default_factory=dict)
+    traps: dict[str, str] = msgspec.field(default_factory=dict)
     example: dict[str, Scalar] = msgspec.field(default_factory=dict)
+
+    def find_problems(self) -> Iterator[FieldProblem]:
+        """Yield what is wrong apart from types."""
+        if bool(self.predicate) == bool(self.demands):
+            yield ("predicate",), "QG112", "predicate or demands, one of them"
+        for name, one in self.demands.items():
+            if one.worth < 1:
+                yield ("demands", name, "worth"), "QG112", "a whole number above 0"
+        for name in self.units:
+            if name not in self.symbols:
+                yield ("units", name), "QG112", "no symbol has this name"
 
 
 class WitnessSpec(WordSpec, kw_only=True, frozen=True):
-    """Witness: ``predicate`` to satisfy; ``symbols`` to give; ``where`` = constraints.
+    """Witness: ``predicate`` or ``demands`` to satisfy; ``symbols`` to give; ``where`` = limits.
 
     ``symbols`` is a list of names, or a table from names to ``real``, ``positive`` or
     ``[low, high]``. Names such as ``a_1 a_2 a_3`` can be typed together: ``a = (1; 0; 0)``.
-    ``let`` = names with formulas over the symbols, to be used in ``predicate`` and ``where``.
+    ``let`` = names with formulas over the symbols, to be used in all of these.
+    ``demands`` = relations by name, each earning its share. ``units`` = the unit of a symbol, in
+    which it is taken where none is typed. A trap is a condition that a mistaken answer fulfils.
     ``example`` is one right answer to show; typed answers are never compared with it.
     """
 
     written_as: ClassVar[AnswerForm] = "formula"
 
-    predicate: str
+    predicate: str = ""
     symbols: dict[str, Domain] | list[str]
+    demands: dict[str, Demand] = msgspec.field(default_factory=dict)
     where: list[str] = msgspec.field(default_factory=list)
     let: dict[str, str] = msgspec.field(default_factory=dict)
+    units: dict[str, str] = msgspec.field(default_factory=dict)
+    traps: dict[str, str] = msgspec.field(default_factory=dict)
     example: dict[str, Scalar] = msgspec.field(default_factory=dict)
 
     def names(self) -> tuple[str, ...]:
@@ -101,7 +142,13 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
         """
         for text in self.let.values():
             parse_authored(text, self.usable_names())
-        for text in (self.predicate, *self.where):
+        if bool(self.predicate) == bool(self.demands):
+            raise ValueError("predicate or demands, one of them")
+        for unit in self.units.values():
+            listed_unit(unit)
+        demanded = [one.holds for one in self.demands.values()]
+        wanted = demanded or [self.predicate]
+        for text in (*wanted, *self.where, *self.traps.values()):
             tree = parse_authored(text, self.usable_names())
             if not isinstance(tree, Call) or tree.op not in CONDITIONS:
                 raise FormulaError(f"{text!r} is not a relation")
@@ -133,9 +180,15 @@ class WitnessSpec(WordSpec, kw_only=True, frozen=True):
     def show(self) -> str:
         """Return one right example if there is one, else what an example must satisfy."""
         if self.example:
-            given = {n: pretty.format_number(str(self.example[n])) for n in self.names()}
-            return "; ".join(f"{pretty.format_name(n)} = {value}" for n, value in given.items())
-        return "; ".join(map(pretty.format_formula, (self.predicate, *self.where)))
+            return "; ".join(f"{pretty.format_name(n)} = {v}" for n, v in self.iter_example())
+        demanded = [one.holds for one in self.demands.values()] or [self.predicate]
+        return "; ".join(map(pretty.format_formula, (*demanded, *self.where)))
+
+    def iter_example(self) -> Iterator[tuple[str, str]]:
+        """Yield the values of the example by name, with their units."""
+        for name in self.names():
+            number = pretty.format_number(str(self.example[name]))
+            yield name, f"{number} {format_unit(self.units.get(name, ''))}".strip()
 
 
 @lru_cache(maxsize=1024)
@@ -163,12 +216,36 @@ def _judge_conditions(spec: WitnessSpec, env: dict[str, Any], read_as: str) -> V
     for text in spec.where:
         if _is_relation_true(spec, text, env) is not True:
             return wrong(read_as, "constraint", claim=_format_failed_relation(spec, text, env))
+    if spec.demands:
+        return _judge_demands(spec, env, read_as)
     held = _is_relation_true(spec, spec.predicate, env)
     if held is True:
         return correct(read_as)
     if held is None:
         return ambiguous("undecided", read_as)
     return wrong(read_as, "predicate", claim=_format_failed_relation(spec, spec.predicate, env))
+
+
+def _judge_demands(spec: WitnessSpec, env: dict[str, Any], read_as: str) -> Verdict:
+    """Return the verdict by the demands that are met; what is missed is named with its values."""
+    held = {name: _is_relation_true(spec, one.holds, env) for name, one in spec.demands.items()}
+    if None in held.values():
+        return ambiguous("undecided", read_as)
+    missed = tuple(name for name, met in held.items() if not met)
+    worth = {name: one.worth for name, one in spec.demands.items()}
+    credit = Fraction(sum(worth[name] for name, met in held.items() if met), sum(worth.values()))
+    trap = next((name for name, text in spec.traps.items()
+                 if missed and _is_relation_true(spec, text, env)), "")  # fmt: skip
+    failed = (_format_failed_relation(spec, spec.demands[name].holds, env) for name in missed)
+    return verdict_by_share(
+        credit,
+        read_as,
+        f"trap:{trap}" if trap else "demands",
+        right=len(held) - len(missed),
+        of=len(held),
+        claim=", ".join(filter(None, failed)),
+        because=missed,
+    )
 
 
 def _is_relation_true(spec: WitnessSpec, text: str, env: dict[str, Any]) -> bool | None:
@@ -222,6 +299,8 @@ def _format_side_value(side: Expr, env: dict[str, Any]) -> str | None:
 
 
 _FRONT = re.compile(rf"({NAME}) ?(?=[(\[])")
+_FRACTION = re.compile(r"\d+/\d+")
+_ENGRAVED = re.compile(r"[fF] ?/ ?(?=[\d.])")
 _SEPARATOR = re.compile(rf"[;|\n]|,(?= )|(?<=\)),?|{NAMED_NEXT.pattern}")
 
 
@@ -242,7 +321,7 @@ def _read_example(spec: WitnessSpec, typed: str, decimal: str) -> dict[str, Read
     for label, item in items:
         targets = _assign_names(label, item, [n for n in names if n not in placed], names)
         for name, piece in targets:
-            placed[name] = _read_piece(piece, decimal)
+            placed[name] = _read_piece(piece, decimal, spec.units.get(name, ""))
     if len(placed) < len(names):
         missing = [name for name in names if name not in placed]
         raise FormulaReadError("values-missing", 1, "", missing)
@@ -258,20 +337,35 @@ def _split_unlabelled_row(item: SourceText, count: int) -> list[SourceText]:
     return [item]
 
 
-def _read_piece(piece: SourceText, decimal: str) -> ReadNumber:
-    """Return one number; a percentage becomes the share that it is.
+def _read_piece(piece: SourceText, decimal: str, wanted: str) -> ReadNumber:
+    """Return one number in the unit that is wanted; a percentage becomes the share that it is.
 
     Raises
     ------
     FormulaReadError
-        If it cannot be read, or has two readings.
+        If it cannot be read, has two readings, or a unit of another kind.
     """
-    side = most_precise_side(read_sides(piece, decimal))
+    side = most_precise_side(read_sides(_without_f(piece), decimal))
     readings, unit = side.readings, side.quantity.unit
     if readings.other is not None and readings.doubt is not None and not readings.doubt.native:
         raise FormulaReadError("two-readings", piece.column(0), piece.text)
+    if wanted:
+        asked = listed_unit(wanted)
+        given = unit or asked
+        if given.dimension != asked.dimension:
+            raise FormulaReadError("unit-other", piece.column(0), given.text, [asked.text])
+        number = scale_number(readings.main, given.factor / asked.factor)
+        return msgspec.structs.replace(
+            number, read_as=f"{number.read_as} {format_unit(given.text)}"
+        )
     percent = readings.main.percent or (unit is not None and unit.text == "%")
     return percent_to_fraction(as_percent(readings.main)) if percent else readings.main
+
+
+def _without_f(piece: SourceText) -> SourceText:
+    """Return the number of an aperture that is written as it is engraved, ``f/8``."""
+    match = _ENGRAVED.match(piece.text)
+    return piece.slice(match.end()) if match else piece
 
 
 def _iter_labelled_items(
@@ -367,11 +461,21 @@ def _split_components(inner: SourceText) -> list[SourceText]:
 
 
 def ask(part: PartContext) -> AskedPart[WitnessSpec]:
-    """Return conditions and an example with the drawn values in place."""
+    """Return conditions and an example with the drawn values in place.
+
+    Raises
+    ------
+    BankError
+        If a drawn quantity is called as a name of the answer.
+    """
     answer = part.answer
     known = {n: Num(Fraction(format_for_key(v)), decimal=v.q != 1) for n, v in part.shown.items()}
     let, example = answer.get("let", {}), answer.get("example", {})
+    demands, traps = answer.get("demands", {}), answer.get("traps", {})
     symbols = (*answer["symbols"], *let, *known)
+    for name in (*answer["symbols"], *let):
+        if name in known:
+            raise part.error(f"{name!r} is drawn, and a name of the answer as well", "QG125")
 
     def format_condition(text: object) -> str:
         """Return a condition as text with the drawn values in place of their names."""
@@ -382,22 +486,32 @@ def ask(part: PartContext) -> AskedPart[WitnessSpec]:
         part,
         example={name: _format_short_number(part, formula) for name, formula in example.items()},
         let={name: format_condition(text) for name, text in let.items()},
-        predicate=format_condition(answer["predicate"]),
+        predicate=format_condition(answer["predicate"]) if "predicate" in answer else "",
+        demands={
+            name: {**one, "holds": format_condition(one["holds"])} for name, one in demands.items()
+        },
+        traps={name: format_condition(text) for name, text in traps.items()},
+        notes=part.misconception_notes(traps) if traps else {},
+        why=part.reasons([(name, name) for name in demands]) if demands else {},
         where=[format_condition(text) for text in answer.get("where", ())],
     )
-    boxes = tuple(map(InputBox, spec.symbols))
+    boxes = tuple(InputBox(name, spec.units.get(name, "")) for name in spec.symbols)
     return AskedPart(spec, InputControl("lines", lines=2, boxes=boxes, named=True))
 
 
 def _format_short_number(part: PartContext, formula: str | int) -> str:
-    """Return a decimal where it is short, else the exact fraction."""
+    """Return a decimal where it is short, else the exact fraction; one that is written stays."""
+    if _FRACTION.fullmatch(str(formula)):
+        return str(formula)
     value = part.evaluate(str(formula))
     return format_exact(value, minus="-") or format_for_key(value)
 
 
 def input_hints(spec: WitnessSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return the sentence on which names to give, as they are typed."""
-    names = "; ".join(f"{name} = ..." for name in spec.symbols)
+    names = "; ".join(
+        f"{name} = ... {format_unit(spec.units.get(name, ''))}".strip() for name in spec.symbols
+    )
     return (sentence_with_code(lang, "ask.witness", names=names),)
 
 
@@ -405,9 +519,7 @@ def explain_key(spec: WitnessSpec, lang: str) -> TextOrInlines:
     """Return one right example, else what an example must satisfy."""
     if not spec.example:
         return show_spec(spec, lang)
-    return explain_assigned(
-        (name, pretty.format_number(str(spec.example[name]))) for name in spec.names()
-    )
+    return explain_assigned(spec.iter_example())
 
 
 KIND = AnswerKind(AuthoredWitness, WitnessSpec, ask, input_hints, explain_key)

@@ -168,12 +168,13 @@ def _check_authored_reasons(template: Template, index: int) -> Said:
     if answer["kind"] == "tf" and not {"from", "claim"} & answer.keys():
         yield "error", "QG305", "a statement without a name has no reason: make it a claim"
     named = answer.get("traps") or asked_form(answer)
-    if answer["kind"] in {"order", "expression"} and not named:
+    if answer["kind"] in {"order", "expression", "program"} and not named:
         yield "error", "QG306", "no trap names a wrong answer"
 
 
 EXPLAINED = {"choice": ("options",), "multi": ("options",), "match": ("pairs",),
-             "order": ("steps", "distractors")}  # fmt: skip
+             "order": ("steps", "distractors"), "witness": ("demands",),
+             "program": ("cases",)}  # fmt: skip
 """Kind to the keys of its answer whose names need a reason."""
 
 
@@ -284,8 +285,10 @@ ENTRY = {"choice": 0.15, "multi": 0.4, "match": 0.3, "order": 0.5, "gap": 0.4, "
 LISTED = {"choice": "options", "multi": "options", "match": "pairs", "order": "steps",
           "gap": "gaps", "rubric": "criteria", "sketch": "features",
           "derivation": "lines"}  # fmt: skip
-WHOLE = {"tf": 0.5, "code": 1.5, "witness": 3.0, "expression": 2.0}
+WHOLE = {"tf": 0.5, "code": 1.5, "witness": 3.0, "expression": 2.0, "program": 2.0}
 """Minutes for a part that has no entries."""
+DEMAND = 0.75
+"""Minutes more for each demand that an example has to meet, and each line of a program."""
 FAR = 2.0
 """Factor by which points or minutes are far from the estimate."""
 
@@ -307,7 +310,8 @@ def _estimate_part_minutes(template: Template, index: int, done: set[str]) -> fl
     answer: dict[str, Any] = template.rules.part[index].answer
     kind = answer["kind"]
     if kind in WHOLE:
-        return WHOLE[kind]
+        lines = answer.get("solution", "").strip().count("\n")
+        return WHOLE[kind] + DEMAND * (len(answer.get("demands", ())) + lines)
     if kind in ENTRY and not choice.has_value_options(answer):
         return PART + ENTRY[kind] * answer.get("take", len(answer.get(LISTED[kind], ())))
     steps = [step for step in sampler_for(template).parts[index].steps if step.name not in done]

@@ -79,7 +79,7 @@ LEVELLED = 1
 ComposedLanguages = dict[str, tuple[Question, QuestionKey]]
 """An instance in each of its languages."""
 _DRAW = ("draw",)
-VERBATIM = frozenset({"code", "sketch"})
+VERBATIM = frozenset({"code", "program", "sketch"})
 """Kinds whose key is printed as a program writes it."""
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from typing import NamedTuple
@@ -61,18 +61,40 @@ class PaperItem(msgspec.Struct, frozen=True):
 
 
 class PaperHolder(msgspec.Struct, frozen=True):
-    """Whose paper it is; stands on every page.
+    """Whose paper it is; stands on the cover, and at the foot of every page.
 
     Parameters
     ----------
     id, name : str
-    extra : int
-        Minutes added to the working time.
+    hidden : bool
+        Whether the feet of pages leave it out, so that who marks them does not read it.
     """
 
     id: str
     name: str = ""
-    extra: int = 0
+    hidden: bool = False
+
+
+class PaperCover(msgspec.Struct, frozen=True):
+    """What the cover of an exam says of its circumstances.
+
+    Parameters
+    ----------
+    facts : mapping of str to mapping of str to str
+        Word of the section ``paper`` of the interface to its value in each language.
+    rules : mapping of str to tuple of str
+        What holds in the room, in each language.
+    signature : bool
+        Whether there is a line to sign on.
+    """
+
+    facts: Mapping[str, Mapping[str, str]] = {}
+    rules: Mapping[str, tuple[str, ...]] = {}
+    signature: bool = False
+
+    def pick_fact(self, name: str, lang: str) -> str:
+        """Return a fact in a language, else in English, else in another one."""
+        return pick_language(self.facts[name], lang, "")
 
 
 class Paper(msgspec.Struct, frozen=True):
@@ -90,6 +112,8 @@ class Paper(msgspec.Struct, frozen=True):
     """Whose paper it is, if it is one person's."""
     banks: tuple[BankRecord, ...] = ()
     """What it was made from."""
+    cover: PaperCover | None = None
+    """What its cover says of the circumstances, if anything."""
 
     def __repr__(self) -> str:
         """Return code, number of questions and points."""

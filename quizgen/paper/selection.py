@@ -5,11 +5,13 @@ from __future__ import annotations
 import hashlib
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import cache, partial
 from itertools import chain, repeat
+
+from msgspec.structs import replace
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.candidate import Candidate
@@ -28,8 +30,18 @@ TRIES = 20
 """Choices of templates until none is used more often than it has numbers."""
 
 
-def select_templates(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[str]:
+def select_templates(
+    bank: Bank, blueprint: Blueprint, seed: int | str, without: Collection[str] = ()
+) -> list[str]:
     """Return the names of the templates of a paper, in order.
+
+    Parameters
+    ----------
+    bank : Bank
+    blueprint : Blueprint
+    seed : int or str
+    without : collection of str
+        Templates that must not stand in it, by name or origin.
 
     Raises
     ------
@@ -37,14 +49,19 @@ def select_templates(bank: Bank, blueprint: Blueprint, seed: int | str) -> list[
         If no template fits a slot, or the time.
     """
     if blueprint.topic:
-        return _fill_minutes(bank.candidates(), blueprint, seed)
-    slots = _list_slot_candidates(bank, blueprint)
+        return _fill_minutes(_leave_out(bank.candidates(), without), blueprint, seed)
+    slots = _list_slot_candidates(bank, blueprint, without)
     if blueprint.has_constraints:
         return _fill_under_constraints(slots, blueprint, seed)
     tries = (_fill_slots(slots, blueprint, f"{seed}/{n}" if n else str(seed)) for n in range(TRIES))
     first = next(tries)
     found = next((one for one in chain((first,), tries) if not _is_overused(one)), first)
     return [one.name for one in found]
+
+
+def _leave_out(candidates: Iterable[Candidate], without: Collection[str]) -> list[Candidate]:
+    """Return the candidates that are not among those named, by name or origin."""
+    return [one for one in candidates if one.name not in without and one.origin not in without]
 
 
 def _fill_under_constraints(
@@ -179,13 +196,15 @@ def _fill_minutes(
     return [one.name for one in sorted(chosen, key=lambda one: one.tier)]
 
 
-def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> list[tuple[str, ...]]:
+def alternatives(
+    bank: Bank, blueprint: Blueprint, chosen: Sequence[str], without: Collection[str] = ()
+) -> list[tuple[str, ...]]:
     """Return, for each question, the templates that may stand there instead, itself first.
 
     They have its tier, topic, points and minutes, and a figure if it has one; none may stand in two
     places, and none tells what another one asks. So papers that take any one of each are alike.
     """
-    slots = _list_slot_candidates(bank, blueprint)
+    slots = _list_slot_candidates(bank, blueprint, without)
     places = [fitting for slot, fitting in zip(blueprint.slot, slots, strict=True)
               for _ in range(slot.count)]  # fmt: skip
     taken = bank.candidates(chosen)
@@ -193,7 +212,7 @@ def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> lis
     for place, (one, worth) in enumerate(zip([*taken], slot_points(blueprint), strict=False)):
         like = _get_comparable_features(one.scale_to(worth))
         family = [one]
-        fitting = places[place] if place < len(places) else bank.candidates()
+        fitting = places[place] if place < len(places) else _leave_out(bank.candidates(), without)
         for other in sorted(fitting, key=lambda one: one.origin):
             alike = other not in taken and _get_comparable_features(other.scale_to(worth)) == like
             if alike and not any(other.excludes(said) for said in taken if said not in family):
@@ -201,6 +220,70 @@ def alternatives(bank: Bank, blueprint: Blueprint, chosen: Sequence[str]) -> lis
                 taken.append(other)
         found.append(tuple(member.name for member in family))
     return found
+
+
+def select_instead(
+    bank: Bank,
+    blueprint: Blueprint,
+    chosen: Sequence[str],
+    place: int,
+    seed: int | str,
+    without: Collection[str] = (),
+) -> list[str]:
+    """Return the templates of a paper with another one at one place.
+
+    It fits the slot and is worth as many points; what the blueprint asks of the paper as a whole
+    still holds.
+
+    Parameters
+    ----------
+    bank : Bank
+    blueprint : Blueprint
+    chosen : sequence of str
+        As it is.
+    place : int
+        Of the question that is to be another one, from 0.
+    seed : int or str
+    without : collection of str
+        Templates that must not stand there, by name or origin.
+
+    Raises
+    ------
+    BlueprintError
+        If nothing else can stand there.
+    """
+    out = {*without, *chosen}
+    if blueprint.topic:
+        families = alternatives(bank, blueprint, chosen, out)
+        fitting = families[place][1:]
+        slots = tuple(SlotRule() for _ in chosen)
+    else:
+        slots = tuple(slot for slot in blueprint.slot for _ in range(slot.count))
+        (own,) = bank.candidates([chosen[place]])
+        worth = own.scale_to(slots[place].points).points
+        fitting = tuple(
+            one.name
+            for one in _list_fitting(bank, blueprint, slots[place], out)
+            if one.scale_to(slots[place].points).points == worth
+        )
+    if not fitting:
+        raise BlueprintError(f"nothing else has the slot and the points of {chosen[place]}")
+    names: list[tuple[str, ...]] = [(name,) for name in chosen]
+    names[place] = tuple(fitting)
+    pinned = tuple(replace(slot, templates=names[at], count=1) for at, slot in enumerate(slots))
+    return select_templates(bank, replace(blueprint, topic="", slot=pinned), seed)
+
+
+def _list_fitting(
+    bank: Bank, blueprint: Blueprint, slot: SlotRule, without: Collection[str]
+) -> list[Candidate]:
+    """Return the templates that may fill a slot of a blueprint, but for those left out."""
+    coloured = frozenset() if blueprint.colour else find_coloured_templates(bank)
+    return [
+        one
+        for one in _leave_out(bank.candidates(slot.templates or None), without)
+        if _is_fit_for_slot(one, slot) and one.name not in coloured
+    ]
 
 
 def _get_comparable_features(one: Candidate) -> tuple[object, ...]:
@@ -233,15 +316,16 @@ def count_papers(bank: Bank, blueprint: Blueprint) -> int:
     return total
 
 
-def _list_slot_candidates(bank: Bank, blueprint: Blueprint) -> list[list[Candidate]]:
-    """Return the templates that may fill each slot of a blueprint.
+def _list_slot_candidates(
+    bank: Bank, blueprint: Blueprint, without: Collection[str] = ()
+) -> list[list[Candidate]]:
+    """Return the templates that may fill each slot of a blueprint, but for those left out.
 
     Raises
     ------
     BlueprintError
         If a slot names a template that there is not, or nothing fits it.
     """
-    coloured = frozenset() if blueprint.colour else find_coloured_templates(bank)
     slots = []
     for index, slot in enumerate(blueprint.slot, 1):
         for name in slot.templates:
@@ -249,14 +333,11 @@ def _list_slot_candidates(bank: Bank, blueprint: Blueprint) -> list[list[Candida
                 bank.folder_of(name)
             except BankError as error:
                 raise BlueprintError(f"slot {index}: {error}", file=blueprint.file) from error
-        fitting = [
-            one
-            for one in bank.candidates(slot.templates or None)
-            if _is_fit_for_slot(one, slot) and one.name not in coloured
-        ]
+        fitting = _list_fitting(bank, blueprint, slot, without)
         if not fitting:
             wish = f"tier {slot.tier or 'any'} and topic {slot.topic or 'any'}"
             wish += "" if blueprint.colour else ", and is read without colour"
+            wish += ", and is not to be left out" if without else ""
             raise BlueprintError(f"slot {index}: no template has {wish}", file=blueprint.file)
         slots.append(fitting)
     return slots

@@ -113,8 +113,10 @@ def _render_maths(part: TypesetMaths, lang: str, way: HtmlDialect) -> str:
 
 @_render_piece.register
 def _render_code(part: markdown.InlineCode, _lang: str, _way: HtmlDialect) -> str:
-    """Return program text in a sentence."""
-    return f"<code>{_escape_html(part.text)}</code>"
+    """Return program text in a sentence; a whole program keeps its lines."""
+    first, *more = (_escape_html(line) for line in part.text.split("\n"))
+    lines = (line.replace("  ", "\u00a0 ") for line in (first, *more))
+    return f"<code><br>{'<br>'.join(lines)}</code>" if more else f"<code>{first}</code>"
 
 
 @_render_piece.register
@@ -227,3 +229,12 @@ def display_to_html(maths: TypesetMaths, lang: str, way: HtmlDialect = OURS) -> 
     attributes = ' class="line" tabindex="0"' if way.ours else ""
     made = f"<div{attributes}>{way.display(maths.node, lang)}</div>"
     return Markup(made)
+
+
+def chain_to_html(maths: TypesetMaths, lang: str, way: HtmlDialect = OURS) -> Markup:
+    """Return a worked line on its own, broken before its signs where the page is narrow."""
+    pieces = typeset.split_chain(maths.node)
+    if not way.ours or len(pieces) == 1:
+        return display_to_html(maths, lang, way)
+    made = "".join(way.display(piece, lang) for piece in pieces)
+    return Markup('<div class="line worked" tabindex="0">{}</div>').format(Markup(made))

@@ -5,7 +5,7 @@ The steps come from the solver's chain; the language files add one sentence of w
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby
 from typing import Any, NamedTuple
@@ -15,16 +15,18 @@ import msgspec
 from quizgen.bank.markdown import Block, Inline, PlainText, TableBlock
 from quizgen.bank.variant import Variant
 from quizgen.figures import FieldPicture
-from quizgen.grading.spec import AnySpec, ScalarSpec, VectorSpec
+from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, VectorSpec
 from quizgen.kinds import KINDS
 from quizgen.kinds.asking import as_student_writes
-from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow
+from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow, asked_quantities
 from quizgen.kinds.grade import show_key
-from quizgen.locale import format_amount, format_marks, translate
+from quizgen.locale import format_amount, translate
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.constants import Scalar
 from quizgen.maths.notation import format_tree
 from quizgen.maths.number_systems import NumberSystem, compile_expr, float32_system, float64_system
 from quizgen.maths.numbers import format_rounded, parse_written_number, to_fraction
+from quizgen.maths.tree import names_in
 from quizgen.maths.units import get_unit
 from quizgen.maths.values import map_numbers
 from quizgen.question.inlines import TextOrInlines, TypesetMaths, to_inlines
@@ -61,7 +63,8 @@ class SolutionHint(msgspec.Struct, frozen=True):
 class SolutionStep(msgspec.Struct, frozen=True):
     """One step: the worked formula, why it is taken, and its number on the formula sheet.
 
-    ``name``, ``thing`` and ``sides`` are its quantity, in words, and what it is equal to.
+    ``name``, ``thing`` and ``sides`` are its quantity, in words, and what it is equal to;
+    ``points`` what an author says that it earns.
     """
 
     maths: TypesetMaths
@@ -70,6 +73,7 @@ class SolutionStep(msgspec.Struct, frozen=True):
     name: str = ""
     thing: tuple[Inline, ...] = ()
     sides: tuple[WorkedSide, ...] = ()
+    points: Fraction | None = None
 
     @property
     def hints(self) -> tuple[SolutionHint, ...]:
@@ -90,11 +94,13 @@ class SolvedMisconception(msgspec.Struct, frozen=True):
     """A misconception: its name, what went wrong, and the answer it would give.
 
     Of one that is drawn no answer is shown: its points would tell nobody what it looks like.
+    ``share`` of the points is what it earns all the same.
     """
 
     name: str
     sentence: tuple[Inline, ...]
     shown: tuple[Inline, ...]
+    share: Fraction = Fraction(0)
 
     @property
     def value(self) -> str:
@@ -125,6 +131,9 @@ class PartSolution(msgspec.Struct, frozen=True):
     ``options`` tells the right answer in words, ``reasons`` why each other choice is wrong,
     ``why`` what else explains the answer, ``drawing`` the answer if it is drawn, ``scheme`` what a
     person marks sentences by.
+
+    For markers: ``shares`` of the points that each of the options earns, what is ``accepted``
+    besides the answer, ``follows``: labels of parts whose values it works on with.
     """
 
     label: str
@@ -135,6 +144,9 @@ class PartSolution(msgspec.Struct, frozen=True):
     reasons: tuple[SolvedMisconception, ...] = ()
     why: tuple[Inline, ...] = ()
     drawing: FieldPicture | None = None
+    shares: tuple[Fraction, ...] = ()
+    accepted: str = ""
+    follows: tuple[str, ...] = ()
     scheme: tuple[SchemeLine, ...] = ()
     most: Fraction | None = None
     """Points that count at most, where the criteria have more."""
@@ -188,7 +200,7 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
         label=label,
         lines=(
             *(
-                solution_step(filler, step)
+                _give_points(solution_step(filler, step), drawn.template.rules.part[index].scheme)
                 for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps)
             ),
             *(_build_derived_step(filler, step) for step in built.derived),
@@ -203,8 +215,28 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
         reasons=tuple(_iter_wrong_options(filler, built)),
         why=filler.sentence("why", label or "a") if explained else (),
         drawing=FieldPicture(board, filler.lang, built.drawn) if board else None,
+        shares=built.shares,
+        accepted=KINDS[spec.kind].accepted(spec, filler.lang),
+        follows=_list_followed(drawn, index),
         scheme=tuple(_build_scheme_line(filler, row) for row in built.scheme),
         most=_find_most_points(drawn, index, built),
+    )
+
+
+def _give_points(step: SolutionStep, scheme: Mapping[str, Scalar]) -> SolutionStep:
+    """Return a step with the points that an author gives it; where others have some, it has 0."""
+    if not scheme:
+        return step
+    return msgspec.structs.replace(step, points=parse_written_number(scheme.get(step.name, 0)))
+
+
+def _list_followed(drawn: Variant, index: int) -> tuple[str, ...]:
+    """Return the labels of earlier parts whose answers the steps of a part use."""
+    used = frozenset[str]().union(*(names_in(step.expr) for step in drawn.steps_of_part(index)))
+    return tuple(
+        drawn.template.labels[place]
+        for place in range(index)
+        if used & set(asked_quantities(drawn.template.rules.part[place].answer))
     )
 
 
@@ -275,8 +307,7 @@ def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
 def _build_derived_step(filler: Interpolator, step: DerivedStep) -> SolutionStep:
     """Return a line of a derivation as the solution shows it, with its points."""
     maths = TypesetMaths(lay_out(step.tree), format_tree(step.tree), filler.lang)
-    worth = f" [{format_marks(step.points, filler.lang)}]" if step.points else ""
-    return SolutionStep(maths, (*filler.sentence("steps", step.name), PlainText(worth)))
+    return SolutionStep(maths, filler.sentence("steps", step.name), points=step.points)
 
 
 def solved_misconceptions(
@@ -285,8 +316,11 @@ def solved_misconceptions(
     """Yield the misconceptions of a part with the answers that they give."""
     for trap, wrong in built.mistakes.items():
         spec = as_student_writes(wrong, built.spec.traps[trap])
-        shown = () if built.drawn else to_inlines(_show_wrong_answer(spec, filler.lang))
-        yield SolvedMisconception(trap, filler.sentence("traps", trap), shown)
+        named = built.drawn or built.is_long
+        shown = () if named else to_inlines(_show_wrong_answer(spec, filler.lang))
+        worth = built.spec.worth if isinstance(built.spec, NumericSpec) else {}
+        share = parse_written_number(worth.get(trap, 0))
+        yield SolvedMisconception(trap, filler.sentence("traps", trap), shown, share)
 
 
 def _show_wrong_answer(wrong: AnySpec, lang: str) -> TextOrInlines:

@@ -108,7 +108,7 @@ FIGURES: dict[MovingName, MovingFigure] = {
             "N": Quantity(8, 0.5, 1000, letters=("N_2", "N"), stops=NUMBERS, shown="f/{}"),
             "N_1": Quantity(2.8, 0.5, 1000),
             "f": Quantity(50, 1, 1000, "mm"),
-            "r": Quantity(250, 0.01, 10000),
+            "r": Quantity(125, 0.01, 10000),
             "keep": Quantity(1, 0, 1, is_switch=True),
         }
     ),
@@ -221,7 +221,10 @@ def view_formula_figure(formula: str, moves: MovingName, lang: str) -> MovingVie
 
 
 def _read_quantities(variant: Variant) -> Given:
-    """Return the quantities of a question as they are shown; of a colour its hue, too."""
+    """Return the quantities of a question as they are shown, and those that follow from them.
+
+    A colour has a hue, and a number of stops leads from f/4 to another number of the ring.
+    """
     found: dict[tuple[str, str], float] = {}
     for name, value in variant.shown_values.items():
         with suppress(OverflowError):  # larger than any float, and than any figure
@@ -230,6 +233,10 @@ def _read_quantities(variant: Variant) -> Given:
     if all(0 <= channel <= 1 for channel in rgb):
         hue, saturation, value = colorsys.rgb_to_hsv(*rgb)
         found |= {("H", "deg"): 360 * hue, ("S", ""): saturation, ("V", ""): value}
+    stops, begin = found.get(("stops", ""), 0.0), NUMBERS.index(4)
+    if stops in range(1, begin + 1):
+        way = -1 if found.get(("opening", "")) else 1
+        found = {("N_1", ""): 4.0, ("N_2", ""): NUMBERS[begin + way * int(stops)], **found}
     return found
 
 
@@ -269,6 +276,4 @@ def _view_slider(name: str, one: Quantity, at: float, words: str, lang: str) -> 
     stops = sorted({*one.stops, at}) if one.stops else []
     if stops:
         ends = (0, len(stops) - 1, 1, stops.index(at))
-    return SliderView(
-        name, words, letter, *ends, one.shown, " ".join(f"{stop:.12g}" for stop in stops)
-    )
+    return SliderView(name, words, letter, *ends, one.shown, " ".join(map(str, stops)))

@@ -35,7 +35,7 @@ from quizgen.question.compose import (
 )
 from quizgen.question.figure import draw_marked_figure
 from quizgen.question.formula_sheet import cite_formula
-from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
+from quizgen.question.html import blocks_to_html, chain_to_html, inlines_to_html
 from quizgen.question.inlines import name_inline
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import effective_level
@@ -363,7 +363,7 @@ def _render_part(
         _render_field(part.field, names, lang),
         [
             StepView(
-                str(display_to_html(line.maths, lang)),
+                str(chain_to_html(line.maths, lang)),
                 _render_inline(line.why, lang),
                 line.formula,
                 [_render_hint(rung, bank, lang) for rung in line.hints] if bank else [],

@@ -72,6 +72,15 @@ def test_case_and_signs_matter_in_what_is_no_sentence():
     assert len(groups(numbers=["5 or 6 MW", "5 or 6 mW", "5 or 6  mW"])) == 2
 
 
+@together(("said", "apart"), [
+    ("see paper", True), ("s. Rückseite", True), ("Siehe Blatt 2", True), ("see the drawing", True), ("on the back", True),
+    ("see that there is light", False), ("seemingly noise", False), ("noise", False),
+])  # fmt: skip
+def test_what_only_points_at_paper_is_decided_for_each_student(said, apart):
+    found = groups([said, said])
+    assert (len(found), len(found[0])) == ((2, 1) if apart else (1, 1))
+
+
 def test_criteria_are_a_suggestion_and_are_shown_where_they_stand():
     [[case]] = groups(["More Light!"])
     assert (case.seen, case.suggestion) == ("light: found; noise: missing", 1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import xlsxwriter
 
 from quizgen.classes.roster import RosterStudent, read_roster, seat_neighbours, write_roster
 from quizgen.core.errors import ClassError
@@ -19,6 +20,38 @@ def test_columns_may_be_called_anything(tmp_path):
     assert roster(tmp_path, text, id="matrikel", name="Nachname", group="Raum") == [
         RosterStudent("104", "Müller, Ö.", group="A")
     ]
+
+
+def test_a_roster_of_a_german_office_is_read_as_it_comes(tmp_path):
+    """Windows-1252, semicolons, the name in two columns."""
+    path, told = tmp_path / "roster.csv", []
+    text = "Matrikelnummer;Nachname;Vorname;Raum;Sitzplatz;Bonuspunkte;PStatus\r\n0104;Müller;Zoë;HS1;12;2,5;AN\r\n"
+    path.write_bytes(text.encode("cp1252"))
+    assert read_roster(path, tell=told.append) == [
+        RosterStudent("0104", "Zoë Müller", group="HS1", seat="12", bonus="2,5")
+    ]
+    assert told == ["PStatus"]
+
+
+def test_names_in_two_columns_are_one(tmp_path):
+    assert (
+        roster(tmp_path, "id;Zuname;Rufname\n1;Weiß;Ben\n", name="Rufname+Zuname")[0].name
+        == "Ben Weiß"
+    )
+    assert roster(tmp_path, "id;Name;Vorname\n1;Weiß;Ben\n")[0].name == "Ben Weiß"
+    assert roster(tmp_path, "id;name;last name\n1;Ben W.;Weiß\n")[0].name == "Ben W."
+    assert roster(tmp_path, "id;Nachname\n1;Weiß\n")[0].name == "Weiß"
+    with pytest.raises(ClassError, match="no column 'zuname' \\(it has id"):
+        roster(tmp_path, "id;Vorname\n1;Ben\n", name="Vorname+Zuname")
+
+
+def test_a_workbook_is_a_roster(tmp_path):
+    path = tmp_path / "roster.xlsx"
+    with xlsxwriter.Workbook(path) as book:
+        sheet = book.add_worksheet()
+        for at, row in enumerate([("Matrikel", "Name"), (2301259, "Ada"), ("007", "Bond")]):
+            sheet.write_row(at, 0, row)
+    assert read_roster(path) == [RosterStudent("2301259", "Ada"), RosterStudent("007", "Bond")]
 
 
 def test_columns_in_full_words_are_known_and_what_is_not_read_is_told(tmp_path):
@@ -38,11 +71,13 @@ def test_who_names_a_column_means_no_other(tmp_path):
     [
         ("", "is empty"),
         ("id,name\n", "has no students"),
-        ("Matrikel\n1\n", "it has Matrikel"),
+        ("Nummer\n1\n", "it has Nummer"),
         ("id\nab\nc\nAB\n", "lines 2 and 4"),
         ("id,name\n,Ada\n", "line 2: has no id"),
         ("id,lang\n1,French\n", "line 2: lang 'French' (allowed: en, bn, de, both, or"),
         ("id,extra\n1,half\n", "line 2: extra 'half'"),
+        ("id,bonus\n1,many\n", "line 2: bonus 'many'"),
+        ("id,bonus\n1,-2\n", "line 2: bonus '-2'"),
         ('id,name\n1,"' + "x" * 201 + '"\n', "line 2: name is longer"),
     ],
 )

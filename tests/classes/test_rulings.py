@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import csv
+import itertools
 from fractions import Fraction
 
 import pytest
 from sweep import together
 
+from quizgen.classes.grade_scale import GradeScale
 from quizgen.classes.grading import Submission, grade_submission
 from quizgen.classes.rulings import Ruling, RulingBook, append_rulings, read_rulings
 from quizgen.core.errors import ClassError
@@ -51,8 +53,17 @@ RULED = [
     ([Ruling("decide", B, answer="light", value="1"), Ruling("decide", B, answer="light")], {"1b": "light"}, {B: None}),
     ([Ruling("second", B, answer="light", value="1")], {"1b": "light"}, {B: None}),
     ([Ruling("give", D)], {}, {D: 3.0}),
-    ([Ruling("drop", D)], {"2": "0.5 m"}, {D: 0.0}),
+    ([Ruling("drop", D)], {"2": "0.5 m"}, {D: 3.0}),
+    ([Ruling("drop", D, value="always")], {"2": "0.5 m"}, {D: 0.0}),
+    ([Ruling("drop", D)], {"1a": "4", "2": "5 km"}, {D: 0.0}),
     ([Ruling("drop", D), Ruling("give", D)], {}, {D: 3.0}),
+    ([Ruling("points", A, value="0.75", student="s1")], {"1a": ""}, {A: 0.75}),
+    ([Ruling("points", A, value="0.75", student="s1")], {"1a": "4"}, {A: 0.75}),
+    ([Ruling("points", A, value="0.75", student="s2")], {"1a": ""}, {A: 0.0}),
+    ([Ruling("points", A, value="1", student="s1"), Ruling("restore", A, student="s1")], {}, {A: 0.0}),
+    ([Ruling("points", B, value="1", student="s1")], {"1b": "more light"}, {B: 1.0}),
+    ([Ruling("accept", A, answer="4", value="0.5")], {"1a": "4"}, {A: 2.0}),
+    ([Ruling("decide", B, answer="light", value="1"), Ruling("accept", B, answer="light", value="0.5")], {"1b": "light"}, {B: 1.0}),
     ([Ruling("drop", D), Ruling("restore", D)], {"2": "0.5 m"}, {D: 3.0}),
     ([Ruling("decide", B, answer="light", value="1"), Ruling("restore", B)], {"1b": "light"}, {B: 1.0}),
     ([Ruling("give", D), Ruling("restore", D, student="s1")], {}, {D: 0.0}),
@@ -76,8 +87,40 @@ def test_what_was_ticked_is_kept_by_its_words():
 
 
 def test_what_is_dropped_can_no_longer_be_reached():
-    _, whole = marks([Ruling("drop", D)], **{"1a": "4"})
+    _, whole = marks([Ruling("drop", D, value="always")], **{"1a": "4"})
     assert (whole.marks, whole.points) == (2.0, 4.0)
+
+
+@pytest.mark.parametrize("rounding", ["up", "nearest", "down"])
+def test_dropping_items_never_lowers_the_share_of_anybody(rounding):
+    """Against all subsets of the dropped items, written out by hand."""
+    scale = GradeScale(round_to="0.5", rounding=rounding)
+    key = AnswerKey("quizgen-key/2", [
+        KeyQuestion(str(n), [KeyPart(str(n), worth, {"kind": "number", "value": "4", "traps": {"half": "2"}})], template=f"t{n}")
+        for n, worth in enumerate(["1", "2", "3", "5/4", "4"], 1)
+    ])  # fmt: skip
+    for right in itertools.product("47", repeat=5):
+        typed = {str(n): text for n, text in enumerate(right, 1)}
+        given = [Ruling("accept", "t5", answer="7", value="1.75")]
+        drops = [Ruling("drop", f"t{n}") for n in (1, 4, 5)]
+
+        def share(rulings, typed=typed):
+            found = grade_submission(key, Submission("s", typed), RulingBook(rulings), scale)
+            return scale.round_points(Fraction(found.marks)) / Fraction(found.points)
+
+        ways = [
+            [Ruling("drop", one.item, value="always") for one in some]
+            for count in range(4)
+            for some in itertools.combinations(drops, count)
+        ]
+        least = max(share(given), share([*given, *ways[-1]]))
+        assert least <= share([*given, *drops]) <= max(share([*given, *way]) for way in ways)
+
+
+def test_what_is_kept_of_a_dropped_item_is_said_in_the_history():
+    _, whole = marks([Ruling("drop", D, who="AM")], **{"2": "0.5 m"})
+    part = whole.parts[-1]
+    assert (part.marks, part.points, part.by) == (3.0, 3.0, "drop (AM), kept: better with it")
 
 
 def test_a_tolerance_where_there_is_none_is_refused():
@@ -111,12 +154,24 @@ def test_as_a_spreadsheet_saves_it(tmp_path):
     ]
 
 
+def test_what_a_german_spreadsheet_saved_is_added_to_in_one_form(tmp_path):
+    rows = "when;who;what;item;answer;value;student;comment;group\r\n;Jörg;give;another;;;;für alle;\r\n"
+    (tmp_path / "rulings.csv").write_bytes(rows.encode("cp1252"))
+    append_rulings(tmp_path, [Ruling("drop", A, who="Zoë")])
+    assert [(r.who, r.what, r.item, r.comment) for r in read_rulings(tmp_path)] == [
+        ("Jörg", "give", "another", "für alle"), ("Zoë", "drop", A, ""),
+    ]  # fmt: skip
+
+
 WRONG = [
     ("what,item\nforget,x\n", "line 2: what"), ("what,item\ndrop,\n", "line 2: item"), ("item\nx\n", "'what'"),
     ("what,item,value\ntolerance,x,wide\n", "line 2: value"), ("what,item,value\ntolerance,x,decimals=2.5\n", "line 2: value"),
     ("what,item,value,answer\naccept,x,1/3,a\n", "quarters"), ("what,item,value,answer\naccept,x,-1,a\n", "quarters"),
     ("what,item,value,answer\naccept,x,much,a\n", "line 2: value"), ("what,item,value\naccept,x,1\n", "answer: missing"),
     ('what,item\ndrop,"x\n', "rulings.csv"),
+    ("what,item,value\ngive,x,0.75\n", "line 2: value: give takes none"), ("what,item,value\ndrop,x,3\n", "line 2: value: drop"),
+    ("what,item,value\npoints,x,1\n", "line 2: student: missing"), ("what,item,student\npoints,x,7\n", "line 2: value: missing"),
+    ("what,item,student,value\npoints,x,7,1.1\n", "quarters"), ("what,item,answer\ndrop,x,y\n", "line 2: answer: drop is about none"),
 ]  # fmt: skip
 
 

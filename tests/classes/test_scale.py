@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 from sweep import together
 
-from quizgen.classes.grade_scale import GradeScale, read_grade_scale
+from quizgen.classes.grade_scale import BonusRule, GradeScale, read_grade_scale
 from quizgen.core.errors import ClassError
 
 # The usual scale of German universities of 100 points: 4.0 from 50, then a step every five points.
@@ -59,8 +59,22 @@ def test_another_scale(tmp_path):
     assert scale.grade(Fraction("14.1"), Fraction(20)) == "A"
 
 
+@together(("bonus", "points", "counted"), [
+    (6, 50, 6), (6, 49, 0), (6, 96, 4), (12, 50, 10), (0, 80, 0),
+])  # fmt: skip
+def test_a_bonus_counts_for_those_who_pass_and_never_beyond_all_points(bonus, points, counted):
+    scale = GradeScale(bonus=BonusRule(most=10))
+    assert scale.count_bonus(Fraction(bonus), Fraction(points), Fraction(100)) == counted
+
+
+def test_a_bonus_may_count_for_everybody(tmp_path):
+    scale = written(tmp_path, "[bonus]\nmost = 2.5\nneeds_pass = false\n")
+    assert scale.grade_with_bonus(Fraction(9), Fraction("47.5"), Fraction(100)) == "4.0"
+    assert scale.grade_with_bonus(Fraction(9), Fraction("47.25"), Fraction(100)) == "5.0"
+
+
 @pytest.mark.parametrize("text", [
-    "passed = 96", "grades = []", '[steps]\n"6.0" = 3', "round_to = -1", 'rounding = "sideways"', "typo = 1", 'passed = "half"',
+    "passed = 96", "[bonus]\nmost = -1", "[bonus]\nmore = 1", "[bonus]\nneeds_pass = 3", "grades = []", '[steps]\n"6.0" = 3', "round_to = -1", 'rounding = "sideways"', "typo = 1", 'passed = "half"',
     '[steps]\n"1.0" = 60', "passed = [", "best = 120",
 ])  # fmt: skip
 def test_a_scale_that_makes_no_sense_is_refused_with_its_place(tmp_path, text):

@@ -7,10 +7,10 @@ import json
 import pytest
 from inside import run
 
-ROSTER = "Matrikel;Name\n104;Ada\n=1+1;@Bo\n"
+ROSTER = "Nummer;Name\n104;Ada\n=1+1;@Bo\n"
 ONE = '[title]\nen = "One"\n[[slot]]\ntemplates = ["rods-cones-and-peaks"]\n'
 MAKE = ("class", "make", "roster.csv", "--out", "midterm")
-FIRST = (*MAKE, "--blueprint", "one.toml", "--columns", "id=Matrikel,name=Name")
+FIRST = (*MAKE, "--blueprint", "one.toml", "--columns", "id=Nummer,name=Name")
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +31,7 @@ def codes(home):
 
 
 def test_a_second_run_knows_what_the_class_was_made_with(home):
-    done = run(*MAKE, "--columns", "id=Matrikel,name=Name", cwd=home)
+    done = run(*MAKE, "--columns", "id=Nummer,name=Name", cwd=home)
     assert "0 papers made, 2 kept as they were" in done.stdout
     assert "'=1+1,'@Bo," in (home / "midterm/roster.csv").read_text(encoding="utf-8-sig")
 
@@ -53,8 +53,8 @@ def test_a_printed_code_leads_to_its_student(home):
         ((*FIRST, "--lang", "bn"), "was made with lang 'en', not 'bn'"),
         ((*FIRST, "--vary"), "was made without --vary"),
         ((*MAKE[:3], "--out", ".", *FIRST[-2:]), "something else than a class"),
-        (MAKE, "has no column 'id' (it has Matrikel, Name)"),
-        ((*MAKE, "--columns", "Matrikel"), "write id=Matrikel"),
+        (MAKE, "has no column 'id' (it has Nummer, Name)"),
+        ((*MAKE, "--columns", "Nummer"), "write id=Matrikel"),
         (("class", "code", ".", "G-1"), "is not the folder of a class"),
     ],
 )

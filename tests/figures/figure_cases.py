@@ -63,6 +63,8 @@ REFERENCE = {
         "L_r": 0.8, "L_g": 0.5, "L_b": 1, "R_r": 0.9, "R_g": 0.3, "R_b": 0.6,
     },
     "gaussian_contours": {"covariances": ((4, 0, 9),), "x": 1, "y": 2},
+    "plate_camera": {"L": 3.5, "v": 10, "w": 100},
+    "book_scanner": {"room": 600, "c": 10},
     "imaging_pipeline": {},
     "bayer_counts": {"W": 5, "H": 5},
     "formula_sketch": {"formula": 5},
@@ -97,6 +99,8 @@ HIDDEN = {
     "imaging_pipeline": ["demosaicing", "gamma"],
     "bayer_counts": ["12", "9"],
     "formula_sketch": [],
+    "plate_camera": [],
+    "book_scanner": [],
 }
 
 
@@ -196,6 +200,9 @@ def textbook_draws(rng: random.Random):
         yield "gaussian_contours", {"covariances": (row,), "x": rng.randint(1, 6), "y": 3}
         sensor = {"W": rng.randint(3, 12), "H": rng.randint(3, 12), "phase": rng.randrange(4)}
         yield "bayer_counts", sensor
+    for one in range(2):
+        yield "plate_camera", {"L": 3 + one / 2, "v": 8 + 2 * one, "w": 90 + 10 * one}
+        yield "book_scanner", {"room": 600 + 50 * one, "c": 8 + 2 * one}
     yield "gaussian_contours", {}
     for step in range(11):
         yield "imaging_pipeline", {"left_out": step}

@@ -97,7 +97,7 @@ def test_no_sentence_has_a_hole_in_it(lang):
             continue
         bare, named = (
             feedback_sentence(lang, note, {}),
-            feedback_sentence(lang, note, {"detail": "m", "claim": "m"}),
+            feedback_sentence(lang, note, {"detail": "m", "claim": "m", "code": "m"}),
         )
         assert not {*"⟨⟩{}"} & {*bare, *named}, note
         assert "m" in re.findall(r"\w+", named)

@@ -228,3 +228,58 @@ def test_wanted_lines_that_a_feature_cannot_read_are_no_failure(lines, feature):
     table = {"kind": "sketch", "view": [-1, 1, 0, 1], "lines": lines, "features": {"a": feature}}
     for typed in [*lines.values(), "-1,0 1,0.1", "0,0 0,1"]:
         assert grade_answer(table, typed).verdict in {"correct", "wrong"}
+
+
+def field(features, lines, traps=None):
+    """A sketch over a field from 0 to 10 both ways."""
+    return load_spec({"kind": "sketch", "view": [0, 10, 0, 10], "lines": lines,
+                      "features": features, "traps": traps or {}})  # fmt: skip
+
+
+RING = " ".join(
+    f"{5 + 3 * math.cos(math.pi * i / 16):.4f},{5 + 2 * math.sin(math.pi * i / 16):.4f}"
+    for i in range(33)
+)
+
+
+@pytest.mark.parametrize(
+    ("feature", "line", "said"),
+    [
+        ({"reads": "height", "at": [11], "within": "0.1"}, "0,1 10,5", "inside the field"),
+        ({"reads": "height", "at": [5], "within": 2}, "0,1 10,5", "share above 0"),
+        ({"reads": "loop", "centre": True}, "0,1 10,5", "ends where it begins"),
+        ({"reads": "loop"}, RING, "must be asked of a loop"),
+        ({"reads": "empty", "box": [1, 2]}, "0,1 10,5", "from and to along x"),
+    ],
+)
+def test_features_that_can_never_be_judged_are_refused(feature, line, said):
+    with pytest.raises(KeyFileError, match=said):
+        field({"one": {"of": ["line"], **feature}}, {"line": line})
+
+
+def test_heights_are_read_where_they_are_asked():
+    spec = field({"high": {"reads": "height", "of": ["line"], "at": [2, 8], "within": "0.2"}},
+                 {"line": "0,1 5,6 10,1"})  # fmt: skip
+    for typed, credit in (("0,1 5,6 10,1", 1), ("0,1 5,9 10,1", 0), ("0,1 5,6", 0),
+                          ("0,1.2 2,3.2 5,3.2 8,3 10,1", 1), ("0,3 10,3; 0,1 10,1", 0)):  # fmt: skip
+        assert grade_answer(spec, typed).credit == credit, typed
+
+
+def test_a_loop_is_read_by_its_width_its_height_and_its_shape():
+    spec = field({"size": {"reads": "loop", "of": ["line"], "within": "0.15"},
+                  "shape": {"reads": "loop", "of": ["line"], "form": True}}, {"line": RING})  # fmt: skip
+    assert grade_answer(spec, RING).credit == 1
+    assert because(grade_answer(spec, "8,7 2,7 2,3 8,3 8,7")) == ("shape",)
+    smaller = " ".join(
+        f"{5 + 2 * math.cos(i / 3):.3f},{5 + 1.3 * math.sin(i / 3):.3f}" for i in range(20)
+    )
+    assert because(grade_answer(spec, smaller)) == ("size",)
+    half = " ".join(RING.split()[:17])
+    assert because(grade_answer(spec, half)) == ("size", "shape")
+
+
+def test_what_has_to_stay_empty_is_looked_at():
+    spec = field({"right": {"reads": "empty", "of": ["line"], "box": [6, 10, 1, 10]},
+                  "line": {"reads": "line", "of": ["line"], "on": True}}, {"line": "1,0 1,5"})  # fmt: skip
+    assert grade_answer(spec, "1,0 1,5").credit == 1
+    assert because(grade_answer(spec, "1,0 1,5; 8,0 8,5")) == ("right",)

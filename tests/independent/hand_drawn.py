@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from fractions import Fraction
 from typing import Any
 
 from by_hand import solves
@@ -76,3 +78,71 @@ def eye(page: Page) -> dict[str, Any]:
         else CIE_1951
     )
     return {"a": [[(float(x), float(y)) for x, y in table.items()]]}
+
+
+@solves("draw-blur-against-distance")
+def blur_against_distance(page: Page) -> dict[str, Any]:
+    """F33 and F42: the disc of a point at z behind a lens that is focused at s."""
+    (number,), (f,) = page.f_numbers(), page.amounts("mm")
+    s = page.amounts("m")[0]
+    sensor = 1 / (1 / f - 1 / s)
+    top = 1.5 * float(f / number * (sensor / f - 1)) * 1000
+
+    def disc(z: Fraction) -> float:
+        sharp = 1 / (1 / f - 1 / z)
+        return 1000 * float(f / number * abs(sensor - sharp) / sharp)
+
+    shares = ("0.45", "0.5", "0.55", "0.6", "0.65", "0.7", "0.8", "0.9", "1", "1.15", "1.3", "1.5",
+              "1.75", "2", "2.5", "3", "3.5")  # fmt: skip
+    places = [s * Fraction(share) for share in shares]
+    assert all(disc(z) < top for z in places)
+    return {"a": [[(float(z), disc(z)) for z in places]]}
+
+
+@solves("draw-histogram-after-brightening")
+def brightened(page: Page) -> dict[str, Any]:
+    """Notes 4.3: each level moves, what is above 255 becomes 255, and no pixel is lost."""
+    levels = list(map(int, page.amounts("")[1:6]))
+    counts = list(map(int, page.amounts("")[6:11]))
+    edit = page.amounts("")[11]
+    new: dict[float, int] = {}
+    for level, count in zip(levels, counts, strict=True):
+        moved = min(255.0, float(level * edit if edit < 2 else level + edit))
+        new[moved] = new.get(moved, 0) + count
+    return {"a": [[(x, 0), (x, y)] for x, y in new.items()]}
+
+
+@solves("draw-gaussian-of-another-width")
+def another_gaussian(page: Page) -> dict[str, Any]:
+    """Notes 4.4: the density, point by point."""
+    mean, wide = float(page.amounts("")[0]), float(page.amounts("")[-1])
+    steps = [-3, -2.5, *(step / 4 for step in range(-8, 9)), 2.5, 3]
+    places = [mean + wide * step for step in steps]
+    return {"a": [[(x, math.exp(-0.5 * ((x - mean) / wide) ** 2) / wide / math.sqrt(2 * math.pi))
+                   for x in places]]}  # fmt: skip
+
+
+@solves("draw-pole-under-rolling-shutter")
+def pole(page: Page) -> dict[str, Any]:
+    """Notes B10b: what is read later has moved on."""
+    (time,), (speed,) = page.amounts("ms"), page.amounts("px/s")
+    high = page.amounts("")[1]
+    moved = float(speed * time * high / 1080)
+    moved = moved if page.says("moves to the right", "ডান দিকে") else -moved
+    top = float(high)
+    return {"a": [[(-2, top), (moved - 2, 0)], [(2, top), (moved + 2, 0)]]}
+
+
+@solves("draw-level-lines")
+def level_lines(page: Page) -> dict[str, Any]:
+    """Notes D16: half axes are the roots of the variances."""
+    (x_var, y_var), both = points(page.stem)[1], page.amounts("")[-1]
+    turns = [2 * math.pi * step / 32 for step in range(33)]
+
+    def around(place: float, across: float, up: float) -> Line:
+        return [(place + across * math.cos(t), up * math.sin(t)) for t in turns]
+
+    (first, _), (second, _) = page.point("μ_1"), page.point("μ_2")
+    radius = math.sqrt(both)
+    return {"a": [around(float(first), math.sqrt(x_var), math.sqrt(y_var)),
+                  around(float(second), radius, radius)]}  # fmt: skip

@@ -12,13 +12,14 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 from printed_numbers import UNITS
 
 Spec = Mapping[str, Any]
 NUMERIC = {"number", "quantity", "angle", "point", "table", "set", "interval"}
-OWED = NUMERIC | {"expression", "witness", "code", "sketch", "derivation"}
+OWED = NUMERIC | {"expression", "witness", "code", "program", "sketch", "derivation"}
 """Kinds of answers that every solver has to give; those of choices where numbers decide."""
-COUNTED = {"stop": 1, "e-": 1, "deg": 1}
+COUNTED = {"DN": 1, "stop": 1, "e-": 1, "deg": 1}
 """Units of keys that say what is counted."""
 
 
@@ -68,6 +69,9 @@ def NUMBERS(mine: Any, spec: Spec, hint: str) -> bool:  # noqa: N802
 
 
 def _near(mine: Fraction, key: Fraction, hint: str, spec: Spec) -> bool:
+    if spec.get("accept") and not any(re.search(pattern, hint) for pattern, _ in RULES):
+        low, high = map(Fraction, spec["accept"])
+        return low <= mine <= high
     off = abs(mine - key)
     if spec.get("period"):
         off = min(off % spec["period"], -off % spec["period"])
@@ -85,7 +89,7 @@ def _gaps(mine: Sequence[str], spec: Spec) -> bool:
     return all(one in words for one, words in zip(mine, spec["accept"], strict=True))
 
 
-MATHS = {name: getattr(math, name) for name in ("sqrt", "exp", "log", "pi", "erf")}
+MATHS = {name: getattr(math, name) for name in ("sqrt", "exp", "log", "log2", "floor", "pi", "erf")}
 MATHS |= {"max": max, "min": min, "abs": abs}
 
 
@@ -113,10 +117,17 @@ def _holds(mine: Mapping[str, Any], spec: Spec) -> bool:
     for name, formula in spec.get("let", {}).items():
         known[name] = calculated(formula, known)
     inside = isinstance(symbols, list) or all(
-        low <= mine[name] <= high for name, (low, high) in symbols.items()
+        mine[name] > 0 if domain == "positive" else _between(mine[name], domain)
+        for name, domain in symbols.items()
     )
-    conditions = [*spec.get("where", []), spec["predicate"]]
+    demands = [one["holds"] for one in spec.get("demands", {}).values()]
+    conditions = [*spec.get("where", []), *(demands or [spec["predicate"]])]
     return set(mine) == set(symbols) and inside and all(calculated(c, known) for c in conditions)
+
+
+def _between(value: float, bounds: Sequence[Any]) -> bool:
+    low, high = map(Fraction, bounds)
+    return low <= value <= high
 
 
 def _lines(mine: Sequence[Sequence[tuple[float, float]]], spec: Spec) -> bool:
@@ -130,6 +141,31 @@ def _lines(mine: Sequence[Sequence[tuple[float, float]]], spec: Spec) -> bool:
             for b in wanted)
         for a in mine
     )  # fmt: skip
+
+
+def _does_the_same(mine: Callable[..., Any], spec: Spec) -> bool:
+    """Whether a function gives on every hidden input what the solution of the key gives."""
+    space: dict[str, Any] = {"np": np}
+    exec(spec["solution"], space)
+    with np.errstate(all="ignore"):
+        return all(
+            _alike(mine(*_inputs(case)), space[spec["function"]](*_inputs(case)))
+            for case in spec["cases"].values()
+        )
+
+
+def _inputs(case: Mapping[str, Any]) -> list[Any]:
+    return [
+        np.array(*one.values(), dtype=next(iter(one))) if isinstance(one, dict) else one
+        for one in case["args"]
+    ]
+
+
+def _alike(mine: Any, theirs: Any) -> bool:
+    one, other = np.asarray(mine), np.asarray(theirs)
+    return (one.shape, one.dtype.kind) == (other.shape, other.dtype.kind) and bool(
+        np.allclose(one.astype(float), other.astype(float), 1e-9, 1e-9, equal_nan=True)
+    )
 
 
 PLACES = 40
@@ -166,7 +202,7 @@ def _fits(mine: Callable[..., Mapping[str, float]], spec: Spec, env: dict[str, f
 
 def _true(line: str, env: Mapping[str, float]) -> bool:
     """Whether a line of a key holds at a place."""
-    if "<" in line or ">" in line:
+    if re.search("[<>!]", line):
         return bool(_python(line, env))
     left, right = (_python(side, env) for side in line.split("="))
     return math.isclose(left, right, rel_tol=1e-9, abs_tol=1e-9)
@@ -189,5 +225,6 @@ OTHERS: dict[str, Callable[[Any, Spec], bool]] = {
     "expression": _formula,
     "witness": _holds,
     "sketch": _lines,
+    "program": _does_the_same,
     "derivation": _derived,
 }

@@ -138,8 +138,14 @@ def spoiled(spec: dict[str, Any]) -> dict[str, Any]:
 
 
 def _other_lines(spec: dict[str, Any]) -> dict[str, Any]:
-    """The lines of a known mistake, where lines are drawn."""
-    return {"lines": next(iter(spec["traps"].values()))} if "lines" in spec else {}
+    """What a known mistake draws, derives or writes, where that is asked."""
+    field = next((name for name in ("lines", "solution") if name in spec), "")
+    if not field:
+        return {}
+    wrong = next(iter(spec["traps"].values()))
+    if spec["kind"] == "derivation":
+        return {"lines": {"wrong": {"forms": wrong}}, "traps": {}}
+    return {field: wrong}
 
 
 def _other_number(spec: dict[str, Any]) -> dict[str, Any]:
@@ -147,7 +153,8 @@ def _other_number(spec: dict[str, Any]) -> dict[str, Any]:
         case {"value": str(formula), "symbols": _}:
             return {"value": f"1.001*({formula})"}
         case {"value": value}:
-            return {"value": _other(value)}
+            beyond = Fraction((spec.get("accept") or [0, value])[1]) * 2
+            return {"value": _other(value), "accept": [str(beyond), str(beyond * 2)]}
         case {"values": dict(values)}:
             return {"values": {name: _other(value) for name, value in values.items()}}
         case {"values": [first, *rest]}:
@@ -167,8 +174,8 @@ def _other_words(spec: dict[str, Any]) -> dict[str, Any]:
             return {"steps": steps[::-1], "before": []}
         case {"accept": [_, *rest]}:
             return {"accept": [["neither"], *rest]}
-        case {"predicate": predicate}:
-            return {"predicate": f"{predicate} and 1 = 2"}
+        case {"symbols": _}:
+            return {"where": ["1 = 2"]}
     raise AssertionError(f"no other answer is known for {spec['kind']}")
 
 

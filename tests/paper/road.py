@@ -47,19 +47,27 @@ def all_templates(bank: Bank, seed: int, lang: str = "both", level: str = "exam"
     return build_paper(bank, blueprint, seed, lang, figures=False)
 
 
+IN_PROCESSES = {"program"}
+"""Kinds whose answers take a process each: tests/templates/test_programs_run.py."""
+
+
 def fields(paper: Paper, lang: str) -> Iterator[Printed]:
     """The fields that a machine marks; free text has no printed answer and is left out."""
     place = paper.langs.index(lang)
     for item in paper.items:
         question, key = item.questions[place], item.keys[place]
         for part, solved, spec in zip(question.parts, key.solution.parts, key.specs, strict=True):
-            if solved.answer:  # what is no trap is a reason for one option, pair or step
+            if (
+                solved.answer and spec.kind not in IN_PROCESSES
+            ):  # what is no trap is a reason for one option, pair or step
                 mistakes = tuple(
                     # of a drawing no wrong points are printed: those of the key are typed
                     (m.name, m.value or "; ".join(spec.traps[m.name].values()))
                     for m in solved.mistakes if m.name in spec.traps
                 )  # fmt: skip
-                yield Printed(part.field.id, key.template, part.field.control.form,
+                control = part.field.control
+                form = "rows" if control.rows else control.form
+                yield Printed(part.field.id, key.template, form,
                               " ".join(part.field.hints), solved.answer, mistakes)  # fmt: skip
 
 
@@ -70,6 +78,8 @@ def typed(field: Printed, printed: str, side: int = 0) -> str:
     """
     sides = printed.split(" ≈ ")
     text = sides[min(side, len(sides) - 1)]
+    if field.form == "rows":
+        return text
     if field.form == "pairs":
         return text.replace(":", "").replace(",", "")
     pairs = [NAMED.fullmatch(cell) for cell in text.split("; ")]

@@ -25,7 +25,12 @@ from quizgen.render import KINDS, render_paper
 from quizgen.render.text import format_question
 
 ASKED = {
-    "aperture": ("blur-and-light-factors", "which-photo-which-f-number", "which-photo-which-focus"),
+    "aperture": (
+        "blur-and-light-factors",
+        "derive-blur-disc",
+        "which-photo-which-f-number",
+        "which-photo-which-focus",
+    ),
     "camera": ("exposure-faults-and-remedies", "which-effects-to-simulate", "why-pinhole-model"),
     "code": ("add-noise-to-uint8-order", "uint8-sum", "uint8-sum-repair"),
     "colour": ("hsv-edit-from-pictures", "rgb-to-hsv", "white-balance-and-chromaticity"),

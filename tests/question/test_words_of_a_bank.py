@@ -62,7 +62,9 @@ def test_what_nobody_knows_is_refused(counts):
         spec({"kind": "number", "of": "n", "counts": counts})
 
 
-GENERAL = {"constant", "electron", "interval", "inverse", "negative", "photon", "positive"}
+GENERAL = {
+    "constant", "electron", "interval", "inverse", "negative", "photon", "positive", "solution",
+}  # fmt: skip
 """Terms that are also notes, kinds, domains or units of the engine."""
 
 

@@ -181,6 +181,8 @@ EYE = Task(0, eye, {
     "not down to zero": (lambda v: {"curve": [(x, max(y, 0.4)) for x, y in eye(v)["curve"]]},
                          {"falls"}),
     "too low": (lambda v: {"curve": [(x, y / 2) for x, y in eye(v)["curve"]]}, {"top"}),
+    "a triangle": (lambda v: {"up": [(400, 0), (555 if v["day"] else 507, 1)],
+                              "down": [(555 if v["day"] else 507, 1), (700, 0)]}, {"bell"}),
     "a slope": (lambda _: {"curve": [(400, 0), (700, 1)]}, {"top", "single", "falls"}),
     "a level": (lambda _: {"curve": [(400, 0.5), (700, 0.5)]}, {"top", "single", "falls"}),
 })  # fmt: skip
@@ -209,7 +211,157 @@ GRID = Task(1, grid, {
     "a bent middle": (bent(grid, "down", 0.35), {"radial"}),
 })  # fmt: skip
 
+
+def blur(v: Values) -> Lines:
+    """c = f²/(N (s - f)) |s - z|/z, in mm, with z in m."""
+
+    def disc(z: float) -> float:
+        return 2500 / (v["N"] * (1000 * v["s"] - 50)) * abs(v["s"] - z) / z
+
+    runs = {"front": range(18, 41), "behind": range(40, 141)}
+    return {name: [(v["s"] * i / 40, disc(v["s"] * i / 40)) for i in run]
+            for name, run in runs.items()}  # fmt: skip
+
+
+def shaped(height: Callable[[Values, float, float], float]):
+    """The curve with another height, of z/s and the right height, as high as the field at most."""
+
+    def lines(v: Values) -> Lines:
+        return {name: [(z, min(v["h"], max(0.0, height(v, z / v["s"], y)))) for z, y in line]
+                for name, line in blur(v).items()}  # fmt: skip
+
+    return lines
+
+
+BLUR = Task(0, blur, {
+    "a V": (shaped(lambda v, r, _: 2 * v["c_1"] * abs(r - 1)), {"trap:symmetric"}),
+    "straight behind": (shaped(lambda v, r, y: v["c_1"] * (r - 1) if r > 1 else y),
+                        {"trap:on-and-on"}),
+    "mirrored": (shaped(lambda v, r, y: v["c_1"] * (r - 1) / (2 - r) if 1 < r < 1.9
+                        else v["h"] if r >= 1.9 else y), {"trap:symmetric"}),
+    "highest in focus": (shaped(lambda v, _, y: v["c_1"] - y), {"trap:peak"}),
+    "twice as high": (shaped(lambda _, __, y: 2 * y), {"behind", "far"}),
+    "never a point": (shaped(lambda v, _, y: y + 0.3 * v["c_1"]), {"zero"}),
+    "level behind": (shaped(lambda v, r, y: v["c_1"] * min(1.0, 6 * (r - 1)) if r > 1 else y),
+                     {"behind"}),
+    "nothing in front": (but(blur, front=lambda _: None), {"front"}),
+})  # fmt: skip
+
+
+def brightened(v: Values, *, beyond: float | None = 255, both: bool = True) -> Lines:
+    """Levels move; what is above 255 ends there, and piles up."""
+    bars = [(v["k"] * v[level] + v["b"], v[f"c_{i}"])
+            for i, level in enumerate(("a", "x_2", "x_3", "x_4", "x_5"), 1)]  # fmt: skip
+    kept = bars[:3]
+    if beyond is None:
+        kept += bars[3:]
+    elif beyond:
+        kept += [(beyond, sum(n for _, n in bars[3:]) if both else bars[3][1])]
+    return {str(i): [(x, 0), (x, y)] for i, (x, y) in enumerate(kept)}
+
+
+BRIGHTENED = Task(0, brightened, {
+    "beyond 255": (lambda v: brightened(v, beyond=None), {"clipped", "inside"}),
+    "none at 255": (lambda v: brightened(v, beyond=0), {"clipped", "sum"}),
+    "one of two": (lambda v: brightened(v, both=False), {"trap:lost"}),
+    "in a circle": (lambda v: {**brightened(v, beyond=0),
+                               "x": [(v["y_4"] - 256, 0), (v["y_4"] - 256, v["c_4"])]},
+                    {"trap:wrapped"}),
+    "squeezed": (lambda v: {str(i): [(v[f"x_{i}"] if i > 1 else v["a"], 0)] * 2
+                            and [((v[f"x_{i}"] if i > 1 else v["a"]) * 255 / v["y_5"], 0),
+                                 ((v[f"x_{i}"] if i > 1 else v["a"]) * 255 / v["y_5"], v[f"c_{i}"])]
+                            for i in range(1, 6)}, {"moved"}),
+    "as it was": (lambda v: {str(i): [(x, 0), (x, v[f"c_{i}"])] for i, x in enumerate(
+                      (v["a"], v["x_2"], v["x_3"], v["x_4"], v["x_5"]), 1)}, {"moved"}),
+})  # fmt: skip
+
+
+def density(v: Values, *, wide: float = 0, high: float = 0, shift: float = 0) -> Lines:
+    """The Gaussian of the wanted width, or with another width, peak or place."""
+    sigma = wide or v["r"]
+    peak = high or 1 / math.sqrt(2 * math.pi) / v["r"]
+    mean = v["mu"] + shift
+    places = {"left": range(-30, 1), "right": range(31)}
+    return {side: [(mean + v["r"] * i / 10, peak * math.exp(-((v["r"] * i / 10 / sigma) ** 2) / 2))
+                   for i in run] for side, run in places.items()}  # fmt: skip
+
+
+def humps(v: Values, side: int) -> Line:
+    """Half of a curve with a hill on either side of the mean, and nothing at the mean."""
+    return [(v["mu"] + side * v["r"] * i / 10,
+             v["p_t"] * math.exp(-(((i - 12) / 5) ** 2))) for i in range(31)]  # fmt: skip
+
+
+GAUSSIAN = Task(0, density, {
+    "as high as before": (lambda v: density(v, high=v["p_s"]), {"trap:same-peak"}),
+    "beside the mean": (lambda v: density(v, shift=min(1.0, v["r"])), {"sides"}),
+    "flat": (lambda v: density(v, wide=3 * v["r"]), {"sides"}),
+    "half as high": (lambda v: density(v, high=v["p_t"] / 2), {"height"}),
+    "two hills": (lambda v: {"a": humps(v, -1), "b": humps(v, 1)}, {"top"}),
+    "a triangle": (lambda v: {"left": [(v["mu"] - 3 * v["r"], 0), (v["mu"], v["p_t"])],
+                              "right": [(v["mu"], v["p_t"]), (v["mu"] + 3 * v["r"], 0)]}, {"sides"}),
+})  # fmt: skip
+
+
+def pole(v: Values, share: float = 1) -> Lines:
+    """The foot has moved on by v t while the rows above it were read."""
+    moved = v["v"] * v["T"] / 1000 * v["rows"] / 1080 * share
+    return {name: [(x, v["rows"]), (x + moved, 0)] for name, x in (("left", -2), ("right", 2))}
+
+
+POLE = Task(0, pole, {
+    "against": (lambda v: pole(v, -1), {"trap:against"}),
+    "upright": (lambda v: pole(v, 0), {"leans"}),
+    "half": (lambda v: pole(v, 0.5), {"trap:half"}),
+    "smeared": (lambda v: {**pole(v), "left" if v["v"] > 0 else "right":
+                           pole(v, 0)["left" if v["v"] > 0 else "right"]}, {"trap:smeared"}),
+    "one edge": (but(pole, left=lambda _: None), {"leans"}),
+    "bent": (lambda v: {name: [(x + (x_0 - x) * (y / v["rows"]) ** 3, y)
+                               for y in [v["rows"] * i / 20 for i in range(21)]]
+                        for name, x_0, x in (("left", -2, pole(v)["left"][1][0]),
+                                             ("right", 2, pole(v)["right"][1][0]))}, {"straight"}),
+})  # fmt: skip
+
+
+def oval(place: float, a: float, b: float, turned_by: float = 0) -> Line:
+    """An ellipse, point by point."""
+    ring = [(a * math.cos(math.pi * i / 30), b * math.sin(math.pi * i / 30)) for i in range(61)]
+    c, s = math.cos(turned_by), math.sin(turned_by)
+    return [(place + c * x - s * y, s * x + c * y) for x, y in ring]
+
+
+def box(place: float, a: float, b: float) -> Line:
+    return [(place + x * a, y * b) for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))]
+
+
+def levels(v: Values) -> Lines:
+    """Half axes are roots of variances."""
+    roots = [math.sqrt(v[name]) for name in "ABC"]
+    return {"first": oval(v["m"], *roots[:2]), "second": oval(-v["m"], roots[2], roots[2])}
+
+
+LEVELS = Task(0, levels, {
+    "variances": (lambda v: {"first": oval(v["m"], v["A"], v["B"]),
+                             "second": oval(-v["m"], v["C"], v["C"])}, {"trap:variances"}),
+    "exchanged": (but(levels, first=lambda v: oval(v["m"], v["b"], v["a"])), {"trap:exchanged"}),
+    "turned": (but(levels, first=lambda v: oval(v["m"], 1.5 * v["a"], 0.5 * v["b"], 0.7)),
+               {"oval"}),
+    "a box": (but(levels, first=lambda v: box(v["m"], v["a"], v["b"])), {"oval"}),
+    "a rhombus": (but(levels, second=lambda v: [(v["n"] + v["c"] * x, v["c"] * y) for x, y in
+                                                ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 0))]),
+                  {"circle"}),
+    "beside the mean": (but(levels, second=lambda v: oval(v["n"] + 1.2, v["c"], v["c"])),
+                        {"circle"}),
+    "half a circle": (but(levels, second=lambda v: oval(v["n"], v["c"], v["c"])[:31]), {"circle"}),
+    "one alone": (but(levels, second=lambda _: None), {"circle"}),
+})  # fmt: skip
+
 TASKS = {
+    "draw-blur-against-distance": BLUR,
+    "draw-histogram-after-brightening": BRIGHTENED,
+    "draw-gaussian-of-another-width": GAUSSIAN,
+    "draw-pole-under-rolling-shutter": POLE,
+    "draw-level-lines": LEVELS,
     "draw-rays-through-a-lens": LENS,
     "draw-image-through-a-pinhole": PINHOLE,
     "draw-normalised-histogram": HISTOGRAM,

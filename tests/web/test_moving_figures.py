@@ -116,6 +116,19 @@ def test_a_colour_that_is_given_as_rgb_begins_at_its_hue(bank):
     assert values["S"] == pytest.approx((values["V"] - min(red, green, blue)) / values["V"])
 
 
+def test_a_number_of_stops_leads_to_another_number_of_the_ring(bank):
+    template = "stopping-down-or-opening-effects"
+    leads = {
+        (0, 1): 5.6, (0, 2): 8, (0, 3): 11, (0, 4): 16,
+        (1, 1): 2.8, (1, 2): 2, (1, 3): 1.4, (1, 4): 1,
+    }  # fmt: skip
+    for seed in map(str, range(12)):
+        drawn = draw_instance(bank.template(template), seed).shown_values
+        _, values = begins(bank, template, seed)
+        led = leads[to_float(drawn["opening"]), to_float(drawn["stops"])]
+        assert (values["N_1"], values["N"]) == (4, led)
+
+
 def test_more_levels_stretch_a_histogram(bank):
     for seed in map(str, range(40)):
         most = to_float(
@@ -133,11 +146,12 @@ def test_a_bank_of_strangers_names_one(strangers):
     assert values["f"] == 50  # their question has none
 
 
-def test_a_value_between_two_stops_is_a_stop_of_its_own(strangers):
-    figure, values = begins(strangers("aperture-ring", "6.3"), "rings")
+@pytest.mark.parametrize(("number", "place"), [("6.3", 6), ("10/3", 4), ("250/0.7", 11)])
+def test_a_value_between_two_stops_is_a_stop_of_its_own(strangers, number, place):
+    figure, values = begins(strangers("aperture-ring", number), "rings")
     (ring,) = figure.sliders
-    assert ring.stops == "1 1.4 2 2.8 4 5.6 6.3 8 11 16 22 32"
-    assert (values["N"], ring.at) == (6.3, 6)
+    stops = [float(stop) for stop in ring.stops.split()]
+    assert (len(stops), ring.at, stops.index(values["N"])) == (12, place, place)
 
 
 @pytest.mark.parametrize("number", ["100000", "10^400", "0"])

@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 import sympy
+from fingers import Screen, between
 from keys import Keys
 from playwright.sync_api import expect
 
@@ -103,14 +104,17 @@ def test_the_aperture(sheet):
     one = Moving(sheet, SHEET["aperture-ring"])
     for stop in (0, 3, 6, 10):
         one.put(N=stop)
-        told = solved("aperture.f_number_change", f=50, N_1=2.8, N_2=NUMBERS[stop], r=250)
+        told = solved("aperture.f_number_change", f=50, N_1=2.8, N_2=NUMBERS[stop], r=125)
         way = 1 if NUMBERS[stop] <= 2.8 else -1
         assert one.shown("hole") == [near(told["D_2"])]
         assert one.shown("blur") == [near(told["q"] ** way, 3)]
         assert one.shown("light") == [near(told["e"] ** way, 3)]
+        assert one.shown("stops") == [near(way * told["k"], 3)]
         assert one.shown("time") == [near(told["t_2"], 3)]
+    one.put(N=NUMBERS.index(8))
+    assert "exactly, the light changes by the factor 1/8." in one.said
     one.slider("keep").uncheck()
-    assert one.shown("time") == [1 / 250]
+    assert one.shown("time") == [1 / 125]
     assert "too dark" in one.said
 
 
@@ -167,18 +171,28 @@ def test_the_pinhole(sheet):
     assert "there is no image" in one.said
 
 
-def test_the_point_is_dragged(sheet):
-    one = Moving(sheet, SHEET["pinhole-point"])
+@pytest.mark.parametrize("hand", ["mouse", "finger"])
+def test_the_point_is_dragged(opened, served, hand):
+    page = opened(viewport={"width": 390, "height": 844}, has_touch=hand == "finger")
+    page.goto(served.address + "/formulas")
+    one = Moving(page, SHEET["pinhole-point"])
     one.figure.scroll_into_view_if_needed()
     point = one.figure.locator("[data-part=target]").bounding_box()
     x, y = point["x"] + point["width"] / 2, point["y"] + point["height"] / 2
-    pixels = one.figure.locator("svg").bounding_box()["width"] / 320
-    sheet.mouse.move(x, y)
-    sheet.mouse.down()
-    sheet.mouse.move(x - 3 * 16 * pixels, y + 4 * 6 * pixels, steps=5)  # 3 deep, 4 high
-    sheet.mouse.up()
-    sheet.mouse.move(x, y)
+    pixels, scrolled = one.figure.locator("svg").bounding_box()["width"] / 320, "scrollY"
+    before = page.evaluate(scrolled)
+    way = between((x, y), (x - 3 * 16 * pixels, y + 4 * 6 * pixels))  # 3 deep, 4 high
+    if hand == "finger":
+        Screen(page).finger(way)
+    else:
+        page.mouse.move(x, y)
+        page.mouse.down()
+        for place in way:
+            page.mouse.move(*place)
+        page.mouse.up()
+        page.mouse.move(x, y)  # lets go of nothing
     assert [one.slider(name).input_value() for name in ("p_z", "p_y")] == ["5", "6"]
+    assert page.evaluate(scrolled) == before
 
 
 def test_the_histogram(sheet):

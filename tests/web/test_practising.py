@@ -7,6 +7,7 @@ import re
 
 import pytest
 
+from quizgen.grading.programs import can_run_programs
 from quizgen.question.compose import compose_question
 
 pytestmark = pytest.mark.both_databases
@@ -244,3 +245,17 @@ def test_a_sentence_is_judged_by_criteria(client, token):
     client.post(f"{at}/{part}", data={**ticked, f"mark-{part}": ["eye", "detail"]})
     page = client.get(f"{at}?part={part}").text
     assert "You gave yourself 1 point." in page  # what has ended stays
+
+
+@pytest.mark.skipif(not can_run_programs(), reason="no process can be locked here")
+def test_a_function_is_written_line_by_line(client, token, begin):
+    at = begin("write-hue-shift")
+    lines = ["def shift_hue(h, degrees):", "    wide = h.astype(np.int32)", "    wide += degrees"]
+    typed = "\r\n".join([*lines, "    return (wide % 180).astype(np.uint8)"])
+    first = client.post(f"{at}/1", data={"token": token, "a": typed}).text
+    assert "add half the degrees" in text(first)
+    assert "wide = h.astype" in first, "what was typed stays in the field"
+    right = client.post(
+        f"{at}/1", data={"token": token, "a": typed.replace("degrees\r", "degrees // 2\r")}
+    )
+    assert verdicts(right.text)[-1] == "correct"

@@ -8,9 +8,20 @@ with a subclass of ``Feature`` and its name in ``AnyFeature``.
 from __future__ import annotations
 
 from quizgen.grading.drawing.curve import CurveFeature
+from quizgen.grading.drawing.empty import EmptyFeature
+from quizgen.grading.drawing.height import HeightFeature
 from quizgen.grading.drawing.line import LineFeature
+from quizgen.grading.drawing.loop import LoopFeature
 from quizgen.grading.drawing.moved import MovedFeature
 from quizgen.grading.drawing.point import PointFeature
 
-AnyFeature = LineFeature | CurveFeature | MovedFeature | PointFeature
+AnyFeature = (
+    LineFeature
+    | CurveFeature
+    | HeightFeature
+    | LoopFeature
+    | MovedFeature
+    | PointFeature
+    | EmptyFeature
+)
 """Every way to read a drawing."""

@@ -45,7 +45,7 @@ _ZERO, _ONE = Num(Fraction(0)), Num(Fraction(1))
 
 
 class Relation(msgspec.Struct, frozen=True):
-    """Two sides and the sign between them: ``eq``, ``lt``, ``le``, ``gt`` or ``ge``.
+    """Two sides and the sign between them: ``eq``, ``ne``, ``lt``, ``le``, ``gt`` or ``ge``.
 
     ``near`` says that the sign was ≈: the sides are only about equal.
     """
@@ -106,6 +106,8 @@ class World:
 
         Without ``rounded`` a decimal is exactly what it says.
         """
+        if not relation.names <= self.domains.keys():
+            return None
         left, right = compile_exact(relation.left), compile_exact(relation.right)
         met, sure, points = 0, True, self.points
         with working_precision(BITS):
@@ -186,6 +188,8 @@ def _lies_in(value: Any, domain: Domain) -> bool:
 def _compare(relation: Relation, a: Value, b: Value, *, rounded: bool) -> bool | None:
     """Return whether the sides of a relation compare as it says; None if that is undecided."""
     same = values_agree(a, b)
+    if relation.op == "ne":
+        return None if same is None else not same
     if relation.op != "eq":
         if same is not False:
             return same if relation.op in {"le", "ge"} or same is None else False
@@ -388,7 +392,7 @@ def _iter_solved_worlds(
 
 def _is_multiple(first: Relation, second: Relation, domains: Mapping[str, Domain]) -> bool:
     """Return whether an inequality is another one, times what is positive and the same all over."""
-    if second.op == "eq":
+    if {first.op, second.op} & {"eq", "ne"}:
         return False
     mine, other = _as_at_least(first), _as_at_least(second)
     if mine[1] != other[1]:

@@ -23,7 +23,8 @@ MOST_RELATIONS = 60
 
 SIGNS = {
     "=": "eq", "==": "eq", ":=": "eq", "≈": "eq", "≃": "eq", "≅": "eq", "~=": "eq",
-    "<": "lt", "<=": "le", "≤": "le", "≦": "le", ">": "gt", ">=": "ge", "≥": "ge", "≧": "ge",
+    "≠": "ne", "!=": "ne", "<": "lt", "<=": "le", "≤": "le", "≦": "le",
+    ">": "gt", ">=": "ge", "≥": "ge", "≧": "ge",
 }  # fmt: skip
 NEAR = frozenset("≈≃≅") | {"~="}
 _SIGN = re.compile("|".join(map(re.escape, sorted(SIGNS, key=len, reverse=True))))
@@ -60,9 +61,12 @@ _OPERATION = re.compile(
     r"\s(?:\|\||\|)\s*(?=[-+*/:·×÷^√(]|sqrt|ln|log|quadr|wurzel)[^|]*$", re.IGNORECASE
 )
 """What is done next, as it is noted behind a line: ``| · x``."""
-_COMMENT = re.compile(r"\s(?://|#|%).*$")
+_COMMENT = re.compile(r"\s(?://|#).*$")
 _WORD = re.compile(r"(?<![\\\w'])[^\W\d_]{2,}(?!\w*\()|[\u0980-\u09e5\u09f0-\u09ff]{2,}")
-_SEVERAL = re.compile(r"\s*;\s*|,\s+(?=\S)|\s+(?:and|und|ও|আর|এবং)\s+")
+_SEVERAL = re.compile(r",\s+(?=\S)|\s+(?:and|und|ও|আর|এবং)\s+")
+_APPLIED = re.compile(r"(?<![\w'])([^\W\d]\w*'*)\(\s*-?\s*[^\W\d]\w*'*\s*\)")
+"""A name before one name in brackets: a function of it, or a product."""
+_NEW_LETTER = frozenset(GREEK.values()) | frozenset(GREEK)
 _OPERATOR = re.compile(r"[-+*/^()·×\d√]")
 
 
@@ -81,8 +85,8 @@ class DerivedLine(msgspec.Struct, frozen=True):
         The words in it.
     both_ways : bool
         Whether an arrow before it says that it is equivalent to the line before.
-    defines : str
-        A name that nobody declared, and that this line says the meaning of.
+    defines : tuple of (str, int)
+        Names that nobody declared, and the place of the relation that says what each is.
     """
 
     number: int
@@ -90,7 +94,7 @@ class DerivedLine(msgspec.Struct, frozen=True):
     others: tuple[Relation, ...] = ()
     words: str = ""
     both_ways: bool = False
-    defines: str = ""
+    defines: tuple[tuple[str, int], ...] = ()
 
     @property
     def shown(self) -> str:
@@ -174,12 +178,14 @@ class DerivationReader:
         FormulaReadError
             If it has a sign between two sides and cannot be read.
         """
+        before = [*self.symbols]
         stated = _SIGN.search(text) and not _TENDS.search(text)
         if not stated and not self._is_formula(text):
             return DerivedLine(number, words=text)
         try:
-            return self._read_relations(number, text)
+            return self._read_with_new_letter(number, text)
         except FormulaReadError as error:
+            self.symbols = before
             words = [*self._iter_words(text)]
             inner = self._cut_words(text, words)
             if inner and inner != text:
@@ -187,10 +193,32 @@ class DerivationReader:
                     line = self._read_relations(number, inner)
                     return msgspec.structs.replace(line, words=text)
                 except FormulaReadError:
-                    pass
+                    self.symbols = before
             if len(words) > 1:
                 return DerivedLine(number, words=text)
             raise error from None
+
+    def _read_with_new_letter(self, number: int, text: str) -> DerivedLine:
+        """Return what a text states; a Greek letter that is new in it gets its meaning from it.
+
+        Raises
+        ------
+        FormulaReadError
+            If a side cannot be read.
+        """
+        try:
+            return self._read_relations(number, text)
+        except FormulaReadError as error:
+            if error.code != "unknown-name" or error.found not in _NEW_LETTER:
+                raise
+            letter = GREEK.get(error.found, error.found)
+            self.symbols.append(letter)
+            try:
+                line = self._read_relations(number, text)
+            except FormulaReadError:
+                self.symbols.remove(letter)
+                raise
+            return msgspec.structs.replace(line, defines=((letter, 0), *line.defines))
 
     def _is_formula(self, text: str) -> bool:
         """Return whether a text without a relation may be a formula, and is no words."""
@@ -233,21 +261,25 @@ class DerivationReader:
             If a side cannot be read.
         """
         found: list[tuple[Relation, Relation]] = []
-        defines = ""
+        defines: list[tuple[str, int]] = []
         for piece in _split_side_by_side(text):
             sides, signs = _split_sides(piece)
             trees = [TypedFormula(self._left)] if not sides[0].strip() else []
+            new = ""
             if not trees and len(sides) > 1 and self._is_new_name(sides[0]):
-                trees, defines = [TypedFormula(Sym(sides[0].strip()))], sides[0].strip()
+                new = sides[0].strip()
+                trees = [TypedFormula(Sym(new))]
             trees += [self._read_side(side) for side in (sides[1:] if trees else sides)]
             if len(trees) == 1:
                 trees, signs = [TypedFormula(self._left), *trees], ["="]
             self._left = trees[0].tree
-            if defines:
-                self.symbols.append(defines)
+            if new:
+                self.symbols.append(new)
+                defines.append((new, len(found)))
             found += _pair_sides(trees, signs)
         mains, others = zip(*found, strict=True)
-        return DerivedLine(number, mains, others if mains != others else (), defines=defines)
+        seconds = others if mains != others else ()
+        return DerivedLine(number, mains, seconds, defines=tuple(defines))
 
     def _read_side(self, side: str) -> TypedFormula:
         """Return one side; it is known afterwards which one could not be read.
@@ -258,6 +290,9 @@ class DerivationReader:
             If it cannot be read.
         """
         self._side = side
+        applied = _APPLIED.search(side)
+        if applied is not None and applied[1] in self.symbols:
+            raise FormulaReadError("two-readings", applied.start() + 1, applied[0])
         return read_formula(side, self.symbols, self.decimal)
 
     def _is_new_name(self, side: str) -> bool:
@@ -275,7 +310,7 @@ class DerivationReader:
 def _split_lines(typed: str) -> Iterator[tuple[str, bool, str]]:
     """Yield each line without marks in front, whether an arrow makes it equivalent, and all of it.
 
-    Where an arrow or *so* stands inside a line, another one begins.
+    Where an arrow, *so* or a semicolon stands inside a line, another one begins.
     """
     for pattern, plain in _LATEX:
         typed = pattern.sub(plain, typed)
@@ -283,9 +318,10 @@ def _split_lines(typed: str) -> Iterator[tuple[str, bool, str]]:
         pieces = _ARROW.split(raw)
         arrows = ["", *_ARROW.findall(raw)]
         for arrow, piece in zip(arrows, pieces, strict=True):
-            text = _strip_marks(piece)
-            if text:
-                yield text, bool(_BOTH_WAYS.fullmatch(arrow)), raw
+            for place, part in enumerate(piece.split(";")):
+                text = _strip_marks(part)
+                if text:
+                    yield text, place == 0 and bool(_BOTH_WAYS.fullmatch(arrow)), raw
 
 
 def _strip_marks(piece: str) -> str:

@@ -37,9 +37,13 @@ export const draw = (figure) => {
   figure.show("light", figure.factor(light));
   figure.show("time", seconds(figure, keep ? time / light : time));
   figure.show("blur", figure.factor(hole));
+  const turned = Math.log2(light), whole = Math.round(turned);
+  figure.show("stops", figure.number(turned, 3));
   const way = hole === 1 ? "said_same" : hole > 1 ? "said_wider" : "said_narrower";
-  figure.say(hole === 1 ? [way] : [way, keep ? "said_kept" : light > 1 ? "said_brighter" : "said_darker"], {
+  const names = hole === 1 ? [way] : [way, keep ? "said_kept" : light > 1 ? "said_brighter" : "said_darker"];
+  if (whole && turned !== whole && Math.abs(turned - whole) < 0.1) { names.push("said_rounded"); }
+  figure.say(names, {
     before: figure.number(before), now: figure.number(N), hole: figure.factor(hole), light: figure.factor(light),
-    time: figure.factor(1 / light),
+    time: figure.factor(1 / light), exact: figure.factor(2 ** whole),
   });
 };

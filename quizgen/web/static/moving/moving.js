@@ -82,7 +82,7 @@ class MovingFigure extends HTMLElement {
 
   name(input) {
     if (input.type === "checkbox") { return; }
-    const text = input.dataset.shown.replace("{}", this.number(this.values[input.dataset.set], 6));
+    const text = input.dataset.shown.replace("{}", this.number(this.values[input.dataset.set]));
     input.setAttribute("aria-valuetext", text);
     this.querySelector(`output[for="${input.id}"]`).textContent = text;
   }

@@ -27,6 +27,7 @@ export const begin = (figure) => {
     target.setPointerCapture(event.pointerId);
     target.onpointermove = drag;
   });
+  target.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false }); // else the page scrolls
   for (const end of ["pointerup", "pointercancel"]) { target.addEventListener(end, () => { target.onpointermove = null; }); }
 };
 

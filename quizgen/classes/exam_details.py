@@ -1,0 +1,137 @@
+"""``exam.toml``: what a class's papers say on their covers, and how long its folder may be kept.
+
+Every text is one for all languages, or a table of one for each: ``course.en``, ``course.de``.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Mapping
+from pathlib import Path
+
+import msgspec
+
+from quizgen.bank.metadata import pick_language
+from quizgen.classes.roster import RosterStudent
+from quizgen.core.decoding import convert
+from quizgen.core.errors import ClassError
+from quizgen.core.untrusted import parse_toml, read_text
+from quizgen.locale import FIRST, list_languages
+from quizgen.paper.paper import PaperCover
+
+FILE = "exam.toml"
+LONGEST = 500
+"""Characters of a text."""
+Text = str | dict[str, str]
+Rules = list[str] | dict[str, list[str]]
+
+
+class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What stands on the covers of a class's papers besides the questions.
+
+    Parameters
+    ----------
+    title : str or mapping
+        In place of that of the blueprint.
+    course, date, room, examiner : str or mapping
+        A student's room is the group of the roster, where it names one.
+    rules : list of str, or mapping
+        What holds in the room.
+    signature : bool
+        Whether there is a line to sign on.
+    keep_until : datetime.date, optional
+        When the folder is to be forgotten.
+    office : str
+        Language of the tables for the examination office.
+    pseudonyms : bool
+        Whether names stand on covers alone, so that who marks the pages reads codes.
+    """
+
+    title: Text = ""
+    course: Text = ""
+    date: Text = ""
+    room: Text = ""
+    examiner: Text = ""
+    rules: Rules = []
+    signature: bool = False
+    keep_until: dt.date | None = None
+    office: str = FIRST
+    pseudonyms: bool = False
+
+    def build_cover(self, student: RosterStudent) -> PaperCover:
+        """Return what a student's cover says."""
+        facts = {"course": self.course, "date": self.date, "room": student.group or self.room,
+                 "seat": student.seat, "examiner": self.examiner}  # fmt: skip
+        rules = self.rules if isinstance(self.rules, dict) else {FIRST: self.rules}
+        return PaperCover(
+            {name: _name_languages(text) for name, text in facts.items() if text},
+            {lang: tuple(said) for lang, said in rules.items()},
+            self.signature,
+        )
+
+    @property
+    def titles(self) -> Mapping[str, str]:
+        """Return the title in each language that it has; none if the blueprint's is meant."""
+        return _name_languages(self.title) if self.title else {}
+
+    def pick(self, name: str, lang: str) -> str:
+        """Return a text in a language, else in another one; empty if there is none."""
+        text = getattr(self, name)
+        return pick_language(_name_languages(text), lang, "") if text else ""
+
+    def check(self) -> None:
+        """Raise ``ClassError`` for a text that no cover has room for, or an unknown language.
+
+        Raises
+        ------
+        ClassError
+            Naming the key.
+        """
+        if self.office not in list_languages():
+            known = ", ".join(list_languages())
+            raise ClassError(f"office: {self.office[:40]!r} (there are {known})")
+        for name in ("title", "course", "date", "room", "examiner", "rules"):
+            found = getattr(self, name)
+            texts = [*found.values()] if isinstance(found, dict) else [found]
+            for text in texts:
+                if any(
+                    len(str(one)) > LONGEST for one in (text if isinstance(text, list) else [text])
+                ):
+                    raise ClassError(f"{name}: longer than {LONGEST} characters")
+
+
+def describe_overdue(folder: Path, today: dt.date) -> str:
+    """Return that the folder of a class is kept longer than its ``exam.toml`` says; else empty."""
+    found = read_exam_details(folder / FILE)
+    if found is None or found.keep_until is None or found.keep_until >= today:
+        return ""
+    return (
+        f"{folder}: was to be kept until {found.keep_until}; "
+        f"names and answers go with: quizgen class forget {folder}"
+    )
+
+
+def _name_languages(text: Text) -> dict[str, str]:
+    """Return a text by language; one for all languages as that of the first."""
+    return text if isinstance(text, dict) else {FIRST: text}
+
+
+def read_exam_details(path: Path) -> ExamDetails | None:
+    """Return what a file says of the exam; None if there is no such file.
+
+    Raises
+    ------
+    ClassError
+        Naming the file and the key.
+    """
+    if not path.exists():
+        return None
+    table = parse_toml(read_text(path, ClassError), path, ClassError)
+    plain = {name: value.isoformat() if isinstance(value, dt.date | dt.time) else value
+             for name, value in table.items()}  # fmt: skip
+    try:
+        found = convert(plain, ExamDetails)
+        found.check()
+    except (msgspec.ValidationError, ClassError) as error:
+        raise ClassError(f"{path}: {error}") from None
+    return found
