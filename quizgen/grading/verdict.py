@@ -74,7 +74,7 @@ class Verdict(msgspec.Struct, frozen=True):
 
     @property
     def needs_self_marking(self) -> bool:
-        """Whether a person has to decide: key points are only suggested."""
+        """Whether a person has to decide: criteria are only suggested."""
         return self.note in SELF_MARKED
 
     @property

@@ -14,6 +14,7 @@ from typing import Annotated, Literal, NamedTuple
 import msgspec
 from msgspec import Meta
 
+from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.statements import (
     Evidence,
@@ -59,22 +60,26 @@ class AuthoredRubric(AuthoredAnswer, kw_only=True, tag="rubric", frozen=True):
 
     criteria: Annotated[
         dict[str, Scalar],
-        Meta(description="points of each criterion; more than the part has if the best count"),
+        Meta(description="points of each criterion; more than the part has if the best count."),
     ]
     mistakes: Annotated[
         dict[str, str],
-        Meta(description="known wrong ideas, each with the criterion that it contradicts"),
+        Meta(description="known wrong ideas, each with the criterion that it contradicts."),
     ] = msgspec.field(default_factory=dict)
     follows: Annotated[
         dict[str, str],
-        Meta(description="criteria that count where they follow from a wrong earlier one"),
+        Meta(description="criteria that count where they follow from a wrong earlier one."),
     ] = msgspec.field(default_factory=dict)
 
     def find_problems(self) -> Iterator[FieldProblem]:
         """Yield what is wrong with points and names."""
         yield from find_name_problems("criteria", tuple(self.criteria), 0)
         for name, points in self.criteria.items():
-            if not 0 < parse_written_number(points) <= MOST_POINTS_OF_ONE:
+            try:
+                sound = 0 < parse_written_number(points) <= MOST_POINTS_OF_ONE
+            except FormulaError:
+                sound = False
+            if not sound:
                 wrong = f"points: more than 0, at most {MOST_POINTS_OF_ONE}"
                 yield ("criteria", name), "QG230", wrong
         for field in ("mistakes", "follows"):

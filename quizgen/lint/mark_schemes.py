@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+import msgspec
+
 from quizgen.bank.variant import Variant
 from quizgen.core.diagnostics import Diagnostic, diagnose
 from quizgen.core.positions import Place
@@ -11,8 +13,8 @@ from quizgen.kinds.rubric import RubricSpec, Status
 from quizgen.maths.numbers import parse_written_number
 from quizgen.question.part_context import ask_part
 
-DRAWS = 4
-"""Draws in which a mark scheme is read: conditions and values change its examples."""
+DIFFERENT = 8
+"""Different mark schemes of a part that are read: conditions and values change its examples."""
 
 
 def find_unsound_schemes(draws: Iterable[Variant]) -> Iterator[Diagnostic]:
@@ -21,11 +23,16 @@ def find_unsound_schemes(draws: Iterable[Variant]) -> Iterator[Diagnostic]:
     A problem is told once, whatever the number of draws that have it.
     """
     told = set[str]()
-    for one in list(draws)[:DRAWS]:
+    read: dict[int, list[bytes]] = {}
+    for one in draws:
         for index in range(len(one.template.rules.part)):
             spec = ask_part(one, index).spec
             if not isinstance(spec, RubricSpec):
                 continue
+            before, written = read.setdefault(index, []), msgspec.json.encode(spec)
+            if written in before or len(before) >= DIFFERENT:
+                continue
+            before.append(written)
             place: Place = ("part", index, "answer")
             for code, what in (*_misread_examples(spec), *_weak_models(spec)):
                 if what not in told:

@@ -398,7 +398,7 @@ async def preview_exam_answer(request: Request) -> Response:
 
 
 async def save_self_mark(request: Request) -> Response:
-    """Store the share of marks that a learner gives to a sentence, by its key points."""
+    """Store the share of marks that a learner gives to a sentence, by its criteria."""
     form = await read_form(request)
     sitting = await _get_sitting(request)
     part, _ = _get_part(await _make_paper(request, sitting), request.path_params["part"])

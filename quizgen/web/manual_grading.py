@@ -100,7 +100,7 @@ async def show_queue(request: Request) -> Response:
 
 
 def _highlight_key_points(case: DecisionCase) -> Markup:
-    """Return an answer as HTML with its key points marked."""
+    """Return an answer as HTML with what the suggestion goes by marked."""
     typed, at, pieces = case.answer.typed, 0, []
     for start, end in case.spots:
         pieces += [escape(typed[at:start]), Markup("<mark>{}</mark>").format(typed[start:end])]

@@ -129,7 +129,7 @@ def test_editors_are_told_what_each_key_means(kind):
 
 ANSWERS = {
     "Number", "Quantity", "Angle", "Point", "Set", "Table", "Interval", "Expression", "Choice",
-    "Multi", "Truth", "Match", "Order", "Gap", "Witness", "Code", "Program", "Text", "Sketch",
+    "Multi", "Truth", "Match", "Order", "Gap", "Witness", "Code", "Program", "Rubric", "Sketch",
     "Complex", "Equation", "Matrix", "Vector", "Checked", "Derivation",
 }  # fmt: skip
 """Names that editors know the answers of each kind by."""
@@ -184,6 +184,10 @@ MADE = {
     "components",
     "check",
     "example",
+    "full",
+    "ideas",
+    "model",
+    "synonyms",
 }
 """What a draw, the bank or the words give to the key of a part, and nobody writes in an answer."""
 

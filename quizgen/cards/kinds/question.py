@@ -148,7 +148,7 @@ def deduplicate(said: dict[str, CardBlocks]) -> dict[str, CardBlocks]:
 
 
 def answer_blocks(part: PartSolution) -> CardBlocks:
-    """Return the key of one part, with the wording of the right options or key points."""
+    """Return the key of one part, with the wording of the right options or criteria."""
     if len(part.options) > 1:
         points = tuple((Paragraph(option),) for option in part.options)
         return (*_build_answer_blocks(part, ()), ListBlock(points))

@@ -975,12 +975,14 @@ def _nearest_row(rows: Sequence[tuple[int, ...]], taken: Sequence[int]) -> tuple
 _ORDER = {"denied": 0, "half": 1, "said": 2, "open": 3}
 
 
-def _rank(evidence: Evidence) -> tuple[bool, int, int]:
+def _rank(evidence: Evidence) -> tuple[bool, bool, int, int]:
     """Return what the best fit comes first by.
 
-    That is one clause before several, then how much was recognised, then the careful meaning.
+    That is one clause before several, what is sure, then how much was recognised, then the careful
+    meaning.
     """
-    return (evidence.last > evidence.first, -evidence.size, _ORDER[evidence.meaning])
+    spread, unsure = evidence.last > evidence.first, evidence.meaning == "open"
+    return (spread, unsure, -evidence.size, _ORDER[evidence.meaning])
 
 
 def used_synonyms(groups: Mapping[str, Sequence[str]], texts: Iterable[str]) -> list[str]:
