@@ -129,7 +129,7 @@ def test_editors_are_told_what_each_key_means(kind):
 
 ANSWERS = {
     "Number", "Quantity", "Angle", "Point", "Set", "Table", "Interval", "Expression", "Choice",
-    "Multi", "Truth", "Match", "Order", "Gap", "Witness", "Code", "Program", "Text", "Sketch",
+    "Multi", "Truth", "Match", "Order", "Gap", "Witness", "Code", "Program", "Rubric", "Sketch",
     "Complex", "Equation", "Matrix", "Vector", "Checked", "Derivation",
 }  # fmt: skip
 """Names that editors know the answers of each kind by."""
