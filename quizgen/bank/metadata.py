@@ -61,11 +61,13 @@ class BankMetadata(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
 class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """What there is to cover.
 
-    ``groups`` lists the items of each group, ``F01..F46`` being a row of numbers; ``figures``
+    ``groups`` lists the items of each group, ``F01..F46`` being a row of numbers; ``verbs`` lists
+    the items that ask to explain, define, derive, ... in words of one's own; ``figures``
     says which item a figure covers; items past the curriculum are any of ``beyond`` and a number.
     """
 
     groups: dict[str, tuple[str, ...]] = {}
+    verbs: dict[str, tuple[str, ...]] = {}
     figures: dict[str, str] = {}
     beyond: tuple[str, ...] = ()
 

@@ -45,7 +45,7 @@ class PartChecker:
         BankError
             If the answer asks for what the solver does not know, or has no valid tolerance.
         """
-        rules = template.rules
+        rules, self.index = template.rules, index
         self.answer = rules.part[index].answer
         self.of = asked_quantities(self.answer)
         said, place = f"part {index + 1}", ("part", index, "answer")
@@ -62,6 +62,7 @@ class PartChecker:
             *(template.chain.required_steps(n, self.known - {n}) for n in self.of), frozenset()
         )
         self.steps = tuple(step for step in template.chain.steps if step.name in needed)
+        self._check_scheme(template, said)
         whole = 0.01 if self.answer.get("percent") else 1.0
         factors = [template.unit_factor(self.unit_of(template, n)) for n in self.of]
         self.asked = [(n, whole * to_float(f)) for n, f in zip(self.of, factors, strict=True)]
@@ -70,7 +71,7 @@ class PartChecker:
             for trap, wrong in template.chain.traps.items()
             if trap not in rules.drop and self._is_answer_affected(template, wrong, needed)
         }
-        self.index, self.form_steps = index, tuple[ChainStep, ...]()
+        self.form_steps = tuple[ChainStep, ...]()
         if self.form:
             self._plan_form(template)
         self.may_vanish = frozenset(rules.may_vanish)
@@ -85,6 +86,16 @@ class PartChecker:
             t.decimals is not None and parse_exact(t.within) != 1 for t in self.tolerances
         )
         self.apart = 1.0 if self.one_step else APART
+
+    def _check_scheme(self, template: Template, said: str) -> None:
+        """Raise an error if the mark scheme names a step that the solution does not show."""
+        part = template.rules.part[self.index]
+        names = [step.name for step in self.steps if part.show is None or step.name in part.show]
+        unknown = sorted(set(part.scheme) - {*names, self.form})
+        if unknown:
+            what = f"{said}: scheme: no steps of its solution: {unknown} (these are: {names})"
+            place = ("part", self.index, "scheme")
+            raise BankError(what, rule="QG116", file=template.file, place=place)
 
     def _plan_form(self, template: Template) -> None:
         """Find what the form rests on, and the mistakes that change it."""

@@ -107,6 +107,7 @@ class PartRule(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     answer: dict[str, Any]
     points: Scalar = 1
     show: tuple[str, ...] | None = None
+    scheme: dict[str, Scalar] = {}
     example: tuple[ExampleRule, ...] = ()
 
 

@@ -30,6 +30,7 @@ from quizgen.core.decoding import convert
 from quizgen.core.errors import BankError, FormulaError
 from quizgen.core.positions import TEXT
 from quizgen.core.untrusted import error_context, parse_toml, read_text
+from quizgen.kinds.contract import asked_quantities
 from quizgen.maths.chain import Chain
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.tree import Expr, names_in
@@ -129,6 +130,13 @@ class Template:
     def minutes(self) -> int:
         """Return the suggested working time in minutes."""
         return suggested_minutes(self.rules)
+
+    @cached_property
+    def exact_steps(self) -> frozenset[str]:
+        """Names of the steps whose values lead to answers that must be exact."""
+        asked = (asked_quantities(p.answer) for p in self.rules.part if p.answer.get("exact"))
+        names = {name for quantities in asked for name in quantities} & self.chain.by_name.keys()
+        return frozenset().union(*map(self.chain.required_steps, names), names)
 
     @cached_property
     def units(self) -> dict[str, str]:

@@ -18,7 +18,7 @@ from quizgen.bank.drawn_lists import (
     is_list_rule,
     is_number,
 )
-from quizgen.bank.rules import LISTED, DrawRule, KeepRule, Rules, Source
+from quizgen.bank.rules import LISTED, DrawRule, KeepRule, PartRule, Rules, Source
 from quizgen.core.complaints import complaint_of, written_place
 from quizgen.core.decoding import convert
 from quizgen.core.diagnostics import CODES, can_be_ignored
@@ -75,9 +75,27 @@ def find_problems(rules: Rules) -> FieldProblems:
     for name, value in (rules.reference or {}).items():
         if not rules.draw.get(name) or not rules.draw[name].words:
             yield from _check_numbers_readable(("reference", name), (value,))
+    for item in rules.verbs:
+        if item not in rules.covers:
+            yield ("verbs", item), "QG230", f"{item!r} is not in covers"
     for index, part in enumerate(rules.part):
         yield from _prefix_places(("part", index, "answer"), _check_answer(part.answer))
         yield from _check_between(("part", index, "points"), part.points, MOST_POINTS)
+        yield from _prefix_places(("part", index), _check_scheme(part))
+
+
+def _check_scheme(part: PartRule) -> FieldProblems:
+    """Yield points of steps that do not add up to those of their part."""
+    if not part.scheme:
+        return
+    try:
+        found = sum(map(parse_written_number, part.scheme.values()), Fraction(0))
+        worth = parse_written_number(part.points)
+    except ValueError as error:
+        yield ("scheme",), "QG260", str(error)
+        return
+    if found != worth or any(parse_written_number(one) <= 0 for one in part.scheme.values()):
+        yield ("scheme",), "QG260", f"the steps earn {found} points, and the part {worth}"
 
 
 def _prefix_places(place: Place, found: FieldProblems) -> FieldProblems:

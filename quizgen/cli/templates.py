@@ -120,14 +120,16 @@ def _read_template_title(bank: Bank, name: str, lang: str) -> str:
 
 def _print_coverage(bank: Bank) -> None:
     """Print how much of the curriculum is covered, and what is not."""
-    from quizgen.lint.coverage import curriculum_coverage
+    from quizgen.lint.coverage import curriculum_coverage, verb_coverage
 
-    rows = [
-        (row.group, str(len(row.covered)), str(row.total), " ".join(row.holes))
-        for part in bank.members
-        for row in curriculum_coverage(part)
-    ]
-    _print_templates(("group", "covered", "of", "holes"), rows)
+    for head, list_rows in (("group", curriculum_coverage), ("verb", verb_coverage)):
+        rows = [
+            (row.group, str(len(row.covered)), str(row.total), " ".join(row.holes))
+            for part in bank.members
+            for row in list_rows(part)
+        ]
+        if rows:
+            _print_templates((head, "covered", "of", "holes"), rows)
 
 
 def _print_templates(head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:

@@ -12,6 +12,8 @@ from quizgen.maths.values import Value
 
 LARGEST_PLAIN = 10**12
 """Whole numbers below this are written out: a power of ten would hide their digits."""
+USUAL_FIGURES = 3
+"""Figures of a number where nothing else is asked."""
 LARGEST_SHOWN = fmpq(10) ** 250
 
 
@@ -87,9 +89,15 @@ def _format_sigfigs(value: Value, figures: int, *, strict: bool) -> str:
 
 
 def _format_within_tolerance(tolerance: Tolerance, value: Value) -> str:
-    """Return enough figures that rounding takes at most a tenth of the tolerance."""
+    """Return three figures if rounding takes at most half of the tolerance, else more of them.
+
+    From four figures on it takes at most a tenth.
+    """
     width = tolerance.half_width(value)
-    figures = 4
+    short = format_exact_or_figures(value, USUAL_FIGURES)
+    if value != 0 and not abs(parse_exact(short) - value) * 2 > width:
+        return short
+    figures = USUAL_FIGURES + 1
     while figures < 30 and value != 0:
         text = format_exact_or_figures(value, figures)
         if not abs(parse_exact(text) - value) * 10 > width:

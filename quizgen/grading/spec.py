@@ -65,6 +65,11 @@ class SpecBase:
         """Return the units that may be typed: those listed, and those of the question's bank."""
         return build_unit_registry()
 
+    @property
+    def printed_unit(self) -> str:
+        """The unit that is printed beside the field on paper; empty if there is none."""
+        return ""
+
     @abstractmethod
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return the verdict on what was typed; each kind has its own way.

@@ -17,7 +17,13 @@ from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import ScalarSpec
 from quizgen.grading.verdict import Verdict, attach_values, wrong
-from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first
+from quizgen.kinds.asking import (
+    accept_within_tolerance,
+    ask_numeric,
+    numeric_hints,
+    precision_on_paper,
+    show_exact_first,
+)
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartContext
 from quizgen.kinds.quantity import DEGREES
 from quizgen.locale import translate
@@ -61,6 +67,11 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
         """
         sides = read_typed_sides(typed, options.decimal)
         return best_verdict(_judge_equal_side(self, side, options) for side in sides)
+
+    @property
+    def printed_unit(self) -> str:
+        """The unit that is printed beside the field on paper."""
+        return "°"
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
@@ -147,4 +158,12 @@ def input_hints(spec: AngleSpec, lang: str) -> tuple[str, ...]:
     return numeric_hints(spec, lang, translate(lang, "ask.degrees"))
 
 
-KIND = AnswerKind(AuthoredAngle, AngleSpec, ask, input_hints, show_exact_first)
+KIND = AnswerKind(
+    AuthoredAngle,
+    AngleSpec,
+    ask,
+    input_hints,
+    show_exact_first,
+    precision_on_paper,
+    accept_within_tolerance,
+)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import msgspec
+from flint import fmpq
 
 from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
@@ -14,10 +16,15 @@ from quizgen.core.errors import FormulaError
 from quizgen.grading.judge import show_spec
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, VectorSpec
 from quizgen.kinds.contract import AskedPart, LabelledName, PartContext, S, asked_quantities
-from quizgen.locale import translate
+from quizgen.locale import localise_numbers, translate
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import pretty
-from quizgen.maths.numbers import format_for_key, is_short_decimal, to_float
+from quizgen.maths.numbers import (
+    format_duration,
+    format_for_key,
+    is_short_decimal,
+    to_float,
+)
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
@@ -132,8 +139,12 @@ def assign_letters(names: Iterable[str]) -> tuple[LabelledName, ...]:
 
 def show_exact_first(spec: ScalarSpec | VectorSpec, lang: str) -> str:
     """Return the key with its exact value before the rounded one, where that differs."""
+    if isinstance(spec, ScalarSpec) and spec.printed_unit == SECONDS:
+        duration = format_duration(parse_exact(spec.value))
+        if duration and spec.decimals is None:
+            return f"{duration} {SECONDS}"
     rounded = show_spec(spec, lang)
-    if spec.decimals is not None or not are_readable_fractions(_get_key_numbers(spec)):
+    if spec.decimals is not None or not _help_as_fractions(spec):
         return rounded
     exactly = show_spec(
         msgspec.structs.replace(
@@ -141,7 +152,28 @@ def show_exact_first(spec: ScalarSpec | VectorSpec, lang: str) -> str:
         ),
         lang,
     )
-    return f"{exactly} ≈ {rounded}" if exactly != rounded and "/" in exactly else rounded
+    return f"{exactly} ≈ {rounded}" if exactly != rounded and _FRACTION.search(exactly) else rounded
+
+
+SECONDS = "s"
+_SHORT = re.compile(r"-?\d{1,3}(/\d{1,2})?")
+_FRACTION = re.compile(r"\d/\d")
+
+
+def _help_as_fractions(spec: ScalarSpec | VectorSpec) -> bool:
+    """Return whether fractions say more than a number of three figures: 200/3, not 1968/325.
+
+    A value that is read off a plot or estimated is no fraction at all.
+    """
+    key = _get_key_numbers(spec)
+    rule, number = spec.stated_rule or spec.unstated
+    if rule == "rel" and parse_exact(str(number)) > ESTIMATED:
+        return False
+    return are_readable_fractions(key) and all(map(_SHORT.fullmatch, number_texts(key)))
+
+
+ESTIMATED = fmpq(1, 100)
+"""Share beyond which a number is an estimate."""
 
 
 def are_readable_fractions(key: KeyNumbers) -> bool:
@@ -193,6 +225,91 @@ def _get_key_numbers(spec: ScalarSpec | VectorSpec) -> KeyNumbers:
 def numeric_hints(spec: ScalarSpec | VectorSpec, lang: str, *sentences: str) -> tuple[str, ...]:
     """Return the sentences that are not empty, and how exactly the numbers must be given."""
     return nonempty(*sentences, rounding_hint(spec, _get_key_numbers(spec), lang))
+
+
+def precision_on_paper(spec: NumericSpec, lang: str) -> tuple[str, ...]:
+    """Return how exactly the numbers must be given, where the cover does not say it already."""
+    return nonempty(rule_on_paper(spec, lang))
+
+
+def rule_on_paper(spec: NumericSpec, lang: str) -> str:
+    """Return in few words how exactly an answer must be given; empty if three figures do."""
+    rule, number = spec.stated_rule or ("", "")
+    if rule == "decimals":
+        name = f"on_paper.decimals_{number}" if number in {0, 1} else "on_paper.decimals"
+        return translate(lang, name, n=number)
+    if rule == "sigfigs" and number != USUAL_FIGURES:
+        return translate(lang, "on_paper.sigfigs", n=number)
+    if rule == "exact":
+        return translate(lang, "on_paper.exact")
+    if rule == "rel" and parse_exact(str(number)) < USUAL_SHARE:
+        percent = pretty.format_number(f"{to_float(parse_exact(str(number)) * 100):g}")
+        return f"± {percent} %"
+    return f"± {pretty.format_number(str(number))}" if rule == "abs" else ""
+
+
+def accept_within_tolerance(spec: NumericSpec, lang: str) -> str:
+    """Return what a marker accepts of a number: from where to where, or how near."""
+    if spec.strict or _has(spec, "form"):
+        return ""
+    if spec.exact:
+        key = getattr(spec, "value", None) or getattr(spec, "values")  # noqa: B009
+        is_whole = not any("/" in text for text in number_texts(key))
+        return "" if is_whole else translate(lang, "scheme.exact")
+    found = _accepted_range(spec) if isinstance(spec, ScalarSpec) else None
+    if found is not None:
+        low, high = (pretty.format_number(text) for text in found)
+        unit = f" {format_unit(spec.printed_unit)}" if spec.printed_unit else ""
+        return localise_numbers(lang, translate(lang, "scheme.range", low=low, high=high)) + unit
+    rule, number = spec.stated_rule or spec.unstated
+    if rule == "rel":
+        percent = pretty.format_number(f"{to_float(parse_exact(str(number)) * 100):g}")
+        return localise_numbers(lang, translate(lang, "scheme.within", percent=percent))
+    if rule == "abs":
+        return localise_numbers(lang, f"± {pretty.format_number(str(number))}")
+    return translate(lang, "scheme.last_place")
+
+
+def _has(spec: NumericSpec, name: str) -> bool:
+    """Return whether a spec has a field of this name that is set: not every kind knows all."""
+    return bool(getattr(spec, name, False))
+
+
+def _accepted_range(spec: ScalarSpec) -> tuple[str, str] | None:
+    """Return the least and the greatest number that is accepted, rounded inwards; None if large."""
+    key = parse_exact(spec.value) * (100 if _has(spec, "percent") else 1)
+    width, near = to_float(spec.half_width(key)), to_float(key)
+    if not 0 < width < LARGEST_IN_RANGE or not LEAST_IN_RANGE < abs(near) < LARGEST_IN_RANGE:
+        return None
+    bounds = [near - width, near + width]
+    if spec.accept:
+        bounds += [to_float(parse_exact(bound)) for bound in spec.accept]
+    first = math.floor(math.log10(width))
+    places = max(0, (width < FINE * 10.0**first) - first)
+    unit = 10.0**-places
+    low = math.ceil(min(bounds) / unit - SLIP) * unit
+    high = math.floor(max(bounds) / unit + SLIP) * unit
+    return f"{low:.{places}f}", f"{high:.{places}f}"
+
+
+LEAST_IN_RANGE, LARGEST_IN_RANGE = 1e-3, 1e6
+"""Sizes of numbers that are written without a power of ten."""
+FINE = 4
+"""First digit of a width below which one more place is written: rounding takes little of it."""
+SLIP = 1e-9
+"""How far a bound may be from the last place by its arithmetic alone."""
+USUAL_FIGURES, USUAL_SHARE = 3, fmpq(1, 200)
+"""What the cover asks for, and how far a number of so many figures may be from its value."""
+
+
+def say_on_paper(*keys: str) -> Callable[[AnySpec, str], tuple[TextOrInlines, ...]]:
+    """Return the function ``paper_hints`` of a kind with the same sentences for every key."""
+
+    def paper_hints(_spec: AnySpec, lang: str) -> tuple[TextOrInlines, ...]:
+        """Return the sentences in a language."""
+        return tuple(translate(lang, key) for key in keys)
+
+    return paper_hints
 
 
 def hint(key: str, **program: str) -> Callable[[AnySpec, str], tuple[TextOrInlines, ...]]:

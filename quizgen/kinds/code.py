@@ -18,7 +18,7 @@ from quizgen.grading.reading.normalise import (
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
-from quizgen.kinds.asking import explain_as_code, hint, make_spec, misconception_specs
+from quizgen.kinds.asking import explain_as_code, hint, make_spec, misconception_specs, say_on_paper
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, InputControl, PartContext
 from quizgen.maths.notation import FormulaReadError
 
@@ -173,4 +173,6 @@ def ask(part: PartContext) -> AskedPart[CodeSpec]:
     return AskedPart(spec, control, mistakes=misconception_specs(spec, "output"))
 
 
-KIND = AnswerKind(AuthoredCode, CodeSpec, ask, hint("ask.code"), explain_as_code)
+KIND = AnswerKind(
+    AuthoredCode, CodeSpec, ask, hint("ask.code"), explain_as_code, say_on_paper("ask.code")
+)

@@ -169,4 +169,9 @@ def explain_key(spec: ComplexSpec, _lang: str) -> TextOrInlines:
     return typeset_key(build_complex(spec.parts, spec.form))
 
 
-KIND = AnswerKind(AuthoredComplex, ComplexSpec, ask, input_hints, explain_key)
+def paper_hints(spec: ComplexSpec, lang: str) -> tuple[str, ...]:
+    """Return the form that is asked, if one is."""
+    return (translate(lang, f"on_paper.form_{spec.form}"),) if spec.form != "any" else ()
+
+
+KIND = AnswerKind(AuthoredComplex, ComplexSpec, ask, input_hints, explain_key, paper_hints)

@@ -9,7 +9,9 @@ A kind is one module of this folder that ends in a ``KIND``: an ``AnswerKind`` o
 ``ask``
     from a part of a variant to an ``AskedPart``,
 ``input_hints``, ``explain_key``
-    how to type an answer, and the key as the solution states it.
+    how to type an answer, and the key as the solution states it,
+``paper_hints``
+    what stands beside its field on paper.
 """
 
 from __future__ import annotations
@@ -337,6 +339,8 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
         a matching, in the order in which they are shown.
     right : tuple of (str, str)
         Section and name of the sentences that tell the right answer in words.
+    shares : tuple of Fraction
+        What share of the points each of these earns, where an answer may have some of them.
     reasons : tuple of (str, str)
         What a learner may choose wrongly (an option's mark, a pair of marks) and the name of the
         sentence in section ``reasons`` that says why it is wrong.
@@ -361,6 +365,7 @@ class AskedPart(msgspec.Struct, Generic[S], frozen=True):
     options: tuple[LabelledName, ...] = ()
     targets: tuple[LabelledName, ...] = ()
     right: tuple[LabelledName, ...] = ()
+    shares: tuple[Fraction, ...] = ()
     reasons: tuple[LabelledName, ...] = ()
     statements: tuple[LabelledName, ...] = ()
     source: str = ""
@@ -487,6 +492,16 @@ class PartContext(Protocol):
         """Return the answers that an author gives as examples, and the share that each earns."""
 
 
+def no_paper_hints(_spec: AnySpec, _lang: str) -> tuple[TextOrInlines, ...]:
+    """Return nothing: on paper the field itself shows how it is filled in."""
+    return ()
+
+
+def accept_nothing_else(_spec: AnySpec, _lang: str) -> str:
+    """Return nothing: the printed answer is the only one."""
+    return ""
+
+
 @dataclass(frozen=True)
 class AnswerKind(Generic[S]):
     """One kind of answer: all that differs between kinds.
@@ -507,6 +522,11 @@ class AnswerKind(Generic[S]):
         field for each leaves it out.
     explain_key : callable
         The key as the solution states it; empty where sentences tell it.
+    paper_hints : callable
+        What is said beside the field on paper, where nothing is typed and units are printed:
+        a word on precision or form, most often nothing.
+    accepted : callable
+        What a marker accepts besides the printed answer, in few words; empty for nothing.
     """
 
     authored: type[AuthoredAnswer | AuthoredMeasured]
@@ -514,6 +534,8 @@ class AnswerKind(Generic[S]):
     ask: Callable[[PartContext], AskedPart[S]]
     input_hints: Callable[[S, str], tuple[TextOrInlines, ...]]
     explain_key: Callable[[S, str], TextOrInlines] = show_spec
+    paper_hints: Callable[[S, str], tuple[TextOrInlines, ...]] = no_paper_hints
+    accepted: Callable[[S, str], str] = accept_nothing_else
 
     @property
     def name(self) -> str:

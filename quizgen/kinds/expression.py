@@ -261,9 +261,27 @@ HOW_TO_TYPE = hint("ask.expression", example=EXAMPLE)
 
 def input_hints(spec: ExpressionSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return how a formula is typed, and the form that is asked."""
+    return (*HOW_TO_TYPE(spec, lang), *paper_hints(spec, lang))
+
+
+def accept_equivalent(spec: ExpressionSpec, lang: str) -> str:
+    """Return that other ways to write it count, unless one is asked."""
+    return translate(lang, "scheme.equivalent") if spec.form in {"", "any"} else ""
+
+
+def paper_hints(spec: ExpressionSpec, lang: str) -> tuple[str, ...]:
+    """Return the form that is asked, and what may be added to it."""
     form = f"ask.form_{spec.form}" if spec.form not in {"", "any"} else ""
     free = f"ask.up_to_{spec.up_to}" if spec.up_to else ""
-    return (*HOW_TO_TYPE(spec, lang), *(translate(lang, name) for name in (form, free) if name))
+    return tuple(translate(lang, name) for name in (form, free) if name)
 
 
-KIND = AnswerKind(AuthoredExpression, ExpressionSpec, ask, input_hints, explain_key)
+KIND = AnswerKind(
+    AuthoredExpression,
+    ExpressionSpec,
+    ask,
+    input_hints,
+    explain_key,
+    paper_hints,
+    accept_equivalent,
+)

@@ -375,4 +375,14 @@ def _iter_wrong_words(
                 yield str(place), name, part.accepted_words(term) if part.has_gap(term) else [term]
 
 
-KIND = AnswerKind(AuthoredGap, GapSpec, ask, hint("ask.gap"))
+def accept_synonyms(spec: GapSpec, lang: str) -> str:
+    """Return other words for each gap, those in other letters aside."""
+    found = []
+    for gap in spec.gaps():
+        _, *others = [word for word in gap if is_written_in(lang, word)] or [""]
+        found.append(", ".join(others[:MOST_SYNONYMS]))
+    return "; ".join(filter(None, found))
+
+
+MOST_SYNONYMS = 3
+KIND = AnswerKind(AuthoredGap, GapSpec, ask, hint("ask.gap"), accepted=accept_synonyms)

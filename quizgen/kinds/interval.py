@@ -19,7 +19,13 @@ from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.rounding import format_exact_or_figures
 from quizgen.grading.spec import NumericSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
-from quizgen.kinds.asking import make_spec, misconception_specs, nonempty, rounding_hint
+from quizgen.kinds.asking import (
+    make_spec,
+    misconception_specs,
+    nonempty,
+    rounding_hint,
+    rule_on_paper,
+)
 from quizgen.kinds.contract import (
     AnswerKind,
     AskedPart,
@@ -310,4 +316,9 @@ def input_hints(spec: IntervalSpec, lang: str) -> tuple[str, ...]:
     return nonempty(translate(lang, "ask.interval"), rounding_hint(spec, spec.value, lang))
 
 
-KIND = AnswerKind(AuthoredInterval, IntervalSpec, ask, input_hints)
+def paper_hints(spec: IntervalSpec, lang: str) -> tuple[str, ...]:
+    """Return how an interval is written, and how exactly."""
+    return nonempty(translate(lang, "on_paper.interval"), rule_on_paper(spec, lang))
+
+
+KIND = AnswerKind(AuthoredInterval, IntervalSpec, ask, input_hints, paper_hints=paper_hints)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from quizgen.kinds.asking import hint
+from quizgen.kinds.asking import hint, say_on_paper
 from quizgen.kinds.choice import AuthoredChoice, ChoiceSpec, ask_options
 from quizgen.kinds.contract import AnswerKind, AskedPart, InputControl, PartContext
 
@@ -18,4 +18,5 @@ def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
     return ask_options(part, InputControl("many", lines=0))
 
 
-KIND = AnswerKind(AuthoredMulti, ChoiceSpec, ask, hint("ask.multi"))
+KIND = AnswerKind(AuthoredMulti, ChoiceSpec, ask, hint("ask.multi"),
+                  paper_hints=say_on_paper("ask.multi"))  # fmt: skip

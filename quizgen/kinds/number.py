@@ -40,7 +40,14 @@ from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import ScalarSpec, is_whole_number
 from quizgen.grading.verdict import Verdict, attach_values, unreadable, wrong
 from quizgen.kinds import quantity
-from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first, unit_hint
+from quizgen.kinds.asking import (
+    accept_within_tolerance,
+    ask_numeric,
+    numeric_hints,
+    precision_on_paper,
+    show_exact_first,
+    unit_hint,
+)
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartContext
 from quizgen.locale import translate
 from quizgen.maths.constants import Scalar, parse_exact
@@ -108,6 +115,11 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         return best_verdict(
             _judge_side(self, side, source, options) for side in _read(self, source, options)
         )
+
+    @property
+    def printed_unit(self) -> str:
+        """The unit that is printed beside the field on paper."""
+        return "%" if self.percent else self.unit
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
@@ -319,4 +331,12 @@ def explain_key(spec: NumberSpec, lang: str) -> str:
     return show_spec(spec, lang) if spec.percent else show_exact_first(spec, lang)
 
 
-KIND = AnswerKind(AuthoredNumber, NumberSpec, ask, input_hints, explain_key)
+KIND = AnswerKind(
+    AuthoredNumber,
+    NumberSpec,
+    ask,
+    input_hints,
+    explain_key,
+    precision_on_paper,
+    accept_within_tolerance,
+)

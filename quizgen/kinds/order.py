@@ -355,4 +355,4 @@ def input_hints(spec: OrderSpec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.order" if spec.distractors else "ask.order_all"),)
 
 
-KIND = AnswerKind(AuthoredOrder, OrderSpec, ask, input_hints)
+KIND = AnswerKind(AuthoredOrder, OrderSpec, ask, input_hints, paper_hints=input_hints)

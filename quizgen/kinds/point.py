@@ -42,7 +42,14 @@ from quizgen.grading.verdict import (
     verdict_by_share,
     wrong,
 )
-from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first, unit_hint
+from quizgen.kinds.asking import (
+    accept_within_tolerance,
+    ask_numeric,
+    numeric_hints,
+    precision_on_paper,
+    show_exact_first,
+    unit_hint,
+)
 from quizgen.kinds.contract import (
     MOST_OPTIONS,
     AnswerKind,
@@ -267,4 +274,12 @@ def input_hints(spec: PointSpec, lang: str) -> tuple[str, ...]:
     return numeric_hints(spec, lang, shape, unit_hint(spec.unit, lang))
 
 
-KIND = AnswerKind(AuthoredPoint, PointSpec, ask, input_hints, show_exact_first)
+KIND = AnswerKind(
+    AuthoredPoint,
+    PointSpec,
+    ask,
+    input_hints,
+    show_exact_first,
+    precision_on_paper,
+    accept_within_tolerance,
+)

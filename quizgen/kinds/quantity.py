@@ -23,7 +23,13 @@ from quizgen.grading.reading.units import TypedUnit, listed_unit
 from quizgen.grading.rounding import format_key
 from quizgen.grading.spec import COUNTED, ScalarSpec, is_whole_number
 from quizgen.grading.verdict import HALF, Verdict, attach_values, partial, wrong
-from quizgen.kinds.asking import ask_numeric, numeric_hints, show_exact_first
+from quizgen.kinds.asking import (
+    accept_within_tolerance,
+    ask_numeric,
+    numeric_hints,
+    precision_on_paper,
+    show_exact_first,
+)
 from quizgen.kinds.contract import (
     AnswerKind,
     AskedPart,
@@ -86,6 +92,11 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
                 error.expected = (self.unit,)  # ev is eV where that is asked, not EV
             raise
         return best_verdict(_judge_side(self, side, options) for side in sides)
+
+    @property
+    def printed_unit(self) -> str:
+        """The unit that is printed beside the field on paper."""
+        return self.unit
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
@@ -242,4 +253,12 @@ def input_hints(spec: QuantitySpec, lang: str) -> tuple[str, ...]:
     return numeric_hints(spec, lang, unit)
 
 
-KIND = AnswerKind(AuthoredQuantity, QuantitySpec, ask, input_hints, show_exact_first)
+KIND = AnswerKind(
+    AuthoredQuantity,
+    QuantitySpec,
+    ask,
+    input_hints,
+    show_exact_first,
+    precision_on_paper,
+    accept_within_tolerance,
+)

@@ -15,7 +15,14 @@ import msgspec
 from msgspec import Meta
 
 from quizgen.grading.echo import safe_echo
-from quizgen.grading.judging.statements import Evidence, Example, Statement, read_example
+from quizgen.grading.judging.statements import (
+    Evidence,
+    Example,
+    Meaning,
+    Statement,
+    Subject,
+    read_subject,
+)
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.normalise import LONGEST_PROSE, refuse_invisible
 from quizgen.grading.reading.source_map import SourceText
@@ -203,11 +210,12 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
 
     def suggest(self, typed: str) -> Suggestion:
         """Return which criteria a text meets, each with the clause that it goes by."""
-        synonyms = tuple(tuple(group) for group in self.synonyms)
-        text = Statement(typed, synonyms)
-        examples = [e for name in self.criteria for e in self._read_examples(name, synonyms)]
+        subject = read_subject(tuple(map(tuple, self.synonyms)))
+        text = Statement(typed, subject)
+        read = {name: self._read_examples(name, subject) for name in self.criteria}
+        examples = [example for listed in read.values() for example in listed]
         text.know(examples)
-        evidence = {name: text.find(self._read_examples(name, synonyms)) for name in self.criteria}
+        evidence = {name: text.find(listed) for name, listed in read.items()}
         first = {name: _sum_up(found) for name, found in evidence.items()}
         findings, spots = [], set[tuple[int, int]]()
         for name, one in self.criteria.items():
@@ -223,7 +231,7 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
             for name, listed in self.mistakes.items()
             if any(
                 one.meaning == "denied"
-                for one in text.find(read_example(t, "denied", synonyms) for t in listed)
+                for one in text.find(subject.read(t, "denied") for t in listed)
             )
         )
         earned = min(
@@ -237,11 +245,15 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
             tuple(sorted(spots)),
         )
 
-    def _read_examples(self, name: str, synonyms: tuple[tuple[str, ...], ...]) -> list[Example]:
+    def _read_examples(self, name: str, subject: Subject) -> list[Example]:
         """Return the examples of a criterion, ready to be looked for."""
         one = self.criteria[name]
-        listed = (("said", one.accept), ("half", one.half), ("denied", one.refuse))
-        return [read_example(text, sign, synonyms) for sign, texts in listed for text in texts]
+        listed: tuple[tuple[Meaning, list[str]], ...] = (
+            ("said", one.accept),
+            ("half", one.half),
+            ("denied", one.refuse),
+        )
+        return [subject.read(text, sign) for sign, texts in listed for text in texts]
 
     def show(self) -> str:
         """Return the names of the criteria."""
@@ -377,4 +389,4 @@ def explain_key(spec: RubricSpec, lang: str) -> str:
     return spec.model.get(lang, "")
 
 
-KIND = AnswerKind(AuthoredRubric, RubricSpec, ask, input_hints, explain_key)
+KIND = AnswerKind(AuthoredRubric, RubricSpec, ask, input_hints, explain_key, input_hints)

@@ -21,6 +21,7 @@ from quizgen.kinds.asking import (
     make_spec,
     misconception_specs,
     numeric_hints,
+    precision_on_paper,
     show_exact_first,
     unit_hint,
 )
@@ -208,4 +209,9 @@ def input_hints(spec: SetSpec, lang: str) -> tuple[str, ...]:
     return numeric_hints(spec, lang, translate(lang, "ask.set"), unit_hint(spec.unit, lang))
 
 
-KIND = AnswerKind(AuthoredSet, SetSpec, ask, input_hints, show_exact_first)
+def paper_hints(spec: SetSpec, lang: str) -> tuple[str, ...]:
+    """Return that all values are asked, and how exactly."""
+    return (translate(lang, "on_paper.set"), *precision_on_paper(spec, lang))
+
+
+KIND = AnswerKind(AuthoredSet, SetSpec, ask, input_hints, show_exact_first, paper_hints)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
@@ -274,9 +274,16 @@ def ask(part: PartContext) -> AskedPart[SketchSpec]:
         spec,
         InputControl("lines", lines=4, board=board),
         right=tuple(("points", name) for name in features),
+        shares=_list_shares(features.values()),
         drawn=tuple(map(tuple, lines.values())),
         mistakes=misconception_specs(spec, "lines"),
     )
+
+
+def _list_shares(features: Iterable[Mapping[str, Any]]) -> tuple[Fraction, ...]:
+    """Return what share of the points each feature earns."""
+    weights = [Fraction(feature.get("worth", 1)) for feature in features]
+    return tuple(weight / sum(weights) for weight in weights)
 
 
 class _TemplateFormulas:

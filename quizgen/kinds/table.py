@@ -30,7 +30,14 @@ from quizgen.grading.verdict import (
     wrong,
 )
 from quizgen.kinds import angle, number, quantity
-from quizgen.kinds.asking import ask_numeric, explain_assigned, nonempty, rounding_hint
+from quizgen.kinds.asking import (
+    accept_within_tolerance,
+    ask_numeric,
+    explain_assigned,
+    nonempty,
+    precision_on_paper,
+    rounding_hint,
+)
 from quizgen.kinds.contract import (
     MOST_OPTIONS,
     AnswerKind,
@@ -323,4 +330,12 @@ def explain_key(spec: TableSpec, lang: str) -> TextOrInlines:
     return explain_assigned((name, show_spec(cell_spec(spec, name), lang)) for name in spec.values)
 
 
-KIND = AnswerKind(AuthoredTable, TableSpec, ask, input_hints, explain_key)
+KIND = AnswerKind(
+    AuthoredTable,
+    TableSpec,
+    ask,
+    input_hints,
+    explain_key,
+    precision_on_paper,
+    accept_within_tolerance,
+)

@@ -129,8 +129,12 @@ def _list_components(part: PartContext, form: Expr) -> list[str]:
 
 def input_hints(spec: ColumnSpec, lang: str) -> tuple[TextOrInlines, ...]:
     """Return how a vector is typed, and whether any multiple counts."""
-    more = (translate(lang, "ask.up_to_scale"),) if spec.up_to else ()
-    return (*_HINT(spec, lang), *more)
+    return (*_HINT(spec, lang), *paper_hints(spec, lang))
+
+
+def paper_hints(spec: ColumnSpec, lang: str) -> tuple[str, ...]:
+    """Return whether any multiple counts."""
+    return (translate(lang, "ask.up_to_scale"),) if spec.up_to else ()
 
 
 def explain_key(spec: ColumnSpec, _lang: str) -> TextOrInlines:
@@ -138,4 +142,4 @@ def explain_key(spec: ColumnSpec, _lang: str) -> TextOrInlines:
     return typeset_key(build_vector(spec.components), spec.show())
 
 
-KIND = AnswerKind(AuthoredVector, ColumnSpec, ask, input_hints, explain_key)
+KIND = AnswerKind(AuthoredVector, ColumnSpec, ask, input_hints, explain_key, paper_hints)

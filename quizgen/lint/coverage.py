@@ -37,6 +37,19 @@ def curriculum_coverage(bank: Bank) -> list[CoverageGroup]:
     return [_build_coverage_row(group, items, by_item) for group, items in inventory.items()]
 
 
+def verb_coverage(bank: Bank) -> list[CoverageGroup]:
+    """Return, verb by verb, which items that ask for it are asked so by a template."""
+    found = []
+    for verb, items in bank.curriculum.verbs.items():
+        by_item: dict[str, list[str]] = {}
+        for name in bank.template_paths:
+            asked = bank.rules(name).verbs
+            for item in (item for item, own in asked.items() if own == verb):
+                by_item.setdefault(item, []).append(name)
+        found.append(_build_coverage_row(verb, items, by_item))
+    return found
+
+
 def templates_covering(bank: Bank, item: str) -> list[str]:
     """Return the templates that cover an item or a part of it: ``C12`` finds ``C12a``."""
     wanted = re.compile(rf"{re.escape(item)}(?:-?[a-z].*)?")

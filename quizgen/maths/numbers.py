@@ -28,6 +28,8 @@ EASY = 20
 """Numbers below this make a fraction that is read at a glance."""
 LARGEST_UNIT_FRACTION = 10_000
 """Exposure times are written as 1/n."""
+SHORTEST = 8
+"""Longer exposures than 1/8 s are written as decimals."""
 LONGEST_NUMBER = 4000
 """Characters, and size of the power of ten, of a number that is read."""
 _WRITTEN = re.compile(
@@ -195,6 +197,13 @@ def is_readable_exactly(value: Value) -> bool:
         return False
     top, bottom = abs(int(value.p)), int(value.q)
     return max(top, bottom) < EASY or (top == 1 and bottom < LARGEST_UNIT_FRACTION)
+
+
+def format_duration(value: Value) -> str | None:
+    """Return seconds as cameras write them, such as 1/400; None if they are no such fraction."""
+    if not is_exact(value) or int(value.p) != 1:
+        return None
+    return format_fraction(value) if SHORTEST <= int(value.q) < LARGEST_UNIT_FRACTION else None
 
 
 def format_exact(value: Value, *, minus: str = MINUS) -> str | None:

@@ -6,6 +6,7 @@ only a ``Question`` cannot leak an answer.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
@@ -19,15 +20,16 @@ from quizgen.bank.variant import Variant, draw_variant, reference_variant
 from quizgen.core.errors import BankError
 from quizgen.core.untrusted import error_context
 from quizgen.figures import FieldPicture, Figure
-from quizgen.grading.spec import AnySpec
+from quizgen.grading.spec import AnySpec, NumericSpec
 from quizgen.kinds import KINDS
-from quizgen.kinds.contract import InputControl
+from quizgen.kinds.contract import InputBox, InputControl
 from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import format_for_key
+from quizgen.maths.units import format_unit
 from quizgen.question.data_files import build_file_paragraphs
 from quizgen.question.figure import draw_question_figure
 from quizgen.question.html import blocks_to_html, inlines_to_html
-from quizgen.question.inlines import join_inlines, to_inlines
+from quizgen.question.inlines import TypesetMaths, join_inlines, to_inlines
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import effective_level, load_level
 from quizgen.question.levels.contract import Choice, LevelPart
@@ -54,6 +56,12 @@ class AnswerField(msgspec.Struct, frozen=True):
         The empty field, if the answer is drawn.
     near : str, optional
         The words around the field, if it stands inside a sentence or a cell (``PlacedField``).
+    on_paper : tuple of inlines
+        What is said beside the field on paper, where nothing is typed.
+    box : InputBox
+        Of an answer with one value: its letter if the question has it, and its unit.
+    is_number : bool
+        Whether the answer is made of numbers, which take less room than formulas and words.
     """
 
     id: str
@@ -63,6 +71,9 @@ class AnswerField(msgspec.Struct, frozen=True):
     targets: tuple[Choice, ...] = ()
     drawing: FieldPicture | None = None
     near: str | None = None
+    on_paper: tuple[tuple[Inline, ...], ...] = ()
+    box: InputBox = InputBox("")
+    is_number: bool = False
 
     @property
     def hints(self) -> tuple[str, ...]:
@@ -73,6 +84,22 @@ class AnswerField(msgspec.Struct, frozen=True):
     def hint(self) -> tuple[Inline, ...]:
         """Return what to type, as one run of sentences."""
         return join_inlines(self.asks, " ")
+
+    @property
+    def boxes(self) -> tuple[InputBox, ...]:
+        """Return the boxes of an answer on paper, each with its unit as it is printed."""
+        boxes = self.control.boxes or (self.box,)
+        return tuple(InputBox(b.name, format_unit(b.unit) if b.unit else "") for b in boxes)
+
+    @property
+    def has_unit(self) -> bool:
+        """Return whether the answer has a unit that earns something: a percentage has none."""
+        return any(box.unit not in {"", "%", "1"} for box in self.boxes)
+
+    @property
+    def hint_on_paper(self) -> tuple[Inline, ...]:
+        """Return what is said beside the field on paper, as one run of sentences."""
+        return join_inlines(self.on_paper, ", " if self.is_number else " ")
 
     @property
     def hint_in_fields(self) -> tuple[Inline, ...]:
@@ -256,7 +283,8 @@ def _build_question_and_key(
 
 def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
     """Return one part as the learner sees it; its field is named by number and label."""
-    hints = KINDS[asked.spec.kind].input_hints(asked.spec, lang)
+    kind = KINDS[asked.spec.kind]
+    hints = kind.input_hints(asked.spec, lang)
     is_plain = asked.near is not None and asked.control.form == "gaps"  # a word in its sentence
     field = AnswerField(
         id=f"{number}{asked.label}",
@@ -266,8 +294,29 @@ def _build_part(asked: LevelPart, lang: str, number: str) -> QuestionPart:
         targets=asked.targets,
         drawing=FieldPicture(asked.control.board, lang) if asked.control.board else None,
         near=asked.near,
+        on_paper=() if is_plain else tuple(map(to_inlines, kind.paper_hints(asked.spec, lang))),
+        box=_build_box(asked),
+        is_number=isinstance(asked.spec, NumericSpec),
     )
     return QuestionPart(asked.label, asked.points, asked.body, field, asked.shared)
+
+
+def _build_box(asked: LevelPart) -> InputBox:
+    """Return what is printed before and after the field of one value, as its spec has it.
+
+    Its letter stands there only if the part has it: another name would tell what to look for.
+    """
+    names = set(asked.spec.quantities()) & set(_iter_formulas(asked.body))
+    return InputBox(names.pop() if len(names) == 1 else "", asked.spec.printed_unit)
+
+
+def _iter_formulas(said: object) -> Iterator[str]:
+    """Yield the formulas of prose, as they are typed."""
+    if isinstance(said, TypesetMaths):
+        yield said.typed_text
+    elif isinstance(said, tuple | msgspec.Struct):
+        for one in said if isinstance(said, tuple) else msgspec.structs.astuple(said):
+            yield from _iter_formulas(one)
 
 
 def _format_given_for_key(drawn: Variant, name: str) -> str | list[str]:

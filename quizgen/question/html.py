@@ -229,3 +229,12 @@ def display_to_html(maths: TypesetMaths, lang: str, way: HtmlDialect = OURS) -> 
     attributes = ' class="line" tabindex="0"' if way.ours else ""
     made = f"<div{attributes}>{way.display(maths.node, lang)}</div>"
     return Markup(made)
+
+
+def chain_to_html(maths: TypesetMaths, lang: str, way: HtmlDialect = OURS) -> Markup:
+    """Return a worked line on its own, broken before its signs where the page is narrow."""
+    pieces = typeset.split_chain(maths.node)
+    if not way.ours or len(pieces) == 1:
+        return display_to_html(maths, lang, way)
+    made = "".join(way.display(piece, lang) for piece in pieces)
+    return Markup('<div class="line worked" tabindex="0">{}</div>').format(Markup(made))

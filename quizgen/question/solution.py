@@ -5,7 +5,7 @@ The steps come from the solver's chain; the language files add one sentence of w
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby
 from typing import Any, NamedTuple
@@ -15,16 +15,18 @@ import msgspec
 from quizgen.bank.markdown import Block, Inline, PlainText, TableBlock
 from quizgen.bank.variant import Variant
 from quizgen.figures import FieldPicture
-from quizgen.grading.spec import AnySpec, ScalarSpec, VectorSpec
+from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, VectorSpec
 from quizgen.kinds import KINDS
 from quizgen.kinds.asking import as_student_writes
-from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow
+from quizgen.kinds.contract import AskedPart, DerivedStep, SchemeRow, asked_quantities
 from quizgen.kinds.grade import show_key
-from quizgen.locale import format_marks, translate
+from quizgen.locale import format_amount, translate
 from quizgen.maths.chain import ChainStep
+from quizgen.maths.constants import Scalar
 from quizgen.maths.notation import format_tree
 from quizgen.maths.number_systems import NumberSystem, compile_expr, float32_system, float64_system
-from quizgen.maths.numbers import format_rounded, to_fraction
+from quizgen.maths.numbers import format_rounded, parse_written_number, to_fraction
+from quizgen.maths.tree import names_in
 from quizgen.maths.units import get_unit
 from quizgen.maths.values import map_numbers
 from quizgen.question.inlines import TextOrInlines, TypesetMaths, to_inlines
@@ -61,7 +63,8 @@ class SolutionHint(msgspec.Struct, frozen=True):
 class SolutionStep(msgspec.Struct, frozen=True):
     """One step: the worked formula, why it is taken, and its number on the formula sheet.
 
-    ``name``, ``thing`` and ``sides`` are its quantity, in words, and what it is equal to.
+    ``name``, ``thing`` and ``sides`` are its quantity, in words, and what it is equal to;
+    ``points`` what an author says that it earns.
     """
 
     maths: TypesetMaths
@@ -70,6 +73,7 @@ class SolutionStep(msgspec.Struct, frozen=True):
     name: str = ""
     thing: tuple[Inline, ...] = ()
     sides: tuple[WorkedSide, ...] = ()
+    points: Fraction | None = None
 
     @property
     def hints(self) -> tuple[SolutionHint, ...]:
@@ -90,11 +94,13 @@ class SolvedMisconception(msgspec.Struct, frozen=True):
     """A misconception: its name, what went wrong, and the answer it would give.
 
     Of one that is drawn no answer is shown: its points would tell nobody what it looks like.
+    ``share`` of the points is what it earns all the same.
     """
 
     name: str
     sentence: tuple[Inline, ...]
     shown: tuple[Inline, ...]
+    share: Fraction = Fraction(0)
 
     @property
     def value(self) -> str:
@@ -125,6 +131,9 @@ class PartSolution(msgspec.Struct, frozen=True):
     ``options`` tells the right answer in words, ``reasons`` why each other choice is wrong,
     ``why`` what else explains the answer, ``drawing`` the answer if it is drawn, ``scheme`` what a
     person marks sentences by.
+
+    For markers: ``shares`` of the points that each of the options earns, what is ``accepted``
+    besides the answer, ``follows``: labels of parts whose values it works on with.
     """
 
     label: str
@@ -135,7 +144,12 @@ class PartSolution(msgspec.Struct, frozen=True):
     reasons: tuple[SolvedMisconception, ...] = ()
     why: tuple[Inline, ...] = ()
     drawing: FieldPicture | None = None
+    shares: tuple[Fraction, ...] = ()
+    accepted: str = ""
+    follows: tuple[str, ...] = ()
     scheme: tuple[SchemeLine, ...] = ()
+    most: Fraction | None = None
+    """Points that count at most, where the criteria have more."""
 
     @property
     def answer(self) -> str:
@@ -186,7 +200,7 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
         label=label,
         lines=(
             *(
-                solution_step(filler, step)
+                _give_points(solution_step(filler, step), drawn.template.rules.part[index].scheme)
                 for step in (*drawn.steps_of_part(index), *drawn.sampler.parts[index].form_steps)
             ),
             *(_build_derived_step(filler, step) for step in built.derived),
@@ -201,7 +215,28 @@ def solve_part(filler: Interpolator, index: int, built: AskedPart[Any]) -> PartS
         reasons=tuple(_iter_wrong_options(filler, built)),
         why=filler.sentence("why", label or "a") if explained else (),
         drawing=FieldPicture(board, filler.lang, built.drawn) if board else None,
+        shares=built.shares,
+        accepted=KINDS[spec.kind].accepted(spec, filler.lang),
+        follows=_list_followed(drawn, index),
         scheme=tuple(_build_scheme_line(filler, row) for row in built.scheme),
+        most=_find_most_points(drawn, index, built),
+    )
+
+
+def _give_points(step: SolutionStep, scheme: Mapping[str, Scalar]) -> SolutionStep:
+    """Return a step with the points that an author gives it; where others have some, it has 0."""
+    if not scheme:
+        return step
+    return msgspec.structs.replace(step, points=parse_written_number(scheme.get(step.name, 0)))
+
+
+def _list_followed(drawn: Variant, index: int) -> tuple[str, ...]:
+    """Return the labels of earlier parts whose answers the steps of a part use."""
+    used = frozenset[str]().union(*(names_in(step.expr) for step in drawn.steps_of_part(index)))
+    return tuple(
+        drawn.template.labels[place]
+        for place in range(index)
+        if used & set(asked_quantities(drawn.template.rules.part[place].answer))
     )
 
 
@@ -219,17 +254,34 @@ def _build_model_answer(filler: Interpolator, label: str) -> tuple[Inline, ...]:
     return filler.sentence("model", name) if known else ()
 
 
+def _find_most_points(drawn: Variant, index: int, built: AskedPart[Any]) -> Fraction | None:
+    """Return the points of a part whose criteria have more than that; else None."""
+    full = parse_written_number(drawn.template.rules.part[index].points)
+    return full if sum(row.points for row in built.scheme) > full else None
+
+
+def scheme_title(part: PartSolution, lang: str) -> str:
+    """Return what stands over a mark scheme: its name, and that the best criteria count."""
+    title = translate(lang, "solution.scheme")
+    if part.most is None:
+        return title
+    best = translate(lang, "solution.best", points=format_amount(part.most, lang))
+    return f"{title}. {best}"
+
+
+def _list_examples(filler: Interpolator, section: str, name: str) -> tuple[str, ...]:
+    """Return the examples of a list in the language's own words; none if it has no such list."""
+    if filler.text.sentence(section, name) is None:
+        return ()
+    words = inlines_to_text(filler.sentence(section, name)).split("|")
+    return tuple(word.strip() for word in words if word.strip())
+
+
 def _build_scheme_line(filler: Interpolator, row: SchemeRow) -> SchemeLine:
     """Return a criterion as the mark scheme prints it, with the first of its examples."""
     found = {
-        section: tuple(
-            word.strip()
-            for word in inlines_to_text(filler.sentence(section, row.name)).split("|")[
-                :EXAMPLES_SHOWN
-            ]
-        )
+        section: _list_examples(filler, section, row.name)[:EXAMPLES_SHOWN]
         for section in ("accept", "half", "refuse")
-        if filler.text.sentence(section, row.name) is not None
     }
     idea = filler.sentence("points", row.name)
     return SchemeLine(
@@ -255,8 +307,7 @@ def solution_step(filler: Interpolator, step: ChainStep) -> SolutionStep:
 def _build_derived_step(filler: Interpolator, step: DerivedStep) -> SolutionStep:
     """Return a line of a derivation as the solution shows it, with its points."""
     maths = TypesetMaths(lay_out(step.tree), format_tree(step.tree), filler.lang)
-    worth = f" [{format_marks(step.points, filler.lang)}]" if step.points else ""
-    return SolutionStep(maths, (*filler.sentence("steps", step.name), PlainText(worth)))
+    return SolutionStep(maths, filler.sentence("steps", step.name), points=step.points)
 
 
 def solved_misconceptions(
@@ -267,7 +318,9 @@ def solved_misconceptions(
         spec = as_student_writes(wrong, built.spec.traps[trap])
         named = built.drawn or built.is_long
         shown = () if named else to_inlines(_show_wrong_answer(spec, filler.lang))
-        yield SolvedMisconception(trap, filler.sentence("traps", trap), shown)
+        worth = built.spec.worth if isinstance(built.spec, NumericSpec) else {}
+        share = parse_written_number(worth.get(trap, 0))
+        yield SolvedMisconception(trap, filler.sentence("traps", trap), shown, share)
 
 
 def _show_wrong_answer(wrong: AnySpec, lang: str) -> TextOrInlines:
@@ -284,7 +337,8 @@ def _iter_wrong_options(
     right = {name for _, name in built.right}
     for mark, name in built.reasons:
         if name not in right:
-            yield SolvedMisconception(name, filler.sentence("reasons", name), (PlainText(mark),))
+            shown = next(iter(_list_examples(filler, "refuse", name)), mark)
+            yield SolvedMisconception(name, filler.sentence("reasons", name), (PlainText(shown),))
 
 
 def _format_citation(source: str) -> tuple[Inline, ...]:

@@ -17,9 +17,15 @@ from quizgen.bank.variant import Variant
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.number_systems import exact_system, select_branch
-from quizgen.maths.numbers import format_exact, format_rounded, is_short_decimal
+from quizgen.maths.numbers import (
+    format_duration,
+    format_exact,
+    format_rounded,
+    is_readable_exactly,
+    is_short_decimal,
+)
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import Expr, Sym, names_in
+from quizgen.maths.tree import Call, Expr, Sym, names_in
 from quizgen.maths.units import format_unit
 from quizgen.question.entry_prose import typeset_slot
 from quizgen.question.inlines import TypesetMaths, name_inline
@@ -134,13 +140,23 @@ def value_typed(drawn: Variant, name: str) -> str:
     return text if re.fullmatch(rf"[0-9.{pretty.GAP}]+", text) else f"({text})"
 
 
+WHOLE = frozenset({"ceil", "floor", "round"})
+SECONDS = "s"
+
+
 def _build_value_sides(drawn: Variant, step: ChainStep, *, about: bool) -> list[WorkedSide]:
     """Return the exact value if it can be shown, and the rounded one if that says more.
 
-    Behind rounded numbers (``about``) nothing is equal, and only a short exact value says more.
+    Behind rounded numbers (``about``) nothing is equal, and only a short exact value says more;
+    but whole numbers are what they are. A fraction is shown if it is read at a glance, or leads to
+    an answer that must be exact.
     """
     value, unit = drawn.shown_values[step.name], format_unit(step.unit)
-    exactly = None if about and not is_short_decimal(value) else format_exact(value)
+    about = about and not (isinstance(step.expr, Call) and step.expr.op in WHOLE)
+    is_told = is_readable_exactly(value) or step.name in drawn.template.exact_steps
+    exactly = None
+    if is_told and not (about and not is_short_decimal(value)):
+        exactly = (step.unit == SECONDS and format_duration(value)) or format_exact(value)
     texts = [] if exactly is None else [("≈" if about else "=", exactly)]
     if not is_short_decimal(value):
         texts.append(("≈", format_rounded(value)))

@@ -1,6 +1,7 @@
-"""Fonts: Hind Siliguri for Bangla, and STIX Two Math for formulas on pages.
+"""Fonts: Source Sans 3 on paper, Hind Siliguri for Bangla, STIX Two Math for formulas on pages.
 
-The PDF takes Hind Siliguri from a pinned package; its formulas are in a font of the typesetter.
+The PDF takes Hind Siliguri from a pinned package; its formulas are in a font of the typesetter, its
+other words in two weights of Source Sans 3, packed in ``printfonts``.
 Pages embed the characters they need as WOFF2, packed in ``webfonts`` by ``tools/pack_fonts.py``
 (under the licence there).
 """
@@ -19,6 +20,9 @@ from quizgen.locale import languages_in_script
 from quizgen.typeset.signs import list_formula_characters
 
 WEB = Path(__file__).parent / "webfonts"
+PRINT = Path(__file__).parent / "printfonts"
+PRINT_WEIGHTS = (400, 600)
+"""Regular and semibold."""
 MATHS, ALL_MATHS = "stix-two-math", "stix-two-math-all"
 """The packed font of formulas, and the one with all signs that LaTeX can put into them."""
 MATHS_RANGE = [
@@ -99,6 +103,11 @@ def has_rare_signs(page: str) -> bool:
 def _build_font_uri(name: str) -> str:
     """Return a packed font as a data address."""
     return f"data:font/woff2;base64,{base64.b64encode(read_web_font(name)).decode()}"
+
+
+def print_font_path(weight: int) -> Path:
+    """Return the file of Source Sans 3 in one weight."""
+    return PRINT / f"source-sans-3-{weight}.ttf"
 
 
 def packed_font_path(name: str) -> Path:

@@ -15,14 +15,16 @@ from quizgen.question.html import (
     OURS,
     HtmlDialect,
     blocks_to_html,
+    chain_to_html,
     display_to_html,
     inlines_to_html,
     put_fields,
 )
 from quizgen.question.interpolation import inlines_to_text
-from quizgen.question.solution import scheme_examples
+from quizgen.question.mark_scheme import mark_lines
+from quizgen.question.solution import scheme_examples, scheme_title
 from quizgen.render import fonts
-from quizgen.render.layouts import answer_rows, jinja_environment
+from quizgen.render.layouts import count_working_rows, jinja_environment
 
 _HERE = Path(__file__).parent
 
@@ -35,14 +37,17 @@ def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
         inline=partial(inlines_to_html, way=way),
         blocks=partial(blocks_to_html, way=way),
         display=partial(display_to_html, way=way),
+        worked=partial(chain_to_html, way=way),
         word=translate,
         marks=format_marks,
         amount=format_amount,
         decimal=lambda lang: get_language(lang).decimal,
-        squares=answer_rows,
+        mark_lines=mark_lines,
+        squares=count_working_rows,
         plain=inlines_to_text,
         put_fields=put_fields,
         scheme_examples=scheme_examples,
+        scheme_title=scheme_title,
         drawing=_read_board_file,
         svg=lambda figure: Markup(figure.inline_svg.decode()),
     )

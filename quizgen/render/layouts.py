@@ -7,27 +7,35 @@ Python keeps that of modules.
 from __future__ import annotations
 
 import marshal
-import math
 from collections.abc import Callable
 from contextlib import suppress
-from fractions import Fraction
 from functools import cache
 from importlib.util import MAGIC_NUMBER
 from pathlib import Path
 from types import CodeType
+from typing import TYPE_CHECKING
 
 import jinja2
 from jinja2.bccache import Bucket, BytecodeCache
 
 from quizgen.core.cache import compute_digest, read_cached, write_cached
 
-FIRST, EACH, MOST = 2, 2, 14
-"""Rows of squares for any calculation, for each point of it, and at most."""
+if TYPE_CHECKING:
+    from quizgen.question.compose import QuestionPart
+    from quizgen.question.solution import PartSolution
+
+ROWS, ROWS_EACH_STEP, ROWS_EACH_POINT = 1.0, 0.9, 0.25
+"""Rows of 5 mm for any calculation, for each of its steps, and for each point."""
+LEAST_ROWS, MOST_ROWS = 2, 8
 
 
-def answer_rows(points: Fraction) -> int:
-    """Return the rows of squares to work in: few for half a point, and no whole page for many."""
-    return min(MOST, math.ceil(FIRST + EACH * points))
+def count_working_rows(part: QuestionPart, solved: PartSolution) -> int:
+    """Return the rows to work in: by the steps of the solution, none where it has none."""
+    steps = sum(len(line.sides) > 1 or not line.sides for line in solved.lines)
+    if not part.field.control.needs_working or not steps:
+        return 0
+    rows = ROWS + ROWS_EACH_STEP * steps + ROWS_EACH_POINT * float(part.points)
+    return max(LEAST_ROWS, min(MOST_ROWS, round(rows)))
 
 
 _KIND = "layouts"

@@ -12,7 +12,7 @@ from quizgen.paper.paper import PaperItem
 from quizgen.question.compose import QuestionKey
 from quizgen.question.figure import describe_question_figure
 from quizgen.question.inlines import PlacedField, PlacedPicture, TypesetMaths
-from quizgen.question.solution import PartSolution, scheme_examples
+from quizgen.question.solution import PartSolution, scheme_examples, scheme_title
 
 
 @singledispatch
@@ -109,7 +109,7 @@ def _iter_remark_lines(key: QuestionKey, lang: str) -> Iterator[str]:
 
 def _iter_scheme_lines(part: PartSolution, lang: str) -> Iterator[str]:
     """Yield the mark scheme of a part: each criterion with its points and examples."""
-    yield f"{translate(lang, 'solution.scheme')}:"
+    yield f"{scheme_title(part, lang).rstrip('.')}:"
     for row in part.scheme:
         yield f"   [{format_amount(row.points, lang)}] {inlines_to_plain_text(row.idea)}"
         for name, examples in scheme_examples(row):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import unicodedata
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
@@ -21,6 +22,7 @@ from quizgen.render import fonts
 _KNOWN = frozenset(map(chr, (*range(0x20, 0x7F), *range(0xA1, 0x180), *range(0x985, 0x9E4))))
 """Latin and Bangla, in which most names are written."""
 _LITERAL: Final = json.JSONEncoder(ensure_ascii=False)
+_GAP = re.compile("_{3,}")
 STANDARD: Final = "ua-1"
 MAIN: Final = "main.typ"
 MOMENT = datetime(2000, 1, 1, tzinfo=UTC)
@@ -53,8 +55,9 @@ def _keep_together(group: tuple[markdown.Inline, ...], lang: str) -> str:
 
 @inlines_to_typst.register
 def _format_words(part: markdown.PlainText, _lang: str) -> str:
-    """Return words as Typst markup."""
-    return f"#{typst_literal(part.text)};"
+    """Return words as Typst markup, with a blank of the width of a word where they have a gap."""
+    said = [f"#{typst_literal(text)};" if text else "" for text in _GAP.split(part.text)]
+    return "#gap;".join(said)
 
 
 @inlines_to_typst.register
@@ -207,7 +210,7 @@ def _load_font_collection() -> Any:
     return typst.Fonts(
         include_system_fonts=False,
         include_embedded_fonts=True,
-        font_paths=[str(fonts.bangla_folder())],
+        font_paths=[str(fonts.bangla_folder()), str(fonts.PRINT)],
     )
 
 

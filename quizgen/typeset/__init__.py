@@ -31,6 +31,7 @@ from quizgen.typeset.builders import (
     power_of_ten,
     quantity,
     relation_chain,
+    split_chain,
 )
 from quizgen.typeset.latex import to_latex
 from quizgen.typeset.layout import add_brackets, lay_out, lay_out_power
@@ -55,6 +56,7 @@ __all__ = [
     "power_of_ten",
     "quantity",
     "relation_chain",
+    "split_chain",
     "to_latex",
     "to_mathml",
     "to_speech",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import pairwise
 
 from quizgen.core.errors import RenderError
 from quizgen.maths.notation import pretty
@@ -26,6 +27,8 @@ from quizgen.typeset.nodes import (
 )
 
 RELATIONS = frozenset(["=", "≠", "<", "≤", ">", "≥", "≈", "∝", "→", "∈", "±", "~", "≪", "≫", "⇒"])
+EQUALS = (OperatorSign("="), OperatorSign("≈"))
+"""The signs of a worked line."""
 _DIGITS = r"\d[\d\u0020\u00a0\u2009\u202f]*(?:[.,]\d+)?"
 _NUMBER = re.compile(
     rf"(?P<sign>[-−+]?)(?P<digits>{_DIGITS})"
@@ -151,6 +154,20 @@ def relation_chain(signs: Sequence[str], nodes: Sequence[Node]) -> MathRow:
             raise RenderError(f"unknown relation sign {sign!r}")
         items += [OperatorSign(sign), node]
     return MathRow(tuple(items), RELATION)
+
+
+def split_chain(node: Node) -> tuple[Node, ...]:
+    """Return the pieces of a chain of equal sides, each but the first begun by its sign.
+
+    Where nothing is equal to anything, the node itself is the one piece.
+    """
+    if not isinstance(node, MathRow):
+        return (node,)
+    signs = [place for place, item in enumerate(node.items) if item in EQUALS]
+    places = [0, *signs[1:], len(node.items)]
+    return tuple(
+        MathRow(node.items[begin:end], node.level) for begin, end in pairwise(places) if signs
+    ) or (node,)
 
 
 def fence(nodes: Sequence[Node], kind: str = "()") -> Fenced:

@@ -35,7 +35,7 @@ from quizgen.question.compose import (
 )
 from quizgen.question.figure import draw_marked_figure
 from quizgen.question.formula_sheet import cite_formula
-from quizgen.question.html import blocks_to_html, display_to_html, inlines_to_html
+from quizgen.question.html import blocks_to_html, chain_to_html, inlines_to_html
 from quizgen.question.inlines import name_inline
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import effective_level
@@ -44,6 +44,7 @@ from quizgen.question.solution import (
     SolutionHint,
     SolvedMisconception,
     scheme_examples,
+    scheme_title,
 )
 from quizgen.web.moving import MovingView, find_moving_figure
 
@@ -123,6 +124,7 @@ class PartView(msgspec.Struct, frozen=True):
     reasons: list[tuple[Html, Html]]
     mistakes: list[tuple[Html, Html]]
     scheme: list[SchemeView]
+    scheme_title: str
 
     @property
     def criteria(self) -> frozenset[str]:
@@ -361,7 +363,7 @@ def _render_part(
         _render_field(part.field, names, lang),
         [
             StepView(
-                str(display_to_html(line.maths, lang)),
+                str(chain_to_html(line.maths, lang)),
                 _render_inline(line.why, lang),
                 line.formula,
                 [_render_hint(rung, bank, lang) for rung in line.hints] if bank else [],
@@ -385,6 +387,7 @@ def _render_part(
             )
             for row in solved.scheme
         ],
+        scheme_title(solved, lang),
     )
 
 

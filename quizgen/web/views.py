@@ -44,6 +44,7 @@ def _build_environment() -> jinja2.Environment:
     layouts.filters["html"] = Markup  # of what was made here, see ``made.Html``
     layouts.globals.update(
         language=get_language, put_fields=put_fields, strokes=strokes_to_svg, word=translate,
+        translate=translate,  # where a page has a macro of its own called ``word``
         aperture=draw_aperture, lens_scale=draw_lens_scale,
     )  # fmt: skip
     return layouts

@@ -8,7 +8,7 @@ from sympy import evaluate, symbols
 from quizgen.maths.model import Model, Step
 
 f, N, c, s = symbols("f N c s", positive=True)
-H, near, far, T, front, rear, q = symbols("H z_n z_f T a b q", real=True)
+H, near, far, T, front, rear, q = symbols("H z_n z_f T d_n d_f q", real=True)
 
 with evaluate(False):
     NEAR = s * (H - f) / (H + s - 2 * f)

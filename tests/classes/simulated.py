@@ -59,7 +59,7 @@ def truth(line: dict, chance: random.Random) -> Truth:
 
 def _answer(spec: dict, chance: random.Random, *, wrong: bool) -> tuple[str, str, float | None]:
     """Name of the trap, what is typed, and the share of the points."""
-    if spec["kind"] == "text":
+    if spec["kind"] == "rubric":
         return "", chance.choice([*SENTENCES]), None
     way = chance.choices(["right", "trap", "slip", "blank", "unreadable"], [6, 3, 1, 1, 0.6])[0]
     if way == "blank":

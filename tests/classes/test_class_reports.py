@@ -57,7 +57,7 @@ def test_bangla_in_an_english_report_brings_its_font(said):
 
 @pytest.mark.parametrize(
     ("lang", "right"),
-    [("en", ["0.09091 cycle/px", "0.689"]), ("de", ["0,09091 cycle/px", "0,689"])],
+    [("en", ["0.0909 cycle/px", "0.689"]), ("de", ["0,0909 cycle/px", "0,689"])],
 )
 def test_what_is_right_has_the_decimal_sign_of_the_language(lang, right):
     """1/11 of a cycle per pixel, and what that leaves of the contrast."""

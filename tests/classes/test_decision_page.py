@@ -11,7 +11,7 @@ import pytest
 from made import made, run
 from starlette.testclient import TestClient
 
-from quizgen.classes.rulings import Ruling, append_rulings
+from quizgen.classes.rulings import Ruling, append_rulings, read_rulings
 from quizgen.web.app import create_app
 from quizgen.web.auth import COOKIE, csrf_token
 from quizgen.web.settings import ServerSettings
@@ -70,8 +70,27 @@ def test_equal_answers_are_one_group_and_the_contrary_is_another(asked):
     assert "&lt;b&gt;now&lt;/b&gt;" in page
     assert "<b>now" not in page
     assert "<mark>cone</mark>" in page
-    assert "Key points found: 1 / 2: cone" in page
-    assert "Suggestion: 0.5" in page
+    assert "Recognised: “The cone of rays is narrower" in page
+    assert "Look yourself: “the cone of rays is not narrower”" in page  # this student opened it
+    ticked = re.findall(r'name="mark" value="([\d.]+:\w+)" id="[\w-]+"( checked)?', page)
+    assert [mark for mark in ticked if mark[1]] == [("0.5:cone", " checked")]
+    assert len(ticked) == 4  # two criteria in each of two groups
+
+
+@pytest.mark.parametrize(("marks", "typed", "value", "comment"), [
+    (["0.5:cone"], "", "0.5", "cone"),
+    (["0.5:cone", "0.5:distances"], "", "1", "cone + distances"),
+    (["0.5:cone", "9:cheat"], "", "1", "cone + cheat"),  # never more than the part is worth
+    ([], "", "0", ""),
+    (["0.5:cone"], "0.25", "0.25", ""),
+    (["x:cone"], "", "0", ""),
+])  # fmt: skip
+def test_ticked_criteria_make_the_points(asked, folder, marks, typed, value, comment):
+    client, token = asked
+    form = {"token": token, "item": ITEM, "worth": "1", "criteria": "1", "mark": marks}
+    client.post("/class/decide", data={**form, "group": ["g1"], "answer-g1": "a", "points": typed})
+    (ruling,) = read_rulings(folder)
+    assert (ruling.value, ruling.comment) == (value, comment)
 
 
 def test_what_was_taken_back_is_asked_again(asked, folder):

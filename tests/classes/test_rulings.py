@@ -16,7 +16,7 @@ from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
 KEY = AnswerKey("quizgen-key/2", [
     KeyQuestion("1", [
         KeyPart("1a", "2", {"kind": "number", "value": "4", "decimals": 2, "traps": {"halved": "2"}}),
-        KeyPart("1b", "1", {"kind": "text", "points": [["light"], ["noise"]]}),
+        KeyPart("1b", "1", {"kind": "rubric", "full": "1", "criteria": {"light": {"points": "1", "accept": ["light"]}}}),
         KeyPart("1c", "1", {"kind": "multi", "correct": [1, 3], "options": ["one", "two", "three"]}),
     ], template="a-question"),
     KeyQuestion("2", [KeyPart("2", "3", {"kind": "quantity", "value": "1/2", "unit": "m"})], template="another"),

@@ -475,4 +475,4 @@ def test_the_staircase_rises_where_the_key_says(bank, seed):
     k, q = (float(v) for v in ask_part(drawn, 2).spec.show().replace("k = ", "").split("; q = "))
     rounding = ROUNDINGS[int(given["rule"])]
     assert k == sum(rise < given["I"] for rise in rises) == rounding(given["I"], int(given["n"]))
-    assert q == pytest.approx(k / len(rises), abs=0.0001)
+    assert q == pytest.approx(k / len(rises), abs=0.0005)  # three figures are shown

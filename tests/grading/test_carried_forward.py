@@ -36,7 +36,7 @@ def follow(template: str, own: dict[str, str], later: dict[str, str]) -> Iterato
         # 8 times the light is 3 stops and an eighth of the time
         ("diameter-stops-and-exposure-time", {"b": "8"}, {"c": "3", "d": "1/64 s"}),
         # 2 m behind for 1 m before is a ratio of 2, and no rule of thumb
-        ("depth-of-field-split", {"b": "a = 1 m; b = 2 m"}, {"c": "2"}),
+        ("depth-of-field-split", {"b": "d_n = 1 m; d_f = 2 m"}, {"c": "2"}),
         # read off wrongly, then used rightly
         ("undistort-by-iteration", {"b": "0.3"}, {"c": "(0.24; -0.18)"}),
     ],

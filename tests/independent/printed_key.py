@@ -202,7 +202,7 @@ def _fits(mine: Callable[..., Mapping[str, float]], spec: Spec, env: dict[str, f
 
 def _true(line: str, env: Mapping[str, float]) -> bool:
     """Whether a line of a key holds at a place."""
-    if "<" in line or ">" in line:
+    if re.search("[<>!]", line):
         return bool(_python(line, env))
     left, right = (_python(side, env) for side in line.split("="))
     return math.isclose(left, right, rel_tol=1e-9, abs_tol=1e-9)

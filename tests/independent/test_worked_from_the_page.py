@@ -138,9 +138,14 @@ def spoiled(spec: dict[str, Any]) -> dict[str, Any]:
 
 
 def _other_lines(spec: dict[str, Any]) -> dict[str, Any]:
-    """What a known mistake draws or writes, where that is asked."""
+    """What a known mistake draws, derives or writes, where that is asked."""
     field = next((name for name in ("lines", "solution") if name in spec), "")
-    return {field: next(iter(spec["traps"].values()))} if field else {}
+    if not field:
+        return {}
+    wrong = next(iter(spec["traps"].values()))
+    if spec["kind"] == "derivation":
+        return {"lines": {"wrong": {"forms": wrong}}, "traps": {}}
+    return {field: wrong}
 
 
 def _other_number(spec: dict[str, Any]) -> dict[str, Any]:

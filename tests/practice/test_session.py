@@ -135,7 +135,7 @@ ENDINGS = {
     "answered": lambda task, answer: task.answer(answer),
     "given up": lambda task, _: task.give_up(),
     "skipped": lambda task, _: task.skip(),
-    "judged right": lambda task, _: task.self_mark(right=True),
+    "judged right": lambda task, _: task.self_mark(1.0),
 }
 
 
@@ -151,21 +151,22 @@ def test_a_part_that_has_ended_cannot_end_otherwise(ended, then):
     assert msgspec.to_builtins(task.state) == before
 
 
-@pytest.mark.parametrize("right", [True, False])
-def test_the_learner_judges_a_free_text(right):
+@pytest.mark.parametrize("share", [1.0, 0.5, 0.0])
+def test_the_learner_judges_a_sentence(share):
     wish = PracticeRequest(count=200)
     held = session(wish)
     texts = (
         name for name in held.templates
-        if any(part.answer["kind"] == "text" for part in builtin_bank().rules(name).part)
+        if any(part.answer["kind"] == "rubric" for part in builtin_bank().rules(name).part)
     )  # fmt: skip
     held.templates = (next(texts),)
     tasks = held.current_question().tasks
-    task = next(t for t in tasks if kind_of(t) == "text")
+    task = next(t for t in tasks if kind_of(t) == "rubric")
     assert task.answer("something written").then is NextStep.SELF_MARK
     assert task.outcome is None
-    task.self_mark(right=right)
-    assert (task.outcome.right, task.outcome.first) == (right, right)
+    task.self_mark(share)
+    assert (task.outcome.right, task.outcome.first) == (share == 1, share == 1)
+    assert task.state.credit == share
 
 
 def test_a_question_goes_on_where_it_was_left():

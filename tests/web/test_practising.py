@@ -227,6 +227,26 @@ def test_a_reading_chosen_declares_the_decimal_sign_which_is_kept(client, token,
     assert declared.format("auto") in client.get(at).text
 
 
+SENTENCES = "why-bayer-green-and-demosaicing"
+
+
+def test_a_sentence_is_judged_by_criteria(client, token):
+    page = client.post("/practice", data={"token": token, "template": SENTENCES})
+    at = page.url.path
+    (part,) = set(re.findall(rf'action="{at}/(\w+)"', page.text)[:1])
+    said = "The eye sees green best, but detail does not matter."
+    judging = client.post(f"{at}/{part}", data={"token": token, "do": "answer", "a": said}).text
+    assert "Recognised: “The eye sees green best”" in judging
+    assert "Says the contrary: “detail does not matter”" in judging
+    assert re.findall(rf'name="mark-{part}" value="([\w-]+)"', judging) == ["eye", "detail"]
+    assert "checked" not in judging[judging.index('class="criteria"') :][:600]  # it decides nothing
+    ticked = {"token": token, "do": "marks", f"mark-{part}": ["eye", "cheat"]}
+    assert "You gave yourself 1 point." in client.post(f"{at}/{part}", data=ticked).text
+    client.post(f"{at}/{part}", data={**ticked, f"mark-{part}": ["eye", "detail"]})
+    page = client.get(f"{at}?part={part}").text
+    assert "You gave yourself 1 point." in page  # what has ended stays
+
+
 @pytest.mark.skipif(not can_run_programs(), reason="no process can be locked here")
 def test_a_function_is_written_line_by_line(client, token, begin):
     at = begin("write-hue-shift")

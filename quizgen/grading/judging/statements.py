@@ -15,7 +15,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import Literal, NamedTuple
 
 from quizgen.grading.judging.spelling import (
@@ -334,22 +334,60 @@ class Example:
         return sum(map(len, self.steps)) + self.denied
 
 
-Synonyms = Sequence[Sequence[str]]
-"""Groups of words or rows of words that mean the same in a subject."""
-
-
-@lru_cache(maxsize=4096)
-def read_example(text: str, meaning: Meaning, synonyms: tuple[tuple[str, ...], ...]) -> Example:
-    """Return an example of an idea, ready to be looked for.
+class Subject:
+    """What a subject has words for: groups of words, or rows of words, that mean the same.
 
     Parameters
     ----------
-    text : str
-        A few words; ``->`` between what is said first and what follows.
-    meaning : Meaning
     synonyms : tuple of tuple of str
-        Of the subject.
     """
+
+    def __init__(self, synonyms: tuple[tuple[str, ...], ...]) -> None:
+        self.groups = tuple(
+            tuple(tuple(token.text for token in split_tokens(one)) for one in group)
+            for group in synonyms
+        )
+        self._begins: dict[str, list[tuple[int, tuple[str, ...]]]] = {}
+        for index, rows in enumerate(self.groups):
+            for row in rows:
+                for stem in _stems(row[0]):
+                    self._begins.setdefault(stem, []).append((index, row))
+        self._read: dict[tuple[str, Meaning], Example] = {}
+
+    def find(
+        self, tokens: Sequence[WordToken], place: int
+    ) -> tuple[tuple[tuple[str, ...], ...], int]:
+        """Return the group of which a row stands at a token, the longest; and its length."""
+        best: tuple[tuple[tuple[str, ...], ...], int] = ((), 0)
+        for stem in _stems(tokens[place].text):
+            for index, row in self._begins.get(stem, ()):
+                if len(row) > best[1] and _has_stems(tokens, place, row):
+                    best = (self.groups[index], len(row))
+        return best
+
+    def read(self, text: str, meaning: Meaning) -> Example:
+        """Return an example of an idea, ready to be looked for.
+
+        Parameters
+        ----------
+        text : str
+            A few words; ``->`` between what is said first and what follows.
+        meaning : Meaning
+        """
+        known = self._read.get((text, meaning))
+        if known is None:
+            known = self._read[text, meaning] = _read_example(text, meaning, self)
+        return known
+
+
+@lru_cache(maxsize=512)
+def read_subject(synonyms: tuple[tuple[str, ...], ...]) -> Subject:
+    """Return a subject, the same for the same synonyms."""
+    return Subject(synonyms)
+
+
+def _read_example(text: str, meaning: Meaning, subject: Subject) -> Example:
+    """Return an example of an idea, ready to be looked for."""
     known = _vocabulary()
     steps: list[list[_Item]] = []
     denied = compared = False
@@ -358,7 +396,7 @@ def read_example(text: str, meaning: Meaning, synonyms: tuple[tuple[str, ...], .
         steps.append([])
         place = 0
         while place < len(tokens):
-            item, length = _read_item(tokens, place, synonyms)
+            item, length = _read_item(tokens, place, subject)
             words = [token.text for token in tokens[place : place + length]]
             if item is None and words[0] in known.denials | known.ahead:
                 denied = not denied
@@ -369,10 +407,10 @@ def read_example(text: str, meaning: Meaning, synonyms: tuple[tuple[str, ...], .
 
 
 def _read_item(
-    tokens: Sequence[WordToken], place: int, synonyms: Synonyms
+    tokens: Sequence[WordToken], place: int, subject: Subject
 ) -> tuple[_Item | None, int]:
     """Return what an example says from a token on, and how many tokens that takes."""
-    rows, length = _find_synonyms(tokens, place, synonyms)
+    rows, length = subject.find(tokens, place)
     if rows:
         return _Item(rows), length
     end = place + 1
@@ -408,29 +446,6 @@ def _is_in_formula(tokens: Sequence[WordToken], place: int) -> bool:
         return True
     return one.tied and (
         one.text in signs or before.text in signs or one.text in "()" or before.text == "("
-    )
-
-
-def _find_synonyms(
-    tokens: Sequence[WordToken], place: int, synonyms: Synonyms
-) -> tuple[tuple[tuple[str, ...], ...], int]:
-    """Return the rows of the group of which a row stands here, the longest; and its length."""
-    best: tuple[tuple[tuple[str, ...], ...], int] = ((), 0)
-    for rows in _fold_synonyms(tuple(map(tuple, synonyms))):
-        for row in rows:
-            if len(row) > best[1] and _has_stems(tokens, place, row):
-                best = (rows, len(row))
-    return best
-
-
-@lru_cache(maxsize=512)
-def _fold_synonyms(
-    synonyms: tuple[tuple[str, ...], ...],
-) -> tuple[tuple[tuple[str, ...], ...], ...]:
-    """Return synonyms as rows of folded words."""
-    return tuple(
-        tuple(tuple(token.text for token in split_tokens(one)) for one in group)
-        for group in synonyms
     )
 
 
@@ -514,21 +529,23 @@ class Statement:
     Parameters
     ----------
     typed : str
-    synonyms : tuple of tuple of str
-        Of the subject: words in them neither end nor deny a clause.
+    subject : Subject, optional
+        Rows of words that are one thing in it neither end nor deny a clause.
     """
 
-    def __init__(self, typed: str, synonyms: tuple[tuple[str, ...], ...] = ()) -> None:
+    def __init__(self, typed: str, subject: Subject | None = None) -> None:
         self.typed, self._known = typed, frozenset[str]()
         self.tokens = split_tokens(typed)
-        self._held = self._find_held(synonyms)
+        self._held = self._find_held(subject) if subject else set()
         self.clauses = self._cut()
+        self._rows: dict[int, tuple[_Item, list[tuple[int, ...]]]] = {}
+        self._scales: dict[int, tuple[Scale, ...]] = {}
 
-    def _find_held(self, synonyms: Synonyms) -> set[int]:
-        """Return the tokens in the middle of a row of the subject, such as ``salt and pepper``."""
+    def _find_held(self, subject: Subject) -> set[int]:
+        """Return the tokens in a row of words of the subject, such as ``salt and pepper``."""
         held: set[int] = set()
         for place in range(len(self.tokens)):
-            _, length = _find_synonyms(self.tokens, place, synonyms)
+            _, length = subject.find(self.tokens, place)
             held |= set(range(place, place + length)) if length > 1 else set()
         return held
 
@@ -548,7 +565,12 @@ class Statement:
                 found.append(_Clause(sentence, [place]))
             else:
                 found[-1].places.append(place)
-        found = [clause for clause in found if clause.places]
+        found = [
+            clause
+            for clause in found
+            if any(at in self._held or self.tokens[at].text not in known.breaks
+                   for at in clause.places)
+        ]  # fmt: skip
         for clause in found:
             self._read_denials(clause)
         self._spread_frames(found)
@@ -656,14 +678,14 @@ class Statement:
         return sorted(kept, key=lambda one: one.first)
 
     def touches(self, examples: Iterable[Example]) -> bool:
-        """Return whether any word of the examples that belongs to the subject is there."""
-        everywhere = list(range(len(self.tokens)))
+        """Return whether any word of the examples is there."""
+        everywhere = range(len(self.tokens))
+        items = {item for example in examples for step in example.steps for item in step}
         return any(
-            self._find_rows(item, everywhere)
-            for example in examples
-            for step in example.steps
-            for item in step
-            if not item.is_general
+            self._find_end(item, everywhere, ())[1] is not None
+            if item.scales
+            else bool(self._find_rows(item, everywhere))
+            for item in items
         )
 
     def _iter_evidence(self, example: Example) -> Iterator[Evidence]:
@@ -673,8 +695,8 @@ class Statement:
             return
         (items,) = example.steps or ((),)
         single: set[int] = set()
-        for index, clause in enumerate(self.clauses):
-            fit = self._fit(items, clause.places, example)
+        for index in range(len(self.clauses)):
+            fit = self._fit(items, self._completed[index], example)
             if fit:
                 single.add(index)
                 yield from self._weigh(example, index, fit)
@@ -697,6 +719,24 @@ class Statement:
         """Return whether clauses are joined by words such as *and*, and no sign parts them."""
         breaks = _vocabulary().breaks
         return all(self.tokens[clause.places[0]].text in breaks for clause in window[1:])
+
+    @cached_property
+    def _completed(self) -> list[list[int]]:
+        """Return the tokens of each clause; one that only compares takes those before it, too.
+
+        *brighter, so darker*: what gets darker was said before.
+        """
+        fillers, breaks = _vocabulary().fillers, _vocabulary().breaks
+        found: list[list[int]] = []
+        for index, clause in enumerate(self.clauses):
+            words = [at for at in clause.places if self.tokens[at].text not in fillers | breaks]
+            words = [at for at in words if at not in clause.denials]
+            follows = index and self.clauses[index - 1].sentence == clause.sentence
+            alone = bool(words) and all(self._scales_at(at) for at in words)
+            before = [at for at in found[-1] if not self._scales_at(at)] if found else []
+            completed = [*before, *clause.places] if follows and alone else clause.places
+            found.append(found[-1] if clause.corrects and found else completed)
+        return found
 
     def _spread_denial(
         self, window: Sequence[_Clause], places: tuple[int, ...], example: Example
@@ -738,7 +778,7 @@ class Statement:
         return (0 if general and flips > 1 else sign), tuple(sorted(taken))
 
     def _find_end(
-        self, item: _Item, places: Sequence[int], taken: Sequence[int]
+        self, item: _Item, places: Iterable[int], taken: Sequence[int]
     ) -> tuple[int, int | None]:
         """Return which end of a scale is said nearest to other words, and where.
 
@@ -767,11 +807,13 @@ class Statement:
 
     def _scales_at(self, place: int) -> tuple[Scale, ...]:
         """Return the ends of scales at a token, rows of words such as ``nimmt ab`` included."""
-        rows = tuple(
-            scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
-        )
-        word = self.tokens[place].text
-        return rows or _scales_of(word, slips=word not in self._known)
+        if place not in self._scales:
+            word = self.tokens[place].text
+            rows = tuple(
+                scale for row, scale in _vocabulary().phrases if self._has_loose_row(place, row)
+            )
+            self._scales[place] = rows or _scales_of(word, slips=word not in self._known)
+        return self._scales[place]
 
     def _has_loose_row(self, place: int, row: Sequence[str]) -> bool:
         """Return whether a row begins here, with up to three words between: ``nimmt stark ab``."""
@@ -780,15 +822,18 @@ class Statement:
         after = [token.text for token in self.tokens[place + 1 : place + 5]]
         return all(word in after for word in row[1:])
 
-    def _find_rows(self, item: _Item, places: Sequence[int]) -> list[tuple[int, ...]]:
+    def _find_rows(self, item: _Item, places: Iterable[int]) -> list[tuple[int, ...]]:
         """Return the tokens of each place where a row of an item stands."""
+        if id(item) not in self._rows:
+            found = [
+                tuple(range(at, at + len(row)))
+                for at in range(len(self.tokens))
+                for row in item.rows
+                if self._stands(item, row, at)
+            ]
+            self._rows[id(item)] = (item, found)
         inside = set(places)
-        return [
-            tuple(range(at, at + len(row)))
-            for at in places
-            for row in item.rows
-            if self._stands(item, row, at) and at + len(row) - 1 in inside
-        ]
+        return [row for row in self._rows[id(item)][1] if row[0] in inside and row[-1] in inside]
 
     def _stands(self, item: _Item, row: Sequence[str], place: int) -> bool:
         """Return whether a row stands at a token; a formula only if it goes on neither way.
@@ -821,12 +866,13 @@ class Statement:
         clause = self.clauses[index]
         denied = self._is_denied(clause, places)
         turned = sign < 0
-        if sign == 0 or denied is None or self._has_degree(clause, places, example):
+        unsure = sign == 0 or denied is None or self._has_degree(clause, places, example)
+        if unsure or (sign < 0 and (denied or example.denied)):  # *not narrower* is not *wider*
             meaning: Meaning = "open"
         else:
             if sign < 0 and self._belongs_elsewhere(clause, places):
                 return
-            flips = (sign < 0) ^ denied ^ example.denied
+            flips = (sign < 0) ^ bool(denied) ^ example.denied
             lone = example.denied and example.size <= 3  # *not linear* does not deny every *linear*
             if flips and (example.meaning == "denied" or (lone and not denied)):
                 return
@@ -938,18 +984,25 @@ def _rank(evidence: Evidence) -> tuple[bool, int, int]:
 
 
 def used_synonyms(groups: Mapping[str, Sequence[str]], texts: Iterable[str]) -> list[str]:
-    """Return the names of the groups of synonyms of which a text has a word.
+    """Return the names of the groups of synonyms that share a word with a text.
+
+    A row of words such as *light cone* is needed where *light* is: it is another thing.
 
     Parameters
     ----------
     groups : mapping of str to sequence of str
     texts : iterable of str
     """
-    tokens = [split_tokens(text) for text in texts]
+    used = frozenset[str]().union(
+        *(_stems(token.text) for text in texts for token in split_tokens(text))
+    )
     return [
         name
         for name, group in groups.items()
         if any(
-            _find_synonyms(row, place, (group,))[0] for row in tokens for place in range(len(row))
+            _stems(word) & used
+            for row in group
+            for word in (token.text for token in split_tokens(row))
+            if word not in _vocabulary().fillers
         )
     ]

@@ -1,0 +1,153 @@
+"""What is suggested of sentences, beside what an examiner gave them: three tables of sentences.
+
+``given.toml`` was written by somebody who did not write the mark schemes, ``own_a.toml`` and
+``own_b.toml`` after they stood. A row is a sentence and its points, criterion by criterion.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from quizgen.bank.bank import builtin_bank
+from quizgen.bank.variant import draw_variant
+from quizgen.grading.judging.statements import Statement
+from quizgen.maths.numbers import parse_written_number
+from quizgen.question.part_context import ask_part
+
+TABLES = sorted((Path(__file__).parent / "rubric").glob("*.toml"))
+SCHEMES = {
+    "aperture-two-effects": ("aperture-two-effects", 0, {"opened": 1}, ["dof", "light"]),
+    "stopping-down-from-geometry": (
+        "stopping-down-from-geometry", 0, {"closing": 1, "q": 8}, ["cone", "threshold", "area"]),
+    "two-compensations-and-their-price": (
+        "two-compensations-and-their-price", 0, {}, ["time", "motion", "gain", "noise"]),
+    "why-twice-as-many-green": ("why-bayer-green-and-demosaicing", 0, {}, ["eye", "detail"]),
+    "why-demosaicing-is-needed": (
+        "why-bayer-green-and-demosaicing", 1, {}, ["one-colour", "interpolated"]),
+    "three-reasons-for-floats": (
+        "three-reasons-for-floats", 0, {}, ["precision", "wrap", "range", "between"]),
+    "ccd-streak-and-blooming": ("ccd-and-cmos-artefacts", 0, {}, ["shift", "full-well", "bright"]),
+    "rolling-shutter-explained": (
+        "ccd-and-cmos-artefacts", 1, {}, ["rows", "movement", "scenes"]),
+    "additive-and-subtractive": (
+        "additive-and-subtractive", 0, {}, ["adds additive", "absorbs subtractive"]),
+    "shot-noise-dark-and-normal": (
+        "photon-snr-formula-and-model", 1, {}, ["limit", "relative", "variance"]),
+    "averaging-encoded-values": (
+        "averaging-encoded-values", 0, {"i": 0}, ["nonlinear", "darker", "pipeline"]),
+    "isotropic-or-anisotropic": (
+        "isotropic-or-anisotropic", 0, {"s_1": 3, "s_2": 1}, ["iso", "aniso", "scene"]),
+    "why-clamping-loses": ("why-clamping-loses", 0, {"value": 300}, ["collapse", "range"]),
+    "metamerism-explained": ("metamerism-explained", 0, {}, ["integral", "same", "lamp"]),
+    "gaussian-or-impulse-noise": (
+        "gaussian-or-impulse-noise", 0, {}, ["gauss", "impulse", "mean-filter median"]),
+    "why-the-pinhole-model": (
+        "why-pinhole-model", 0, {}, ["collinear simple homogeneous basis"]),
+}  # fmt: skip
+"""Template, part and drawn values of each question; criteria, those marked together in one name."""
+
+
+@cache
+def scheme(question):
+    template, part, wanted, names = SCHEMES[question]
+    for seed in range(500):
+        drawn = draw_variant(builtin_bank().template(template), seed)
+        if all(drawn.shown_values[name] == value for name, value in wanted.items()):
+            return ask_part(drawn, part).spec, names
+    raise LookupError(question)
+
+
+@cache
+def judged(table, question=""):
+    """Each sentence (to a question) with what is suggested, criterion by criterion, and what the examiner gave."""
+    found = []
+    for asked in tomllib.loads(table.read_text("utf-8"))["question"]:
+        if question not in {"", asked["id"]}:
+            continue
+        spec, names = scheme(asked["id"])
+        for sentence, *points in asked["rows"]:
+            made = spec.suggest(sentence)
+            earned = {finding.name: finding.points for finding in made.findings}
+            got = [float(sum(earned[one] for one in name.split())) for name in names]
+            wanted = [sum(points[:2])] if len(names) == 1 else points  # two reasons of four
+            found.append((sentence, got, wanted, made))
+    return found
+
+
+def test_there_are_four_hundred_sentences():
+    tables = [tomllib.loads(table.read_text("utf-8"))["question"] for table in TABLES]
+    assert sum(len(asked["rows"]) for table in tables for asked in table) >= 400
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("table", TABLES, ids=lambda table: table.stem)
+def test_the_suggestion_is_what_the_examiner_gave(table):
+    pairs = [pair for _, got, points, _ in judged(table) for pair in zip(got, points, strict=True)]
+    assert sum(got == wanted for got, wanted in pairs) >= 0.85 * len(pairs)
+
+
+@pytest.mark.parametrize("question", SCHEMES)
+@pytest.mark.parametrize("table", TABLES, ids=lambda table: table.stem)
+def test_what_is_denied_is_never_found_and_what_is_right_is_never_overlooked(table, question):
+    found = judged(table, question)
+    assert not [
+        (sentence, got, points)
+        for sentence, got, points, _ in found
+        if any(clause.denials or clause.ahead for clause in Statement(sentence).clauses)
+        and any(mine > wanted for mine, wanted in zip(got, points, strict=True))
+    ]
+    assert not [said for said, _, points, made in found if sum(points) >= 1 and not made.touched]
+
+
+SPEC = {
+    "kind": "rubric", "full": "2", "synonyms": [["dof", "depth of field", "Schärfentiefe"]],
+    "criteria": {
+        "dof": {"points": "1", "accept": ["less depth of field", "background gets blurry"],
+                "refuse": ["the whole image gets blurred"]},
+        "light": {"points": "1", "accept": ["the image gets brighter", "more light"],
+                  "half": ["the exposure changes"], "follows": "dof"},
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("sentence", "dof", "light"), [
+    ("The depth of field is reduced.", "found", "missing"),
+    ("The depth of field is not reduced.", "refused", "missing"),
+    ("The depth of field does not get larger.", "open", "missing"),  # nor need it get smaller
+    ("It is not true that the depth of field shrinks.", "refused", "missing"),
+    ("Not only does the DoF shrink, the image gets brighter, too.", "found", "found"),
+    ("The image gets brighter, and so darker.", "missing", "refused"),
+    ("The image gets darker, no: brighter.", "missing", "found"),
+    ("The whole image gets blurred.", "refused", "missing"),
+    ("Not the whole image gets blurred.", "missing", "missing"),
+    ("The DoF grows and the image gets darker.", "refused", "follows"),
+    ("The DoF shrinks and the image gets darker.", "found", "refused"),
+    ("The exposure changes.", "missing", "half"),
+    ("Die Schärfentiefe nimmt nicht zu, sondern ab.", "open", "missing"),
+    ("Die Schärfentiefe nimmt stark ab.", "found", "missing"),
+    ("dof কমে না", "refused", "missing"),
+    ("dof kome, chobi ujjol", "found", "missing"),
+    ("depht of feild decreses", "found", "missing"),
+    ("without more light", "missing", "refused"),
+    ("", "missing", "missing"),
+    ("(((( ^^ -> ] 1/0 √ |", "missing", "missing"),
+])  # fmt: skip
+def test_the_sign_of_a_statement(sentence, dof, light):
+    from quizgen.kinds.grade import load_spec
+
+    made = load_spec(SPEC).suggest(sentence)
+    assert [finding.status for finding in made.findings] == [dof, light]
+
+
+def test_the_clause_that_is_gone_by_is_quoted():
+    from quizgen.kinds.grade import load_spec
+
+    made = load_spec(SPEC).suggest("I think the DoF shrinks, and the image gets brighter.")
+    assert [finding.quote for finding in made.findings] == [
+        "I think the DoF shrinks", "the image gets brighter",
+    ]  # fmt: skip
+    assert made.points == parse_written_number("2")
