@@ -60,7 +60,6 @@ FULL = [
     {"kind": "program", "function": "f", "parameters": "x", "solution": "def f(x):\n    return x\n",
      "cases": {"one": {"args": [{"uint8": [1]}, 2], "worth": 2}}, "keeps": 1,
      "traps": {"half": "def f(x):\n    return x / 2\n"}, "notes": NOTES},
-    {"kind": "text", "points": {"noise": ["noise", "grain"]}, "needed": 1},
     {"kind": "derivation", "symbols": {"x": "real", "a": "positive", "b": [1, 2]},
      "let": {"x": "a*b"}, "where": ["a > b/9"], "given": ["x/b = a"], "traps": {"half": ["x = a/b"]},
      "lines": {"start": {"forms": ["x/a = b"], "points": "1/2", "needed": True},

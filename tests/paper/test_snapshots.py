@@ -32,7 +32,7 @@ ASKED = {
         "which-photo-which-focus",
     ),
     "camera": ("exposure-faults-and-remedies", "which-effects-to-simulate", "why-pinhole-model"),
-    "code": ("add-noise-to-uint8-order", "uint8-sum", "uint8-sum-repair"),
+    "code": ("add-noise-to-uint8-order", "uint8-sum", "uint8-sum-repair", "write-hue-shift"),
     "colour": ("hsv-edit-from-pictures", "rgb-to-hsv", "white-balance-and-chromaticity"),
     "distortion": (
         "draw-distortion-to-scale",
