@@ -89,7 +89,7 @@ def pack_print_font(weight: int) -> bytes:
 def main() -> None:
     """Write every packed font."""
     for weight in fonts.PRINT_WEIGHTS:
-        target = fonts.print_font_path(weight)
+        target = fonts.PRINT / f"source-sans-3-{weight}.ttf"
         target.write_bytes(pack_print_font(weight))
         print(f"{target.name}: {target.stat().st_size} bytes")
     for target, (source, characters) in list_sources().items():

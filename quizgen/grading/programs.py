@@ -7,7 +7,6 @@ of another process, nothing runs and a person decides.
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
 from collections.abc import Mapping
 from functools import lru_cache
@@ -16,6 +15,8 @@ from threading import BoundedSemaphore
 from typing import Any, TypeAlias
 
 import msgspec
+
+from quizgen.core.decoding import decode_json
 
 RUNNER = Path(__file__).with_name("program_runner.py")
 HANGS = 20.0
@@ -98,6 +99,8 @@ def _run_job(job: str) -> ProgramOutcome:
     OSError
         If there is none, and there may be one another time.
     """
+    import subprocess  # only where a program runs: marking loads nothing of it
+
     environment = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "LANG": "C.UTF-8"}
     try:
         with _TURNS:
@@ -117,4 +120,4 @@ def _run_job(job: str) -> ProgramOutcome:
         return ProgramOutcome(refused="program-time")
     if done.returncode:
         raise OSError(done.stderr.decode("utf-8", "replace").strip()[-300:])
-    return msgspec.json.decode(done.stdout[:LARGEST], type=ProgramOutcome)
+    return decode_json(done.stdout[:LARGEST], ProgramOutcome)

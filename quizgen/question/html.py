@@ -116,7 +116,7 @@ def _render_code(part: markdown.InlineCode, _lang: str, _way: HtmlDialect) -> st
     """Return program text in a sentence; a whole program keeps its lines."""
     first, *more = (_escape_html(line) for line in part.text.split("\n"))
     lines = (line.replace("  ", "\u00a0 ") for line in (first, *more))
-    return f"<code><br>{'<br>'.join(lines)}</code>" if more else f"<code>{first}</code>"
+    return f"<code><br/>{'<br/>'.join(lines)}</code>" if more else f"<code>{first}</code>"
 
 
 @_render_piece.register

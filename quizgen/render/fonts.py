@@ -105,11 +105,6 @@ def _build_font_uri(name: str) -> str:
     return f"data:font/woff2;base64,{base64.b64encode(read_web_font(name)).decode()}"
 
 
-def print_font_path(weight: int) -> Path:
-    """Return the file of Source Sans 3 in one weight."""
-    return PRINT / f"source-sans-3-{weight}.ttf"
-
-
 def packed_font_path(name: str) -> Path:
     """Return the file of a packed font, which may be missing."""
     return WEB / f"{name}.woff2"

@@ -242,11 +242,12 @@ def test_the_cap_stands_before_everything_else():
 
 
 @together("separator", ["\u2028", "\u2029", "\x85", "\x0b", "\x0c", "\x1c"])
-@together("kind", ["number", "gap", "choice", "code", "text", "order", "match"])
+@together("kind", ["number", "gap", "choice", "code", "rubric", "order", "match"])
 def test_separators_of_lines_are_named_and_never_echoed(separator, kind):
     specs = {
         "number": {"value": "1"}, "gap": {"accept": ["a"]}, "code": {"output": "1"},
-        "choice": {"options": ["p", "q"], "correct": [1]}, "text": {"points": ["a"]},
+        "choice": {"options": ["p", "q"], "correct": [1]},
+        "rubric": {"full": "1", "criteria": {"a": {"points": "1", "accept": ["a"]}}},
         "order": {"steps": ["A", "B"]}, "match": {"pairs": {"A": "1"}},
     }  # fmt: skip
     verdict = grade_answer({"kind": kind, **specs[kind]}, f"1{separator}2")

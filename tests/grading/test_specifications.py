@@ -16,6 +16,12 @@ from quizgen.maths.tolerance import Tolerance
 NOTES = {"en": {"half": "You took half."}, "bn": {"half": "অর্ধেক নিয়েছ।"}}
 
 FULL = [
+    {"kind": "rubric", "full": "2",
+     "criteria": {"why": {"points": "2", "accept": ["since it falls"], "half": ["it falls"],
+                          "refuse": ["it rises"], "follows": "what"},
+                  "what": {"points": "1", "accept": ["a stone"]}},
+     "ideas": {"en": {"why": "It falls."}}, "model": {"en": "A stone falls."},
+     "mistakes": {"up": ["it rises"]}, "synonyms": [["stone", "rock"]]},
     {"kind": "checked", "check": "abc", "example": "1 6", "function": "judge",
      "values": {"n": "6", "x": ["1", "2"]}},
     {"kind": "number", "decimals": 3, "within": "1/2", "accept": ["1", "2"], "strict": True,

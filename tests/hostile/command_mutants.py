@@ -120,6 +120,15 @@ COMMANDS = [
     FileCommand("class mark FILES", "class", ("inbox/*",),
                 "class mark {}/class {}/inbox/1.toml {}/inbox/2.json {}/inbox/3.csv"),
     FileCommand("class rule", "class", MARKED, "class rule {}/class drop ITEM", share=2),
+    FileCommand("class lists", "class", CLASS, "class lists {}/class", share=2),
+    FileCommand("class redraw", "class", CLASS, "class redraw {}/class 1", share=2),
+    FileCommand("class table", "class", CLASS, "class table {}/class {}/answers.xlsx", share=2),
+    FileCommand("class points", "class", (*MARKED, "points.csv"),
+                "class points {}/class {}/points.csv", share=2),
+    FileCommand("class object", "class", MARKED, "class object {}/class", share=2),
+    FileCommand("class inspect", "class", MARKED, "class inspect {}/class 101", share=2),
+    FileCommand("class status", "class", MARKED, "class status {}/class 101 sick", share=2),
+    FileCommand("class forget", "class", MARKED, "class forget {}/class --yes", share=2),
     FileCommand("class history", "class", MARKED, "class history {}/class 101", share=2),
     FileCommand("class grade", "class", (*MARKED, "class/scale.toml", "class/scale.toml"),
                 "class grade {}/class --reports html", share=4),
@@ -474,7 +483,7 @@ def make_class(folder: Path) -> None:
     write(folder, {
         "class/scale.toml": 'passed = 45\nbest = 90\ngrades = ["1.0", "2.0", "4.0"]\nfail = "5.0"\n',
         "inbox/1.toml": as_toml(forms[0]), "inbox/2.json": json.dumps(forms[1]),
-        "inbox/3.csv": as_table(forms[2]),
+        "inbox/3.csv": as_table(forms[2]), "points.csv": "id,1a\n101,0\n",
     })  # fmt: skip
     sound("class rule {}/class accept ITEM --answer 1 --value 0.5 --who me", folder, ITEM=ITEM)
     sound("class grade {}/class --reports none", folder)

@@ -57,6 +57,13 @@ def one_ray(page: Page) -> dict[str, Any]:
     return {"a": page.parts["a"].saying(*words), "b": on_ray}
 
 
+@solves("depth-is-lost")
+def another_depth(page: Page) -> dict[str, Any]:
+    """Notes 4.1, F05: a multiple of a point has its image, at another depth."""
+    multiple = (Fraction(3) * one for one in page.point("p"))
+    return {"a": dict(zip(("q_x", "q_y", "q_z"), multiple, strict=True))}
+
+
 @solves("focal-length-size-and-distance")
 def three_photographs(page: Page) -> dict[str, Any]:
     """Notes C14, F10: h/f = y/z."""

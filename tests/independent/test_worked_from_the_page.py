@@ -140,7 +140,7 @@ def spoiled(spec: dict[str, Any]) -> dict[str, Any]:
 def _other_lines(spec: dict[str, Any]) -> dict[str, Any]:
     """What a known mistake draws, derives or writes, where that is asked."""
     field = next((name for name in ("lines", "solution") if name in spec), "")
-    if not field:
+    if not field or not spec.get("traps"):
         return {}
     wrong = next(iter(spec["traps"].values()))
     if spec["kind"] == "derivation":

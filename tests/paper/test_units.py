@@ -181,7 +181,7 @@ def _answers(printed: str) -> list[str]:
              "mW": "milliwatts", "B": "bytes", "dB": "decibels", "%": "percent",
              "e⁻": "electrons", "bit": "bits", "stop": "stops",
              "eV": "electronvolts", "nm": "nanometres",
-             "Gbit/s": "gigabits per second", "GB": "gigabytes", "MB/s": "megabytes per second"}  # fmt: skip
+             "Gbit/s": "gigabits per second", "GB": "gigabytes", "lp/mm": "line pairs per millimetre", "MB/s": "megabytes per second"}  # fmt: skip
     words = re.sub(r"(?<=[\d)]) (\S+?)(?=$|;)", lambda m: f" {units[m[1]]}", exact)
     bangla = exact.translate(str.maketrans("0123456789", "০১২৩৪৫৬৭৮৯"))
     bare = re.sub(r"(?<=[\d)]) (\S+?)(?=$|;)", "", exact)

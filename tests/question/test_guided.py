@@ -112,8 +112,7 @@ def test_what_the_solution_prints_gets_the_marks_of_the_exam(drawn, lang):
     marks = Fraction(0)
     for part, solved in zip(question.parts, key.solution.parts, strict=True):
         result = marker.grade_part(parts[part.field.id], solved.answer)
-        # sentences have no answer to copy: a person marks them
-        marks += (result.marks or 0) if solved.answer else part.points
+        marks += part.points if result.marks is None else result.marks  # a person marks sentences
     exam, _ = compose_variant(drawn, lang, figures=False)
     assert marks == question.points == exam.points
 

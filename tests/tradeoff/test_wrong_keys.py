@@ -39,9 +39,9 @@ def test_a_third_is_a_third_only_exactly():
 
 
 def test_doubles_round_the_wrong_way_where_the_value_ends_in_a_five():
-    """84.375 mm to two places is 84.38, but its double lies below; twelve figures put it right."""
-    assert "digit" in found("magnification-and-object-distance", 1, "float64")
-    assert "digit" not in found("magnification-and-object-distance", 1, "rounded")
+    """The value lies halfway, but its double lies below it; twelve figures put that right."""
+    assert "digit" in found("magnification-and-object-distance", 85, "float64")
+    assert "digit" not in found("magnification-and-object-distance", 85, "rounded")
 
 
 def test_balls_cannot_tell_that_two_colours_are_equal():
