@@ -19,9 +19,9 @@ from quizgen.web.settings import ServerSettings
 ADDRESS = "http://127.0.0.1:8000"
 ITEM = "blur-and-light-factors/b"
 SENTENCES = {
-    "1": "The cone of rays is narrower <b>now</b>",
-    "2": "the cone of rays is narrower <b>now</b>.",
-    "3": "the cone of rays is not narrower",
+    "1": "The cone of rays is wider <b>now</b>",
+    "2": "the cone of rays is wider <b>now</b>.",
+    "3": "the cone of rays is not wider",
 }
 
 
@@ -70,8 +70,8 @@ def test_equal_answers_are_one_group_and_the_contrary_is_another(asked):
     assert "&lt;b&gt;now&lt;/b&gt;" in page
     assert "<b>now" not in page
     assert "<mark>cone</mark>" in page
-    assert "Recognised: “The cone of rays is narrower" in page
-    assert "Look yourself: “the cone of rays is not narrower”" in page  # this student opened it
+    assert "Recognised: “The cone of rays is wider" in page
+    assert "Says the contrary: “the cone of rays is not wider”" in page
     ticked = re.findall(r'name="mark" value="([\d.]+:\w+)" id="[\w-]+"( checked)?', page)
     assert [mark for mark in ticked if mark[1]] == [("0.5:cone", " checked")]
     assert len(ticked) == 4  # two criteria in each of two groups

@@ -54,10 +54,11 @@ def test_nobody_marks_by_equality_with_doubles():
     assert not is_wrong(one, "float64")
 
 
-def test_a_careful_engine_gets_one_template_of_all_wrong():
+def test_a_careful_engine_gets_few_questions_wrong_and_an_exact_one_none():
     counted = load_recorded_counts()
     assert counted.drawn == ROUND == 10_000
-    assert list(counted.wrong["rounded"]) == [THIRDS]
+    assert max(counted.wrong["rounded"], key=counted.wrong["rounded"].get) == THIRDS
+    assert counted.questions("rounded") < counted.questions("float64") / 2
     assert counted.questions("exact") == 0
 
 
