@@ -47,7 +47,7 @@ def photograph(entrance: str, question: str) -> None:
         browser = driver.chromium.launch(
             executable_path=shutil.which("chromium"), args=["--no-sandbox"]
         )
-        page = browser.new_page(viewport={"width": 860, "height": 800})
+        page = browser.new_page(viewport={"width": 1200, "height": 640})
         page.goto(entrance)
         page.goto(page.url.rstrip("/") + question)
         for field, value in zip(page.locator("input[type=text]").all(), TYPED, strict=True):
