@@ -45,7 +45,7 @@ def test_what_is_printed_is_marked_right_from_files(bank, tmp_path, level, seed)
         desk.json({field.id: typed(field, field.answer, side=1) for field in printed}, lang)
     for found in desk.marks():
         lost = {part: one["note"] for part, one in found.items() if one["status"] == "wrong"}
-        right = [one for one in found.values() if one["status"] == "correct"]
+        right = [one for one in found.values() if one["status"] in {"correct", "open"}]
         assert not lost
         assert len(right) >= len(printed)
 

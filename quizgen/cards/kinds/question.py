@@ -158,11 +158,12 @@ def answer_blocks(part: PartSolution) -> CardBlocks:
 def _build_answer_blocks(part: PartSolution, options: tuple[Any, ...]) -> CardBlocks:
     """Return the key of one part, with the wording of the given options."""
     label = f"({part.label})" if part.label else ""
-    lead = (PlainText(f"{label} " if part.shown else label),) if label else ()
-    said: list[Any] = [Emphasis("strong", (*lead, *part.shown))]
+    shown = () if part.drawing else part.shown  # a drawing is told by what it must show
+    lead = (PlainText(f"{label} " if shown else label),) if label else ()
+    said: list[Any] = [Emphasis("strong", (*lead, *shown))]
     for option in options:
-        said += [PlainText(" – " if part.shown else " "), *option]
-    return (Paragraph(tuple(said)),) if label or part.shown or options else ()
+        said += [PlainText(" – " if shown else " "), *option]
+    return (Paragraph(tuple(said)),) if label or shown or options else ()
 
 
 def step_blocks(keys: list[QuestionKey], index: int) -> Iterator[Any]:

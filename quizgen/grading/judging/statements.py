@@ -344,7 +344,7 @@ class Subject:
 
     def __init__(self, synonyms: tuple[tuple[str, ...], ...]) -> None:
         self.groups = tuple(
-            tuple(tuple(token.text for token in split_tokens(one)) for one in group)
+            tuple(row for one in group if (row := tuple(t.text for t in split_tokens(one))))
             for group in synonyms
         )
         self._begins: dict[str, list[tuple[int, tuple[str, ...]]]] = {}
