@@ -106,8 +106,8 @@ def _iter_workbook_rows(
                 if any(map(str.strip, cells)):
                     yield line, cells
     except (
-        zipfile.BadZipFile, KeyError, IndexError, ValueError, ParseError, NotImplementedError,
-        RuntimeError, EOFError, OSError,
+        zipfile.BadZipFile, KeyError, IndexError, ValueError, ParseError, RuntimeError,
+        EOFError, OSError,
     ) as found:  # fmt: skip
         raise error(f"{path}: not a workbook that can be read ({found}); save it as CSV") from None
 

@@ -9,7 +9,7 @@ import msgspec
 from quizgen.grading.checking import CheckValue, run_check
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.normalise import LONGEST_PROSE, refuse_invisible
+from quizgen.grading.reading.normalise import refuse_invisible, refuse_long_prose
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous, unreadable, verdict_by_share
@@ -59,8 +59,7 @@ class CheckedSpec(WordSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it is empty, too long, or holds invisible characters, or the check cannot read it.
         """
-        if len(typed) > LONGEST_PROSE:
-            raise FormulaReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+        refuse_long_prose(typed)
         if not typed.strip():
             raise FormulaReadError("no-answer", 1)
         refuse_invisible(SourceText.of(typed), "\r\n\t\u200c\u200d")

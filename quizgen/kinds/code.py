@@ -10,9 +10,9 @@ import msgspec
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.normalise import (
-    LONGEST_PROSE,
     REWRITES,
     refuse_invisible,
+    refuse_long_prose,
     strip_code_fence,
 )
 from quizgen.grading.reading.source_map import SourceText
@@ -46,8 +46,7 @@ class CodeSpec(WordSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it is empty, too long, or holds invisible characters.
         """
-        if len(typed) > LONGEST_PROSE:
-            raise FormulaReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+        refuse_long_prose(typed)
         source = SourceText.of(typed)
         for name in ("direction marks around", "blanks", "digits", "minus and dashes"):
             source = source.substitute(*REWRITES[name])

@@ -237,7 +237,9 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
             found = read_error_verdict(error.why)
             fields = {**found.fields, "at_line": error.number}
             return msgspec.structs.replace(found, fields=fields)
-        shown = safe_echo("; ".join(line.shown for line in lines if line.relations), LONGEST_SHOWN)
+        shown = safe_echo(
+            "; ".join(line.display_text for line in lines if line.relations), LONGEST_SHOWN
+        )
         marked = DerivationMarker(key).mark(lines)
         words = " ".join(line.words for line in lines if line.words)
         found = self._suggest(marked, words, shown) if self.reasons else self._sum_up(marked, shown)

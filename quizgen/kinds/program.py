@@ -14,7 +14,7 @@ from quizgen.core.decoding import convert
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.programs import ProgramInput, ProgramOutcome, run_program
-from quizgen.grading.reading.normalise import LONGEST_PROSE, refuse_invisible, strip_code_fence
+from quizgen.grading.reading.normalise import refuse_invisible, refuse_long_prose, strip_code_fence
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous, unreadable, verdict_by_share, wrong
@@ -94,8 +94,7 @@ class ProgramSpec(WordSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it is empty, too long, or holds invisible characters.
         """
-        if len(typed) > LONGEST_PROSE:
-            raise FormulaReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+        refuse_long_prose(typed)
         program = _read_text(typed)
         cases: dict[str, list[ProgramInput]] = {n: case.args for n, case in self.cases.items()}
         outcome = run_program(

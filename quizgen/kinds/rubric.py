@@ -25,7 +25,7 @@ from quizgen.grading.judging.statements import (
     read_subject,
 )
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.normalise import LONGEST_PROSE, refuse_invisible
+from quizgen.grading.reading.normalise import refuse_invisible, refuse_long_prose
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.spec import AnySpec, WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous
@@ -192,8 +192,7 @@ class RubricSpec(WordSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it is empty, too long, or holds invisible characters.
         """
-        if len(typed) > LONGEST_PROSE:
-            raise FormulaReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+        refuse_long_prose(typed)
         if not typed.strip():
             raise FormulaReadError("no-answer", 1)
         refuse_invisible(SourceText.of(typed.strip("\u200e\u200f\ufeff")), "\r\n\t\u200c\u200d")

@@ -83,7 +83,7 @@ async def start_evening(request: Request) -> Response:
 def _plan_block(request: Request) -> dict[str, Any]:
     """Return the wish of a block of questions that fills the learner's minutes."""
     tonight = look_at_tonight(request)
-    return begin_block(tonight.count, tonight.expected) if tonight else {}
+    return begin_block(tonight.count, tonight.expected_points) if tonight else {}
 
 
 async def show_block_end(request: Request) -> Response:

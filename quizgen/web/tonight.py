@@ -140,7 +140,7 @@ class TonightView:
     is_new: bool
 
     @property
-    def expected(self) -> float | None:
+    def expected_points(self) -> float | None:
         """The points that the exam would bring today; None before there is evidence."""
         return self.estimate.expected if self.estimate else None
 

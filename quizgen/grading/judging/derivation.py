@@ -133,7 +133,7 @@ class DerivationMarker:
 
     def _mark_line(self, line: DerivedLine) -> Verdict:
         """Return the verdict on one line, and remember what it says."""
-        shown = safe_echo(line.shown, LONGEST_LINE)
+        shown = safe_echo(line.display_text, LONGEST_LINE)
         if not line.relations:
             return ambiguous("line-reason" if self.key.has_reasons else "line-words", shown)
         for name, place in line.defines:

@@ -696,7 +696,7 @@ class Statement:
         (items,) = example.steps or ((),)
         single: set[int] = set()
         for index in range(len(self.clauses)):
-            fit = self._fit(items, self._completed[index], example)
+            fit = self._fit(items, self._clause_tokens[index], example)
             if fit:
                 single.add(index)
                 yield from self._weigh(example, index, fit)
@@ -721,7 +721,7 @@ class Statement:
         return all(self.tokens[clause.places[0]].text in breaks for clause in window[1:])
 
     @cached_property
-    def _completed(self) -> list[list[int]]:
+    def _clause_tokens(self) -> list[list[int]]:
         """Return the tokens of each clause; one that only compares takes those before it, too.
 
         *brighter, so darker*: what gets darker was said before.

@@ -10,7 +10,7 @@ import msgspec
 
 from quizgen.grading.judging.relations import Relation
 from quizgen.grading.reading.formulas import TypedFormula, read_formula
-from quizgen.grading.reading.normalise import LONGEST_PROSE, refuse_invisible
+from quizgen.grading.reading.normalise import refuse_invisible, refuse_long_prose
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.notation.names import CONSTANTS, FUNCTIONS, GREEK, NAME, fold_name, split_product
@@ -97,7 +97,7 @@ class DerivedLine(msgspec.Struct, frozen=True):
     defines: tuple[tuple[str, int], ...] = ()
 
     @property
-    def shown(self) -> str:
+    def display_text(self) -> str:
         """The line as it is shown back."""
         if not self.relations:
             return self.words
@@ -147,8 +147,7 @@ class DerivationReader:
         LineReadError
             If an equation among them cannot be read.
         """
-        if len(typed) > LONGEST_PROSE:
-            raise FormulaReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+        refuse_long_prose(typed)
         refuse_invisible(SourceText.of(typed.strip("\u200e\u200f\ufeff")), "\r\n\t\u200c\u200d")
         pieces = [*_split_lines(typed)]
         if not pieces:

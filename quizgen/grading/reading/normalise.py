@@ -237,6 +237,18 @@ def _list_rewrites_for(character: str) -> frozenset[str]:
     return frozenset(name for name, (pattern, _) in REWRITES.items() if pattern.search(character))
 
 
+def refuse_long_prose(typed: str) -> None:
+    """Refuse sentences or program text of more than ``LONGEST_PROSE`` characters.
+
+    Raises
+    ------
+    FormulaReadError
+        If it is longer.
+    """
+    if len(typed) > LONGEST_PROSE:
+        raise FormulaReadError("too-long", LONGEST_PROSE + 1, str(LONGEST_PROSE))
+
+
 def refuse_invisible(source: SourceText, allowed: str = "") -> None:
     """Raise for the first control or invisible character, instead of dropping it.
 
