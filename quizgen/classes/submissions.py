@@ -180,8 +180,8 @@ class Submissions:
         typed = form.list_typed_texts()
         if odd := [name for name in unknown if typed[name].strip()]:
             raise KeyFileError(self._describe_unknown_parts(student, odd))
-        where = self._name_file(path)
-        return Submission(student, answers, about.lang, about.decimal, where, form.minutes)
+        where, minutes = self._name_file(path), _parse_minutes({"minutes": str(form.minutes)})
+        return Submission(student, answers, about.lang, about.decimal, where, minutes)
 
     def _name_parts(self, student: str) -> PartNames:
         """Return the names of the parts of a student's paper."""

@@ -69,7 +69,7 @@ class FilledForm(msgspec.Struct):
     code: str = ""
     paper: str = ""
     seal: str = ""
-    minutes: float | None = None
+    minutes: str | float = ""
     """Time that was taken, where a browser has measured it."""
 
     @property

@@ -14,10 +14,10 @@ from typing import Any
 import msgspec
 from sqlalchemy import Connection, Row, Select, delete, func, insert, select, update
 
+from quizgen.core.decoding import convert
 from quizgen.store.clock import Clock
 from quizgen.store.database import Database, upsert
 from quizgen.store.exam_attempts import GRACE, insert_paper
-from quizgen.core.decoding import convert
 from quizgen.store.records import ExamRecord, Learner, Packed
 from quizgen.store.schema import ANSWER, LEARNER, PAPER, SEAT, SERVER, SESSION, SITTING
 
@@ -32,8 +32,11 @@ class Seat(msgspec.Struct, frozen=True):
     ----------
     student : str
         The id.
-    learner, issue : int
-        ``issue`` counts the codes that were made for the student.
+    learner : int
+    lang : str
+        Of the pages.
+    issue : int
+        How many codes were made for the student before the latest.
     used : float, optional
         When the latest code let somebody in.
     more : float
@@ -52,6 +55,7 @@ class Seat(msgspec.Struct, frozen=True):
 
     student: str
     learner: int
+    lang: str
     issue: int
     used: float | None
     more: float
@@ -117,9 +121,7 @@ class SeatStore:
         token_hash : str
             As ``accounts.hash_token`` makes it.
         """
-        query = _select_seats(LEARNER.c.name, LEARNER.c.settings).join(
-            LEARNER, LEARNER.c.id == SEAT.c.learner
-        )
+        query = _select_seats(LEARNER.c.name)
         query = query.join(SESSION, SESSION.c.learner == SEAT.c.learner)
         query = query.where(SESSION.c.hash == token_hash, SESSION.c.until > time.time())
         with self.database.reading() as connection:
@@ -129,9 +131,16 @@ class SeatStore:
         return Learner(row.learner, row.name, row.settings), _row_to_seat(row)
 
     def list_seats(self) -> list[Seat]:
+        """Return all students, without what each has saved."""
+        with self.database.reading() as connection:
+            return [*map(_row_to_seat, connection.execute(_select_seats()))]
+
+    def list_progress(self) -> list[Seat]:
         """Return all students with how far each has got."""
         counts = (
-            select(ANSWER.c.sitting, func.count().label("filled"), func.max(ANSWER.c.at).label("at"))
+            select(
+                ANSWER.c.sitting, func.count().label("filled"), func.max(ANSWER.c.at).label("at")
+            )
             .group_by(ANSWER.c.sitting)
             .subquery()
         )
@@ -303,7 +312,8 @@ def _select_seats(*more: Any) -> Select[Any]:
     """Return the query of seats with their exams, and more columns."""
     columns = [SITTING.c[name].label(f"sitting_{name}") for name in ExamRecord.__struct_fields__]
     own = [one for one in SEAT.c if one.name != "sitting"]
-    query = select(*own, *columns, *more).select_from(SEAT)
+    query = select(*own, LEARNER.c.settings, *columns, *more).select_from(SEAT)
+    query = query.join(LEARNER, LEARNER.c.id == SEAT.c.learner)
     return query.join(SITTING, SITTING.c.id == SEAT.c.sitting, isouter=True)
 
 
@@ -318,8 +328,8 @@ def _row_to_seat(row: Row[Any]) -> Seat:
     cells = row._mapping  # noqa: SLF001 - the public name of SQLAlchemy for it
     exam = {name: cells[f"sitting_{name}"] for name in ExamRecord.__struct_fields__}
     return Seat(
-        row.student, row.learner, row.issue, row.used, row.more, row.paper,
-        convert(exam, ExamRecord) if exam["id"] else None, row.stored,
+        row.student, row.learner, str(row.settings.get("lang", "")), row.issue, row.used, row.more,
+        row.paper, convert(exam, ExamRecord) if exam["id"] else None, row.stored,
     )  # fmt: skip
 
 
