@@ -45,7 +45,8 @@ def admit(folder: Path, address: str, lang: str) -> None:
     if not address.startswith(("http://", "https://")) or len(address) > 200:
         raise click.BadParameter("begins with http:// or https://", param_hint="--address")
     written = write_admission_cards(ClassFolder(folder), address.rstrip("/"), lang)
-    print_sentence(f"{written}\nThe exam: quizgen class open {folder}")
+    print_sentence(str(written))
+    print_sentence(f"The exam: quizgen class open {folder}")
 
 
 @click.command("open")

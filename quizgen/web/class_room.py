@@ -299,6 +299,10 @@ class ClassRoom:
         handed = {one.learner: one.sitting.handed for one in seats if one.sitting}
         known = {learner: at for learner, at in handed.items() if at is not None}
         await run_in_threadpool(self.store.seats.note_stored, known)
+        for paper in papers:
+            filled = sum(bool(text.strip()) for text in paper.answers.values())
+            more = f"{filled} parts filled, {paper.minutes:.0f} min"
+            self.record(paper.student.id, paper.student.id, "stored", more)
 
     async def _build_handed_paper(self, seat: Seat) -> HandedPaper:
         """Return what a student handed in, each part in one line."""

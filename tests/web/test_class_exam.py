@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import csv
-import json
 import re
 import time
 from dataclasses import replace
 
-import argon2
 import pytest
-from class_server import ADA, JOERG, RAHIMA, STUDENTS, Student, exam_settings, make_class
-from people import ADDRESS, Somebody
+from class_server import (
+    ADA,
+    JOERG,
+    OPEN,
+    RAHIMA,
+    STUDENTS,
+    Exam,
+    exam_settings,
+    exams,
+    make_class,
+)
+from people import ADDRESS
 from starlette.testclient import TestClient
 
 from quizgen.classes.admission import write_admission_cards
@@ -23,79 +31,16 @@ from quizgen.classes.statuses import read_statuses
 from quizgen.core.errors import ClassError
 from quizgen.core.executor import InlineExecutor
 from quizgen.kinds.grade import show_key
-from quizgen.web import job_cache, passwords
 from quizgen.web.app import create_app
 
 
-class Exam:
-    """A server on which a class sits its exam, and its clock, which a test sets on."""
-
-    def __init__(self, folder, monkeypatch, process) -> None:
-        monkeypatch.setattr(job_cache, "ProcessExecutor", lambda *_, **__: process)
-        self.folder, self.later = folder, 0.0
-        self.app = create_app(exam_settings(folder))
-        self.room = self.app.state.site.room
-        steady = self.room.store.clock.now
-        monkeypatch.setattr(self.room.store.clock, "now", lambda: steady() + self.later)
-        self.loop = TestClient(self.app, ADDRESS)
-
-    def __enter__(self):
-        self.loop.__enter__()
-        self.loop.portal.call(self.room.make_all_papers)
-        return self
-
-    def __exit__(self, *how) -> None:
-        self.loop.__exit__(*how)
-
-    def store(self) -> None:
-        """What the server does every few seconds."""
-        self.loop.portal.call(self.room.close_and_store)
-
-    def watcher(self, name: str = "Weber") -> Somebody:
-        found = Somebody(self.app)
-        key = self.room.store.accounts.invite(manages=True)
-        found.join(f"/invited?key={key}", name)
-        return found
-
-    def student(self, who, client: str = "") -> Student:
-        return Student(self.app, who, client)
-
-    def begun(self, who) -> tuple[Student, str]:
-        """A student who has begun, and where the paper is."""
-        student = self.student(who)
-        student.enter()
-        return student, student.begin().url.path
-
-    def number(self, who) -> int:
-        return self.room.store.seats.list_issues()[who.id][0]
-
-    def form(self, who) -> dict:
-        return json.loads((self.folder.path / f"answers/browser/{who.id}.json").read_text("utf-8"))
-
-
-@pytest.fixture(autouse=True)
-def quick(monkeypatch):
-    """Passwords that take no time."""
-    cheap = argon2.PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
-    monkeypatch.setattr(passwords, "_make_hasher", lambda: cheap)
-
-
 @pytest.fixture
-def opened(tmp_path, monkeypatch, shared_process):
+def opened(tmp_path, monkeypatch):
     """Opens a class's exam; ``about`` is its ``exam.toml``."""
-    running = []
-
-    def one(about: str = "", folder=None) -> Exam:
-        exam = Exam(folder or make_class(tmp_path, about), monkeypatch, shared_process)
-        running.append(exam.__enter__())
-        return exam
-
-    yield one
-    for exam in running:
-        exam.__exit__(None, None, None)
+    with exams(lambda about: make_class(tmp_path, about), monkeypatch) as one:
+        yield one
 
 
-OPEN = "[browser]\nbegins = 2020-01-01T10:00:00\n"
 WINDOW = "[browser]\nbegins = {}\nends = {}\nminutes = 60\n"
 
 
