@@ -7,7 +7,7 @@ every 5 seconds (60 seconds, or as many as are given) and hand in within 10. Bes
 who mean harm: one sends halves of requests, one wrong passwords, one begins long exams as one of
 the learners who may, one sends answers under parts that no paper has; what they are answered counts
 nowhere. ``--exam`` leaves the first part out. ``--class N`` has only a class of N students, with
-papers of its folder, come in by their codes, begin, save, ask whether anything has changed, and hand
+papers of its folder, come in by their codes, begin, save, ask what has changed, and hand
 in; it ends when all forms are in the folder. Prints what half and what 95 and 99
 of a hundred waited, beside what they may, errors,
 CPU of the server for each request, and memory of all its processes; exit code 1 if one is over.
@@ -26,6 +26,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Awaitable, Callable
+from http.cookiejar import DefaultCookiePolicy
 from pathlib import Path
 
 import httpx2
@@ -441,6 +442,9 @@ async def class_exam(place: str, count: int, seconds: float) -> None:
         async with httpx2.AsyncClient(
             base_url=f"http://127.0.0.1:{port}", limits=limits, timeout=120
         ) as client:
+            client.cookies.jar.set_policy(
+                DefaultCookiePolicy(allowed_domains=[])
+            )  # each has others
             each = count / WITHIN
             report(f"{count} come in and begin", await scheduled(
                 served, count, each, lambda n: seated.begin(client, n)), 8000)  # fmt: skip
