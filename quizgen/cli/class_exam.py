@@ -63,7 +63,7 @@ def admit(folder: Path, address: str, lang: str) -> None:
               help="A further name under which the server is asked; may be repeated.")  # fmt: skip
 @click.option("--behind-proxy", is_flag=True,
               help="A web server on this machine hands on the requests, with https.")  # fmt: skip
-@click.option("--invite", is_flag=True, help="Print an invitation for one more who watches.")
+@click.option("--invite", is_flag=True, help="Print an invitation for one more supervisor.")
 @click.option("--open/--no-open", "show", default=True, help="Open the browser.")
 @click.option(
     "--database",
@@ -78,7 +78,7 @@ def admit(folder: Path, address: str, lang: str) -> None:
 def open_(**options: Unpack[ClassOpenOptions]) -> None:
     """Let the class in FOLDER sit its exam in the browser: own papers, own time, one code each.
 
-    Whoever opens the printed link first watches: who is in, last saves, more time, pauses, an end.
+    Who opens the printed link first supervises: who is in, last saves, more time, pauses, an end.
     What is handed in lands in the folder, for class mark. Started again, it goes on where it was.
     """
     require_extra("web", "quizgen class open")

@@ -40,7 +40,7 @@ class Seat(msgspec.Struct, frozen=True):
     used : float, optional
         When the latest code let somebody in.
     more : float
-        Seconds that whoever watches gave besides the extra time of the roster.
+        Seconds that supervisors gave, over the extra time of the roster.
     paper : str, optional
         Id of the paper; None until it is made.
     sitting : ExamRecord, optional

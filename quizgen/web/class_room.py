@@ -101,7 +101,7 @@ class Presence:
     """When, the key of its word, and what more is to be said."""
 
     def warn(self, now: float, what: str, more: str = "") -> None:
-        """Remember something that whoever watches should know."""
+        """Remember something that supervisors should know."""
         self.warnings = [*self.warnings, (now, what, more)][-MOST_WARNINGS:]
 
 

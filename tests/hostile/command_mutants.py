@@ -121,6 +121,8 @@ COMMANDS = [
                 "class mark {}/class {}/inbox/1.toml {}/inbox/2.json {}/inbox/3.csv"),
     FileCommand("class rule", "class", MARKED, "class rule {}/class drop ITEM", share=2),
     FileCommand("class lists", "class", CLASS, "class lists {}/class", share=2),
+    FileCommand("class admit", "class", CLASS,
+                "class admit {}/class --address https://exam.example", share=2),
     FileCommand("class table", "class", CLASS, "class table {}/class {}/answers.xlsx", share=2),
     FileCommand("class points", "class", (*MARKED, "points.csv"),
                 "class points {}/class {}/points.csv", share=2),

@@ -19,7 +19,7 @@ from starlette.testclient import TestClient
 from quizgen.classes.class_folder import ClassFolder
 from quizgen.classes.roster import RosterStudent
 from quizgen.classes.seats import DATABASE
-from quizgen.web import job_cache, passwords
+from quizgen.web import class_room, job_cache, passwords
 from quizgen.web.app import create_app
 from quizgen.web.settings import ServerSettings
 
@@ -119,6 +119,7 @@ class Exam:
 
     def __init__(self, folder, monkeypatch) -> None:
         monkeypatch.setattr(job_cache, "ProcessExecutor", InlinePool)
+        monkeypatch.setattr(class_room, "LOOK", 3600.0)  # ``store`` does it when a test wants
         self.folder, self.later = folder, 0.0
         self.app = create_app(exam_settings(folder))
         self.room = self.app.state.site.room

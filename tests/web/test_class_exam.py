@@ -20,6 +20,7 @@ from class_server import (
     exams,
     make_class,
 )
+from click.testing import CliRunner
 from people import ADDRESS
 from starlette.testclient import TestClient
 
@@ -30,6 +31,7 @@ from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.grading_run import grade_class
 from quizgen.classes.seats import RECORD, entry_code, normalise_entry_code
 from quizgen.classes.statuses import read_statuses
+from quizgen.cli.main import root_group
 from quizgen.core.errors import ClassError
 from quizgen.core.executor import InlineExecutor
 from quizgen.kinds.grade import show_key
@@ -300,3 +302,7 @@ def test_cards_have_every_code_and_the_address(tmp_path):
     with pikepdf.open(path) as found:
         assert len(found.pages) == 1
     assert path.stat().st_mode & 0o077 == 0
+    wrong = ["class", "admit", str(folder.path), "--address", "exam.school.example"]
+    done = CliRunner().invoke(root_group, wrong)
+    assert done.exit_code == 2
+    assert "begins with http" in done.output
