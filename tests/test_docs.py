@@ -81,12 +81,19 @@ def test_every_word_has_the_same_blanks_in_every_language(file, lang):
         assert str(other[name]).strip(), name
 
 
+def list_files():
+    """Every file of the repository; of an unpacked sdist, which git does not know, what it has."""
+    if (ROOT / ".git").exists():
+        command = ["git", "ls-files"]
+        done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT)
+        return done.stdout.split("\n")
+    found = [path for place in PLACES for path in (ROOT / place).rglob("*")]
+    return [path.relative_to(ROOT).as_posix() for path in found if "node_modules" not in path.parts]
+
+
 def test_nothing_in_the_repository_names_a_machine():
-    files = subprocess.run(
-        ["git", "ls-files"], capture_output=True, text=True, check=True, cwd=ROOT
-    )
     marks = ["/" + a + b + "/" for a, b in (("ro", "ot"), ("ho", "me"), ("wo", "rk"))]
-    for name in files.stdout.split("\n"):
+    for name in list_files():
         path = ROOT / name
         if (
             name
