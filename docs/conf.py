@@ -12,7 +12,7 @@ from typing import Any
 import quizgen
 
 project = "quizgen"
-author = "quizgen contributors"
+author = copyright = "quizgen contributors"
 version = release = quizgen.__version__
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 html_theme = "furo"
