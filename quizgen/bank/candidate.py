@@ -22,7 +22,7 @@ class Candidate(msgspec.Struct, frozen=True):
         Whether it lies past the syllabus.
     points : Fraction
     minutes : Fraction
-        Working time, which goes with the points.
+        Working time; more points make a question no longer.
     figure : str
         Kind of figure that the question shows; empty for none.
     photograph : bool
@@ -51,7 +51,7 @@ class Candidate(msgspec.Struct, frozen=True):
         if points is None:
             return self
         worth = Fraction(str(points))
-        return replace(self, points=worth, minutes=self.minutes * worth / self.points)
+        return replace(self, points=worth)
 
     def excludes(self, other: Candidate) -> bool:
         """Return whether one of the two says that they may not stand in one paper."""

@@ -436,12 +436,10 @@ def _strip_language(block: Block) -> object:
 def _distribute_points(question: Question, points: float | None) -> Question:
     """Return a question with the marks of its slot shared out over the parts.
 
-    They stand to each other as the parts' own marks do.
-
-    The time goes with the marks.
+    They stand to each other as the parts' own marks do; the time is what it was.
     """
     if points is None:
         return question
     scale = Fraction(str(points)) / question.points
     parts = tuple(replace(p, points=p.points * scale) for p in question.parts)
-    return replace(question, parts=parts, minutes=question.minutes * scale)
+    return replace(question, parts=parts)
