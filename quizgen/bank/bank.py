@@ -32,7 +32,7 @@ from quizgen.bank.metadata import (
 )
 from quizgen.bank.pictures import pictures_beside, read_pictures
 from quizgen.bank.quantities import QuantityNames, read_quantities
-from quizgen.bank.rules import Rules, total_points
+from quizgen.bank.rules import Rules
 from quizgen.bank.solvers import import_module_file, load_chain, unload_modules
 from quizgen.bank.template import Template, check_against_chain, read_rules
 from quizgen.bank.working_time import working_minutes
@@ -47,9 +47,11 @@ from quizgen.core.untrusted import (
     read_text,
     require_identifier,
 )
+from quizgen.kinds import KINDS
 from quizgen.locale import list_languages, register_languages, resolve_language_choice
 from quizgen.locale.custom import TAG
 from quizgen.maths.chain import Chain
+from quizgen.maths.numbers import parse_written_number
 
 SOLVERS, TEMPLATES, FIGURES = "solvers", "templates", "templates/figures"
 """Where the Python of a bank stands."""
@@ -465,7 +467,10 @@ class Bank:
                 rules.tier,
                 rules.topic,
                 rules.beyond,
-                total_points(rules),
+                tuple(
+                    (KINDS[part.answer["kind"]].verb, parse_written_number(part.points))
+                    for part in rules.part
+                ),
                 self.minutes(name),
                 figure,
                 figure in owner.metadata.photographs,

@@ -18,6 +18,7 @@ from quizgen.bank.metadata import pick_language
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BlueprintError, PaperCodeError
+from quizgen.core.shares import rescale_points
 from quizgen.core.untrusted import error_context
 from quizgen.locale import localise_numbers, translate
 from quizgen.maths.notation import pretty
@@ -440,6 +441,8 @@ def _distribute_points(question: Question, points: float | None) -> Question:
     """
     if points is None:
         return question
-    scale = Fraction(str(points)) / question.points
-    parts = tuple(replace(p, points=p.points * scale) for p in question.parts)
+    shares = rescale_points([part.points for part in question.parts], Fraction(str(points)))
+    parts = tuple(
+        replace(part, points=worth) for part, worth in zip(question.parts, shares, strict=True)
+    )
     return replace(question, parts=parts)
