@@ -360,8 +360,8 @@ HOW_TO_TYPE = hint("ask.sketch", example="0,0 1,0.4 2,0; 0,1 2,1")
 
 
 def count_strokes(answer: Mapping[str, Any], _points: Fraction, _words: int) -> Work:
-    """Return the lines to be drawn, and what has to be right about them."""
-    return {"feature drawn": len(answer["lines"]) + len(answer["features"])}
+    """Return what has to be right about the lines, and half as much for drawing each."""
+    return {"feature drawn": len(answer["features"]) + Fraction(len(answer["lines"]), 2)}
 
 
 KIND = AnswerKind(
