@@ -28,6 +28,7 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
+from quizgen.kinds.work import Work
 from quizgen.locale import fallback_language, translate
 from quizgen.maths.notation import FormulaReadError
 
@@ -54,6 +55,8 @@ _FALSE = frozenset(
 )
 _FEWEST_VALUES = 2
 """Values that there are to choose from, at least."""
+_USUAL_VALUES = 5
+"""Options between values where nobody says how many: the key, and what mistakes give."""
 _SHORTEST = 4
 """Letters that a part of an option's words must have to be recognised."""
 
@@ -528,4 +531,12 @@ def ask_options(part: PartContext, control: InputControl) -> AskedPart[ChoiceSpe
     )
 
 
-KIND = AnswerKind(AuthoredChoice, ChoiceSpec, ask, hint("ask.choice"))
+def count_options(answer: Mapping[str, Any], _points: Fraction, _words: int) -> Work:
+    """Return half a claim for each option: they are weighed against each other, not alone."""
+    shown = answer.get("take") or len(answer.get("options", ())) or _USUAL_VALUES
+    return {"tick": Fraction(shown, 2)}
+
+
+KIND = AnswerKind(
+    AuthoredChoice, ChoiceSpec, ask, hint("ask.choice"), verb="tick", work=count_options
+)

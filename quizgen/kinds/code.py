@@ -20,6 +20,7 @@ from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import explain_as_code, hint, make_spec, misconception_specs, say_on_paper
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, InputControl, PartContext
+from quizgen.kinds.work import count_once
 from quizgen.maths.notation import FormulaReadError
 
 
@@ -173,5 +174,11 @@ def ask(part: PartContext) -> AskedPart[CodeSpec]:
 
 
 KIND = AnswerKind(
-    AuthoredCode, CodeSpec, ask, hint("ask.code"), explain_as_code, say_on_paper("ask.code")
+    AuthoredCode,
+    CodeSpec,
+    ask,
+    hint("ask.code"),
+    explain_as_code,
+    say_on_paper("ask.code"),
+    work=count_once("step", 2),
 )

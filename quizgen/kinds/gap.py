@@ -33,6 +33,7 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
+from quizgen.kinds.work import count_listed
 from quizgen.locale import FIRST, fallback_language, is_written_in
 from quizgen.maths.notation import FormulaReadError
 
@@ -385,4 +386,12 @@ def accept_synonyms(spec: GapSpec, lang: str) -> str:
 
 
 MOST_SYNONYMS = 3
-KIND = AnswerKind(AuthoredGap, GapSpec, ask, hint("ask.gap"), accepted=accept_synonyms)
+KIND = AnswerKind(
+    AuthoredGap,
+    GapSpec,
+    ask,
+    hint("ask.gap"),
+    accepted=accept_synonyms,
+    verb="tick",
+    work=count_listed("cell", "gaps"),
+)

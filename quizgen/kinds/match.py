@@ -27,6 +27,7 @@ from quizgen.kinds.contract import (
     find_extra_problems,
     find_name_problems,
 )
+from quizgen.kinds.work import count_listed
 from quizgen.maths.notation import FormulaReadError
 
 _SEPARATORS = re.compile(r"[\s,;.|\[\]{}।॥]+")
@@ -222,4 +223,11 @@ def ask(part: PartContext) -> AskedPart[MatchSpec]:
     )
 
 
-KIND = AnswerKind(AuthoredMatch, MatchSpec, ask, hint("ask.match"))
+KIND = AnswerKind(
+    AuthoredMatch,
+    MatchSpec,
+    ask,
+    hint("ask.match"),
+    verb="tick",
+    work=count_listed("tick", "pairs"),
+)

@@ -27,6 +27,7 @@ from quizgen.kinds.contract import (
     find_extra_problems,
     find_name_problems,
 )
+from quizgen.kinds.work import count_listed
 from quizgen.locale import translate
 from quizgen.maths.notation import FormulaReadError
 
@@ -355,4 +356,12 @@ def input_hints(spec: OrderSpec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.order" if spec.distractors else "ask.order_all"),)
 
 
-KIND = AnswerKind(AuthoredOrder, OrderSpec, ask, input_hints, paper_hints=input_hints)
+KIND = AnswerKind(
+    AuthoredOrder,
+    OrderSpec,
+    ask,
+    input_hints,
+    paper_hints=input_hints,
+    verb="tick",
+    work=count_listed("tick", "steps", 2),
+)

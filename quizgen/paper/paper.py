@@ -18,6 +18,7 @@ from quizgen.bank.metadata import pick_language
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BlueprintError, PaperCodeError
+from quizgen.core.shares import rescale_points
 from quizgen.core.untrusted import error_context
 from quizgen.locale import localise_numbers, translate
 from quizgen.maths.notation import pretty
@@ -436,12 +437,12 @@ def _strip_language(block: Block) -> object:
 def _distribute_points(question: Question, points: float | None) -> Question:
     """Return a question with the marks of its slot shared out over the parts.
 
-    They stand to each other as the parts' own marks do.
-
-    The time goes with the marks.
+    They stand to each other as the parts' own marks do; the time is what it was.
     """
     if points is None:
         return question
-    scale = Fraction(str(points)) / question.points
-    parts = tuple(replace(p, points=p.points * scale) for p in question.parts)
-    return replace(question, parts=parts, minutes=question.minutes * scale)
+    shares = rescale_points([part.points for part in question.parts], Fraction(str(points)))
+    parts = tuple(
+        replace(part, points=worth) for part, worth in zip(question.parts, shares, strict=True)
+    )
+    return replace(question, parts=parts)

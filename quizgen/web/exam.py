@@ -16,7 +16,6 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from quizgen.bank.rules import suggested_minutes
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import BlueprintError, PaperCodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, TRIAL, find_blueprint
@@ -221,7 +220,7 @@ async def show_exam(request: Request) -> Response:
         results = await _count(request, sitting, paper, answers)
         learning = progress_of(request)
         repairs = await run_in_threadpool(learning.list_repairs, sitting.id)
-        minutes = sum(suggested_minutes(learning.bank.rules(name)) for name in repairs)
+        minutes = round(sum(map(learning.bank.minutes, repairs)))
         return page_response(
             request, "results.html.j2", sitting=sitting, paper=paper, results=results,
             repairs=repairs, minutes=minutes,
