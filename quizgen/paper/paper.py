@@ -364,7 +364,13 @@ def build_reference_paper(
     named = PaperCode(blueprint.name, REFERENCE, choice, level=blueprint.level)
     slotless = msgspec.structs.replace(blueprint, slot=())  # its slots are for other questions
     ready = compose_paper(bank, slotless, drawn, named, figures=figures, progress=progress)
-    return replace(ready, blueprint=blueprint)
+    title = {lang: _title_reference(lang, text) for lang, text in blueprint.title.items()}
+    return replace(ready, blueprint=msgspec.structs.replace(blueprint, title=title))
+
+
+def _title_reference(lang: str, title: str) -> str:
+    """Return the title of all questions at once, which is longer than the exam it names."""
+    return translate(lang, "paper.reference", title=title)
 
 
 def single_question_paper(
