@@ -1,0 +1,2 @@
+"""stub"""
+def write_review_page(*a): pass
