@@ -116,6 +116,8 @@ class PageReading(msgspec.Struct, frozen=True, omit_defaults=True):
         Of the picture in it, from 1.
     student : str
         The id; empty if the picture is of no sheet of the class.
+    paper : str
+        The code of the paper, which names the folder of its pictures.
     page : int
         Of the sheet, from 1.
     fault : str
@@ -126,13 +128,14 @@ class PageReading(msgspec.Struct, frozen=True, omit_defaults=True):
     boxes, doubtful : int
         Boxes on the page, and how many of them were not read.
     copy : int
-        1 if it is the first picture of this page of this sheet.
+        1 if no sound picture of this page of this sheet came before.
     """
 
     file: str
     digest: str
     number: int
     student: str = ""
+    paper: str = ""
     page: int = 0
     fault: str = ""
     said: str = ""
@@ -274,7 +277,9 @@ def _read_picture(
         return [_describe_stray_picture(grey, codes, marks, base)]
     return [
         _SheetReader(
-            index.folder, msgspec.structs.replace(base, student=head.id, page=page), at
+            index.folder,
+            msgspec.structs.replace(base, student=head.id, paper=head.code, page=page),
+            at,
         ).read(picture, code, marks)
         for code, (head, at, page) in ours
     ]

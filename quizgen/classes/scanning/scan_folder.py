@@ -17,7 +17,6 @@ import msgspec
 from quizgen.classes.class_folder import ANSWERS, KEYS, ClassFolder
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.part_names import PartNames
-from quizgen.classes.roster import RosterStudent
 from quizgen.classes.rulings import read_filled_rows
 from quizgen.classes.scanning.pages import (
     FOREIGN,
@@ -71,6 +70,8 @@ class ReadSheet:
     Parameters
     ----------
     student : str
+    paper : str
+        The code of the paper, and its folder below ``scans``.
     parts : mapping of str to ReadPart
         All parts of the paper, in its order.
     missing : tuple of int
@@ -84,6 +85,7 @@ class ReadSheet:
     """
 
     student: str
+    paper: str
     parts: Mapping[str, ReadPart]
     missing: tuple[int, ...] = ()
     twice: tuple[int, ...] = ()
@@ -132,10 +134,12 @@ class ScanFolder:
         return found
 
     def _count_copy(self, one: PageReading) -> int:
-        """Return which picture of its page this is, from 1, and remember it."""
+        """Return which picture of its page this is, from 1: a sound one takes a bad one's place."""
         whose = one.student, one.page
-        self._copies[whose] = self._copies.get(whose, 0) + 1 if one.student else 1
-        return self._copies[whose]
+        copy = self._copies.get(whose, 0) + 1
+        if one.student and not one.fault:
+            self._copies[whose] = copy
+        return copy
 
     def add_pages(self, read: Sequence[ReadPicture]) -> list[PageReading]:
         """Keep the pictures of what was read, then a line for each; return the lines."""
@@ -223,7 +227,7 @@ def name_picture(one: PageReading, part: str) -> str:
         return f"{STRAYS}/{one.digest}-{one.number}.jpg"
     stem = f"{PAGE}-{one.page}" if part == PAGE else part
     more = f"-{one.copy}" if one.copy > 1 else ""
-    return f"{RosterStudent(one.student).file}/{stem}{more}{'.jpg' if part == PAGE else '.png'}"
+    return f"{one.paper}/{stem}{more}{'.jpg' if part == PAGE else '.png'}"
 
 
 def _write_pictures(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -255,10 +259,11 @@ def _join_pages(
     sound = {one.page for one in pages if not one.fault}
     return ReadSheet(
         student,
+        pages[0].paper,
         parts,
         missing,
         tuple(sorted({one.page for one in pages if one.copy > 1})),
-        tuple(name_picture(one, PAGE) for one in sorted(pages, key=lambda p: (p.page, p.copy))),
+        tuple(sorted({name_picture(one, PAGE) for one in pages})),
         {one.page: one.fault for one in pages if one.page not in sound},
     )
 
@@ -291,7 +296,7 @@ def _describe_sheet(sheet: ReadSheet) -> dict[str, object]:
         for name, one in sheet.parts.items()
     }
     return {
-        "folder": RosterStudent(sheet.student).file,
+        "folder": sheet.paper,
         "pages": list(sheet.pictures),
         "missing": list(sheet.missing),
         "twice": list(sheet.twice),

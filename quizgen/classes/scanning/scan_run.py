@@ -26,12 +26,15 @@ from quizgen.classes.scanning.pictures import (
 )
 from quizgen.classes.scanning.review_page import write_review_page
 from quizgen.classes.scanning.scan_folder import (
+    NO_FIELD,
+    NOT_SCANNED,
     ReadSheet,
     ScanFolder,
     read_typed_rows,
 )
 from quizgen.classes.submissions import TABLES
 from quizgen.core.executor import map_ordered
+from quizgen.locale import FIRST
 
 CHUNK = 4
 """Pictures of a job: what a killed worker costs."""
@@ -82,6 +85,12 @@ class ScanReport:
     doubtful: int
 
     @property
+    def asked(self) -> int:
+        """Return how many parts are to be typed or decided by their pictures."""
+        elsewhere = {NO_FIELD, NOT_SCANNED}
+        return sum(count for why, count in self.reasons.items() if why not in elsewhere)
+
+    @property
     def reasons(self) -> Counter[str]:
         """Return how many parts a person is asked about, by the reason."""
         return Counter(
@@ -95,6 +104,7 @@ def scan_class(
     executor: Executor,
     ahead: int,
     tell: Callable[[str], None],
+    lang: str = FIRST,
 ) -> ScanReport:
     """Read files of a scanner, and tables that people typed beside the pictures, into a class.
 
@@ -120,13 +130,14 @@ def scan_class(
         for found in map_ordered(executor, read_job, _iter_jobs(folder.path, files), ahead):
             scans.add_pages(found)
             read += len({one.reading.number for one in found})
-            tell(files[0].path.name)
+            for one in {(one.reading.number, one.reading.file) for one in found}:
+                tell(one[1])
         typed = scans.add_typed(rows) if rows else 0
         known = sum(len(done.get(one.digest, ())) for one in files)
         report = _describe_run(scans, (read, known, typed), problems)
         if report.sheets:
             scans.write_results(report.sheets)
-        write_review_page(scans, report.sheets, report.strays, report.absent)
+        write_review_page(scans, report.sheets, report.strays, report.absent, lang)
         return report
 
 
