@@ -9,6 +9,7 @@ import io
 import math
 import random
 import subprocess
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -40,7 +41,9 @@ class Pen:
         self.dark = r.choice([0.95, 0.9, 0.8, 0.7, 0.6, 0.5])
         if r.random() < 0.05:
             self.dark = r.uniform(0.3, 0.4)
-        self.shape = r.choice(["cross", "cross", "cross", "cross", "hook", "hook", "plus", "zigzag"])
+        self.shape = r.choice(
+            ["cross", "cross", "cross", "cross", "hook", "hook", "plus", "zigzag"]
+        )
         self.shaky, self.size = r.uniform(0.03, 0.12), r.uniform(0.75, 1.15)
         self.slant = r.uniform(-0.2, 0.3)
 
@@ -55,19 +58,34 @@ class Pen:
         layer = Image.new("L", ((right - left) * FINE, (bottom - top) * FINE))
         pen = ImageDraw.Draw(layer)
         for stroke in strokes:
-            points = [((x * PER_MM - left) * FINE, (y * PER_MM - top) * FINE) for x, y in bend(stroke, self.shaky * 0.8, r)]
+            points = [
+                ((x * PER_MM - left) * FINE, (y * PER_MM - top) * FINE)
+                for x, y in bend(stroke, self.shaky * 0.8, r)
+            ]
             press = r.uniform(0.75, 1)
-            for a, b in zip(points, points[1:], strict=False):
+            for a, b in pairwise(points):
                 press = min(1, max(0.55, press + r.gauss(0, 0.05)))
                 half = width * PER_MM * FINE * (0.75 + 0.25 * press) / 2
                 pen.line([a, b], fill=round(255 * press), width=max(1, round(2 * half)))
-                pen.ellipse([b[0] - half, b[1] - half, b[0] + half, b[1] + half], fill=round(255 * press))
-        ink = np.asarray(layer.resize((right - left, bottom - top), Image.Resampling.BOX), np.float32) / 255 * dark
+                pen.ellipse(
+                    [b[0] - half, b[1] - half, b[0] + half, b[1] + half], fill=round(255 * press)
+                )
+        ink = (
+            np.asarray(layer.resize((right - left, bottom - top), Image.Resampling.BOX), np.float32)
+            / 255
+            * dark
+        )
         if dark < 0.45:
-            ink *= np.random.default_rng(r.randrange(1 << 30)).uniform(0.6, 1.1, ink.shape).astype(np.float32)
+            ink *= (
+                np.random.default_rng(r.randrange(1 << 30))
+                .uniform(0.6, 1.1, ink.shape)
+                .astype(np.float32)
+            )
         place = (left, top, right, bottom)
         under = np.asarray(page.crop(place), np.float32)
-        page.paste(Image.fromarray((under * (1 - np.clip(ink, 0, 1))).astype(np.uint8)), (left, top))
+        page.paste(
+            Image.fromarray((under * (1 - np.clip(ink, 0, 1))).astype(np.uint8)), (left, top)
+        )
         return page
 
     def strokes_of(self, shape: str, x: float, y: float, size: float):
@@ -91,7 +109,10 @@ class Pen:
     def mark(self, page: Image.Image, box: dict, kind: str) -> None:
         """Leave a mark of some kind in or near a box."""
         r, side = self.random, box["w"]
-        x, y = box["x"] + side / 2 + r.gauss(0, 0.05) * side, box["y"] + side / 2 + r.gauss(0, 0.05) * side
+        x, y = (
+            box["x"] + side / 2 + r.gauss(0, 0.05) * side,
+            box["y"] + side / 2 + r.gauss(0, 0.05) * side,
+        )
         size = side * self.size
         if kind == "empty":
             return
@@ -107,8 +128,19 @@ class Pen:
             if kind == "crossed and filled":
                 self.draw(page, self.strokes_of(self.shape, x, y, size))
             turns = r.randint(6, 7) if kind == "badly filled" else r.randint(10, 14)
-            lines = [(x + side * (-0.48 + 0.96 * n / turns), y + side * (r.uniform(0.42, 0.5) * (1 if n % 2 else -1))) for n in range(turns + 1)]
-            self.draw(page, [lines], self.width * (1.1 if kind == "badly filled" else 1.5), max(self.dark, 0.5))
+            lines = [
+                (
+                    x + side * (-0.48 + 0.96 * n / turns),
+                    y + side * (r.uniform(0.42, 0.5) * (1 if n % 2 else -1)),
+                )
+                for n in range(turns + 1)
+            ]
+            self.draw(
+                page,
+                [lines],
+                self.width * (1.1 if kind == "badly filled" else 1.5),
+                max(self.dark, 0.5),
+            )
             if kind != "badly filled":
                 across = [(x + b - y, y + a - x) for a, b in lines]
                 self.draw(page, [across], self.width * 1.5, max(self.dark, 0.5))
@@ -118,7 +150,15 @@ class Pen:
             self.draw(page, [[(x + 0.5, y + 0.3), (x + 0.7, y + 0.5)]])
         elif kind == "stray":
             turn = r.uniform(0, 2 * math.pi)
-            self.draw(page, [[(x + side * far * math.cos(turn), y + side * far * math.sin(turn)) for far in (2.0, 1.1, r.uniform(0.3, 0.42))]])
+            self.draw(
+                page,
+                [
+                    [
+                        (x + side * far * math.cos(turn), y + side * far * math.sin(turn))
+                        for far in (2.0, 1.1, r.uniform(0.3, 0.42))
+                    ]
+                ],
+            )
 
     def write(self, page: Image.Image, line: dict, text: str) -> None:
         """Write on a line."""
@@ -129,7 +169,18 @@ class Pen:
             wide = high * 0.55
             for stroke in STROKES[sign]:
                 points = [tuple(map(float, one.split(","))) for one in stroke.split()]
-                self.draw(page, [[(x + wide * (a + self.slant * (1 - b)) + r.gauss(0, 0.05), base - high * (1 - b) + r.gauss(0, 0.05)) for a, b in points]])
+                self.draw(
+                    page,
+                    [
+                        [
+                            (
+                                x + wide * (a + self.slant * (1 - b)) + r.gauss(0, 0.05),
+                                base - high * (1 - b) + r.gauss(0, 0.05),
+                            )
+                            for a, b in points
+                        ]
+                    ],
+                )
             x += wide * r.uniform(1.25, 1.5) if sign != "." else wide * 0.7
 
 
@@ -161,10 +212,18 @@ EMPTIES = {"erased": 0.004, "dot": 0.003, "stray": 0.004}
 FILLS = {"crossed and filled": 0.4, "badly filled": 0.05}
 
 
-def fill_sheet(pages: list[Image.Image], fields: list[dict], kinds: dict[str, str], pen: Pen):
+def fill_sheet(
+    pages: list[Image.Image],
+    fields: list[dict],
+    kinds: dict[str, str],
+    pen: Pen,
+    *,
+    usual: bool = False,
+):
     """Fill in a sheet; return the answer meant by part (None where something is written), and
-    the kind of mark by place in ``fields``."""
+    the kind of mark by place in ``fields``; with ``usual``, nothing is odd."""
     r = pen.random
+    odd = [{}, {}, {}] if usual else [CROSSES, FILLS, EMPTIES]
     meant: dict[str, str | None] = {}
     marks: dict[int, str] = {}
     parts: dict[str, list[int]] = {}
@@ -182,7 +241,11 @@ def fill_sheet(pages: list[Image.Image], fields: list[dict], kinds: dict[str, st
         options = [fields[place].get("option", "") for place in places]
         if ":" in options[0]:
             rows = sorted({one.partition(":")[0] for one in options})
-            chosen = [r.choice([one for one in options if one.startswith(f"{row}:")]) for row in rows if r.random() < 0.95]
+            chosen = [
+                r.choice([one for one in options if one.startswith(f"{row}:")])
+                for row in rows
+                if r.random() < 0.95
+            ]
         elif kinds[part] == "multi":
             chosen = [one for one in options if r.random() < 0.4]
         else:
@@ -190,7 +253,13 @@ def fill_sheet(pages: list[Image.Image], fields: list[dict], kinds: dict[str, st
         left = [one for one in options if one not in chosen]
         taken = r.choice(left) if left and r.random() < 0.06 else ""
         for place, option in zip(places, options, strict=True):
-            kind = pick(r, CROSSES, "cross") if option in chosen else pick(r, FILLS, "filled") if option == taken else pick(r, EMPTIES, "empty")
+            kind = (
+                pick(r, odd[0], "cross")
+                if option in chosen
+                else pick(r, odd[1], "filled")
+                if option == taken
+                else pick(r, odd[2], "empty")
+            )
             pen.mark(pages[fields[place]["page"] - 1], fields[place], kind)
             marks[place] = kind
         meant[part] = ", ".join(one for one in options if one in chosen)
@@ -199,7 +268,9 @@ def fill_sheet(pages: list[Image.Image], fields: list[dict], kinds: dict[str, st
 
 def rasterise(pdf: Path) -> list[Image.Image]:
     """The pages of a printed sheet in grey, by poppler."""
-    done = subprocess.run(["pdftoppm", "-r", str(DPI), "-gray", str(pdf)], check=True, capture_output=True)
+    done = subprocess.run(
+        ["pdftoppm", "-r", str(DPI), "-gray", str(pdf)], check=True, capture_output=True
+    )
     stream, pages = io.BytesIO(done.stdout), []
     while stream.tell() < len(done.stdout):
         stream.readline()
@@ -219,8 +290,17 @@ def spoil(page: Image.Image, how: str, r: random.Random) -> Image.Image:
             x, y, radius = r.randrange(wide), r.randrange(high), r.randint(110, 220)
             pen = ImageDraw.Draw(layer)
             pen.ellipse([x - radius, y - radius, x + radius, y + radius], fill=90)
-            pen.ellipse([x - radius, y - radius, x + radius, y + radius], outline=255, width=r.randint(8, 20))
-            grey *= 1 - r.uniform(0.2, 0.4) * np.asarray(layer.filter(ImageFilter.GaussianBlur(5)), np.float32) / 255
+            pen.ellipse(
+                [x - radius, y - radius, x + radius, y + radius],
+                outline=255,
+                width=r.randint(8, 20),
+            )
+            grey *= (
+                1
+                - r.uniform(0.2, 0.4)
+                * np.asarray(layer.filter(ImageFilter.GaussianBlur(5)), np.float32)
+                / 255
+            )
     elif how == "fold":
         for at in (high // 3 + r.randint(-40, 40), 2 * high // 3 + r.randint(-40, 40)):
             grey[at : at + 3] *= r.uniform(0.6, 0.85)
@@ -244,27 +324,55 @@ def scan(page: Image.Image, how: str, r: random.Random) -> Image.Image:
     wide, high = page.size
     scale = dpi / DPI
     turn = math.radians(r.uniform(-5, 5) if how == "skew" else r.gauss(0, 0.7))
-    corners = [(-wide / 2, -high / 2), (wide / 2, -high / 2), (wide / 2, high / 2), (-wide / 2, high / 2)]
+    corners = [
+        (-wide / 2, -high / 2),
+        (wide / 2, -high / 2),
+        (wide / 2, high / 2),
+        (-wide / 2, high / 2),
+    ]
     out = (round(wide * scale * 1.02), round(high * scale * 1.02))
     if how == "phone":
         scale, out = 1.25, (round(wide * 1.4), round(high * 1.4))
-        corners_out = [(x * scale * r.uniform(0.94, 1.03), y * scale * r.uniform(0.94, 1.03)) for x, y in corners]
+        corners_out = [
+            (x * scale * r.uniform(0.94, 1.03), y * scale * r.uniform(0.94, 1.03))
+            for x, y in corners
+        ]
     else:
         corners_out = [(x * scale, y * scale) for x, y in corners]
-    turned = [(out[0] / 2 + x * math.cos(turn) - y * math.sin(turn), out[1] / 2 + x * math.sin(turn) + y * math.cos(turn)) for x, y in corners_out]
+    turned = [
+        (
+            out[0] / 2 + x * math.cos(turn) - y * math.sin(turn),
+            out[1] / 2 + x * math.sin(turn) + y * math.cos(turn),
+        )
+        for x, y in corners_out
+    ]
     flat = [(x + wide / 2, y + high / 2) for x, y in corners]
     matrix = find_perspective(turned, flat)
     paper = 90 if how == "phone" else 250
-    seen = page.transform(out, Image.Transform.PERSPECTIVE, matrix, Image.Resampling.BICUBIC, fillcolor=paper)
-    seen = seen.filter(ImageFilter.GaussianBlur(r.uniform(0.4, 0.8) * (1.6 if how == "phone" else 1) * max(scale, 0.7)))
+    seen = page.transform(
+        out, Image.Transform.PERSPECTIVE, matrix, Image.Resampling.BICUBIC, fillcolor=paper
+    )
+    seen = seen.filter(
+        ImageFilter.GaussianBlur(
+            r.uniform(0.4, 0.8) * (1.6 if how == "phone" else 1) * max(scale, 0.7)
+        )
+    )
     grey = np.asarray(seen, np.float32)
     random_values = np.random.default_rng(r.randrange(1 << 30))
     if how == "phone":
-        across = np.linspace(r.uniform(0.6, 0.9), r.uniform(0.8, 1), out[0], dtype=np.float32)[None, :]
-        along = np.linspace(r.uniform(0.75, 1), r.uniform(0.75, 1), out[1], dtype=np.float32)[:, None]
+        across = np.linspace(r.uniform(0.6, 0.9), r.uniform(0.8, 1), out[0], dtype=np.float32)[
+            None, :
+        ]
+        along = np.linspace(r.uniform(0.75, 1), r.uniform(0.75, 1), out[1], dtype=np.float32)[
+            :, None
+        ]
         grey = grey * across * along
     black, white = r.uniform(0, 25), r.uniform(232, 254)
-    grey = black + grey / 255 * (white - black) + random_values.normal(0, r.uniform(1.5, 4), grey.shape)
+    grey = (
+        black
+        + grey / 255 * (white - black)
+        + random_values.normal(0, r.uniform(1.5, 4), grey.shape)
+    )
     return Image.fromarray(np.clip(grey, 0, 255).astype(np.uint8))
 
 

@@ -1,5 +1,4 @@
-"""What a pen left on a straightened page: boxes that are empty, crossed or withdrawn, lines that
-are written on.
+"""What a pen left on a straightened page, in boxes and on lines.
 
 Measured, not learned: how much ink lies in a box, how dark, how far it reaches and how sharp its
 edges are. What lies between the limits is neither, and a person is asked.

@@ -291,7 +291,7 @@ def _search_code(
     """Yield the code of a page whose marks alone were found, looked for where it must be."""
     import cv2
 
-    head, at = next(iter(index.folder.places().values()))
+    _, at = next(iter(index.folder.places().values()))
     places = read_student_sheet(index.folder.path / "keys.jsonl", at).places
     homography, _ = find_homography(places, None, marks)
     if homography is None:
@@ -355,7 +355,7 @@ class _SheetReader:
     ) -> ReadPicture:
         """Return what the sheet says, and its pictures."""
         places = self.sheet.places
-        homography, count = find_homography(places, code, marks)
+        homography, _ = find_homography(places, code, marks)
         if homography is None:
             return self._ask_unstraightened(picture.grey)
         page = straighten_page(picture.grey, places, homography)
@@ -461,9 +461,7 @@ def _join_crosses(
     fields: Sequence[SheetField], read: Sequence[BoxReading], way: str
 ) -> tuple[str, str]:
     """Return the boxes that are crossed, as one would type it, and why a person is asked."""
-    crossed = [
-        box.option for box, one in zip(fields, read, strict=True) if one.state == CROSSED
-    ]
+    crossed = [box.option for box, one in zip(fields, read, strict=True) if one.state == CROSSED]
     why = UNCLEAR if any(one.state == DOUBTFUL for one in read) else ""
     rows = [option.partition(":")[0] if way == PAIRS else "" for option in crossed]
     if way != MANY and len({*rows}) < len(rows):
@@ -518,9 +516,8 @@ def _draw_readings(
     for box, one in zip(boxes, read, strict=True):
         if one.state in COLOURS:
             frame((box.x, box.y, box.w, box.h), COLOURS[one.state])
-    for one in parts.values():
-        if one.answer is None:
-            frame(one.box, COLOURS[DOUBTFUL])
+    for asked in (one.box for one in parts.values() if one.answer is None):
+        frame(asked, COLOURS[DOUBTFUL])
     return _encode_picture(shown, ".jpg", (cv2.IMWRITE_JPEG_QUALITY, 60))
 
 

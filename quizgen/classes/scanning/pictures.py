@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from threading import RLock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 SUFFIXES = (".pdf", ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp", ".bmp")
-FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP", "MPO")
+FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP")
 MOST_PIXELS = 120_000_000
 """Of a picture in a file: more is no scan of a page."""
 MOST_PAGES = 20_000
@@ -35,6 +36,10 @@ LONGEST = 3600
 """Pixels of the longer side of a picture that is worked with; larger ones are made smaller."""
 FEWEST_GREYS = 0.03
 """Of a picture that is black and white alone: pixels between, for each dark one."""
+
+
+_PDFIUM = RLock()
+"""Held while a PDF file is open: pdfium must not be used by two threads at a time."""
 
 
 class ScanFileError(ClassError):
@@ -82,7 +87,7 @@ def count_pictures(path: Path) -> int:
             count = len(document)
     else:
         with _open_image(path) as image:
-            count = getattr(image, "n_frames", 1)
+            count = image.n_frames if image.format == "TIFF" else 1
     if not 0 < count <= MOST_PAGES:
         raise ScanFileError(f"has {count} pages", rule="QG610", file=path)
     return count
@@ -131,15 +136,17 @@ def open_pdf(path: Path) -> Iterator[Any]:
     """
     import pypdfium2
 
-    try:
-        document = pypdfium2.PdfDocument(path)
-    except (pypdfium2.PdfiumError, OSError) as error:
-        said = "is locked by a password" if "password" in str(error).lower() else "is no sound PDF"
-        raise ScanFileError(said, rule="QG610", file=path) from None
-    try:
-        yield document
-    finally:
-        document.close()
+    with _PDFIUM:
+        try:
+            document = pypdfium2.PdfDocument(path)
+        except (pypdfium2.PdfiumError, OSError) as error:
+            locked = "password" in str(error).lower()
+            said = "is locked by a password" if locked else "is no sound PDF"
+            raise ScanFileError(said, rule="QG610", file=path) from None
+        try:
+            yield document
+        finally:
+            document.close()
 
 
 def draw_blank_page(page: Any) -> NDArray[np.uint8]:
@@ -149,7 +156,7 @@ def draw_blank_page(page: Any) -> NDArray[np.uint8]:
 
 def _draw_page(page: Any) -> ScannedPicture:
     """Return a page of a PDF file as a picture."""
-    import pypdfium2.raw as raw
+    from pypdfium2 import raw
 
     bilevel = False
     for one in page.get_objects(filter=[raw.FPDF_PAGEOBJ_IMAGE]):
@@ -199,7 +206,7 @@ def _decode_frame(image: Any, number: int) -> ScannedPicture:
     _check_size(*image.size)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        if image.format == "JPEG":  # decodes grey alone, and large ones at half the size
+        if image.format in {"JPEG", "MPO"}:  # decodes grey alone, and large ones at half the size
             image.draft("L", (LONGEST // 2, LONGEST // 2))
         bilevel = image.mode == "1"
         if image.mode.startswith("I"):

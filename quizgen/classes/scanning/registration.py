@@ -1,5 +1,7 @@
-"""Where a sheet lies in a picture, and the sheet straightened: marks and code give a homography,
-frames of boxes what is left of bends and folds."""
+"""Where a sheet lies in a picture, and the sheet straightened.
+
+Marks and code give a homography, frames of boxes what is left of bends and folds.
+"""
 
 from __future__ import annotations
 
@@ -85,9 +87,7 @@ def _open_detector() -> Any:
     wished.adaptiveThreshWinSizeMin, wished.adaptiveThreshWinSizeMax = 11, 31
     wished.adaptiveThreshWinSizeStep = 10
     wished.minMarkerPerimeterRate = 0.03
-    return cv2.aruco.ArucoDetector(
-        cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50), wished
-    )
+    return cv2.aruco.ArucoDetector(cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50), wished)
 
 
 def find_marks(grey: NDArray[np.uint8]) -> list[FoundMark]:
@@ -131,9 +131,7 @@ def find_homography(
     if code and len(own) < len(places.marks):
         source.append(_list_corners(places.code))
         target.append(code.corners)
-    found, _ = cv2.findHomography(
-        np.concatenate(source), np.concatenate(target), cv2.RANSAC, 4.0
-    )
+    found, _ = cv2.findHomography(np.concatenate(source), np.concatenate(target), cv2.RANSAC, 4.0)
     return found, len(own)
 
 

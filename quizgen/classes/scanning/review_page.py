@@ -60,8 +60,13 @@ def write_review_page(
             faults=[say(one.student, *pair) for one in sheets for pair in one.faults.items()],
             absent=absent,
             strays=[
-                {"file": one.file, "number": one.number, "fault": one.fault, "said": one.said,
-                 "picture": _find_picture(scans, one)}
+                {
+                    "file": one.file,
+                    "number": one.number,
+                    "fault": one.fault,
+                    "said": one.said,
+                    "picture": _find_picture(scans, one),
+                }
                 for one in strays
             ],
             asked=asked,

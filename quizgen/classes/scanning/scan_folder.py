@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import msgspec
 
-from quizgen.classes.class_folder import ANSWERS, KEYS, ClassFolder
+from quizgen.classes.class_folder import ANSWERS, KEYS, ClassFolder, PrintedHead
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.part_names import PartNames
 from quizgen.classes.rulings import read_filled_rows
@@ -143,7 +143,8 @@ class ScanFolder:
 
     def add_pages(self, read: Sequence[ReadPicture]) -> list[PageReading]:
         """Keep the pictures of what was read, then a line for each; return the lines."""
-        kept, files = [], {}
+        kept: list[PageReading] = []
+        files: dict[str, bytes] = {}
         for reading, pictures in read:
             made = msgspec.structs.replace(reading, copy=self._count_copy(reading))
             kept.append(made)
@@ -151,9 +152,9 @@ class ScanFolder:
         self.path.mkdir(mode=0o700, exist_ok=True)
         _write_pictures(self.path, files)
         path = self.path / PAGES
+        _cut_torn_line(path)
         with open_private(path) as stream:
-            lines = b"".join(msgspec.json.encode(one) + b"\n" for one in kept)
-            stream.write(b"\n" + lines if _is_torn(path) else lines)
+            stream.write(b"".join(msgspec.json.encode(one) + b"\n" for one in kept))
             stream.flush()
             os.fsync(stream.fileno())
         return kept
@@ -212,13 +213,18 @@ class ScanFolder:
         return write_all(self.folder.path / ANSWERS, made, PRIVATE)[0]
 
 
-def _is_torn(path: Path) -> bool:
-    """Return whether a run that was killed left the last line half written."""
-    with path.open("rb") as stream:
-        if not stream.seek(0, os.SEEK_END):
-            return False
-        stream.seek(-1, os.SEEK_END)
-        return stream.read() != b"\n"
+def _cut_torn_line(path: Path) -> None:
+    """Take away what a run that was killed left of a last line."""
+    if not path.exists():
+        return
+    with path.open("r+b") as stream:
+        end = stream.seek(0, os.SEEK_END)
+        while end:
+            stream.seek(end - 1)
+            if stream.read(1) == b"\n":
+                break
+            end -= 1
+        stream.truncate(end)
 
 
 def name_picture(one: PageReading, part: str) -> str:
@@ -228,6 +234,11 @@ def name_picture(one: PageReading, part: str) -> str:
     stem = f"{PAGE}-{one.page}" if part == PAGE else part
     more = f"-{one.copy}" if one.copy > 1 else ""
     return f"{one.paper}/{stem}{more}{'.jpg' if part == PAGE else '.png'}"
+
+
+def find_page_pictures(folder: ClassFolder, head: PrintedHead) -> list[Path]:
+    """Return the pictures of the scanned pages of a student's sheet, with what was read."""
+    return sorted((folder.path / SCANS / head.code).glob(f"{PAGE}-*.jpg"))
 
 
 def _write_pictures(folder: Path, files: Mapping[str, bytes]) -> None:
@@ -268,9 +279,7 @@ def _join_pages(
     )
 
 
-def _join_readings(
-    part: str, pages: Sequence[PageReading], missing: Sequence[int]
-) -> ReadPart:
+def _join_readings(part: str, pages: Sequence[PageReading], missing: Sequence[int]) -> ReadPart:
     """Return what the pictures of a page say of a part: what is certain, unless two differ."""
     seen = [(one, one.parts[part]) for one in pages if part in one.parts]
     if not seen:

@@ -93,9 +93,7 @@ class ScanReport:
     @property
     def reasons(self) -> Counter[str]:
         """Return how many parts a person is asked about, by the reason."""
-        return Counter(
-            one.reading.why for sheet in self.sheets for one in sheet.asked.values()
-        )
+        return Counter(one.reading.why for sheet in self.sheets for one in sheet.asked.values())
 
 
 def scan_class(
