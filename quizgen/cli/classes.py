@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Unpack
 import click
 
 from quizgen.cli.class_grading import COMMANDS
+from quizgen.cli.class_scan import scan
 from quizgen.cli.options import (
     BankOptions,
     LanguageParam,
@@ -379,5 +380,5 @@ def _describe_papers(report: GenerationReport) -> str:
     return "; ".join(" or ".join(sorted({*each})) for each in (tiers, points, minutes))
 
 
-for _command in COMMANDS:
+for _command in (*COMMANDS, scan):
     class_.add_command(_command)
