@@ -41,9 +41,9 @@ from quizgen.classes.rubrics import (
     ItemRubric,
     RubricLine,
     default_rubric,
-    write_points,
     read_rubric,
     split_lines,
+    write_points,
     write_rubric,
 )
 from quizgen.classes.rulings import (

@@ -31,12 +31,12 @@ from quizgen.classes.marking import AnswerCard, AnswerIndex, MarkingDesk, Markin
 from quizgen.classes.rubrics import (
     ItemRubric,
     RubricLine,
-    write_points,
     join_lines,
     list_suggested_lines,
     parse_points,
     split_lines,
     word_line,
+    write_points,
 )
 from quizgen.classes.rulings import DECIDE, SECOND, Ruling
 from quizgen.core.errors import ClassError, FormulaError, QuizgenError
@@ -115,8 +115,9 @@ async def show_overview(request: Request) -> Response:
     who, desk = get_marker(request), _get_desk(request)
     found = await run_in_threadpool(_list_progress, desk, who)
     return page_response(
-        request, "marking.html.j2", items=found, who=who, 
-        counts=desk.count_by_marker().most_common(), note=request.query_params.get("note", ""), changed=request.query_params.get("count", ""),
+        request, "marking.html.j2", items=found, who=who,
+        counts=desk.count_by_marker().most_common(), note=request.query_params.get("note", ""),
+        changed=request.query_params.get("count", ""),
         local=not request.app.state.site.settings.accounts,
     )  # fmt: skip
 
