@@ -334,19 +334,24 @@ class MarkingDesk:
         """Return the place of the next undecided card of an item; None if there is none.
 
         Of the own share first, from ``after`` on and then from the beginning; where all of it is
-        done, that of others. A second marker never gets what they decided themselves.
+        done, that of others; last of all what another marker looks at. A second marker never gets
+        what they decided themselves.
         """
         cards, state = self.index().items.get(item, []), self.state()
         said = state.said(second=second)
         order = [*range(after + 1, len(cards)), *range(after + 1)]
-        open_ = [
+        still_open = [
             place for place in order
             if not cards[place].is_decided(said)
-            and self.is_free(cards[place], who, second=second)
             and not (second and _is_decided_by(cards[place], who, state.first))
         ]  # fmt: skip
-        own = (place for place in open_ if second or markers.owns(who, place, len(cards)))
-        return next(own, None if second else next(iter(open_), None))
+
+        def is_later(place: int) -> tuple[bool, bool]:
+            """Return whether another marker looks at a card, and whether it is another's share."""
+            own = second or markers.owns(who, place, len(cards))
+            return not self.is_free(cards[place], who, second=second), not own
+
+        return min(still_open, key=is_later, default=None)
 
     def decide(self, made: Sequence[Ruling], seen: Mapping[str, str]) -> str:
         """Write what a marker decided at once; return the step.

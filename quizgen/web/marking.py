@@ -413,14 +413,13 @@ async def undo_decision(request: Request) -> Response:
 def _undo_decision(form: FormData, who: Marker, desk: MarkingDesk) -> Response:
     """Take a decision back, and return where its card is."""
     back = desk.undo(who.name)
-    if back is None:
-        asked = _read_round(desk, who, field_text(form, "item"), field_text(form, "second"))
-        card = field_text(form, "card")
-        return redirect(asked.url(None, note="nothing", **({"card": card} if card else {})))
-    asked = _read_round(desk, who, back.item, "1" if back.what == SECOND else "")
-    place = desk.index().find(back.item, back.group)
-    card_ = None if place is None else desk.index().items[back.item][place]
-    return redirect(asked.url(card_, note="undone"))
+    item = back.item if back else field_text(form, "item")
+    group = back.group if back else field_text(form, "card")
+    second = back.what == SECOND if back else bool(field_text(form, "second"))
+    asked = _read_round(desk, who, item, "1" if second else "")
+    place = desk.index().find(item, group)
+    card = None if place is None else desk.index().items[item][place]
+    return redirect(asked.url(card, note="undone" if back else "nothing"))
 
 
 async def change_line(request: Request) -> Response:
