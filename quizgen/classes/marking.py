@@ -56,7 +56,8 @@ from quizgen.classes.rulings import (
     note_rulings,
     read_rulings,
 )
-from quizgen.classes.scans import find_crop
+from quizgen.classes.scans import FOLDER as SCANS
+from quizgen.classes.scans import REPORT, find_crop
 from quizgen.core.errors import ClassError
 from quizgen.locale import BOTH, FIRST
 
@@ -278,7 +279,7 @@ class MarkingDesk:
     def index(self) -> AnswerIndex:
         """Return the answers; read anew after the class was marked again."""
         runs = GradingHistory(self.folder).runs()
-        stamp = [_stamp(path) for path in (*runs[-1:], self.folder / EXAM, self.folder / "scans")]
+        stamp = [_stamp(path) for path in (*runs[-1:], self.folder / EXAM, self.folder / SCANS / REPORT)]
         with self._lock:
             if self._index is None or self._index[0] != stamp:
                 self._index = stamp, AnswerIndex(self.folder)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from quizgen.classes.class_folder import PrintedHead
 
-FOLDER = "scans"
+FOLDER, REPORT = "scans", "report.json"
 _PART = re.compile(r"\d{1,3}[a-z]{0,2}")
 
 

@@ -185,8 +185,16 @@ async def show_answer(request: Request) -> Response:
     if place is None:
         place = desk.find_next(asked.item, who.name, asked.markers, second=asked.second)
     if place is None:
-        return redirect(f"{PLACE}?note=done")
+        return _leave_cards(request)
     return await _render_card(request, who, desk, asked, place)
+
+
+def _leave_cards(request: Request) -> Response:
+    """Return to the overview, which does not fit in the place of a card that a script fetched."""
+    address = f"{PLACE}?note=done"
+    if "hx-request" in request.headers:
+        return Response(headers={"hx-redirect": address})
+    return redirect(address)
 
 
 async def _render_card(
@@ -332,11 +340,12 @@ def _draw_view(index: AnswerIndex, student: str, template: str, lang: str) -> Qu
 async def save_decision(request: Request) -> Response:
     """Write the decision on the ticked answers of a card; redirect to the next one."""
     form, who, desk = await read_form(request), get_marker(request), _get_desk(request)
-    return await run_in_threadpool(_save_decision, form, who, desk)
+    following = await run_in_threadpool(_save_decision, form, who, desk)
+    return redirect(following) if following else _leave_cards(request)
 
 
-def _save_decision(form: FormData, who: Marker, desk: MarkingDesk) -> Response:
-    """Write a decision, and return where to go on."""
+def _save_decision(form: FormData, who: Marker, desk: MarkingDesk) -> str:
+    """Write a decision, and return where to go on; empty if nothing is left to decide."""
     asked = _read_round(desk, who, field_text(form, "item"), field_text(form, "second"))
     cards = desk.index().items[asked.item]
     place = desk.index().find(asked.item, field_text(form, "card"))
@@ -349,13 +358,13 @@ def _save_decision(form: FormData, who: Marker, desk: MarkingDesk) -> Response:
         desk.decide(made, seen)
     except TakenError as error:
         taken = f"{error.ruling.who}: {error.ruling.value}"
-        return redirect(asked.url(card, note="taken", taken="" if asked.second else taken))
+        return asked.url(card, note="taken", taken="" if asked.second else taken)
     except (ClassError, FormulaError) as error:
-        return redirect(asked.url(card, note=str(error) if str(error) in NOTES else "range"))
+        return asked.url(card, note=str(error) if str(error) in NOTES else "range")
     following = desk.find_next(
         asked.item, who.name, asked.markers, second=asked.second, after=place
     )
-    return redirect(asked.url(cards[following]) if following is not None else f"{PLACE}?note=done")
+    return "" if following is None else asked.url(cards[following])
 
 
 NOTES = frozenset({"unticked", "range", "taken", "undone", "nothing", "done", "marked", "busy"})
