@@ -279,7 +279,8 @@ class MarkingDesk:
     def index(self) -> AnswerIndex:
         """Return the answers; read anew after the class was marked again."""
         runs = GradingHistory(self.folder).runs()
-        stamp = [_stamp(path) for path in (*runs[-1:], self.folder / EXAM, self.folder / SCANS / REPORT)]
+        files = (*runs[-1:], self.folder / EXAM, self.folder / SCANS / REPORT)
+        stamp = [_stamp(path) for path in files]
         with self._lock:
             if self._index is None or self._index[0] != stamp:
                 self._index = stamp, AnswerIndex(self.folder)
