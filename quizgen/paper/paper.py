@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from itertools import islice
 from typing import NamedTuple
 
 import msgspec
@@ -261,6 +262,25 @@ def compose_paper(
     code = str(_add_digest(named, blueprint, asked))
     banks = record_banks(bank, [one.drawn.template.id for one in asked])
     return Paper(code, blueprint, langs, tuple(items), banks=banks)
+
+
+def compose_paper_item(
+    blueprint: Blueprint, drawn: Sequence[Variant], place: int, langs: Sequence[str]
+) -> PaperItem:
+    """Return one question of a paper, as it stands there.
+
+    Parameters
+    ----------
+    blueprint : Blueprint
+    drawn : sequence of Variant
+        Of the whole paper: what a question may tell depends on the others.
+    place : int
+        From 0.
+    langs : sequence of str
+    """
+    asked = [*_iter_question_levels(drawn, slot_levels(blueprint))]
+    points = next(islice(slot_points(blueprint), place, None))
+    return _build_paper_item(asked[place], tuple(langs), str(place + 1), points)
 
 
 class _WantedQuestion(NamedTuple):

@@ -117,10 +117,10 @@ def _load_phone_routes() -> list[Route]:
 
 
 def _load_classroom_routes() -> list[Route]:
-    """Return the pages for grading a class, imported only where there is one."""
-    from quizgen.web import manual_grading
+    """Return the pages for marking a class, imported only where there is one."""
+    from quizgen.web import marking
 
-    return manual_grading.ROUTES
+    return marking.ROUTES
 
 
 async def set_language(request: Request) -> Response:
