@@ -122,6 +122,7 @@ def test_lines_are_drawn_by_keys_and_what_is_typed_is_drawn(field):
     expect(area).to_have_value("-0.1,0.1 0.5,0.1; 0.5,0.1 0.5,-0.1")
     page.keyboard.press("Backspace")
     expect(area).to_have_value("-0.1,0.1 0.5,0.1")
+    part.get_by_text("Type points instead").click()
     area.fill("\u22121,\u22121 1,1; 0,1")
     expect(svg.locator("polyline")).to_have_count(2)
     part.get_by_role("button", name="Clear").click()

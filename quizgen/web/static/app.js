@@ -38,7 +38,7 @@ const fill = (part, kept) => fields(part).forEach((f, i) => {
 })();
 
 // Practice: whoever answers by keys goes on where they were, or at what comes next where that is gone.
-const TO_FILL = "section.part :is(input:not([type=hidden]), textarea, select, .slot):not([readonly], :disabled, [tabindex='-1']), section.part .dock .main";
+const TO_FILL = "section.part :is(input:not([type=hidden]), textarea, select, .slot):not([readonly], :disabled, [tabindex='-1'], details:not([open]) *), section.part .dock .main";
 document.addEventListener("htmx:after:swap", () => {
   [...document.querySelectorAll("section.part :is(.verdict, .hints > :last-child, .result)")].at(-1)?.scrollIntoView({ block: "nearest" });
   if (document.activeElement && document.activeElement !== document.body) { return; }
