@@ -20,6 +20,7 @@ def field(opened, served):
     page.goto(page.request.post(served.address + "/practice", form=sent).url)
     page.locator(".parts a").nth(1).click()
     part = page.locator("section.part")
+    expect(part.locator(".board[data-ready]")).to_be_visible()
     inward = "barrel" in part.locator("strong").first.inner_text()
     return page, part, -0.15 if inward else 0.15
 
