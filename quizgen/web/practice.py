@@ -96,7 +96,10 @@ async def show_block_end(request: Request) -> Response:
     if block is None or tonight is None:
         return redirect("/")
     weak = [await _describe_weak_attempt(request, one) for one in block.weak_attempts()]
-    return page_response(request, "block.html.j2", block=block, tonight=tonight, weak=weak)
+    mended = block.count_mended(await run_in_threadpool(store.list_outcomes, learner))
+    return page_response(
+        request, "block.html.j2", block=block, tonight=tonight, weak=weak, mended=mended
+    )
 
 
 async def _describe_weak_attempt(request: Request, attempt: AttemptRecord) -> WeakAttempt:

@@ -72,12 +72,15 @@ class BlockEntry:
     minutes : int
     gain : float
         Points of the exam that they are expected to bring.
+    in_exam : bool
+        Whether the exam may ask all of them.
     """
 
     title: str
     count: int
     minutes: int
     gain: float
+    in_exam: bool
 
 
 @dataclass(frozen=True)
@@ -148,6 +151,11 @@ class TonightView:
     block: tuple[BlockEntry, ...]
     topics: tuple[TopicRow, ...]
     is_new: bool
+
+    @property
+    def gain(self) -> float:
+        """The points that the block is expected to bring, in halves."""
+        return round(2 * sum(one.gain for one in self.block)) / 2
 
     @property
     def expected_points(self) -> float | None:
@@ -253,6 +261,7 @@ def _list_entries(
         yield BlockEntry(
             title or bank.topic_title(topic, lang), len(places),
             max(1, round(float(sum(minutes[place] for place in places)))), gain,
+            names <= plan.goal.templates,
         )  # fmt: skip
 
 
