@@ -104,7 +104,10 @@ def _build_routes(settings: ServerSettings) -> list[BaseRoute]:
         Route("/settings", set_language, methods=["POST"]),
         Route("/static/languages.css", serve_language_css),
         Mount("/static/fonts", StaticFiles(directory=WEB)),
-        Mount("/static/board", StaticFiles(directory=str(files("quizgen.render") / "board"))),
+        *(
+            Mount(f"/static/{name}", StaticFiles(directory=str(files("quizgen.render") / name)))
+            for name in ("board", "look")
+        ),
         Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
     ]
 
