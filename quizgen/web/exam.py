@@ -226,6 +226,8 @@ async def show_exam(request: Request) -> Response:
     paper, now = await _make_paper(request, sitting), request.app.state.site.store.clock.now()
     store = request.app.state.site.store.sittings
     answers = await run_in_threadpool(store.answers, sitting)
+    if sitting.handed is not None and request.app.state.site.room:
+        return redirect("/seat")
     if sitting.handed is not None:
         results = await _count(request, sitting, paper, answers)
         learning = progress_of(request)
@@ -441,13 +443,17 @@ async def save_self_mark(request: Request) -> Response:
     return redirect(f"/exam/{sitting.id}#part-{part.field.id}")
 
 
-ROUTES = [
-    Route("/exam", list_exams),
-    Route("/exam", start_exam, methods=["POST"]),
+SITTING_ROUTES = [
     Route("/exam/{sitting}", show_exam),
     Route("/exam/{sitting}", save_answers, methods=["POST"]),
     Route("/exam/{sitting}/hand-in", submit_exam),
     Route("/exam/{sitting}/flag/{number}", toggle_flag, methods=["POST"]),
     Route("/exam/{sitting}/read/{part}", preview_exam_answer, methods=["POST"]),
+]
+"""While an exam is sat, whoever set it."""
+ROUTES = [
+    Route("/exam", list_exams),
+    Route("/exam", start_exam, methods=["POST"]),
+    *SITTING_ROUTES,
     Route("/exam/{sitting}/judge/{part}", save_self_mark, methods=["POST"]),
 ]
