@@ -9,12 +9,13 @@ other words. Negation, ranges and alternatives never become a number: they stay 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
-from quizgen.grading.reading.labels import NAME, find_name
+from quizgen.grading.reading.joined_values import rejoin_values
+from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
 from quizgen.grading.reading.normalise import LONGEST_PROSE, REWRITES
 from quizgen.grading.reading.number_words import (
@@ -58,7 +59,11 @@ _FOUND = re.compile(
     rf"(?<![\w.,^/*])[-+]?(?:{_DIGITS})(?=[^\W\d_])"
 )
 _GROUPED = re.compile(r"(?<![\d.,])\d{1,3}([.,])\d{3}(?:\1\d{3})+(?![\d.,]?\d)")
-_LABEL = re.compile(rf"(?<![^\W\d_])((?:{_LETTERS})+'*(?:_[^\W_]+'*)?) ?[:=]? ?(?=[-+−]?[.,]?\d)")
+_LABEL = re.compile(
+    rf"(?<![^\W\d_])((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)(?: ?[:=] ?| (?:is|are|ist|gleich|equals|হলো|হল) | ?)"
+    r"(?=[-+−]?[.,]?\d)"
+)
+_BEHIND = re.compile(rf"([-+−]?\d+(?:[.,]\d+)?) ?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)(?:[ ,;]+|$)")
 _LABELLED = re.compile(rf"(.*\d.*?)[ (]+((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)\)?")
 _PARTED = re.compile(r"[;\n]|,(?!\d)| (?:and|und|ও|এবং) ")
 _JOINED = re.compile(r"[ ,;]*(?:(?<![\w\u0980-\u09ff])(?:and|und|ও|এবং))?[ ,;]*$")
@@ -124,7 +129,7 @@ _NEARLY = re.compile(rf"(?:almost|nearly|fast|প্রায়){_END}", re.IGN
 _LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
 
 
-def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) -> Iterator[str]:
+def list_plainer_texts(typed: str, form: AnswerForm, names: AskedNames = ()) -> Iterator[str]:
     """Yield what may have been meant by an answer that was not read, plainest change first.
 
     Parameters
@@ -133,7 +138,7 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) 
         The answer as it was typed.
     form : str
         What an answer of this kind is made of.
-    names : sequence of str
+    names : sequence or mapping
         Names that its values may carry.
 
     Yields
@@ -144,16 +149,19 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) 
     if form == "verbatim" or len(typed) > LONGEST_PROSE:
         return
     if form == "values":  # before a label such as "value" is taken for a word that leads on
-        yield from separate_labelled_values(typed, list(names))
+        yield from separate_labelled_values(typed, names)
     plain = drop_decoration(typed, form)
     if plain != typed:
         yield plain
     if form in {"number", "quantity", "values"}:
         spelt = _write_words_as_numbers(plain)
+        if form == "values":
+            spelt = _write_items_as_numbers(spelt)
         if spelt != plain:
             yield spelt
         if form == "values":
-            yield from separate_labelled_values(spelt, list(names))
+            yield from separate_labelled_values(spelt, names)
+            yield from rejoin_values(spelt, len(names))
         else:
             yield from _single_answer(spelt, form)
 
@@ -192,7 +200,7 @@ def drop_bullets(typed: str) -> str:
 
 def drop_markup(typed: str) -> str:
     """Return the answer without marks of Markdown and emoji."""
-    text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed))
+    text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed)) or typed
     code = _CODE.fullmatch(text) if "`" in text else None
     return code[1] if code else text
 
@@ -229,7 +237,19 @@ def _write_words_as_numbers(text: str) -> str:
     return sign + add_mixed_units(add_large_words(spelt))
 
 
-def separate_labelled_values(text: str, names: list[str]) -> Iterator[str]:
+def _write_items_as_numbers(text: str) -> str:
+    """Return several values with those in words as digits, and without remarks in brackets."""
+    text = _REMARK.sub(lambda m: m[0] if says_otherwise(m[0]) else "", text)
+    pieces = _ITEMS.split(_MINUS.sub("-", text))
+    return "".join(replace_number_word(piece) if piece.isalpha() else piece for piece in pieces)
+
+
+_REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
+_MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
+_ITEMS = re.compile(r"([;,\n] *| and | und )")
+
+
+def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
     """Yield ``G = 111; R = 171`` for ``G111 R171``, if its labels are those of the values.
 
     Every label must mean a name of its own, and every value must be one number.
@@ -240,12 +260,24 @@ def separate_labelled_values(text: str, names: list[str]) -> Iterator[str]:
         yield from _write_assigned(
             [(name, text[e:end]) for (name, _, e), end in zip(ahead, ends, strict=True)], names
         )
-    pieces = [_LABELLED.fullmatch(piece.strip()) for piece in _PARTED.split(text)]
-    yield from _write_assigned([(m[2], m[1]) for m in pieces if m], names, len(pieces))
+    if behind := _BEHIND.findall(text) if not _BEHIND.sub("", text) else []:
+        yield from _write_assigned([(label, value) for value, label in behind], names)
+    pieces = [piece.strip() for piece in _PARTED.split(text)]
+    pairs = [pair for piece in pieces for pair in _read_labelled_piece(piece)]
+    yield from _write_assigned(pairs, names, len(pieces))
+
+
+def _read_labelled_piece(piece: str) -> Iterator[tuple[str, str]]:
+    """Yield the label and the value of ``step 1/15``, or of ``16 levels``."""
+    ahead = _LABEL.match(piece)
+    if ahead:
+        yield ahead[1], piece[ahead.end() :]
+    elif behind := _LABELLED.fullmatch(piece):
+        yield behind[2], behind[1]
 
 
 def _write_assigned(
-    pairs: list[tuple[str, str]], names: list[str], count: int = 0
+    pairs: list[tuple[str, str]], names: AskedNames, count: int = 0
 ) -> Iterator[str]:
     """Yield the pairs as ``name = value; ...`` if each name occurs once with one value.
 
