@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import ClassVar, TypeVar
+from typing import ClassVar, Literal, TypeVar
 
 import msgspec
 from flint import fmpq
@@ -140,9 +140,13 @@ class NumericSpec(SpecBase, Tolerance, kw_only=True, frozen=True):
 
 
 class ScalarSpec(NumericSpec, kw_only=True, frozen=True):
-    """One number: ``value``; a trap may give several."""
+    """One number: ``value``; a trap may give several.
+
+    ``bound`` says whether the most or the least is asked, so that an answer may say so, too.
+    """
 
     value: Scalar
+    bound: Literal["", "most", "least"] = ""
     traps: dict[str, Scalar | list[Scalar]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:

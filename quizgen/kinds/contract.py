@@ -467,6 +467,9 @@ class PartContext(Protocol):
     def format_option(self, value: Value, unit: str) -> str:
         """Return a value with its unit as an option shows it: exact if short, else 4 figures."""
 
+    def asked_bound(self) -> str:
+        """Return ``most`` or ``least`` where the part asks for such a number, else nothing."""
+
     def value_words(self, names: Mapping[str, str]) -> dict[str, list[str]]:
         """Return the words by which the question calls values, by the names of the values.
 

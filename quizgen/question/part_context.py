@@ -15,6 +15,7 @@ from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.grading.judging.statements import used_synonyms
+from quizgen.grading.reading.factor_words import find_bound
 from quizgen.kinds import KINDS
 from quizgen.kinds.contract import (
     AskedPart,
@@ -217,6 +218,14 @@ class VariantPart(PartContext):
         """Return a choice with its unit: exactly if that is easy to read, else rounded."""
         exactly = format_exact(value) if is_readable_exactly(value) else None
         return join_unit(exactly or format_rounded(value, figures=OPTION_FIGURES), unit)
+
+    def asked_bound(self) -> str:
+        """Return ``most`` or ``least`` where the part asks for such a number."""
+        template = self.drawn.template
+        label, text = template.labels[self.index], template.texts[template.languages[0]]
+        pieces = leaves(text.sections.get(label, ()) if label else text.stem)
+        said = " ".join(piece.text for piece in pieces if isinstance(piece, PlainText))
+        return find_bound(said)
 
     def value_words(self, names: Mapping[str, str]) -> dict[str, list[str]]:
         """Return what the question calls each value, in all languages in which each has a word.

@@ -14,6 +14,7 @@ from functools import cache
 from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
+from quizgen.grading.reading.factor_words import is_shrinking
 from quizgen.grading.reading.joined_values import rejoin_values
 from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
@@ -23,6 +24,7 @@ from quizgen.grading.reading.number_words import (
     add_mixed_units,
     list_number_words,
     replace_number_word,
+    replace_only_number_word,
 )
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import read_unit
@@ -42,6 +44,10 @@ _MARKDOWN = re.compile(
 _CODE = re.compile(r"\s*`{1,3}([^`]+)`{1,3}\s*")
 _QUOTES = '“”„‟«»"‹›'
 _PAIRED = re.compile(r"^(['‘’‚`´]+)(.+?)['‘’`´]+$")
+_UNDERSCORED = re.compile(r"(?<=\d)_(?=\d{3}(?!\d))")
+_TYPED_NUMBER = re.compile(r"(?:(?:np|numpy)\.)?(?:u?int|float)(?:8|16|32|64)?\(([^()]+)\)")
+"""A number as Python prints one with its type: ``np.uint8(50)``."""
+_TICK = re.compile(r"(?<=\S) ?[✓✔]+$")
 _BULLET = re.compile(r"^(?:[•◦▪‣∙∴⇒→*+–—-] +(?=\S)|#{1,6} +)", re.MULTILINE)
 _DASH = re.compile(r"^[–—−-] +(?=[.,]?\d)")
 _LIST_MARK = re.compile(r"^\(?[a-h]\) *(?=\S)")
@@ -123,7 +129,9 @@ _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to"
 _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
-_NAMED = re.compile(rf"^{NAME}(?: ?[=≈:] ?| (?:is|ist|gleich) )(?=[-+]?[.,]?\d)")
+_NAMED = re.compile(
+    rf"^(?:so |also )?(?:\|{NAME}\||{NAME}[\u0300-\u036f]?)(?: ?[=≈:] ?| (?:is|ist|gleich) )(?=[-+]?[.,]?\d|√|sqrt)"
+)
 _NEARLY = re.compile(rf"(?:almost|nearly|fast|প্রায়){_END}", re.IGNORECASE)
 """What changes a word, and only rounds a number."""
 _LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
@@ -171,13 +179,31 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     named_by, text = text, _NAMED.sub("", text)
     if text != named_by:
         yield text
+    remarked = _REMARKED.fullmatch(text)
+    if remarked and _is_idle_remark(remarked[2]):
+        yield remarked[1]
     found, around = scan_numbers(text)
+    around = [*around[:-1], _DISTANCE.sub(" ", around[-1])]
     if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
         return
     behind = _WORD.search(around[1])
     named = behind is not None and behind[0].lower() not in _load_around_words().leading_on
     if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
         yield found[0]
+
+
+def _is_idle_remark(words: str) -> bool:
+    """Return whether what stands in brackets behind a number neither changes it nor offers another."""
+    found = [word[0].lower() for word in _WORD.finditer(words)]
+    return len(found) <= _MOST_WORDS and not is_shrinking(words) and not {*found} & (
+        _load_around_words().altering - {"not", "no", "kein", "nicht", "to", "from"}
+    )
+
+
+_DISTANCE = re.compile(
+    r"^ (?:(?:away|back) )?(?:from|von) (?=(?:the|a|its|der|dem|den|einer|einem) )|^ away from (?=[^\W\d])", re.IGNORECASE
+)
+"""From what a length is measured: no range, where no other number stands."""
 
 
 def drop_decoration(typed: str, form: AnswerForm) -> str:
@@ -218,6 +244,7 @@ def _drop_once(text: str, form: AnswerForm) -> str:
     if form in {"option", "word"} and _NEARLY.match(text):
         return text
     around = _load_around_words()
+    text = _TICK.sub("", text)
     text = around.before.sub("", _ARROW.sub("", text))
     if form == "formula" and text.endswith("!"):
         return text
@@ -228,11 +255,16 @@ def _write_words_as_numbers(text: str) -> str:
     """Return ``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
     for name in ("digits", "blanks"):
         text = SourceText.of(text).substitute(*REWRITES[name]).text
+    text = _UNDERSCORED.sub("", text)
+    typed_array = _TYPED_NUMBER.fullmatch(text)
+    text = typed_array[1] if typed_array else text
     signed = _SIGNED.sub("", text)
     sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
     spelt = signed if sign else text
     if not any(map(str.isdigit, spelt)):
         spelt = replace_number_word(spelt)
+    if not any(map(str.isdigit, spelt)):
+        spelt = replace_only_number_word(spelt)
     spelt = _OF_A.sub(" ", _ORDINAL.sub("", _PER_CENT.sub(" %", spelt)))
     return sign + add_mixed_units(add_large_words(spelt))
 
@@ -244,6 +276,7 @@ def _write_items_as_numbers(text: str) -> str:
     return "".join(replace_number_word(piece) if piece.isalpha() else piece for piece in pieces)
 
 
+_REMARKED = re.compile(r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()\d]*)\)")
 _REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
 _MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
 _ITEMS = re.compile(r"([;,\n] *| and | und )")
@@ -368,6 +401,7 @@ def _is_idle_word(word: str) -> bool:
 _CUT_SHORT = re.compile(r"\d *(?:\.{2,}|…)")
 _RANGE = re.compile(r"[-+−]?\d+(?:[.,]\d+)? *[-–—] *\d+(?:[.,]\d+)?(?: *[^\W\d][^\d]*)?")
 _NUMBERED = re.compile(r"\d{1,2}[.)] +[-+−–]?[.,]?\d.*")
+_SHUTTER_RANGE = re.compile(r"1 ?/ ?\d+ ?s? ?[-–—] ?1 ?/ ?\d+ ?s?")
 _RAISED_DOT = re.compile(r"[-+−]?\d+·\d+(?: *[^\W\d][^\d]*)?")
 
 
@@ -380,6 +414,11 @@ def says_otherwise(text: str) -> bool:
 def is_denied(text: str) -> bool:
     """Whether a word says that something is not the answer."""
     return _load_around_words().denying.search(text) is not None
+
+
+def is_range_of_shares(typed: str) -> bool:
+    """Whether two shares are joined by a dash, ``1/30 - 1/60 s``: hardly their difference."""
+    return _SHUTTER_RANGE.fullmatch(typed.strip()) is not None
 
 
 def is_cut_short(typed: str) -> bool:
