@@ -8,11 +8,13 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from quizgen.classes.class_folder import SOLUTIONS, ClassFolder
-from quizgen.classes.gradebook import FOLDER, KEY_CHANGED
+from quizgen.classes.gradebook import FOLDER, KEY_CHANGED, GradedStudent
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.objections import read_objections
+from quizgen.classes.scans import FOLDER as SCANS
+from quizgen.classes.scans import find_crop
 from quizgen.classes.student_reports import grade_folder, make_report, report_to_pdf
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
@@ -57,10 +59,21 @@ def write_inspection(folder: ClassFolder, wanted: Collection[str]) -> list[Path]
             with error_context(keys.path, KeyFileError):
                 report = make_report(line, keys.key(who), own)
             solved = folder.path / SOLUTIONS / f"{line.student.file}.pdf"
-            whole = _join_pdfs(report_to_pdf(report, room=True), solved)
+            crops = _find_crops(folder, line)
+            whole = _join_pdfs(report_to_pdf(report, room=True, crops=crops), solved)
             name = f"{line.student.file}.pdf"
             paths += write_all(folder.path / FOLDER / INSPECTION, {name: whole}, PRIVATE)
     return paths
+
+
+def _find_crops(folder: ClassFolder, line: GradedStudent) -> dict[str, Path]:
+    """Return the pictures of what a student wrote on paper, by part, where there are any."""
+    places = folder.places() if (folder.path / SCANS).exists() else {}
+    head, _ = places.get(line.student.id, (None, 0))
+    if head is None or line.marks is None:
+        return {}
+    found = {part.id: find_crop(folder.path, head, part.id) for part in line.marks.parts}
+    return {part: path for part, path in found.items() if path is not None}
 
 
 def _join_pdfs(first: bytes, second: Path) -> bytes:
