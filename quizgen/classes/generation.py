@@ -354,6 +354,45 @@ def _check_bank_unchanged(folder: ClassFolder, blueprint: Blueprint) -> None:
         )
 
 
+def list_paper_jobs(folder: ClassFolder, blueprint: Blueprint) -> dict[str, GenerationJob]:
+    """Return for each student with a paper the job that composes it once more.
+
+    Raises
+    ------
+    ClassError
+        If the bank or the blueprint is no longer that of the papers there are.
+    """
+    _check_bank_unchanged(folder, blueprint)
+    heads, students = folder.heads(), folder.students()
+    exam = read_exam_details(folder.path / EXAM) or ExamDetails()
+    near = _assign_neighbours(students, heads)
+    return {
+        one.id: GenerationJob(
+            folder.settings, blueprint, (one,), _select_neighbours((one,), near), {}, exam
+        )
+        for one in students
+        if one.id in heads
+    }
+
+
+def compose_paper_again(job: GenerationJob, code: str) -> Paper:
+    """Return the paper of a job's first student, as it was printed with a code.
+
+    Raises
+    ------
+    ClassError
+        If another paper would be composed now.
+    """
+    one, drawing = job.students[0], _Drawing(job)
+    made = _compose_student_paper(job, one, drawing.bank, drawing.of(one.id))
+    paper = _assign_student_code(job, one, made)
+    if paper.code != code:
+        raise ClassError(
+            f"the paper of {one.id} is not the one that was made; run quizgen class make again"
+        )
+    return paper
+
+
 def _iter_jobs(whole: GenerationJob) -> Iterator[GenerationJob]:
     """Yield jobs of ``CHUNK`` students, each with the neighbours its papers depend on."""
     for at in range(0, len(whole.students), CHUNK):
