@@ -159,8 +159,11 @@ async def practice(client: httpx2.AsyncClient, served: Served, token: str) -> No
     parts = {"token": token, "template": QUESTION_OF_PARTS}
     of = (await client.post("/practice", data=parts)).headers["location"]
     await client.get(of)
-    report("next part, 2 a second", await scheduled(
-        served, 60, 2, lambda n: client.get(of, params={"part": f"1{'ab'[n % 2]}"})), 80)  # fmt: skip
+
+    async def part(number: int) -> httpx2.Response:
+        return await client.get(of, params={"part": f"1{'ab'[number % 2]}"})
+
+    report("next part, 2 a second", await scheduled(served, 60, 2, part), 80)
 
     async def following(_: int) -> httpx2.Response:
         nonlocal at

@@ -38,7 +38,7 @@ class Student:
     def press(self, target) -> None:
         """Press a button or follow a link."""
         if self.keyboard:
-            self.keys.on(target)
+            self._reach(target)
             self.page.keyboard.press("Enter")
         else:
             target.click()
@@ -54,10 +54,15 @@ class Student:
     def write(self, field, text: str) -> None:
         """Type into a field."""
         if self.keyboard:
-            self.keys.on(field)
+            self._reach(field)
             self.page.keyboard.type(text)
         else:
             field.fill(text)
+
+    def _reach(self, target) -> None:
+        """Go on by Tab, from where the page's skip link leads to."""
+        target.evaluate("element => element.closest('main')?.focus()")
+        self.keys.on(target)
 
     def go(self, path: str) -> None:
         """Open a page whose link was looked at elsewhere."""
