@@ -16,7 +16,6 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from quizgen.bank.rules import suggested_minutes
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import BlueprintError, PaperCodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, TRIAL, find_blueprint
@@ -227,11 +226,14 @@ async def show_exam(request: Request) -> Response:
     paper, now = await _make_paper(request, sitting), request.app.state.site.store.clock.now()
     store = request.app.state.site.store.sittings
     answers = await run_in_threadpool(store.answers, sitting)
+    if sitting.handed is not None and request.app.state.site.room:
+        return redirect("/seat")
     if sitting.handed is not None:
         results = await _count(request, sitting, paper, answers)
         learning = progress_of(request)
         repairs = await run_in_threadpool(learning.list_repairs, sitting.id)
-        minutes = {name: suggested_minutes(learning.bank.rules(name)) for name in repairs}
+        bank = learning.bank
+        minutes = {name: max(1, round(bank.minutes(name))) for name in repairs}
         return page_response(
             request, "results.html.j2", sitting=sitting, paper=paper, results=results,
             repairs=minutes, planned=plan_seconds(paper, learning.bank),
@@ -441,13 +443,17 @@ async def save_self_mark(request: Request) -> Response:
     return redirect(f"/exam/{sitting.id}#part-{part.field.id}")
 
 
-ROUTES = [
-    Route("/exam", list_exams),
-    Route("/exam", start_exam, methods=["POST"]),
+SITTING_ROUTES = [
     Route("/exam/{sitting}", show_exam),
     Route("/exam/{sitting}", save_answers, methods=["POST"]),
     Route("/exam/{sitting}/hand-in", submit_exam),
     Route("/exam/{sitting}/flag/{number}", toggle_flag, methods=["POST"]),
     Route("/exam/{sitting}/read/{part}", preview_exam_answer, methods=["POST"]),
+]
+"""While an exam is sat, whoever set it."""
+ROUTES = [
+    Route("/exam", list_exams),
+    Route("/exam", start_exam, methods=["POST"]),
+    *SITTING_ROUTES,
     Route("/exam/{sitting}/judge/{part}", save_self_mark, methods=["POST"]),
 ]

@@ -13,7 +13,6 @@ import msgspec
 from msgspec.structs import replace
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.rules import suggested_minutes
 from quizgen.core.decoding import decode_json
 from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
@@ -190,7 +189,7 @@ def plan_seconds(paper: PaperView, bank: Bank) -> dict[str, float]:
     """
     names = [item.wanted.template for item in paper.items]
     if all(name in bank.template_paths for name in names):
-        weights = [float(suggested_minutes(bank.rules(name))) for name in names]
+        weights = [float(bank.minutes(name)) for name in names]
     else:
         weights = [sum(part.points for part in item.parts) for item in paper.items]
     whole = paper.minutes * 60 / (sum(weights) or 1)

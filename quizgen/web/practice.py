@@ -17,7 +17,6 @@ from starlette.routing import Route
 
 from quizgen.bank.formulas import templates_by_formula
 from quizgen.bank.levels import GUIDED
-from quizgen.bank.rules import suggested_minutes
 from quizgen.practice.scheduler import local_date
 from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
@@ -109,7 +108,7 @@ async def _describe_weak_attempt(request: Request, attempt: AttemptRecord) -> We
     made = await _make_question(request, attempt)
     question = AttemptInBrowser(made, attempt, decimal)
     wrong = [place.task.explain_wrong() for place in question.places if not place.is_right]
-    minutes = max(1, round(suggested_minutes(site.bank.rules(attempt.template))))
+    minutes = max(1, round(site.bank.minutes(attempt.template)))
     return WeakAttempt(attempt.id, made.title, next(filter(None, wrong), ""), minutes)
 
 
