@@ -1,17 +1,17 @@
 """What the browser waits for: ``uv run python benchmarks/web.py [SECONDS]``.
 
-Starts a server of its own and asks it on a schedule, with a bounded number of requests: the echo
-of what is typed 100 times a second, answers, the next question of somebody who looks at each for
-a second. Then 300 learners with papers of their own, made ahead, begin within 10 seconds, save
-every 5 seconds (60 seconds, or as many as are given) and hand in within 10. Beside them are four
-who mean harm: one sends halves of requests, one wrong passwords, one begins long exams as one of
-the learners who may, one sends answers under parts that no paper has; what they are answered counts
-nowhere. ``--exam`` leaves the first part out. ``--class N`` has only a class of N students, with
-papers of its folder, come in by their codes, begin, save, ask what has changed, and hand
-in; it ends when all forms are in the folder. Prints what half and what 95 and 99
-of a hundred waited, beside what they may, errors,
-CPU of the server for each request, and memory of all its processes; exit code 1 if one is over.
-Waiting counts from when a request was due; the client shares the machine.
+Starts a server of its own and asks it on a schedule, with a bounded number of requests: the echo of
+what is typed 100 times a second, answers, wrong ones with the page that draws them, the next part,
+the next question of somebody who looks at each for a second. Then 300 learners with papers of their
+own, made ahead, begin within 10 seconds, save every 5 seconds (60 seconds, or as many as are given)
+and hand in within 10. Beside them are four who mean harm: one sends halves of requests, one wrong
+passwords, one begins long exams as one of the learners who may, one sends answers under parts that
+no paper has; what they are answered counts nowhere. ``--exam`` leaves the first part out.
+``--class N`` has only a class of N students, with papers of its folder, come in by their codes,
+begin, save, ask what has changed, and hand in; it ends when all forms are in the folder. Prints
+what half and what 95 and 99 of a hundred waited, beside what they may, errors, CPU of the server
+for each request, and memory of all its processes; exit code 1 if one is over. Waiting counts from
+when a request was due; the client shares the machine.
 """
 
 from __future__ import annotations
@@ -43,6 +43,7 @@ STUDENTS, EVERY, WITHIN = 300, 5.0, 10.0
 MEMORY, MEMORY_OF_CLASS = 400, 700
 FIRST_PAGE = 60_000
 QUESTION = "point-to-image-plane"
+QUESTION_OF_PARTS = "recognise-and-sketch-distortion"
 
 over: list[str] = []
 
@@ -149,6 +150,27 @@ async def practice(client: httpx2.AsyncClient, served: Served, token: str) -> No
         served, 100, 20, lambda n: client.post(f"{many[n]}/1", data=typed)), 40)  # fmt: skip
     report("its page, 20 a second", await scheduled(
         served, 100, 20, lambda n: client.get(many[n])), 60)  # fmt: skip
+
+    async def verdict(number: int) -> httpx2.Response:
+        """Answer with a wrong value, and get the page on which it is drawn."""
+        wrong = {"token": token, "a": [str(number + 3), "-7"]}
+        return await client.get(
+            (await client.post(f"{many[number]}/1", data=wrong)).headers["location"]
+        )
+
+    many = [
+        (await client.post(f"{at}/again", data={"token": token})).headers["location"]
+        for _ in range(60)
+    ]
+    report("verdict and its page, 2 a second", await scheduled(served, 60, 2, verdict), 60)
+    parts = {"token": token, "template": QUESTION_OF_PARTS}
+    of = (await client.post("/practice", data=parts)).headers["location"]
+    await client.get(of)
+
+    async def part(number: int) -> httpx2.Response:
+        return await client.get(of, params={"part": f"1{'ab'[number % 2]}"})
+
+    report("next part, 2 a second", await scheduled(served, 60, 2, part), 80)
 
     async def following(_: int) -> httpx2.Response:
         nonlocal at

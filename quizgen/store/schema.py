@@ -106,6 +106,7 @@ SITTING = Table(
     Column("handed", Float),
     Column("counted", Boolean, nullable=False, server_default=text("false")),
     Column("marks", JSON, nullable=False),
+    Column("spent", JSON, nullable=False, server_default=text("'{}'")),
     Index("sitting_of", "learner", "begun"),
 )
 """An exam that somebody sits, see ``rows.Sitting``."""

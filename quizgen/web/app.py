@@ -104,7 +104,10 @@ def _build_routes(settings: ServerSettings) -> list[BaseRoute]:
         Route("/settings", set_language, methods=["POST"]),
         Route("/static/languages.css", serve_language_css),
         Mount("/static/fonts", StaticFiles(directory=WEB)),
-        Mount("/static/board", StaticFiles(directory=str(files("quizgen.render") / "board"))),
+        *(
+            Mount(f"/static/{name}", StaticFiles(directory=str(files("quizgen.render") / name)))
+            for name in ("board", "look")
+        ),
         Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
     ]
     if settings.class_exam:
@@ -143,10 +146,10 @@ def _load_phone_routes() -> list[Route]:
 
 
 def _load_classroom_routes() -> list[Route]:
-    """Return the pages for grading a class, imported only where there is one."""
-    from quizgen.web import manual_grading
+    """Return the pages for marking a class, imported only where there is one."""
+    from quizgen.web import marking
 
-    return manual_grading.ROUTES
+    return marking.ROUTES
 
 
 async def set_language(request: Request) -> Response:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache
 
@@ -12,6 +13,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from quizgen.bank.bank import builtin_bank
+from quizgen.core.errors import ClassError
 from quizgen.figures.inks import write_theme_css
 from quizgen.grading.drawing.strokes import read_strokes
 from quizgen.kinds.contract import DrawingField
@@ -32,6 +34,7 @@ from quizgen.store import Learner
 from quizgen.store.seats import NAMES
 from quizgen.web.auth import csrf_token
 from quizgen.web.lens_drawing import draw_aperture, draw_lens_scale
+from quizgen.web.settings import ServerSettings
 from quizgen.web.state import ServerState
 
 SCALE_STEPS = 10
@@ -81,9 +84,20 @@ def _build_menu(site: ServerState, learner: Learner) -> list[tuple[str, str]]:
     shown = [("/", "practice"), ("/exam", "exam"), ("/progress", "progress")]
     shown += [("/formulas", "formulas")] if "formulas" in site.bank.cards else []
     shown += [("/author", "author")] if here.examine else []
-    shown += [("/class", "class")] if here.classroom else []
+    shown += [("/marking", "marking")] if _is_marker(here, learner) else []
     shown += [("/people", "people")] if learner.manages else []
     return shown + ([("/account", "account")] if here.accounts else [])
+
+
+def _is_marker(settings: ServerSettings, learner: Learner) -> bool:
+    """Return whether a learner may mark the class that the server was started with, if any."""
+    if settings.classroom is None or not settings.accounts:
+        return settings.classroom is not None
+    from quizgen.classes.markers import read_markers
+
+    with suppress(ClassError):  # the page itself says what is wrong with the file
+        return learner.manages or read_markers(settings.classroom).names(learner.name)
+    return False
 
 
 def _list_supervision(learner: Learner) -> list[tuple[str, str]]:

@@ -15,7 +15,7 @@ from quizgen.paper.answer_key import make_key_question
 from quizgen.paper.grading import QuestionGrader
 from quizgen.paper.paper import PaperItem
 from quizgen.question.compose import compose_variant
-from quizgen.question.levels.contract import share_points
+from quizgen.core.shares import share_points
 from quizgen.question.levels.guided import guided_stages
 
 CALCULATING = [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import Protocol
 
@@ -16,9 +15,6 @@ from quizgen.question.solution import PartSolution, Solution
 
 Choice = tuple[str, tuple[Inline, ...]]
 """A mark (letter or number) and what stands beside it."""
-
-LEAST = Fraction(1, 4)
-"""Marks are given in quarters of a point, so no part is worth less."""
 
 
 class LevelPart(msgspec.Struct, frozen=True):
@@ -68,21 +64,3 @@ def without_bold_questions(block: Block) -> Block:
     for part in block.children:
         plain += part.children if isinstance(part, Emphasis) and part.style == "strong" else (part,)
     return Paragraph(tuple(plain))
-
-
-def share_points(total: Fraction, weights: Sequence[Fraction]) -> tuple[Fraction, ...]:
-    """Return marks shared out in quarters by weight, a quarter at least to each.
-
-    The sum is the total, unless that is less than a quarter for each.
-    """
-    whole = sum(weights)
-    spare = total - LEAST * len(weights)
-    if spare <= 0:
-        return (LEAST,) * len(weights)
-    exact = [spare * weight / whole for weight in weights]
-    found = [share // LEAST * LEAST for share in exact]
-    order = sorted(range(len(weights)), key=lambda i: (found[i] - exact[i], i))
-    for place in order[: int((spare - sum(found)) / LEAST)]:
-        found[place] += LEAST
-    found[order[-1]] += spare - sum(found)
-    return tuple(LEAST + share for share in found)

@@ -17,6 +17,7 @@ from msgspec.structs import replace
 from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
 from quizgen.bank.sampler import pick_index
 from quizgen.bank.variant import Variant
+from quizgen.core.shares import share_points
 from quizgen.kinds import KINDS, NUMERIC
 from quizgen.kinds.asking import misconception_specs
 from quizgen.kinds.contract import AskedPart, asked_quantities
@@ -29,7 +30,6 @@ from quizgen.question.levels.choice_part import LevelOption, make_choice_part
 from quizgen.question.levels.contract import (
     LevelPart,
     LevelQuestion,
-    share_points,
     without_bold_questions,
 )
 from quizgen.question.levels.distractors import draw_formula_options

@@ -16,6 +16,7 @@ from msgspec.structs import replace
 from quizgen.bank.markdown import Block, Emphasis, ListBlock, Paragraph, PlainText
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
+from quizgen.core.shares import share_points
 from quizgen.kinds import NUMERIC
 from quizgen.locale import translate
 from quizgen.question.interpolation import Interpolator
@@ -25,7 +26,6 @@ from quizgen.question.levels.consequence import choose_consequence
 from quizgen.question.levels.contract import (
     LevelPart,
     LevelQuestion,
-    share_points,
     without_bold_questions,
 )
 from quizgen.question.levels.error_spotting import choose_faulty_solution
