@@ -125,12 +125,10 @@ class ClassRoom:
         self.folder, self.store = ClassFolder(folder), store
         self._workers, self._papers = workers, papers
         settings = self.folder.settings
-        blueprint = load_blueprint(settings.blueprint, open_class_bank(settings))
-        self._jobs = list_paper_jobs(self.folder, blueprint)
-        if not self._jobs:
-            raise ClassError(f"{folder}: has no papers (quizgen class make)")
         self._heads = self.folder.heads()
-        own = [pair for pair in number_seats(self.folder.students()) if pair[0].id in self._jobs]
+        own = [pair for pair in number_seats(self.folder.students()) if pair[0].id in self._heads]
+        if not own or not settings.digest:
+            raise ClassError(f"{folder}: has no papers (quizgen class make)")
         self.students = {one.id: one for one, _ in own}
         self.places = {one.id: seat for one, seat in own}
         self.exam = read_exam_details(folder / EXAM) or ExamDetails()
@@ -141,8 +139,18 @@ class ClassRoom:
             raise ClassError(f"{folder}: the database is of another class; name another one")
         langs = {one.id: one.lang or settings.lang for one in self.students.values()}
         store.seats.add_students({who: self._first_language(lang) for who, lang in langs.items()})
+        self._jobs = self._list_jobs()
         self._marks: dict[str, GradedStudent] | None = None
         self._stored = asyncio.Lock()
+
+    def _list_jobs(self) -> dict[str, GenerationJob]:
+        """Return what makes the papers; nothing once all are there, whatever the bank is now."""
+        seats = [one for one in self.store.seats.list_seats() if one.student in self.students]
+        if all(one.paper for one in seats):
+            return {}
+        settings = self.folder.settings
+        blueprint = load_blueprint(settings.blueprint, open_class_bank(settings))
+        return list_paper_jobs(self.folder, blueprint)
 
     def _first_language(self, lang: str) -> str:
         """Return a language of pages: for papers in several the first of the bank."""

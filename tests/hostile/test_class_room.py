@@ -13,6 +13,7 @@ from starlette.testclient import TestClient
 
 from quizgen.web.class_exam import CONFIG_KEY, EXAM_KEY
 from quizgen.web.class_room import WRONG_CODES
+from quizgen.web.fairness import Allowance
 
 
 @pytest.fixture
@@ -99,6 +100,7 @@ def test_a_new_code_ends_the_session_of_the_first_computer_and_keeps_the_answers
 
 def test_wrong_codes_are_slowed_down_and_a_right_one_from_the_same_address_is_not(opened):
     exam = opened(OPEN)
+    exam.room.wrong_codes = Allowance(*WRONG_CODES, clock=lambda: 0.0)
     thief = exam.student(RAHIMA, "10.0.0.50")
     found = [thief.enter(f"AAAAA-{n:05}").status_code for n in range(WRONG_CODES[0] + 5)]
     assert found == [403] * WRONG_CODES[0] + [429] * 5

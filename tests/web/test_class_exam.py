@@ -25,11 +25,11 @@ from people import ADDRESS
 from starlette.testclient import TestClient
 
 from quizgen.classes.admission import write_admission_cards
-from quizgen.classes.class_folder import format_settings
+from quizgen.classes.class_folder import ClassFolder, format_settings
 from quizgen.classes.exam_details import read_exam_details
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.grading_run import grade_class
-from quizgen.classes.seats import RECORD, entry_code, normalise_entry_code
+from quizgen.classes.seats import DATABASE, RECORD, entry_code, normalise_entry_code
 from quizgen.classes.statuses import read_statuses
 from quizgen.cli.main import root_group
 from quizgen.core.errors import ClassError
@@ -259,6 +259,20 @@ def test_a_server_that_was_killed_goes_on_where_it_was(opened, tmp_path, monkeyp
     after.store()
     assert after.form(JOERG)["student"]["matriculation"] == JOERG.id
     assert "You have handed in" in joerg.get("/seat").text
+
+
+def test_papers_that_were_made_outlive_a_changed_bank(opened, monkeypatch):
+    exam = opened(OPEN)
+    _, at = exam.begun(ADA)
+    settings = msgspec.structs.replace(exam.folder.settings, digest="of other templates")
+    exam.folder.path.joinpath("class.toml").write_bytes(format_settings(settings))
+    after = opened(folder=ClassFolder(exam.folder.path))
+    joerg = after.student(JOERG)
+    assert joerg.enter().url.path == "/seat"
+    assert joerg.begin().url.path not in {"/seat", at}
+    (exam.folder.path / DATABASE).unlink()
+    with pytest.raises(ClassError, match="with other templates"):
+        create_app(exam_settings(ClassFolder(exam.folder.path)))
 
 
 def test_a_database_of_another_class_is_refused(opened, tmp_path):
