@@ -2,8 +2,8 @@
 
 There is no search that goes back. Each place of a paper takes, of its list, a template that has
 come seldom so far and tells no answer of those before it; where the sums are not what is asked for,
-the paper is thrown away and another one is drawn. Papers of ``ROUND`` seeds in a row are made one after
-the other, so that none shares more questions with an earlier one than is allowed.
+the paper is thrown away and another one is drawn. Papers of ``ROUND`` seeds in a row are made one
+after the other, so that none shares more questions with an earlier one than is allowed.
 """
 
 from __future__ import annotations
