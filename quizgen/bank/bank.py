@@ -170,6 +170,21 @@ class Bank:
         return read_optional(self.folder / "curriculum.toml", Curriculum)
 
     @cached_property
+    def _sections(self) -> Mapping[str, str]:
+        """Return the section of the notes in which each item of the curriculum stands."""
+        return self.curriculum.sections
+
+    def notes_section(self, template: str) -> str:
+        """Return the number of the section of the notes that a template is about, or nothing."""
+        covers = self.rules(template).covers
+        return next((self._sections[item] for item in covers if item in self._sections), "")
+
+    def section_title(self, section: str, lang: str) -> str:
+        """Return the title of a section of the notes; its number if there is none."""
+        titles = {one.section: one.title for one in self.curriculum.notes}
+        return pick_language(titles.get(section, {}), lang, section)
+
+    @cached_property
     def languages(self) -> tuple[str, ...]:
         """Return the languages that ``bank.toml`` lists, else those of its templates."""
         found = self.metadata.languages or sorted(

@@ -138,6 +138,13 @@ class Template:
         return frozenset().union(*map(self.chain.required_steps, names), names)
 
     @cached_property
+    def estimated_steps(self) -> frozenset[str]:
+        """Names of the steps that are asked within a share of their value, nothing exact behind."""
+        asked = (asked_quantities(p.answer) for p in self.rules.part if "rel" in p.answer)
+        names = frozenset(name for quantities in asked for name in quantities)
+        return names & self.chain.by_name.keys() - self.exact_steps
+
+    @cached_property
     def units(self) -> dict[str, str]:
         """Return the unit that each quantity is shown in: drawn ones first, then steps."""
         drawn = {name: rule.unit for name, rule in self.rules.data.items()}

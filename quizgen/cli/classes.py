@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.class_grading import COMMANDS
+from quizgen.cli import class_exam, class_grading, class_scan
 from quizgen.cli.options import (
     BankOptions,
     LanguageParam,
@@ -379,5 +379,5 @@ def _describe_papers(report: GenerationReport) -> str:
     return "; ".join(" or ".join(sorted({*each})) for each in (tiers, points, minutes))
 
 
-for _command in COMMANDS:
+for _command in (*class_exam.COMMANDS, *class_grading.COMMANDS, class_scan.scan):
     class_.add_command(_command)

@@ -323,6 +323,11 @@ _CODES = {
     "QG602": Rule("The author's Python does not end.",
                   "let every loop end, or give it more time with --limit"),
     "QG603": Rule("quizgen fails itself: an error that nobody expected."),
+    # Sheets that come back on paper.
+    "QG610": Rule("A file of a scanner cannot be read.", "save it again as PDF, JPEG or PNG"),
+    "QG611": Rule("A picture is too large to be that of a page.", "scan it with 150 to 300 dpi"),
+    "QG612": Rule("What was typed beside scanned sheets, or kept of them, cannot be read.",
+                  "mend the line that the message names"),
 }  # fmt: skip
 CODES: Mapping[str, Rule] = MappingProxyType(_CODES)
 """Code of every rule; those of QG2, QG3 and QG4 can be ignored."""

@@ -54,6 +54,7 @@ EXTRA_MODULES = {
     "postgres": ("psycopg",),
     "cluster": ("distributed",),
     "image": ("cv2",),
+    "scan": ("cv2", "zxingcpp", "pypdfium2"),
     "circuits": ("schemdraw",),
 }  # fmt: skip
 

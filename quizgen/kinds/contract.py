@@ -468,6 +468,15 @@ class PartContext(Protocol):
     def format_option(self, value: Value, unit: str) -> str:
         """Return a value with its unit as an option shows it: exact if short, else 4 figures."""
 
+    def asked_bound(self) -> str:
+        """Return ``most`` or ``least`` where the part asks for such a number, else nothing."""
+
+    def value_words(self, names: Mapping[str, str]) -> dict[str, list[str]]:
+        """Return the words by which the question calls values, by the names of the values.
+
+        ``names`` leads from each to its quantity in the chain.
+        """
+
     def option_texts(self, names: Iterable[str]) -> list[str]:
         """Return the wording of options in the first language, as it would be typed."""
 
