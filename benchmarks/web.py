@@ -7,8 +7,8 @@ own, made ahead, begin within 10 seconds, save every 5 seconds (60 seconds, or a
 and hand in within 10. Beside them are four who mean harm: one sends halves of requests, one wrong
 passwords, one begins long exams as one of the learners who may, one sends answers under parts that
 no paper has; what they are answered counts nowhere. ``--exam`` leaves the first part out.
-``--class N`` has only a class of N students, with papers of its folder, come in by their codes,
-begin, save, ask what has changed, and hand in; it ends when all forms are in the folder. Prints
+``--class N`` (or ``N:BLUEPRINT``, if not mock) has only a class of N students, with papers of its
+folder, come in by their codes, begin, save, ask what has changed, and hand in; it ends when all forms are in the folder. Prints
 what half and what 95 and 99 of a hundred waited, beside what they may, errors, CPU of the server
 for each request, and memory of all its processes; exit code 1 if one is over. Waiting counts from
 when a request was due; the client shares the machine.
@@ -423,14 +423,15 @@ class Seated(Class):
         return await client.post(self.sittings[number], data=sent, headers=self._who(number))
 
 
-def make_class(folder: Path, count: int) -> ClassFolder:
-    """A class that sits the mock exam, from now on; its papers take a third of a second each."""
+def make_class(folder: Path, count: int, blueprint: str) -> ClassFolder:
+    """A class that may begin now; a paper of the mock exam takes a third of a second."""
     lines = ["id,name", *(f"{4711000 + n},Student {n}" for n in range(count))]
     (folder / "roster.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
     about = "[browser]\nbegins = 2020-01-01T10:00:00\n"
     (folder / "exam.toml").write_text(about, encoding="utf-8")
     command = [sys.executable, "-m", "quizgen", "class", "make", str(folder / "roster.csv"),
-               "--out", str(folder / "class"), "--about", str(folder / "exam.toml")]  # fmt: skip
+               "--out", str(folder / "class"), "--about", str(folder / "exam.toml"),
+               "--blueprint", blueprint]  # fmt: skip
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return ClassFolder(folder / "class")
 
@@ -452,9 +453,9 @@ def wait_for_files(folder: Path, count: int, most: float) -> float:
     return time.perf_counter() - began
 
 
-async def class_exam(place: str, count: int, seconds: float) -> None:
+async def class_exam(place: str, count: int, blueprint: str, seconds: float) -> None:
     """A class with papers of its folder: all come in and begin in 10 s, save, hand in in 10 s."""
-    folder = make_class(Path(place), count)
+    folder = make_class(Path(place), count, blueprint)
     served = Served(place, "x.sqlite3", command=("class", "open", str(folder.path)))
     try:
         print(f"{count} papers made ahead in {wait_for_papers(folder.path):.0f} s")
@@ -533,9 +534,9 @@ if __name__ == "__main__":
     given = [one for one in sys.argv[1:] if one != "--exam"]
     allow_connections()
     if "--class" in given:
-        count = int(given.pop(given.index("--class") + 1))
+        count, _, name = given.pop(given.index("--class") + 1).partition(":")
         given.remove("--class")
         with tempfile.TemporaryDirectory() as place:
-            asyncio.run(class_exam(place, count, float(given[0]) if given else 60))
+            asyncio.run(class_exam(place, int(count), name or "mock", float((given or ["60"])[0])))
         sys.exit(bool(over))
     sys.exit(main(float(given[0]) if given else 60, alone="--exam" in sys.argv))
