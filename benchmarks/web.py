@@ -1,17 +1,17 @@
 """What the browser waits for: ``uv run python benchmarks/web.py [SECONDS]``.
 
-Starts a server of its own and asks it on a schedule, with a bounded number of requests: the echo of
-what is typed 100 times a second, answers, wrong ones with the page that draws them, the next part,
-the next question of somebody who looks at each for a second. Then 300 learners with papers of their
-own, made ahead, begin within 10 seconds, save every 5 seconds (60 seconds, or as many as are given)
-and hand in within 10. Beside them are four who mean harm: one sends halves of requests, one wrong
-passwords, one begins long exams as one of the learners who may, one sends answers under parts that
-no paper has; what they are answered counts nowhere. ``--exam`` leaves the first part out.
-``--class N`` (or ``N:BLUEPRINT``, if not mock) has only a class of N students, with papers of its
-folder, come in by their codes, begin, save, ask what has changed, and hand in; it ends when all forms are in the folder. Prints
-what half and what 95 and 99 of a hundred waited, beside what they may, errors, CPU of the server
-for each request, and memory of all its processes; exit code 1 if one is over. Waiting counts from
-when a request was due; the client shares the machine.
+Starts a server of its own and asks it on a schedule, with a bounded number of requests: the echo
+of what is typed 100 times a second, answers, wrong ones with the page that draws them, the next
+part, the next question of somebody who looks at each for a second. Then 300 learners with papers
+of their own, made ahead, begin within 10 seconds, save every 5 seconds (60 seconds, or as many as
+are given) and hand in within 10. Beside them are four who mean harm: one sends halves of requests,
+one wrong passwords, one begins long exams as one of the learners who may, one sends answers under
+parts that no paper has; what they are answered counts nowhere. ``--exam`` leaves the first part
+out. ``--class N`` (or ``N:BLUEPRINT``, if not mock) has only a class of N students, with papers of
+its folder, come in by their codes, begin, save, ask what has changed, and hand in; it ends when
+all forms are in the folder. Prints what half and what 95 and 99 of a hundred waited, beside what
+they may, errors, CPU of the server for each request, and memory of all its processes; exit code 1
+if one is over. Waiting counts from when a request was due; the client shares the machine.
 """
 
 from __future__ import annotations
