@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import lru_cache
 
 import msgspec
 
@@ -61,6 +62,7 @@ class HandedPaper:
         return not any(text.strip() for text in self.answers.values())
 
 
+@lru_cache(maxsize=1 << 13)
 def entry_code(secret: str, student: str, issue: int) -> str:
     """Return a code that lets a student in once, such as ``7K2MX-9QD4T``.
 
@@ -115,7 +117,7 @@ def _build_form(paper: HandedPaper) -> bytes:
 def append_record(folder: ClassFolder, who: str, student: str, what: str, more: str = "") -> None:
     """Append a line to the record of the exam: what happened when, and who did it.
 
-    It is only added to, and on the disk when this returns.
+    It is only added to.
     """
     path = folder.path / RECORD
     when = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
