@@ -17,8 +17,7 @@ from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.objections import read_objections
 from quizgen.classes.scanning.pages import WHOLE
-from quizgen.classes.scanning.scan_folder import find_page_pictures
-from quizgen.classes.scans import find_crop
+from quizgen.classes.scanning.scan_folder import find_crop, find_page_pictures
 from quizgen.classes.student_reports import grade_folder, make_report, report_to_pdf
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all

@@ -76,7 +76,7 @@ def read_markers(folder: Path) -> ClassMarkers:
     try:
         return decode_json(read_bytes(path, ClassError), ClassMarkers)
     except msgspec.DecodeError as error:
-        raise ClassError(f"{path}: {error}") from None
+        raise ClassError(f"{path}: {error}", rule="QG650") from None
 
 
 def write_markers(folder: Path, item: str, markers: ItemMarkers) -> None:

@@ -56,8 +56,7 @@ from quizgen.classes.rulings import (
     note_rulings,
     read_rulings,
 )
-from quizgen.classes.scans import FOLDER as SCANS
-from quizgen.classes.scans import REPORT, find_crop
+from quizgen.classes.scanning.scan_folder import REPORT, SCANS, find_crop
 from quizgen.core.errors import ClassError
 from quizgen.locale import BOTH, FIRST
 

@@ -200,7 +200,7 @@ def read_rubric(folder: Path, item: str) -> ItemRubric | None:
         for one in found.lines:
             one.check()
     except (msgspec.DecodeError, ClassError) as error:
-        raise ClassError(f"{path}: {error}") from None
+        raise ClassError(f"{path}: {error}", rule="QG650") from None
     return found
 
 

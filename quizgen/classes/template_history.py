@@ -200,7 +200,7 @@ def read_difficulties(path: Path) -> dict[str, float]:
         Naming file and line.
     """
     if not path.exists():
-        raise ClassError(f"{path}: there is no such file (quizgen class analyse --earlier)")
+        raise ClassError(f"{path}: there is no such file", rule="QG651")
     sums: dict[str, list[float]] = defaultdict(lambda: [0.0, 0.0])
     for at, cells in read_filled_rows(path, {"template", "points", "difficulty"}):
         if not cells["difficulty"]:
@@ -208,7 +208,9 @@ def read_difficulties(path: Path) -> dict[str, float]:
         try:
             points, difficulty = float(cells["points"]), float(cells["difficulty"])
         except ValueError:
-            raise ClassError(f"{path}: line {at}: points and difficulty are numbers") from None
+            raise ClassError(
+                f"{path}: line {at}: points and difficulty are numbers", rule="QG651"
+            ) from None
         sums[cells["template"]][0] += points * difficulty
         sums[cells["template"]][1] += points
     return {name: got / of for name, (got, of) in sums.items() if of > 0}

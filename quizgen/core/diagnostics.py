@@ -328,6 +328,10 @@ _CODES = {
     "QG611": Rule("A picture is too large to be that of a page.", "scan it with 150 to 300 dpi"),
     "QG612": Rule("What was typed beside scanned sheets, or kept of them, cannot be read.",
                   "mend the line that the message names"),
+    "QG650": Rule("A rubric or the list of markers of a class cannot be read.",
+                  "mend the file, or delete it: decisions stand in rulings.csv"),
+    "QG651": Rule("A table of earlier classes cannot be read.",
+                  "write it again: quizgen class analyse --earlier"),
 }  # fmt: skip
 CODES: Mapping[str, Rule] = MappingProxyType(_CODES)
 """Code of every rule; those of QG2, QG3 and QG4 can be ignored."""

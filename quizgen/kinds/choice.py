@@ -270,7 +270,11 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
         number = "first second third fourth fifth sixth".split().index(place[1].lower()) + 1
         return [number] if number <= len(spec.choices()) else []
     named = _LETTER_LAST.fullmatch(text)
-    if named is None or says_otherwise(named["words"]) or find_wording(named["words"], spec.choices()):
+    if (
+        named is None
+        or says_otherwise(named["words"])
+        or find_wording(named["words"], spec.choices())
+    ):
         return []
     position = LETTERS.find(named["mark"]) + 1
     return [position] if position <= len(spec.choices()) else []

@@ -18,7 +18,7 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from quizgen.core.errors import QuizgenError
+from quizgen.core.errors import ClassError, QuizgenError
 from quizgen.grading.options import DECIMALS
 from quizgen.render.fonts import WEB
 from quizgen.web import (
@@ -195,9 +195,10 @@ async def handle_store_error(request: Request, error: Exception) -> Response:
 
 
 async def handle_bank_error(request: Request, error: Exception) -> Response:
-    """Return the page for a faulty template (HTTP 500); authors see the message."""
+    """Return the page for a faulty template or class (HTTP 500); its author sees the message."""
     site: ServerState = request.app.state.site
-    wrong = str(error) if site.settings.examine else ""
+    own = isinstance(error, ClassError) and not site.settings.accounts  # of the examiner alone
+    wrong = str(error) if site.settings.examine or own else ""
     return _render_failure_page(request, error, 500, "error.500", wrong)
 
 

@@ -178,15 +178,23 @@ def _read_round(desk: MarkingDesk, who: Marker, item: str, second: str) -> _Aske
 async def show_answer(request: Request) -> Response:
     """Return the page of a card; without one in the address, of the next undecided one."""
     who, desk, query = get_marker(request), _get_desk(request), request.query_params
-    asked = await run_in_threadpool(
-        _read_round, desk, who, query.get("item", ""), query.get("second", "")
+    asked, place = await run_in_threadpool(
+        _find_card, desk, who, query.get("item", ""), query.get("second", ""), query.get("card", "")
     )
-    place = desk.index().find(asked.item, query.get("card", ""))
-    if place is None:
-        place = desk.find_next(asked.item, who.name, asked.markers, second=asked.second)
     if place is None:
         return _leave_cards(request)
     return await _render_card(request, who, desk, asked, place)
+
+
+def _find_card(
+    desk: MarkingDesk, who: Marker, item: str, second: str, card: str
+) -> tuple[_Asked, int | None]:
+    """Return the round that is asked for, and the place of the card, or of the next open one."""
+    asked = _read_round(desk, who, item, second)
+    place = desk.index().find(item, card)
+    if place is None:
+        place = desk.find_next(item, who.name, asked.markers, second=asked.second)
+    return asked, place
 
 
 def _leave_cards(request: Request) -> Response:
@@ -434,10 +442,10 @@ def _undo_decision(form: FormData, who: Marker, desk: MarkingDesk) -> Response:
 async def change_line(request: Request) -> Response:
     """Change a line of the rubric, or show what that would do to marks."""
     form, who, desk = await read_form(request), get_marker(request), _get_desk(request)
-    asked = await run_in_threadpool(
-        _read_round, desk, who, field_text(form, "item"), field_text(form, "second")
+    asked, found = await run_in_threadpool(
+        _find_card, desk, who, *(field_text(form, name) for name in ("item", "second", "card"))
     )
-    place = desk.index().find(asked.item, field_text(form, "card")) or 0
+    place = found or 0
     card = desk.index().items[asked.item][place]
     line = RubricLine(
         field_text(form, "line") or f"l{secrets.token_hex(3)}",
@@ -488,30 +496,37 @@ def _describe_moved(
 async def show_list(request: Request) -> Response:
     """Return the page of all cards of an item, with what is decided."""
     who, desk, query = get_marker(request), _get_desk(request), request.query_params
-    asked = await run_in_threadpool(
-        _read_round, desk, who, query.get("item", ""), query.get("second", "")
+    content = await run_in_threadpool(
+        _build_list, desk, who, query.get("item", ""), query.get("second", "")
     )
-    return page_response(
-        request, "marking_list.html.j2", asked=asked, cards=desk.index().items[asked.item],
-        said=desk.state().said(second=asked.second), number=desk.index().numbers[asked.item],
-        rubric=desk.rubric(asked.item),
-    )  # fmt: skip
+    return page_response(request, "marking_list.html.j2", **content)
+
+
+def _build_list(desk: MarkingDesk, who: Marker, item: str, second: str) -> dict[str, Any]:
+    """Return what stands on the page of all cards of an item."""
+    asked, index = _read_round(desk, who, item, second), desk.index()
+    return {"asked": asked, "cards": index.items[item], "number": index.numbers[item],
+            "said": desk.state().said(second=asked.second)}  # fmt: skip
 
 
 async def show_apart(request: Request) -> Response:
     """Return the page of what two markers differ in; of one item."""
-    who, desk = get_marker(request), _get_desk(request)
-    item = request.query_params.get("item", "")
-    asked = await run_in_threadpool(_read_round, desk, who, item, "")
+    who, desk, query = get_marker(request), _get_desk(request), request.query_params
+    content = await run_in_threadpool(_build_apart, desk, who, query.get("item", ""))
+    return page_response(
+        request, "marking_apart.html.j2", **content, shown=_spots, note=query.get("note", "")
+    )
+
+
+def _build_apart(desk: MarkingDesk, who: Marker, item: str) -> dict[str, Any]:
+    """Return what stands on the page of what two markers differ in."""
+    asked, index = _read_round(desk, who, item, ""), desk.index()
     agreed = agreement_by_item(desk.state().rulings).get(item)
-    texts = {case.answer.group: case for card in desk.index().items[item] for case in card.cases}
+    texts = {case.answer.group: case for card in index.items[item] for case in card.cases}
     rows = [(one, two, texts[one.group]) for one, two in (agreed.apart if agreed else ())
             if one.group in texts]  # fmt: skip
-    return page_response(
-        request, "marking_apart.html.j2", asked=asked, agreed=agreed, rows=rows,
-        number=desk.index().numbers[item], rubric=desk.rubric(item), shown=_spots,
-        note=request.query_params.get("note", ""),
-    )  # fmt: skip
+    return {"asked": asked, "agreed": agreed, "rows": rows, "number": index.numbers[item],
+            "rubric": desk.rubric(item)}  # fmt: skip
 
 
 async def settle(request: Request) -> Response:

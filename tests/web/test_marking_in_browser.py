@@ -92,7 +92,7 @@ def press(page, *keys: str) -> None:
 
 
 @pytest.mark.parametrize("students", [6, pytest.param(300, marks=pytest.mark.slow)])
-def test_two_markers_work_through_all_sentences_by_keys(browser, tmp_path, students):
+def test_two_markers_work_through_all_sentences_by_keys(browser, barriers, tmp_path, students):
     folder = make_class(tmp_path, students)
     server = Served(f"sqlite:///{tmp_path / 'l.sqlite3'}", "--class", str(folder))
     try:
@@ -101,6 +101,13 @@ def test_two_markers_work_through_all_sentences_by_keys(browser, tmp_path, stude
         first = latest_rulings(read_rulings(folder), DECIDE)
         whose = [sorted(r.item for r in first.values() if r.who == name) for name in ("AM", "BN")]
         assert all({*items} == {*ITEMS} for items in whose)
+        for page in (
+            "",
+            f"/answer?item={ITEMS[0]}&card={next(g for g, r in first.items() if r.item == ITEMS[0])}",
+            f"/list?item={ITEMS[0]}",
+        ):
+            two.goto(f"{server.address}/marking{page}")
+            assert barriers(two) == []
         undo_and_go_on(one, server.address, folder)
         mark_blindly(two, server.address, folder)
         change_rubric(one, server.address, folder)

@@ -390,6 +390,13 @@ def test_what_was_taken_back_by_hand_is_asked_again(first, folder):
     assert groups(first.get(PAGE)) == card
 
 
+def test_a_damaged_file_is_named_on_the_page(first, folder):
+    (folder / "markers.json").write_text("{")
+    assert "markers.json" in first.get("/marking")
+    (folder / "markers.json").unlink()
+    assert "1 point" in first.get("/marking")
+
+
 def test_a_phone_of_the_network_never_reaches_it(folder, capsys):
     assert run("serve", "--class", folder, "--phone", "--no-open") == 2
     assert "nobody signs in" in capsys.readouterr().err

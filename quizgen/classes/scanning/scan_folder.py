@@ -7,6 +7,7 @@ goes on where it was. All else follows from these lines and ``typed.csv``.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -43,6 +44,7 @@ ON_PAPER = "see paper"
 NO_FIELD, NOT_SCANNED, DIFFERS = "no_field", "missing", "differs"
 COLUMNS = ("id", "part", "answer")
 _LINE = json_decoder(PageReading).decode
+_PART = re.compile(r"\d{1,3}[a-z]{0,2}")
 
 
 class ReadPart(NamedTuple):
@@ -248,6 +250,26 @@ def name_picture(one: PageReading, part: str) -> str:
 def find_page_pictures(folder: ClassFolder, head: PrintedHead) -> list[Path]:
     """Return the pictures of the scanned pages of a student's sheet, with what was read."""
     return sorted((folder.path / SCANS / head.code).glob(f"{PAGE}-*.jpg"))
+
+
+def find_crop(folder: Path, head: PrintedHead, part: str) -> Path | None:
+    """Return the picture of a part of a student's paper; None if there is none.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+        That of the class.
+    head : PrintedHead
+        Of the paper.
+    part : str
+        As it is printed, such as ``7a``. Nothing outside the folder of scans is ever returned.
+    """
+    scans = (folder / SCANS).resolve()
+    for paper in head.codes if _PART.fullmatch(part) else ():
+        path = (scans / paper / f"{part}.png").resolve()
+        if path.is_relative_to(scans) and path.is_file():
+            return path
+    return None
 
 
 def _write_pictures(folder: Path, files: Mapping[str, bytes]) -> None:

@@ -138,7 +138,9 @@ _NEARLY = re.compile(rf"(?:almost|nearly|fast|প্রায়){_END}", re.IGN
 _LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
 
 
-def list_plainer_texts(typed: str, form: AnswerForm, names: AskedNames = (), *, ranges: bool = False) -> Iterator[str]:
+def list_plainer_texts(
+    typed: str, form: AnswerForm, names: AskedNames = (), *, ranges: bool = False
+) -> Iterator[str]:
     """Yield what may have been meant by an answer that was not read, plainest change first.
 
     Parameters

@@ -20,7 +20,9 @@ _FACTOR = re.compile(
 )
 
 
-_PART_OF = re.compile(r"(\d+ ?/ ?\d+) (?:of|von) (?:the|its|that|der|des|dem) [^\W\d_]+(?: [^\W\d_]+)?")
+_PART_OF = re.compile(
+    r"(\d+ ?/ ?\d+) (?:of|von) (?:the|its|that|der|des|dem) [^\W\d_]+(?: [^\W\d_]+)?"
+)
 """A share of something: ``1/24 of the size``."""
 
 
