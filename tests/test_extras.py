@@ -137,8 +137,7 @@ for words in {commands!r}:
 def test_the_doctor_lists_the_extras_that_are_there(tmp_path):
     done = run_without(_own_modules("web") + _own_modules("print"), "doctor", cwd=tmp_path)
     assert (
-        "ok  extras: class, lms, anki, postgres, cluster, image, scan, circuits, irt
-"
+        "ok  extras: class, lms, anki, postgres, cluster, image, scan, circuits, irt\n"
         in done.stdout
     )
 
