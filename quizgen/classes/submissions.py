@@ -388,7 +388,7 @@ class AnswerTable:
         for line, row in self.rows:
             if any(map(str.strip, row[len(self.head) :])):
                 raise KeyFileError(f"line {line}: more cells than columns")
-            cells = list(zip(self.head, row, strict=False))
+            cells = list(zip(self.head, map(unescape_csv_formula, row), strict=False))
             if any(text.strip() for name, text in cells if not name):
                 raise KeyFileError(f"line {line}: something stands in a column without a name")
             yield line, dict(cells)

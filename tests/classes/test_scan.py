@@ -197,6 +197,12 @@ def test_what_a_person_types_counts_and_a_wrong_table_is_refused_with_its_line(
     assert run("class", "scan", folder, tmp_path / "typed.csv") == 0
     assert read_answers(folder)["7", part] == "", "blank after all"
     assert run("class", "scan", folder) == 0, "it stays"
+    line = next(box["part"] for box in lines["7"]["sheet"]["fields"] if box["kind"] == "line")
+    (tmp_path / "typed.csv").write_text(f"id,part,answer\n7,{line},'-3\n", "utf-8")
+    assert run("class", "scan", folder, tmp_path / "typed.csv") == 0
+    assert run("class", "mark", folder) == 0
+    marked = json.loads((folder / "marks" / "001.jsonl").read_text("utf-8").splitlines()[0])
+    assert next(one["typed"] for one in marked["parts"] if one["id"] == line) == "-3"
     assert read_answers(folder)["7", part] == ""
 
 
