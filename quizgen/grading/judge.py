@@ -19,17 +19,19 @@ from quizgen.grading.reading.answer_reader import (
     has_second_meaning,
     is_cut_short,
     is_denied,
+    is_range_of_shares,
     list_plainer_texts,
     list_readings,
     prove_groups,
 )
+from quizgen.grading.reading.factor_words import drop_bound
 from quizgen.grading.reading.normalise import LONGEST_PROSE
-from quizgen.grading.spec import AnySpec, WordSpec
+from quizgen.grading.spec import AnySpec, ScalarSpec, WordSpec
 from quizgen.grading.verdict import PARTIAL, WRONG, Verdict, ambiguous, attach_message, unreadable
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.precision import working_precision
 
-TWO_READINGS = frozenset({"comma-twice", "two-readings"})
+TWO_READINGS = frozenset({"comma-twice", "two-readings", "sides-differ"})
 """Reasons for asking back that are not the learner's slip: the text can be read in two ways."""
 
 MEASURED = frozenset({"number", "quantity"})
@@ -44,7 +46,7 @@ DENIABLE = WITHOUT_WORDS | {"formula"}
 DECIDED = frozenset(
     {"unit-not-asked", "unit-other", "percent-not-asked", "unknown-unit-case", "two-readings",
      "used-twice", "no-answer", "too-long", "which-term", "another-word",
-     "denied"}
+     "denied", "sides-differ"}
 )  # fmt: skip
 """Notes on what was read well enough: nothing around it makes it unreadable."""
 
@@ -85,18 +87,23 @@ def _judge_as_written(spec: AnySpec, typed: str, options: GradingOptions) -> Ver
         return _judge_text(spec, typed, options)
     form = spec.written_as
     verdict = _judge_text(spec, _prepare(typed, form), options)
-    if verdict.verdict == WRONG and form in MEASURED and has_second_meaning(typed):
+    doubtful = has_second_meaning if verdict.verdict == WRONG else is_range_of_shares
+    if verdict.is_graded and form in MEASURED and doubtful(typed):
         return ambiguous("bullet-or-range", verdict.read_as)
     decided = verdict.is_graded or verdict.note in DECIDED or not typed.strip()
     if decided and verdict.note != "unknown-term":
         return verdict
+    bound = drop_bound(typed, spec.bound) if isinstance(spec, ScalarSpec) and spec.bound else ""
+    if bound:
+        return _judge_as_written(spec, bound, options)
     plainer = _judge_plainer(spec, typed, options)
     return plainer or (verdict if verdict.is_graded else _ask_what_is_meant(form, typed, verdict))
 
 
 def _judge_plainer(spec: AnySpec, typed: str, options: GradingOptions) -> Verdict | None:
     """Return the verdict on the answer without what stands around it; None if that is no help."""
-    for text in list_plainer_texts(typed, spec.written_as, spec.value_names()):
+    names, ranges = spec.value_names(), spec.may_be_range
+    for text in list_plainer_texts(typed, spec.written_as, names, ranges=ranges):
         plainer = _judge_text(spec, text, options)
         if plainer.verdict == WRONG and is_cut_short(typed):
             return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import ClassVar, TypeVar
+from typing import ClassVar, Literal, TypeVar
 
 import msgspec
 from flint import fmpq
@@ -14,6 +14,7 @@ from quizgen.core.errors import FormulaError, KeyFileError
 from quizgen.grading.diagnosis.numeric_slips import CLOSE
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
+from quizgen.grading.reading.labels import AskedNames
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.units import listed_unit
 from quizgen.grading.verdict import Verdict
@@ -46,6 +47,8 @@ class SpecBase:
     of: list[str] | dict[str, str]
     written_as: ClassVar[AnswerForm] = "verbatim"
     """What an answer is made of, which says what may be dropped around it."""
+    may_be_range: ClassVar[bool] = False
+    """Whether ``from 5 to 10`` can be two of its values: cells of a table, no coordinates."""
     reasons_tell: ClassVar[bool] = False
     """Whether the reasons for a wrong answer hold the right one."""
 
@@ -53,7 +56,7 @@ class SpecBase:
         """Return the names of the chain's quantities, in the order of the values."""
         return list(self.of.values()) if isinstance(self.of, dict) else self.of
 
-    def value_names(self) -> list[str]:
+    def value_names(self) -> AskedNames:
         """Return names that values may be labelled with, in the order of the values."""
         return []
 
@@ -139,9 +142,13 @@ class NumericSpec(SpecBase, Tolerance, kw_only=True, frozen=True):
 
 
 class ScalarSpec(NumericSpec, kw_only=True, frozen=True):
-    """One number: ``value``; a trap may give several."""
+    """One number: ``value``; a trap may give several.
+
+    ``bound`` says whether the most or the least is asked, so that an answer may say so, too.
+    """
 
     value: Scalar
+    bound: Literal["", "most", "least"] = ""
     traps: dict[str, Scalar | list[Scalar]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:

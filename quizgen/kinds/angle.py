@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+from contextlib import suppress
 from typing import ClassVar
 
 from flint import fmpq
@@ -12,6 +15,7 @@ from quizgen.grading.judging.numeric import NumberTarget, best_verdict, judge_re
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.equalities import EqualitySide, read_typed_sides
+from quizgen.grading.reading.normalise import LONGEST
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import TypedQuantity
 from quizgen.grading.rounding import format_key
@@ -28,7 +32,7 @@ from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredNumeric, PartC
 from quizgen.kinds.quantity import DEGREES
 from quizgen.locale import translate
 from quizgen.maths.constants import Scalar, parse_exact
-from quizgen.maths.notation import pretty
+from quizgen.maths.notation import FormulaReadError, pretty
 from quizgen.maths.tolerance import AngleTolerance
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
@@ -65,8 +69,14 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
-        sides = read_typed_sides(typed, options.decimal)
-        return best_verdict(_judge_equal_side(self, side, options) for side in sides)
+        found: list[Verdict] = []
+        for text in _list_spellings(typed):
+            with suppress(FormulaReadError):
+                sides = read_typed_sides(text, options.decimal)
+                found.append(best_verdict(_judge_equal_side(self, side, options) for side in sides))
+        if not found:
+            read_typed_sides(typed, options.decimal)
+        return max(reversed(found), key=lambda verdict: verdict.credit)
 
     @property
     def printed_unit(self) -> str:
@@ -76,6 +86,30 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
         return f"{pretty.format_number(format_key(self, parse_exact(self.value)))}°"
+
+
+_INVERSE = re.compile(
+    r"\\?(?:arc(?:tan|sin|cos)|a(?:tan2?|sin|cos))(?![^\W\d_])|(?:tan|sin|cos) ?(?:\^ ?\(?-1\)?|\^\{-1\}|⁻¹)"
+)
+_MINUTES = re.compile(r"(\d+) ?° ?(\d{1,2}) ?['′’](?: ?(\d{1,2}(?:\.\d+)?) ?(?:''|[″\"]))?")
+_CIRCLE = re.compile(r"(?<=\d) ?\^ ?\{? ?(?:o|\\circ) ?\}?")
+
+
+def _list_spellings(typed: str) -> Iterator[str]:
+    """Yield the angle as typed, and in the other ways that degrees are meant.
+
+    Inverse functions give degrees on the calculators of most people: ``arctan(0.16) = 9.09°``.
+    """
+    typed = _CIRCLE.sub("°", typed)
+    minutes = _MINUTES.fullmatch(typed.strip())
+    if minutes:
+        typed = f"({minutes[1]} + {minutes[2]}/60 + {minutes[3] or 0}/3600)°"
+    yield typed
+    plain = typed.replace("°", "") if typed.count("°") > 1 else typed
+    if plain != typed:
+        yield plain
+    if len(typed) <= LONGEST and _INVERSE.search(plain):
+        yield _INVERSE.sub(lambda m: f"(180/pi)*{m[0]}", plain.removesuffix("°"))
 
 
 def _judge_equal_side(spec: AngleSpec, side: EqualitySide, options: GradingOptions) -> Verdict:

@@ -95,6 +95,7 @@ def ask_numeric(
         found["value"] = part.exact_texts()[0]
     found |= {"define": list(part.defined_units)} if part.defined_units else {}
     found |= part.count_nouns() if "counts" in shape.__struct_fields__ else {}
+    found |= {"bound": bound} if key == "value" and (bound := part.asked_bound()) else {}
     traps = {"traps": wrong, "notes": part.misconception_notes(wrong)} if wrong else {}
     spec = make_spec(shape, part, **{**found, **traps, **given})
     return AskedPart(spec, mistakes=misconception_specs(spec, key))

@@ -11,6 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
+from quizgen.grading.judging.wordings import find_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
@@ -28,12 +29,25 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
+from quizgen.kinds.work import Work
 from quizgen.locale import fallback_language, translate
 from quizgen.maths.notation import FormulaReadError
 
 _TRUE = frozenset(
     {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r", "stimmt"}
-    | {"holds", "trifft zu", "zutreffend", "yep", "yeah", "ture", "tru", "korrekt", "✅", "☑"}
+    | {"holds", "trifft zu", "zutreffend", "yep", "yeah", "ture", "tru", "truee", "treu", "korrekt"}
+    | {
+        "✅",
+        "☑",
+        "jo",
+        "jawohl",
+        "stimmt schon",
+        "absolutely true",
+        "definitely true",
+        "ঠিক আছে",
+        "হাঁ",
+        "satya",
+    }
     | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
 _FALSE = frozenset(
@@ -47,6 +61,10 @@ _FALSE = frozenset(
         "fasle",
         "flase",
         "fals",
+        "falsee",
+        "isnt true",
+        "no way",
+        "never",
         "inkorrekt",
         "❌",
     }
@@ -54,6 +72,8 @@ _FALSE = frozenset(
 )
 _FEWEST_VALUES = 2
 """Values that there are to choose from, at least."""
+_USUAL_VALUES = 5
+"""Options between values where nobody says how many: the key, and what mistakes give."""
 _SHORTEST = 4
 """Letters that a part of an option's words must have to be recognised."""
 
@@ -66,14 +86,22 @@ _BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
 _FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
 _IT_IS = re.compile(
     r"^(?:(?:it|this|that)(?: is|'s)|(?:it|this|that)(?= isn't)|the (?:statement|claim) is|বিবৃতিটি"
-    r"|(?:es|das|die (?:aussage|behauptung))(?: ist)?|ist|এটা|এটি) ",
+    r"|(?:es|das|der satz|die (?:aussage|behauptung))(?: ist)?|ist|এটা|এটি) ",
     re.IGNORECASE,
 )
 _DENIED = re.compile(
-    r"(?:(?:is )?not|isn't|(?:ist )?nicht) (?P<word>.+)|(?P<before>.+?) (?:nicht|নয়|নয়)",
+    r"(?:(?:is )?not|isn'?t|(?:ist )?nicht) (?P<word>.+)|(?P<before>.+?) (?:nicht|নয়|নয়|না)",
     re.IGNORECASE,
 )
-"""A word that is denied: what is not true is false, and what is not false nobody can tell."""
+"""A word that is denied: what is not true is false, and the other way round."""
+_TRUTH_FIRST = re.compile(
+    r"(?P<first>[^\s,;:.(]+)(?:[,;:.] ?| (?=\()|[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)"
+)
+"""*Yes* or *false* with a reason behind it."""
+_SHORT_DENIAL = re.compile(
+    r"(?:it|they|this|that|he|she) (?:does|do|is|are|was|has|can|will)(?P<no>(?: not|n't))?(?: .*)?"
+)
+"""What is said behind *yes* or *no*: ``it does``, ``they are not``."""
 _PIECES = re.compile(r"[;\n]|,(?=\s*[\[(]?[A-Za-zক-ঞ\d][\])]?\s*[).:=-])")
 _BENGALI = re.compile(r"[\u0980-\u09ff]")
 _SET_OFF = re.compile(r"^[\[(]?(?:[^\W_]|\d{2}) ?[\]).:=-]+ ?[^\s,;]{2}|[\[(][^\W\d_][\])]$")
@@ -97,6 +125,13 @@ _SET_APART = (
 )
 """One option set against another: ``B, not E``; ``not E but B``."""
 _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
+_ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
+_WORDED = re.compile(r"[,;\n]| (?:and|und|&|ও|এবং) ")
+"""What stands between several options that are named by their words."""
+_PLACE = re.compile(
+    r"(?:the )?(first|second|third|fourth|fifth|sixth)(?: one| option| answer)?", re.IGNORECASE
+)
+_LETTER_LAST = re.compile(r"(?P<words>[^\W\d_]{3,}|[^:]*[^\W\d_]{3}[^:]*:) (?P<mark>[A-Z])")
 _LONG_WORD = 8
 """Letters of a word that can stand for an option by itself."""
 _FILLERS = re.compile(
@@ -201,15 +236,66 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     FormulaReadError
         If there is none.
     """
+    typed = typed.rstrip(" ;,✓✔")
     whole = _find_option_by_text(spec, typed)
     if whole:
         return [whole]
-    return (
+    if spec.kind == "multi" and typed.casefold().strip(_AROUND) in _ALL:
+        return list(range(1, len(spec.choices()) + 1))
+    if {*map(str.casefold, spec.choices())} == {"yes", "no"} and (truth := read_truth(typed)):
+        return [spec.choices().index(("yes", "no")[truth - 1]) + 1]
+    read = (
         _parse_labelled_options(spec, typed)
         or _read_set_apart(spec, typed)
         or _find_option_by_its_end(spec, typed)
-        or _read_positions(spec, typed)
     )
+    try:
+        read = read or _read_positions(spec, typed)
+    except FormulaReadError:
+        meant = _find_worded_options(spec, typed) or _find_named_option(spec, typed)
+        if not meant:
+            raise
+        return meant
+    return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
+
+
+def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the option whose letter ends the answer: ``camera D``, ``each one is smaller: D``.
+
+    Also that of ``the fourth``. None is meant where words deny it or another letter stands there.
+    """
+    text = typed.strip(_AROUND)
+    place = _PLACE.fullmatch(text)
+    if place is not None and not find_wording(text, spec.choices()):
+        number = "first second third fourth fifth sixth".split().index(place[1].lower()) + 1
+        return [number] if number <= len(spec.choices()) else []
+    named = _LETTER_LAST.fullmatch(text)
+    if named is None or says_otherwise(named["words"]) or find_wording(named["words"], spec.choices()):
+        return []
+    position = LETTERS.find(named["mark"]) + 1
+    return [position] if position <= len(spec.choices()) else []
+
+
+def _find_worded_options(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the options that are meant by some of their words; none if one of them is none."""
+    if _UNFINISHED.search(typed) or _ALTERNATIVE.search(typed):
+        return []
+    quoted = _find_quoted_options(spec, typed) if spec.kind == "multi" else []
+    if quoted:
+        return quoted
+    pieces = _WORDED.split(typed) if spec.kind == "multi" else [typed]
+    found = [find_wording(piece, spec.choices()) for piece in pieces if piece.strip()]
+    return list(dict.fromkeys(found)) if all(found) else []
+
+
+def _find_quoted_options(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the options of which an answer consists, word by word; none if more stands in it."""
+    rest, found = typed, []
+    for place, option in sorted(enumerate(spec.choices(), 1), key=lambda row: -len(row[1])):
+        if option in rest:
+            rest = rest.replace(option, ";", 1)
+            found.append(place)
+    return sorted(found) if not _WORDED.sub("", rest.replace("; ;", "")).strip() else []
 
 
 def _read_set_apart(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -266,16 +352,45 @@ def _read_truth_value(spec: ChoiceSpec, typed: str) -> int:
             raise FormulaReadError("two-readings", 1, safe_echo(typed))
         text = labelled["words"] if second else text
     word = _IT_IS.sub("", text.strip(_AROUND)).casefold()
-    found = _find_truth_word(word) or _find_denied_truth(word) or _find_option_by_text(spec, typed)
+    found = read_truth(text) or _find_option_by_text(spec, typed)
     if found or word in {"a", "b"}:
         return found or "ab".index(word) + 1
     raise FormulaReadError("true-or-false", 1, safe_echo(typed))
 
 
+def read_truth(text: str) -> int:
+    """Return 1 for an answer that says true or yes, 2 for false or no; 0 if it says neither.
+
+    What follows such a word is a reason, as long as it does not say the other one: *No, they
+    differ*, *true (subtractive mixing)*.
+    """
+    word = _IT_IS.sub("", text.strip(_AROUND)).casefold().replace("’", "'")
+    found = _find_truth_word(word) or _find_denied_truth(word)
+    if found:
+        return found
+    match = _TRUTH_FIRST.fullmatch(word)
+    first = _find_truth_word(match["first"]) if match else 0
+    if match is None or not first or _ALTERNATIVE.search(word):
+        return 0
+    rest = _IT_IS.sub("", match["rest"].strip(_AROUND))
+    said = read_truth(rest) if rest else 0
+    denies = _SHORT_DENIAL.fullmatch(match["rest"].strip(_AROUND))
+    said = said or (2 if denies and denies["no"] else 1 if denies else 0)
+    clear = said == first or not (said or _names_other_truth(rest, first))
+    return first if clear else 0
+
+
+def _names_other_truth(rest: str, first: int) -> bool:
+    """Return whether a word behind *true* or *false* says the other one."""
+    found = {_find_truth_word(word) for word in re.findall(r"[^\W\d_]{3,}", rest)} - {0}
+    return bool(found - {first})
+
+
 def _find_denied_truth(text: str) -> int:
-    """Return 2 for *not true*; 0 for what is not denied, or denies what is false."""
+    """Return 2 for *not true*, 1 for *not false*; 0 for what is not denied."""
     match = _DENIED.fullmatch(text)
-    return 2 if match and _find_truth_word(match["word"] or match["before"]) == 1 else 0
+    denied = _find_truth_word(match["word"] or match["before"]) if match else 0
+    return 3 - denied if denied else 0
 
 
 def _find_truth_word(text: str) -> int:
@@ -320,6 +435,8 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
     meant = _find_meant_options(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
     if not 1 <= position <= len(spec.choices()) or not meant:
         return 0
+    if position not in meant and text.startswith("a ") and len(meant) == 1:
+        return meant[0]  # the article of "a smaller spot", and no letter
     if position not in meant:
         raise FormulaReadError("two-readings", 1, safe_echo(piece))
     return position
@@ -338,11 +455,13 @@ def _find_meant_options(spec: ChoiceSpec, words: str, *, foreign: bool) -> list[
         return same
     if foreign and _BENGALI.search(words) and not any(map(_BENGALI.search, options)):
         return list(range(1, len(options) + 1))
-    return [
+    parts = [
         place
         for place, option in enumerate(options, 1)
         if len(folded) >= _SHORTEST <= len(option) and (folded in option or option in folded)
     ]
+    meant = 0 if parts else find_wording(words, spec.choices())
+    return [meant] if meant else parts
 
 
 def _find_option_by_text(spec: ChoiceSpec, typed: str) -> int:
@@ -528,4 +647,12 @@ def ask_options(part: PartContext, control: InputControl) -> AskedPart[ChoiceSpe
     )
 
 
-KIND = AnswerKind(AuthoredChoice, ChoiceSpec, ask, hint("ask.choice"))
+def count_options(answer: Mapping[str, Any], _points: Fraction, _words: int) -> Work:
+    """Return half a claim for each option: they are weighed against each other, not alone."""
+    shown = answer.get("take") or len(answer.get("options", ())) or _USUAL_VALUES
+    return {"tick": Fraction(shown, 2)}
+
+
+KIND = AnswerKind(
+    AuthoredChoice, ChoiceSpec, ask, hint("ask.choice"), verb="tick", work=count_options
+)

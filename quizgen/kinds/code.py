@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import msgspec
 
@@ -20,6 +20,7 @@ from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import explain_as_code, hint, make_spec, misconception_specs, say_on_paper
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, InputControl, PartContext
+from quizgen.kinds.work import count_once
 from quizgen.maths.notation import FormulaReadError
 
 
@@ -63,6 +64,10 @@ class CodeSpec(WordSpec, kw_only=True, frozen=True):
             unify_quotes(given) == unify_quotes(fold_blanks(o)) for o in (self.output, *self.also)
         ):
             return correct(safe_echo(given))
+        outputs = {unify_quotes(fold_blanks(o)) for o in (self.output, *self.also)}
+        for text in _list_barer_texts(given):
+            if unify_quotes(fold_blanks(text)) in outputs:
+                return correct(safe_echo(text))
         note = _note(self, given)
         if note in SET_OTHERWISE:
             return partial(HALF, safe_echo(given), note)
@@ -84,6 +89,14 @@ _PROMPT = re.compile(
     re.IGNORECASE,
 )
 """What stands before an output that is copied or told."""
+_ALL_QUOTED = re.compile(r"(?:\"|')(.+)(?:\"|')", re.DOTALL)
+_ASSIGNED = re.compile(r"^(?:-+>|=>|→|⇒|\$|print:|[^\W\d][\w.]*(?:\[[\d,: ]*\])?=(?!=)|=)\s*")
+"""What an output is called, or an arrow to it."""
+_TAIL = re.compile(
+    r"\s*(?:\((?=[^\W\d])[^()\d]*\)|#.*|(?:,\s*)?\b(?:because|since|weil|কারণ)\b.*|\s[-–—]\s.*)$",
+    re.DOTALL,
+)
+"""A remark behind an output."""
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
 """Quotation marks that an editor puts in place of those of a program."""
 _QUOTES = re.compile(f"[{''.join(_STRAIGHT)}]")
@@ -100,7 +113,21 @@ def fold_blanks(text: str) -> str:
 def _drop_surroundings(given: str) -> str:
     """Return it without a prompt or ``Output:`` in front, and a sentence's full stop."""
     folded = re.sub("[！-～]", lambda m: chr(ord(m[0]) - 0xFEE0), given)
-    return fold_blanks(re.sub(r"(?<=[\])}\w'\"]) ?[.!,]$", "", _PROMPT.sub("", folded)))
+    bare = re.sub(r"(?<=[\])}\w'\"]) ?[.!,]$", "", _PROMPT.sub("", folded))
+    return fold_blanks(bare)
+
+
+def _list_barer_texts(given: str) -> Iterator[str]:
+    """Yield an output without quotation marks, without what it is called, and without a remark.
+
+    Each is only compared with what is right: a remark makes no other output of it.
+    """
+    quoted = _ALL_QUOTED.fullmatch(given)
+    if quoted and any(map(str.isdigit, quoted[1])):
+        yield quoted[1]
+    bare = _ASSIGNED.sub("", given)
+    yield bare
+    yield _TAIL.sub("", bare)
 
 
 def unify_quotes(text: str) -> str:
@@ -173,5 +200,11 @@ def ask(part: PartContext) -> AskedPart[CodeSpec]:
 
 
 KIND = AnswerKind(
-    AuthoredCode, CodeSpec, ask, hint("ask.code"), explain_as_code, say_on_paper("ask.code")
+    AuthoredCode,
+    CodeSpec,
+    ask,
+    hint("ask.code"),
+    explain_as_code,
+    say_on_paper("ask.code"),
+    work=count_once("step", 2),
 )

@@ -14,11 +14,18 @@ from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
-from quizgen.kinds.forms import drop_name, entry_matches, format_plain, parse_entry, typeset_key
+from quizgen.kinds.forms import (
+    drop_name,
+    entry_matches,
+    format_plain,
+    parse_entry,
+    split_sides,
+    typeset_key,
+)
 from quizgen.locale import translate
 from quizgen.maths.complex_values import ComplexValue, evaluate_complex
 from quizgen.maths.constants import parse_exact
-from quizgen.maths.notation import format_tree, pretty
+from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Call, Expr, Sym, make_number, names_in, operators_in, walk_tree
 from quizgen.maths.values import Value
@@ -55,9 +62,21 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
                 parse_exact(text)
 
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
-        """Judge a typed complex number."""
-        tree = read_formula(drop_name(typed), _UNITS, options.decimal).tree
+        """Judge a typed complex number, the last of a chain.
+
+        Raises
+        ------
+        FormulaReadError
+            If it cannot be read, or the sides of a chain differ.
+        """
+        *before, tree = (
+            read_formula(drop_name(side), _UNITS, options.decimal).tree
+            for side in split_sides(typed)
+        )
         value = evaluate_complex(tree, frozenset(_UNITS))
+        for side in before:
+            if any(map(_differ, evaluate_complex(side, frozenset(_UNITS)), value)):
+                raise FormulaReadError("sides-differ", 1, typed.strip()[:60])
         read_as = pretty.format_formula(format_tree(tree))
         if _is_same(value, self.parts):
             return self._judge_form(tree, correct(read_as))
@@ -84,6 +103,11 @@ class ComplexSpec(WordSpec, kw_only=True, frozen=True):
     def show(self) -> str:
         """Return the key as it is printed, and as it can be typed back."""
         return pretty.format_constant(format_tree(build_complex(self.parts, self.form)))
+
+
+def _differ(first: Value, second: Value) -> bool:
+    """Return whether two values are certainly not equal."""
+    return values_agree(first, second) is False
 
 
 def find_written_form(tree: Expr) -> str:

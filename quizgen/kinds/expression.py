@@ -36,10 +36,11 @@ from quizgen.kinds.contract import (
     PartContext,
     SymbolDomain,
 )
-from quizgen.kinds.forms import typeset_key
+from quizgen.kinds.forms import split_sides, typeset_key
+from quizgen.kinds.work import count_once
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
-from quizgen.maths.notation import format_tree, pretty
+from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.tidy import tidy_formula
 from quizgen.maths.tree import Expr, Num, names_in, substitute
 from quizgen.maths.values import Value
@@ -117,7 +118,18 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
         """
         free = self.up_to == "constant" and CONSTANT not in self.symbols
         names = (*self.symbols, CONSTANT) if free else self.symbols
-        formula = read_formula(typed, names, options.decimal)
+        verdicts = [
+            self._judge_formula(read_formula(side, names, options.decimal), options, free=free)
+            for side in split_sides(typed, names)
+        ]
+        if len({bool(verdict.credit) for verdict in verdicts}) > 1:
+            raise FormulaReadError("sides-differ", 1, typed.strip()[:60])
+        return verdicts[-1]
+
+    def _judge_formula(
+        self, formula: TypedFormula, options: GradingOptions, *, free: bool
+    ) -> Verdict:
+        """Return the verdict on one formula, whose numbers may have two readings."""
         if free:
             formula = msgspec.structs.replace(
                 formula, tree=tidy_formula(substitute(formula.tree, {CONSTANT: _ZERO}))
@@ -284,4 +296,5 @@ KIND = AnswerKind(
     explain_key,
     paper_hints,
     accept_equivalent,
+    work=count_once("line derived", 2),
 )

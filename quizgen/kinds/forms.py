@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -96,6 +97,28 @@ def entry_matches(value: Value, text: str) -> bool:
     if values_agree(value, key) is not False:
         return True
     return not is_short_decimal(key) and bool(abs(value - key) <= abs(key) * ROUNDED)
+
+
+_EQUALS = re.compile(r"(?<![<>:!=])=(?!=)")
+_DERIVED = re.compile(
+    r" *(?:\$|\\\()? *(?:\\frac ?\{ ?d\w? ?\} ?\{ ?d\w ?\}|d\w? ?/ ?d\w|d/d\w(?: ?\([^()]*\)| \w)?|\w+'*(?:\(\w\))?) *"
+)
+"""What a function or its derivative is called: ``df/dx``, ``f'(x)``."""
+
+
+def split_sides(typed: str, names: Collection[str] = ()) -> list[str]:
+    """Return the sides of ``SNR = N/√N = √N``, without what it is called in front.
+
+    A name of the formula in front is a side: ``N = √N`` says something else than ``√N``.
+    """
+    first, *others = _EQUALS.split(typed)
+    if not others or not all(map(str.strip, others)):
+        return [typed]
+    called = not first.strip() or (
+        _DERIVED.fullmatch(first) is not None and first.strip(" $") not in names
+    )
+    product = not names and _CALLED.sub("", f"{first}=0") == "0"
+    return others if called or product else [first, *others]
 
 
 def drop_name(typed: str) -> str:

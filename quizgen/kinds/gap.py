@@ -33,6 +33,7 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
+from quizgen.kinds.work import count_listed
 from quizgen.locale import FIRST, fallback_language, is_written_in, translate
 from quizgen.maths.notation import FormulaReadError
 
@@ -262,15 +263,47 @@ def _cut_pieces(typed: str, count: int) -> list[str]:
 def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     """Return the verdict on one gap, by the word itself or the term that it is nearest to."""
     right = {fold_word(term) for term in gap}
+    word = _drop_idle_words(word, [term for one in spec.gaps() for term in one] + spec.among)
     folded = fold_word(word)
     if not folded:
         return wrong("", "gap-empty") if not word else unreadable("no-answer")
+    folded = _ZEROS.sub("", folded)
     if folded in right or _fold_spelt_out(word) in right or _is_inflection(word, right):
         return correct(safe_echo(" ".join(word.split())))
     others = [o for g in spec.gaps() for o in g if fold_word(o) not in right] + spec.among
     if folded in map(fold_word, others):
         return wrong(safe_echo(word), "other-term")
     return _judge_by_nearest_term(spec, word, gap, others)
+
+
+_ZEROS = re.compile(r"(?<=\d)[.,]0+(?!\d)")
+"""Decimals that say nothing: ``507.0``."""
+_IDLE = frozenset(
+    {
+        "colour",
+        "color",
+        "still",
+        "it",
+        "gets",
+        "result",
+        "the",
+        "a",
+        "an",
+        "is",
+        "becomes",
+        "looks",
+        "appears",
+    }
+    | {"farbe", "noch", "immer", "es", "wird", "ist", "space", "রং", "রঙ"}
+)
+
+
+def _drop_idle_words(word: str, terms: list[str]) -> str:
+    """Return the term among words that say nothing, ``still green``; else all of it."""
+    words = word.split()
+    kept = [one for one in words if one.casefold().strip(".,") not in _IDLE]
+    term = " ".join(kept)
+    return term if len(kept) < len(words) and fold_word(term) in map(fold_word, terms) else word
 
 
 def _judge_by_nearest_term(spec: GapSpec, word: str, gap: list[str], others: list[str]) -> Verdict:
@@ -393,4 +426,12 @@ def input_hints(spec: GapSpec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.gap_numbers" if numbers else "ask.gap"),)
 
 
-KIND = AnswerKind(AuthoredGap, GapSpec, ask, input_hints, accepted=accept_synonyms)
+KIND = AnswerKind(
+    AuthoredGap,
+    GapSpec,
+    ask,
+    input_hints,
+    accepted=accept_synonyms,
+    verb="tick",
+    work=count_listed("cell", "gaps"),
+)

@@ -77,7 +77,7 @@ class IntervalSpec(NumericSpec, kw_only=True, frozen=True):
         FormulaReadError
             If it cannot be read.
         """
-        pieces, read_as = read_union(typed, options.decimal)
+        pieces, read_as = read_union(typed.strip(" $"), options.decimal)
         for name, text in self.traps.items():
             if self._is_same_union(pieces, read_union(str(text), "point")[0]):
                 return wrong(read_as, f"trap:{name}")
@@ -147,7 +147,7 @@ _CHAIN = re.compile(
 
 
 # Without the blanks around it: those would be tried from each of many blanks in a row.
-_JOINED = re.compile(r"∪|\\cup\b|\b(?:or|oder|union|U)\b|বা|∨")
+_JOINED = re.compile(r"∪|\\cup\b|\b(?:or|oder|union|[Uu])\b|বা|∨")
 _EMPTY = frozenset({"{}", "∅", "{ }", "empty", "leer"})
 EMPTY = "{}"
 """How a union of no intervals is written."""

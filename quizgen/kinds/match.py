@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import ClassVar
 
@@ -11,8 +11,9 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
+from quizgen.grading.judging.wordings import find_wording
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm
+from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share
@@ -27,13 +28,17 @@ from quizgen.kinds.contract import (
     find_extra_problems,
     find_name_problems,
 )
+from quizgen.kinds.work import count_listed
 from quizgen.maths.notation import FormulaReadError
 
-_SEPARATORS = re.compile(r"[\s,;.|\[\]{}।॥]+")
-_ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*")
+_SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
+_ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*|(?<=\w)[/_](?=\w)")
+_GROUPS = (r"[;\n]", r"[;\n]| (?:and|und|&|ও|এবং) ", r"[,;\n]", r"[,;\n]| (?:and|und|&|ও|এবং) ")
+"""What may stand between pairs, or between all that belong to one right side."""
+_SIDES = re.compile(r"\s*(?:-+>|=>|[-:=→⇒])+\s*|\s+(?:-|is|ist|goes with|belongs to|passt zu)\s+")
 _FILLERS = frozenset(
     {"and", "und", "with", "mit", "to", "zu", "is", "ist", "goes", "belongs"}
-    | {"gehoert", "passt", "এবং", "ও", "হলো", "হল", "এর", "সাথে", "সঙ্গে"}
+    | {"gehoert", "passt", "matches", "match", "এবং", "ও", "হলো", "হল", "এর", "সাথে", "সঙ্গে"}
 )
 """Words between the two sides of a pair, folded."""
 
@@ -57,12 +62,16 @@ class AuthoredMatch(AuthoredPooled, kw_only=True, tag="match", frozen=True):
 
 
 class MatchSpec(WordSpec, kw_only=True, frozen=True):
-    """Match: ``pairs`` = {left label: right label}; ``reuse`` allows a right label twice."""
+    """Match: ``pairs`` = {left label: right label}; ``reuse`` allows a right label twice.
+
+    ``words`` are the wordings of both sides by their labels, which may be typed in their place.
+    """
 
     written_as: ClassVar[AnswerForm] = "option"
 
     pairs: dict[str, str]
     reuse: bool = False
+    words: dict[str, str] = msgspec.field(default_factory=dict)
     traps: dict[str, dict[str, str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
@@ -90,7 +99,12 @@ class MatchSpec(WordSpec, kw_only=True, frozen=True):
         """
         if len(typed) > 1000:
             raise FormulaReadError("too-long", 1001, "1000")
-        found = _read_pairs(self, typed)
+        try:
+            found = _read_pairs(self, typed)
+        except FormulaReadError as error:
+            found = {} if error.code == "used-twice" else _read_otherwise(self, typed)
+            if not found:
+                raise
         read_as = " ".join(f"{safe_echo(left)}{safe_echo(right)}" for left, right in found.items())
         right = sum(self.pairs[left] == chosen for left, chosen in found.items())
         if right == len(self.pairs):
@@ -149,6 +163,86 @@ def _read_pairs(spec: MatchSpec, typed: str) -> dict[str, str]:
     if not found:
         raise FormulaReadError("pairs-expected", 1, safe_echo(typed))
     return found
+
+
+def _read_otherwise(spec: MatchSpec, typed: str) -> dict[str, str]:
+    """Return pairs by the right sides alone, in order, or by the words of either side; else none.
+
+    Raises
+    ------
+    FormulaReadError
+        If a label is used twice.
+    """
+    if is_denied(typed):
+        return {}
+    text = typed.strip().strip(".").translate(BANGLA_DIGITS)
+    found: dict[str, str] = {}
+    for left, right in _list_rights_in_order(spec, text) or _read_groups(spec, text):
+        _add_pair(spec, found, left, right, (left, right))
+    return found
+
+
+def _list_rights_in_order(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
+    """Return ``2 1 5 4`` and ``2154`` as right sides of the left ones in order; else none."""
+    marks = re.split(r"[\s,;|/]+", text)
+    if len(marks) == 1 and text.isdecimal() and len(text) == len(spec.pairs):
+        marks = list(text)
+    if len(marks) != len(spec.pairs) or not all(mark.isdecimal() for mark in marks):
+        return []
+    return list(zip(spec.pairs, marks, strict=True))
+
+
+def _read_groups(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
+    """Return the pairs of ``CCD: A, B; CMOS: C`` or ``HSV 2, YUV 1``; none if one is unclear."""
+    for between in _GROUPS:
+        groups = [group.strip() for group in re.split(between, text) if group.strip()]
+        read = [_read_group(spec, group) for group in groups]
+        if len(groups) > 1 and all(read):
+            return [pair for pairs in read for pair in pairs]
+    return []
+
+
+def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
+    """Return the pairs of one right side with its left ones, by labels or words; else none."""
+    tokens = [
+        token for token in re.split(r"[\s,:=→>()-]+", group) if token not in {"", "and", "und"}
+    ]
+    runs = [token for token in tokens if _is_run_of_labels(spec, token)]
+    lefts = [label for token in runs for label in token]
+    rest = " ".join(token for token in tokens if token not in runs)
+    if lefts:
+        right = rest if rest in _list_targets(spec) else _find_side(spec, rest, _list_targets(spec))
+        return [(left, right) for left in lefts] if right else []
+    digits = [token for token in tokens if token.isdecimal()]
+    if len(digits) == 1:
+        words = " ".join(token for token in tokens if token not in digits)
+        left = _find_side(spec, words, list(spec.pairs))
+        return [(left, digits[0])] if left else []
+    sides = _SIDES.split(group)
+    if len(sides) != len(("left", "right")):
+        return []
+    left = _find_side(spec, sides[0], list(spec.pairs))
+    right = _find_side(spec, sides[1], _list_targets(spec))
+    return [(left, right)] if left and right else []
+
+
+def _is_run_of_labels(spec: MatchSpec, token: str) -> bool:
+    """Return whether a piece consists of left labels, as ``DF`` does, and ``CCD`` does not."""
+    return token.isupper() and {*token} <= {*spec.pairs} and len({*token}) == len(token)
+
+
+def _list_targets(spec: MatchSpec) -> list[str]:
+    """Return the labels of all right sides, with those that fit nowhere."""
+    return [label for label in spec.words if label not in spec.pairs] or [*spec.pairs.values()]
+
+
+def _find_side(spec: MatchSpec, words: str, labels: Sequence[str]) -> str:
+    """Return the label whose wording is meant; empty if none or several may be."""
+    place = find_wording(words, [spec.words.get(label, "") for label in labels])
+    return labels[place - 1] if place else ""
+
+
+BANGLA_DIGITS = str.maketrans("০১২৩৪৫৬৭৮৯", "0123456789")
 
 
 def _find_right_label(second: str, right: dict[str, str]) -> str:
@@ -213,8 +307,10 @@ def ask(part: PartContext) -> AskedPart[MatchSpec]:
         *((f"{mark}{places[n]}", f"{name} = {n}") for mark, name in left for n in right),
     ]
     matched = {mark: places[pairs[name]] for mark, name in left}
+    told = dict(zip(matched, part.option_texts([name for _, name in left]), strict=True))
+    told |= dict(zip(places.values(), part.option_texts(right), strict=True))
     return AskedPart(
-        make_spec(MatchSpec, part, pairs=matched, why=part.reasons(named)),
+        make_spec(MatchSpec, part, pairs=matched, words=told, why=part.reasons(named)),
         InputControl("pairs"),
         options=left,
         targets=tuple((places[n], n) for n in right),
@@ -222,4 +318,11 @@ def ask(part: PartContext) -> AskedPart[MatchSpec]:
     )
 
 
-KIND = AnswerKind(AuthoredMatch, MatchSpec, ask, hint("ask.match"))
+KIND = AnswerKind(
+    AuthoredMatch,
+    MatchSpec,
+    ask,
+    hint("ask.match"),
+    verb="tick",
+    work=count_listed("tick", "pairs"),
+)

@@ -10,6 +10,7 @@ import msgspec
 
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
+from quizgen.grading.reading.normalise import apply_rewrite
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, correct, verdict_by_share, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
@@ -46,6 +47,10 @@ _LATEX = re.compile(r"\\(?:begin|end) ?\{[a-zA-Z]*matrix\}|\\left[(\[]|\\right[)
 _ARRAY = re.compile(r"^(?:\w+\.)?(?:array|[mM]atrix)\((\[.*\])\)$", re.DOTALL)
 """A matrix as NumPy and SymPy print it."""
 _ROWS = re.compile(r"\]\s*[,;]?\s*\[|\\\\|[;\n]")
+_NESTED = re.compile(
+    r"[({\[]?\s*(?:\([^()]*\)\s*,?\s*){2,}[)}\]]?|\{\s*(?:\{[^{}]*\}\s*,?\s*)+\}|(?:\|[^|]+\|\s*){2,}",
+)
+"""Rows in round or curly brackets, or between bars."""
 _ENTRIES = re.compile(r"\s*&\s*|,\s+|\t+")
 
 
@@ -102,8 +107,9 @@ def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
     """
     if len(typed) > LONGEST:
         raise FormulaReadError("too-long", 1, str(LONGEST))
-    text = _LATEX.sub("", drop_name(typed)).strip().rstrip(".")
+    text = apply_rewrite("about", _LATEX.sub("", drop_name(typed)).strip()).rstrip(".")
     text = _ARRAY.sub(r"\1", text)
+    text = _NESTED.sub(_square_rows, text)
     while text[:1] in {"[", "("} and text[-1:] in {"]", ")"}:
         text = text[1:-1].strip()
     rows = [
@@ -115,6 +121,11 @@ def _read_matrix(typed: str, decimal: str) -> tuple[list[list[Value]], str]:
         raise FormulaReadError("matrix-expected", 1, typed.strip()[:60])
     echo = "; ".join(", ".join(number.read_as for number in row) for row in rows)
     return [[number.value for number in row] for row in rows], f"[{echo}]"
+
+
+def _square_rows(match: re.Match[str]) -> str:
+    """Return rows in brackets of any sort as rows in square ones: ``{{6, -9}, {8, 8}}``."""
+    return match[0].translate(str.maketrans("({|)}", "[[[]]"))
 
 
 def _strip_row(row: str) -> str:

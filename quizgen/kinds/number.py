@@ -21,6 +21,7 @@ from quizgen.grading.reading.count_nouns import (
     drop_count_noun,
 )
 from quizgen.grading.reading.equalities import EqualitySide, read_sides
+from quizgen.grading.reading.factor_words import read_factor
 from quizgen.grading.reading.labels import drop_name
 from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import (
@@ -112,9 +113,14 @@ class NumberSpec(ScalarSpec, kw_only=True, frozen=True):
         if plain is not None:
             return _judge_all_readings(self, plain, options)
         source = _read_source(self, typed)
-        return best_verdict(
-            _judge_side(self, side, source, options) for side in _read(self, source, options)
-        )
+        try:
+            sides = _read(self, source, options)
+        except FormulaReadError:
+            factor = "" if self.percent or self.counts else read_factor(typed)
+            if not factor:
+                raise
+            sides = _read(self, SourceText.of(factor), options)
+        return best_verdict(_judge_side(self, side, source, options) for side in sides)
 
     @property
     def printed_unit(self) -> str:
@@ -254,7 +260,7 @@ def _sides(source: SourceText, options: GradingOptions) -> list[EqualitySide]:
         )
         return read_sides(bare, options.decimal)
     except FormulaReadError as error:
-        if error.code == "two-readings":
+        if error.code in {"two-readings", "sides-differ"}:
             raise
         return []
 

@@ -11,9 +11,10 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
+from quizgen.grading.judging.wordings import find_wording
 from quizgen.grading.options import GradingOptions
-from quizgen.grading.reading.answer_reader import AnswerForm
-from quizgen.grading.reading.normalise import BANGLA_LETTERS, normalise_typed
+from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
+from quizgen.grading.reading.normalise import BANGLA_LETTERS, apply_rewrite, normalise_typed
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, verdict_by_share
 from quizgen.kinds.asking import assign_letters, make_spec
@@ -27,10 +28,33 @@ from quizgen.kinds.contract import (
     find_extra_problems,
     find_name_problems,
 )
+from quizgen.kinds.work import count_listed
 from quizgen.locale import translate
 from quizgen.maths.notation import FormulaReadError
 
 MOST_STEPS = 40
+_LEFT_OUT = re.compile(
+    r"(?P<kept>.+?)[,;]? ?\(?(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)\)?",
+    re.IGNORECASE,
+)
+"""Steps, and others that are said not to belong to them."""
+_BETWEEN_STEPS = tuple(
+    re.compile(between, re.IGNORECASE)
+    for between in (
+        r"\s*(?:[;>→⇒⟶\n|]|-+>|=>)\s*",
+        r"\s*<\s*",
+        r"\s*,\s*(?:(?:and )?then |dann |und dann |তারপর )?|\s+(?:then|dann|তারপর)\s+",
+        r"\s+[-–—]\s+",
+        r"\s+(?=\d{1,2}[.)] )",
+        r"(?<=\))\s*",
+    )
+)
+_STEP_NUMBER = re.compile(
+    r"^(?:\d{1,2}[.)]\s+|(?:first|firstly|and|then|finally|last|zuerst|erst|dann|প্রথমে|শেষে) )+",
+    re.IGNORECASE,
+)
+_COMPARED = re.compile(r"(?<![-=])[<>](?!>)")
+_STEP_LABEL = re.compile(r"([A-Z]) ?[(:] ?([^()]+)\)?")
 _LINE = re.compile(
     r"(?<![^\s,;(])\(?(\d{1,2})(?: ?[.):]+ ?| ?[=-] ?(?=[^\W\d])| (?=[^\W\d]))"
     r"([^\s,;.:()\d]+|\d{1,2}(?![.):]))(?![^\s,;.])"
@@ -39,7 +63,9 @@ _TIED = re.compile(
     r"[^\W\d_] ?= ?[^\W\d_]|[^/]*\w ?/ ?\w ?[\s,;>→-]+\w|^[^/]*\w[\s,;>→-]+\w ?/ ?\w"
 )
 """Steps set equal or beside each other among others in order: ``B = D > A``, ``E G A/B F``."""
-_FILLERS = frozenset({"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং"})
+_FILLERS = frozenset(
+    {"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং", "first", "zuerst", "প্রথমে", "+"}
+)
 
 
 class AuthoredOrder(AuthoredPooled, kw_only=True, tag="order", frozen=True):
@@ -76,7 +102,7 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
     """Order: ``steps``; ``before`` = [[a, b], ...]; ``distractors`` that must stay out.
 
     ``together`` are groups of steps between which no other one may stand. Without ``before`` the
-    listed order is the only one. Steps are typed by their labels.
+    listed order is the only one. Steps are typed by their labels, or by their ``words``.
     """
 
     written_as: ClassVar[AnswerForm] = "option"
@@ -85,6 +111,7 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
     before: list[tuple[str, str]] | None = None
     together: list[list[str]] = msgspec.field(default_factory=list)
     distractors: list[str] = msgspec.field(default_factory=list)
+    words: dict[str, str] = msgspec.field(default_factory=dict)
     traps: dict[str, list[str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
@@ -123,9 +150,20 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
         """
         if len(typed) > 1000:
             raise FormulaReadError("too-long", 1001, "1000")
-        chosen = _read_labels(self, typed)
+        try:
+            chosen = _read_labels(self, typed)
+        except FormulaReadError as error:
+            chosen = [] if error.code == "used-twice" else _read_worded_steps(self, typed)
+            if not chosen:
+                raise
         read_as = " ".join(safe_echo(label) for label in chosen)
         later = later_steps(self)
+        if _COMPARED.search(typed) and not first_misplaced(self, chosen[::-1], later):
+            whole = len(chosen) == len(self.steps)
+            if whole and first_misplaced(
+                self, chosen, later
+            ):  # C < A is A > C: which way is meant?
+                raise FormulaReadError("two-readings", 1, safe_echo(typed))
         steps = [label for label in chosen if label in later]
         intruders = [label for label in chosen if label not in later]
         line = first_misplaced(self, chosen, later)
@@ -247,6 +285,52 @@ def _read_labels(spec: OrderSpec, typed: str) -> list[str]:
     return found
 
 
+def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
+    """Return the labels of steps typed by their words, ``radio < infrared``; none if one is unclear.
+
+    What is said to be left out is, if nothing of it stands among the rest.
+    """
+    text = apply_rewrite("digits", typed.strip())
+    kept = _LEFT_OUT.fullmatch(text)
+    if kept is not None:
+        label = (
+            re.compile(rf"\b[{''.join(spec.steps)}]\b")
+            if all(map(_is_letter, spec.steps))
+            else None
+        )
+        try:
+            chosen = _read_labels(spec, kept["kept"])
+        except FormulaReadError:
+            return []
+        return [] if label is None or label.search(kept["out"]) else chosen
+    if is_denied(text) or _TIED.search(text):
+        return []
+    labels = [*spec.steps, *spec.distractors]
+    wordings = [spec.words.get(label, "") for label in labels]
+    for between in _BETWEEN_STEPS:
+        pieces = [_STEP_NUMBER.sub("", piece.strip()) for piece in between.split(text)]
+        pieces = [piece for piece in pieces if piece]
+        places = [_find_worded_step(piece, labels, wordings) for piece in pieces]
+        if len(pieces) > 1 and all(places) and len({*places}) == len(places):
+            return [labels[place - 1] for place in places]
+    return []
+
+
+def _is_letter(label: str) -> bool:
+    """Return whether a label is a single letter."""
+    return len(label) == 1 and label.isalpha()
+
+
+def _find_worded_step(piece: str, labels: list[str], wordings: list[str]) -> int:
+    """Return the place (from 1) of a step by its words, or by its label before them; 0 if none."""
+    words = find_wording(piece, wordings)
+    named = _STEP_LABEL.fullmatch(piece)
+    if named is None or named[1] not in labels:
+        return words
+    meant = find_wording(named[2], wordings)
+    return labels.index(named[1]) + 1 if meant in {0, labels.index(named[1]) + 1} else 0
+
+
 def _parse_numbered_lines(text: str) -> list[str]:
     """Return the labels behind numbers of lines, ``1. B 2. D``, in the order of the numbers.
 
@@ -264,7 +348,7 @@ def _split_words(text: str, known: dict[str, str]) -> list[str]:
 
     ``B-D`` alone could be a range and is not cut.
     """
-    words = [w for w in re.split(r"[\s,;.<>|=()\[\]{}।॥→⇒⟶/:]+|-+>", text) if w.strip("-")]
+    words = [w for w in re.split(r"[\s,;.<>|=()\[\]{}।॥→⇒⟶/:+_]+|-+>", text) if w.strip("-")]
     words = [w for w in words if w.casefold() not in _FILLERS or fold_word(w) in known]
     cut = [w for word in words for w in word.split("-") if w]
     return cut if len(cut) > 2 and any(fold_word(w) not in known for w in words) else words
@@ -307,6 +391,7 @@ def ask(part: PartContext) -> AskedPart[OrderSpec]:
         before=[(marks[first], marks[second]) for first, second in part.answer.get("before", ())],
         together=[[marks[name] for name in group] for group in part.answer.get("together", ())],
         distractors=[marks[name] for name in extra],
+        words=dict(zip(marks.values(), part.option_texts(marks), strict=True)),
     )
     return AskedPart(
         spec,
@@ -355,4 +440,12 @@ def input_hints(spec: OrderSpec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.order" if spec.distractors else "ask.order_all"),)
 
 
-KIND = AnswerKind(AuthoredOrder, OrderSpec, ask, input_hints, paper_hints=input_hints)
+KIND = AnswerKind(
+    AuthoredOrder,
+    OrderSpec,
+    ask,
+    input_hints,
+    paper_hints=input_hints,
+    verb="tick",
+    work=count_listed("tick", "steps", 2),
+)

@@ -20,7 +20,7 @@ from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.count_nouns import check_count_nouns, count_noun_unit, drop_count_noun
 from quizgen.grading.reading.equalities import read_items
-from quizgen.grading.reading.labels import reorder_by_name
+from quizgen.grading.reading.labels import AskedNames, reorder_by_name
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.reading.numbers import ReadNumber
 from quizgen.grading.reading.quantities import split_quantity
@@ -58,6 +58,7 @@ from quizgen.kinds.contract import (
     InputBox,
     InputControl,
     PartContext,
+    asked_quantities,
 )
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
@@ -87,6 +88,7 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
     names: list[str] = msgspec.field(default_factory=list)
     counts: list[str] = msgspec.field(default_factory=list)
     up_to_scale: bool = False
+    called: dict[str, list[str]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
         """Check tolerance, coordinates, unit and traps."""
@@ -124,9 +126,9 @@ class PointSpec(VectorSpec, kw_only=True, frozen=True):
             return verdict
         return choose_reading(verdict, other, doubt, (_echo(self, first), _echo(self, second)))
 
-    def value_names(self) -> list[str]:
+    def value_names(self) -> AskedNames:
         """Return the authored names, else those that the chain has for the coordinates."""
-        return self.names or list(self.quantities())
+        return {n: self.called.get(n, ()) for n in self.names or self.quantities()}
 
     def show(self) -> str:
         """Return the key as printed and as it can be typed back."""
@@ -263,7 +265,9 @@ def _names(spec: PointSpec, missed: list[int]) -> tuple[str, ...]:
 
 def ask(part: PartContext) -> AskedPart[PointSpec]:
     """Return the coordinates, and those that each mistake gives."""
-    asked = ask_numeric(PointSpec, part)
+    of = asked_quantities(part.answer)
+    called = part.value_words(dict(zip(part.answer.get("names") or of, of, strict=True)))
+    asked = ask_numeric(PointSpec, part, **({"called": called} if called else {}))
     boxes = tuple(InputBox("", asked.spec.unit) for _ in asked.spec.values)
     return msgspec.structs.replace(asked, control=InputControl("line", boxes=boxes))
 

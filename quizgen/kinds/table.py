@@ -15,7 +15,7 @@ from quizgen.grading.diagnosis.numeric_slips import find_common_slip
 from quizgen.grading.judge import show_spec
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, list_plainer_texts
-from quizgen.grading.reading.labels import place_by_name
+from quizgen.grading.reading.labels import AskedNames, place_by_name
 from quizgen.grading.reading.lists import read_list
 from quizgen.grading.reading.numbers import relocate_error
 from quizgen.grading.reading.source_map import SourceText
@@ -82,15 +82,18 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
     ``counts`` maps a name to the unit or words for what it counts.
 
     A cell is a number with the table's tolerance unless ``cells`` says otherwise:
-    ``cells = {H = {kind = "angle", abs = "0.5"}}``.
+    ``cells = {H = {kind = "angle", abs = "0.5"}}``. ``called`` are the words by which the question
+    calls a value, which may stand before it.
     """
 
     written_as: ClassVar[AnswerForm] = "values"
+    may_be_range: ClassVar[bool] = True
 
     values: dict[str, Scalar]
     units: dict[str, str] = msgspec.field(default_factory=dict)
     counts: dict[str, list[str]] = msgspec.field(default_factory=dict)
     cells: dict[str, dict[str, Any]] = msgspec.field(default_factory=dict)
+    called: dict[str, list[str]] = msgspec.field(default_factory=dict)
     traps: dict[str, dict[str, Scalar]] = msgspec.field(default_factory=dict)
 
     def validate(self) -> None:
@@ -113,7 +116,7 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
             If a cell cannot be read, or a name is not asked for.
         """
         names = list(self.values)
-        placed = _place_cells(typed, names, options.decimal)
+        placed = _place_cells(typed, self.value_names(), options.decimal)
         asked = {name: cell_spec(self, name) for name in names}
         cells = [_judge_cell(asked[name], name, placed.get(name), options) for name in names]
         stopped = next((c for c in cells if c.verdict == "ambiguous"), None)
@@ -133,9 +136,9 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
             f"{pretty.format_name(n)} = {cell_spec(self, n).show()}" for n in self.values
         )
 
-    def value_names(self) -> list[str]:
-        """Return the labels of the cells."""
-        return list(self.values)
+    def value_names(self) -> AskedNames:
+        """Return the labels of the cells, each with what else it may be called."""
+        return {name: self.called.get(name, ()) for name in self.values}
 
     def value_units(self) -> list[str]:
         """Return the unit of each cell."""
@@ -178,7 +181,7 @@ def _build_cell_table(spec: TableSpec, name: str) -> tuple[type[Cell], dict[str,
     return CELLS[table["kind"]], table
 
 
-def _place_cells(typed: str, names: list[str], decimal: str) -> dict[str, SourceText]:
+def _place_cells(typed: str, names: AskedNames, decimal: str) -> dict[str, SourceText]:
     """Return what was typed for each name: by name, or all in order.
 
     Raises
@@ -299,7 +302,9 @@ def ask(part: PartContext) -> AskedPart[TableSpec]:
     units = [str(part.answer.get("unit", part.units.get(name, ""))) for name in names]
     stated = {label: unit for label, unit in zip(labels, units, strict=True) if unit}
     by_label = dict(zip(labels, names, strict=True))
-    asked = ask_numeric(TableSpec, part, write, of=by_label, units=stated)
+    called = part.value_words(by_label)
+    said = {"called": called} if called else {}
+    asked = ask_numeric(TableSpec, part, write, of=by_label, units=stated, **said)
     boxes = tuple(map(InputBox, labels, units))
     return replace(asked, control=InputControl("line", boxes=boxes, named=True))
 

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
+from quizgen.bank.markdown import InlineFormula, PlainText, Slot, leaves
 from quizgen.bank.pools import condition_holds, matching_pairs, select_from_pool, selected_claims
 from quizgen.bank.rules import get_claim
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BankError
 from quizgen.grading.judging.statements import used_synonyms
+from quizgen.grading.reading.factor_words import find_bound
 from quizgen.kinds import KINDS
 from quizgen.kinds.contract import (
     AskedPart,
@@ -29,7 +31,7 @@ from quizgen.maths.numbers import (
     is_readable_exactly,
     parse_written_number,
 )
-from quizgen.maths.tree import Expr
+from quizgen.maths.tree import Expr, Sym
 from quizgen.maths.values import Value
 from quizgen.question.interpolation import (
     Interpolator,
@@ -39,6 +41,7 @@ from quizgen.question.interpolation import (
     join_unit,
 )
 
+_LAST_WORD = re.compile(r"((?:[a-zäöüß-]{4,}|[\u0980-\u09ff]{3,})) \(?$", re.IGNORECASE)
 _UNFILLED = re.compile(r"\{\{[^{}]*\}\}")
 """What stays of a blank with a slip in it."""
 OPTION_FIGURES = 4
@@ -215,6 +218,50 @@ class VariantPart(PartContext):
         """Return a choice with its unit: exactly if that is easy to read, else rounded."""
         exactly = format_exact(value) if is_readable_exactly(value) else None
         return join_unit(exactly or format_rounded(value, figures=OPTION_FIGURES), unit)
+
+    def asked_bound(self) -> str:
+        """Return ``most`` or ``least`` where the part asks for such a number."""
+        template = self.drawn.template
+        label, text = template.labels[self.index], template.texts[template.languages[0]]
+        pieces = leaves(text.sections.get(label, ()) if label else text.stem)
+        said = " ".join(piece.text for piece in pieces if isinstance(piece, PlainText))
+        return find_bound(said)
+
+    def value_words(self, names: Mapping[str, str]) -> dict[str, list[str]]:
+        """Return what the question calls each value, in all languages in which each has a word.
+
+        That is the word before its name (*levels* in "how many levels $n$"), or the phrase that is
+        drawn behind it ("$n_1$: a raw image"). Words that two values share bind neither.
+        """
+        found: dict[str, list[str]] = {name: [] for name in names}
+        for lang in self.drawn.template.texts:
+            called: dict[str, str] = {}
+            for name, words in self._iter_value_words(lang, names):
+                called.setdefault(name, words)
+            if len(called) == len(names) == len({*called.values()}):
+                for name, words in called.items():
+                    found[name].append(words)
+        return {name: list(dict.fromkeys(words)) for name, words in found.items() if words}
+
+    def _iter_value_words(self, lang: str, names: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+        """Yield each name that stands in the question of a language, with the words beside it."""
+        text, label = self.drawn.template.texts[lang], self.drawn.template.labels[self.index]
+        sections = (*text.stem, *text.sections.get(label, ()))
+        pieces = [PlainText(""), *leaves(sections), PlainText(""), PlainText("")]
+        by_quantity = {quantity: name for name, quantity in names.items()}
+        for before, formula, after, slot in zip(
+            pieces, pieces[1:], pieces[2:], pieces[3:], strict=False
+        ):
+            if not (isinstance(formula, InlineFormula) and isinstance(formula.expr, Sym)):
+                continue
+            name = by_quantity.get(formula.expr.name, formula.expr.name)
+            drawn = isinstance(slot, Slot) and self.words.get(slot.name)
+            if name not in names:
+                continue
+            if isinstance(before, PlainText) and (word := _LAST_WORD.search(before.text)):
+                yield name, word[1].lower()
+            elif drawn and isinstance(after, PlainText) and after.text == ": ":
+                yield name, inlines_to_text(Interpolator(self.drawn, lang).sentence("words", drawn))
 
     def option_texts(self, names: Iterable[str]) -> list[str]:
         """Return the wording of options in the first language, as it would be typed."""

@@ -9,12 +9,14 @@ other words. Negation, ranges and alternatives never become a number: they stay 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 from typing import Literal, NamedTuple, TypeAlias
 
 from quizgen.core.errors import FormulaError
-from quizgen.grading.reading.labels import NAME, find_name
+from quizgen.grading.reading.factor_words import is_shrinking
+from quizgen.grading.reading.joined_values import rejoin_values
+from quizgen.grading.reading.labels import NAME, AskedNames, find_name
 from quizgen.grading.reading.literals import LITERAL
 from quizgen.grading.reading.normalise import LONGEST_PROSE, REWRITES
 from quizgen.grading.reading.number_words import (
@@ -22,6 +24,7 @@ from quizgen.grading.reading.number_words import (
     add_mixed_units,
     list_number_words,
     replace_number_word,
+    replace_only_number_word,
 )
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.reading.units import read_unit
@@ -41,6 +44,10 @@ _MARKDOWN = re.compile(
 _CODE = re.compile(r"\s*`{1,3}([^`]+)`{1,3}\s*")
 _QUOTES = '“”„‟«»"‹›'
 _PAIRED = re.compile(r"^(['‘’‚`´]+)(.+?)['‘’`´]+$")
+_UNDERSCORED = re.compile(r"(?<=\d)_(?=\d{3}(?!\d))")
+_TYPED_NUMBER = re.compile(r"(?:(?:np|numpy)\.)?(?:u?int|float)(?:8|16|32|64)?\(([^()]+)\)")
+"""A number as Python prints one with its type: ``np.uint8(50)``."""
+_TICK = re.compile(r"(?<=\S) ?[✓✔]+$")
 _BULLET = re.compile(r"^(?:[•◦▪‣∙∴⇒→*+–—-] +(?=\S)|#{1,6} +)", re.MULTILINE)
 _DASH = re.compile(r"^[–—−-] +(?=[.,]?\d)")
 _LIST_MARK = re.compile(r"^\(?[a-h]\) *(?=\S)")
@@ -58,8 +65,13 @@ _FOUND = re.compile(
     rf"(?<![\w.,^/*])[-+]?(?:{_DIGITS})(?=[^\W\d_])"
 )
 _GROUPED = re.compile(r"(?<![\d.,])\d{1,3}([.,])\d{3}(?:\1\d{3})+(?![\d.,]?\d)")
-_LABEL = re.compile(rf"(?<![^\W\d_])((?:{_LETTERS})+'*(?:_[^\W_]+'*)?) ?[:=]? ?(?=[-+−]?[.,]?\d)")
-_LABELLED = re.compile(rf"(.*\d.*?)[ (]+((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)\)?")
+_LABEL = re.compile(
+    rf"(?<![^\W\d_])((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)(?: ?[:=] ?| (?:is|are|ist|gleich|equals|হলো|হল) | ?)"
+    r"(?=[-+−]?[.,]?\d)"
+)
+_BEHIND = re.compile(rf"([-+−]?\d+(?:[.,]\d+)?) ?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)(?:[ ,;]+|$)")
+_LONG_LABEL = re.compile(rf"(?:{_LETTERS}+ ){{1,2}}({_LETTERS}+)(?: ?[:=] ?| )(?=[-+−]?[.,]?\d)")
+_LABELLED = re.compile(rf"(.*\d.*?)[ (]+(?:for |für )?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)\)?")
 _PARTED = re.compile(r"[;\n]|,(?!\d)| (?:and|und|ও|এবং) ")
 _JOINED = re.compile(r"[ ,;]*(?:(?<![\w\u0980-\u09ff])(?:and|und|ও|এবং))?[ ,;]*$")
 _FEWEST = 2
@@ -118,13 +130,15 @@ _NO_UNIT_BEFORE_A_WORD = frozenset({"in", "a", "as", "at", "am", "um", "d", "to"
 _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
-_NAMED = re.compile(rf"^{NAME}(?: ?[=≈:] ?| (?:is|ist|gleich) )(?=[-+]?[.,]?\d)")
+_NAMED = re.compile(
+    rf"^(?:so |also )?(?:\|{NAME}\||{NAME}[\u0300-\u036f]?)(?: ?[=≈:] ?| (?:is|ist|gleich) )(?=[-+]?[.,]?\d|√|sqrt)"
+)
 _NEARLY = re.compile(rf"(?:almost|nearly|fast|প্রায়){_END}", re.IGNORECASE)
 """What changes a word, and only rounds a number."""
 _LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
 
 
-def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) -> Iterator[str]:
+def list_plainer_texts(typed: str, form: AnswerForm, names: AskedNames = (), *, ranges: bool = False) -> Iterator[str]:
     """Yield what may have been meant by an answer that was not read, plainest change first.
 
     Parameters
@@ -133,8 +147,10 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) 
         The answer as it was typed.
     form : str
         What an answer of this kind is made of.
-    names : sequence of str
+    names : sequence or mapping
         Names that its values may carry.
+    ranges : bool
+        Whether two values may be given as from one to the other.
 
     Yields
     ------
@@ -144,16 +160,19 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: Sequence[str] = ()) 
     if form == "verbatim" or len(typed) > LONGEST_PROSE:
         return
     if form == "values":  # before a label such as "value" is taken for a word that leads on
-        yield from separate_labelled_values(typed, list(names))
+        yield from separate_labelled_values(typed, names)
     plain = drop_decoration(typed, form)
     if plain != typed:
         yield plain
     if form in {"number", "quantity", "values"}:
         spelt = _write_words_as_numbers(plain)
+        if form == "values":
+            spelt = _write_items_as_numbers(spelt)
         if spelt != plain:
             yield spelt
         if form == "values":
-            yield from separate_labelled_values(spelt, list(names))
+            yield from separate_labelled_values(spelt, names)
+            yield from rejoin_values(spelt, len(names), ranges=ranges)
         else:
             yield from _single_answer(spelt, form)
 
@@ -163,13 +182,35 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
     named_by, text = text, _NAMED.sub("", text)
     if text != named_by:
         yield text
+    remarked = _REMARKED.fullmatch(text)
+    if remarked and _is_idle_remark(remarked[2]):
+        yield remarked[1]
     found, around = scan_numbers(text)
+    around = [*around[:-1], _DISTANCE.sub(" ", around[-1])]
     if len(found) != 1 or found[0] == text or not _can_be_dropped(around):
         return
     behind = _WORD.search(around[1])
     named = behind is not None and behind[0].lower() not in _load_around_words().leading_on
     if not found[0][-1].isdigit() or not (named or (behind and form == "quantity")):
         yield found[0]
+
+
+def _is_idle_remark(words: str) -> bool:
+    """Return whether what stands in brackets behind a number neither changes it nor offers another."""
+    found = [word[0].lower() for word in _WORD.finditer(words)]
+    return (
+        len(found) <= _MOST_WORDS
+        and not is_shrinking(words)
+        and not {*found}
+        & (_load_around_words().altering - {"not", "no", "kein", "nicht", "to", "from"})
+    )
+
+
+_DISTANCE = re.compile(
+    r"^ (?:(?:away|back) )?(?:from|von) (?=(?:the|a|its|der|dem|den|einer|einem) )|^ away from (?=[^\W\d])",
+    re.IGNORECASE,
+)
+"""From what a length is measured: no range, where no other number stands."""
 
 
 def drop_decoration(typed: str, form: AnswerForm) -> str:
@@ -192,7 +233,7 @@ def drop_bullets(typed: str) -> str:
 
 def drop_markup(typed: str) -> str:
     """Return the answer without marks of Markdown and emoji."""
-    text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed))
+    text = _MARKDOWN.sub(lambda m: m[2] or m[3], _EMOJI.sub("", typed)) or typed
     code = _CODE.fullmatch(text) if "`" in text else None
     return code[1] if code else text
 
@@ -210,6 +251,7 @@ def _drop_once(text: str, form: AnswerForm) -> str:
     if form in {"option", "word"} and _NEARLY.match(text):
         return text
     around = _load_around_words()
+    text = _TICK.sub("", text)
     text = around.before.sub("", _ARROW.sub("", text))
     if form == "formula" and text.endswith("!"):
         return text
@@ -220,16 +262,34 @@ def _write_words_as_numbers(text: str) -> str:
     """Return ``minus sixteen`` as ``-16``, ``27 min 26 s`` as ``1646 s``."""
     for name in ("digits", "blanks"):
         text = SourceText.of(text).substitute(*REWRITES[name]).text
+    text = _UNDERSCORED.sub("", text)
+    typed_array = _TYPED_NUMBER.fullmatch(text)
+    text = typed_array[1] if typed_array else text
     signed = _SIGNED.sub("", text)
     sign = "-" if signed != text and not signed.startswith(("-", "−", "–")) else ""
     spelt = signed if sign else text
     if not any(map(str.isdigit, spelt)):
         spelt = replace_number_word(spelt)
+    if not any(map(str.isdigit, spelt)):
+        spelt = replace_only_number_word(spelt)
     spelt = _OF_A.sub(" ", _ORDINAL.sub("", _PER_CENT.sub(" %", spelt)))
     return sign + add_mixed_units(add_large_words(spelt))
 
 
-def separate_labelled_values(text: str, names: list[str]) -> Iterator[str]:
+def _write_items_as_numbers(text: str) -> str:
+    """Return several values with those in words as digits, and without remarks in brackets."""
+    text = _REMARK.sub(lambda m: m[0] if says_otherwise(m[0]) else "", text)
+    pieces = _ITEMS.split(_MINUS.sub("-", text))
+    return "".join(replace_number_word(piece) if piece.isalpha() else piece for piece in pieces)
+
+
+_REMARKED = re.compile(r"([-+−]?\d[^()]*?) ?\(([^\W\d][^()\d]*)\)")
+_REMARK = re.compile(r"(?<=\d) ?\([^\W\d][^()\d;,]*\)")
+_MINUS = re.compile(r"(?<![^\W\d_])(?:minus|মাইনাস) (?=[.,]?\d)", re.IGNORECASE)
+_ITEMS = re.compile(r"([;,\n] *| and | und )")
+
+
+def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
     """Yield ``G = 111; R = 171`` for ``G111 R171``, if its labels are those of the values.
 
     Every label must mean a name of its own, and every value must be one number.
@@ -240,12 +300,27 @@ def separate_labelled_values(text: str, names: list[str]) -> Iterator[str]:
         yield from _write_assigned(
             [(name, text[e:end]) for (name, _, e), end in zip(ahead, ends, strict=True)], names
         )
-    pieces = [_LABELLED.fullmatch(piece.strip()) for piece in _PARTED.split(text)]
-    yield from _write_assigned([(m[2], m[1]) for m in pieces if m], names, len(pieces))
+    if behind := _BEHIND.findall(text) if not _BEHIND.sub("", text) else []:
+        yield from _write_assigned([(label, value) for value, label in behind], names)
+    pieces = [piece.strip() for piece in _PARTED.split(text)]
+    pairs = [pair for piece in pieces for pair in _read_labelled_piece(piece)]
+    yield from _write_assigned(pairs, names, len(pieces))
+
+
+def _read_labelled_piece(piece: str) -> Iterator[tuple[str, str]]:
+    """Yield the label and the value of ``step 1/15``, or of ``16 levels``."""
+    ahead = _LABEL.match(piece)
+    several = None if ahead else _LONG_LABEL.match(piece)
+    if ahead:
+        yield ahead[1], piece[ahead.end() :]
+    elif several:
+        yield several[1], piece[several.end() :]
+    elif behind := _LABELLED.fullmatch(piece):
+        yield behind[2], behind[1]
 
 
 def _write_assigned(
-    pairs: list[tuple[str, str]], names: list[str], count: int = 0
+    pairs: list[tuple[str, str]], names: AskedNames, count: int = 0
 ) -> Iterator[str]:
     """Yield the pairs as ``name = value; ...`` if each name occurs once with one value.
 
@@ -336,6 +411,7 @@ def _is_idle_word(word: str) -> bool:
 _CUT_SHORT = re.compile(r"\d *(?:\.{2,}|…)")
 _RANGE = re.compile(r"[-+−]?\d+(?:[.,]\d+)? *[-–—] *\d+(?:[.,]\d+)?(?: *[^\W\d][^\d]*)?")
 _NUMBERED = re.compile(r"\d{1,2}[.)] +[-+−–]?[.,]?\d.*")
+_SHUTTER_RANGE = re.compile(r"1 ?/ ?\d+ ?s? ?[-–—] ?1 ?/ ?\d+ ?s?")
 _RAISED_DOT = re.compile(r"[-+−]?\d+·\d+(?: *[^\W\d][^\d]*)?")
 
 
@@ -348,6 +424,11 @@ def says_otherwise(text: str) -> bool:
 def is_denied(text: str) -> bool:
     """Whether a word says that something is not the answer."""
     return _load_around_words().denying.search(text) is not None
+
+
+def is_range_of_shares(typed: str) -> bool:
+    """Whether two shares are joined by a dash, ``1/30 - 1/60 s``: hardly their difference."""
+    return _SHUTTER_RANGE.fullmatch(typed.strip()) is not None
 
 
 def is_cut_short(typed: str) -> bool:

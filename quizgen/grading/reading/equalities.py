@@ -202,7 +202,7 @@ def _check_sides_agree(source: SourceText, sides: list[EqualitySide]) -> None:
     """
     for side in sides[1:]:
         if not _is_equal_side(sides[0], side):
-            raise FormulaReadError("two-readings", source.column(0), source.text)
+            raise FormulaReadError("sides-differ", source.column(0), source.text)
 
 
 def _is_equal_side(first: EqualitySide, second: EqualitySide) -> bool:

@@ -96,6 +96,8 @@ _NAMES, *_MARKS = FORMULA_REWRITES.values()
 
 _EULER = re.compile(r"(?<![^\W_])e ?(?:\^|\*\*) ?(?=[(\w-])")
 _ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
+_POINTED = re.compile(r"\d\.\d+,(?!\d*\.\d*,)|,\d+\.\d|,\d*\.\d")
+"""A comma beside a number with a decimal point: it can only stand between arguments."""
 _GROUPED = re.compile(r"\d[. ]\d{3}(?!\d)")
 _LITERAL = re.compile(r"(?<![^\W\d_])(?<![\w'])\d+(?:[.,]\d+)*")
 
@@ -183,7 +185,7 @@ def _read_number_literals(
     if "," not in source.text and not _GROUPED.search(source.text):
         return TypedFormula(_parse_loose_and_tight(source, declared))
     if _ARGUMENTS.search(source.text) and decimal != "comma":
-        if decimal == "auto":
+        if decimal == "auto" and not _POINTED.search(source.text):
             raise FormulaReadError(
                 "two-readings", source.column(source.text.index(",")), source.text
             )

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
+from typing import TypeAlias
 
+from quizgen.grading.judging.spelling import fold_word
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.locale import list_languages, load_words
 from quizgen.maths.notation import FormulaReadError
-from quizgen.maths.notation.names import fold_name
+from quizgen.maths.notation.names import GREEK, fold_name
 
 SIGNS = "\u0981-\u0983\u09bc\u09be-\u09cd\u09d7"
 """Signs of Bangla vowels and joined letters: parts of words that are no letters of their own."""
@@ -20,6 +22,9 @@ NAME = rf"[^\W\d_](?:[^\W_]|[{SIGNS}])*'*(?:_[^\W_]+'*)*"
 _WORD = rf"(?:[^\W\d_]|[{SIGNS}]){{2,}}"
 WORDS = rf"{_WORD}(?: {_WORD})+"
 """A name in several words: ``focal length``."""
+
+AskedNames: TypeAlias = Sequence[str] | Mapping[str, Sequence[str]]
+"""Names of the values asked, maybe each with the words by which the question calls it."""
 
 _INSIDE = re.compile(r"[\s_.-]")
 _NAME = re.compile(rf"([^\W\d][\w' ./{SIGNS}-]*?) ?(?::=|[=:≈]|->|→) ?")
@@ -64,11 +69,16 @@ def _same_labels() -> tuple[frozenset[str], ...]:
 _SHORTENED = re.compile(r"([^\W_]+)('*)(?:_(.+))?")
 
 
-def find_name(typed: str, names: list[str]) -> str:
+_PIXEL_AXES = {"x": "u", "y": "v"}
+"""What the axes of a picture are called where pixels are asked as u and v."""
+
+
+def find_name(typed: str, names: AskedNames) -> str:
     """Return the declared name that a typed one means, or '' if it means none or several.
 
     Case counts only if it must. Where the names differ in their letter or in their index alone,
-    that is enough (``x`` for ``p'_x``, ``u`` for ``u_A``), and so is the word for it (``red``).
+    that is enough (``x`` for ``p'_x``, ``u`` for ``u_A``), and so is the word for it (``red``), or
+    what the question calls it (``levels`` where it asks for the levels n).
     """
     for same in (name_key, lambda name: name_key(name).lower()):
         wanted = same(typed)
@@ -77,14 +87,54 @@ def find_name(typed: str, names: list[str]) -> str:
             return found[0]
     short = typed.strip().lower()
     for words in _same_labels():
-        if short in words:
-            return _find_unique(name for name in names if name.lower() in words)
-    return _find_short_name(short, names) or _find_unique(
-        _find_short_name(letter, names) for letter in _letters_of_words().get(short, "")
+        if short in words and (found := [name for name in names if name.lower() in words]):
+            return _find_unique(found)
+    if {*names} == {*_PIXEL_AXES.values()}:
+        short = _PIXEL_AXES.get(short, short)
+    return (
+        _find_short_name(short, names)
+        or _find_unique(
+            _find_short_name(letter, names) for letter in _letters_of_words().get(short, "")
+        )
+        or _find_called_name(short, names)
     )
 
 
-def _find_short_name(typed: str, names: list[str]) -> str:
+def _find_called_name(typed: str, names: AskedNames) -> str:
+    """Return the one name whose words in the question hold all of a typed label.
+
+    A Greek letter may be called by its first Latin one, where no other name has it.
+    """
+    greek = [name for name in names if fold_name(name).lower() in GREEK.values()]
+    if len(typed) == 1 and greek:
+        return _find_unique(name for name in greek if fold_name(name).lower().startswith(typed))
+    if not isinstance(names, Mapping):
+        return ""
+    same = next((words for words in _same_labels() if typed in words), {typed})
+    fitting = [
+        name
+        for name, called in names.items()
+        if any(_is_held_by(word, words) for word in same for words in called)
+    ]
+    return _find_unique(fitting)
+
+
+def _is_held_by(label: str, words: str) -> bool:
+    """Return whether all words of a label stand among others."""
+    wanted = {*_split_label(label)}
+    return bool(wanted) and wanted <= {*_split_label(words)}
+
+
+def _split_label(text: str) -> list[str]:
+    """Return the words of a label, without what every label may have."""
+    words = [fold_word(word).removesuffix("s") for word in re.split(r"[\s/-]+", text)]
+    return [word for word in words if word and word not in _EMPTY_WORDS] or words
+
+
+_EMPTY_WORDS = frozenset({"a", "an", "the", "image", "with", "value", "and", "of"})
+
+
+def _find_short_name(typed: str, names: AskedNames) -> str:
     """Return the one name whose letter, or whose index, is ``typed``, where all differ in it."""
     split = [_SHORTENED.fullmatch(name.lower()) for name in names]
     if typed.endswith("'") and all(match and typed.endswith(match[2]) for match in split):
@@ -93,7 +143,7 @@ def _find_short_name(typed: str, names: list[str]) -> str:
     for group in (1, 3):
         parts = [match[group] if match else None for match in split]
         if None not in parts and len(set(parts)) == len(names) and typed in parts:
-            found.append(names[parts.index(typed)])
+            found.append([*names][parts.index(typed)])
     return _find_unique(found)
 
 
@@ -103,7 +153,7 @@ def _find_unique(found: Iterable[str]) -> str:
     return several.pop() if len(several) == 1 else ""
 
 
-def place_by_name(items: list[SourceText], names: list[str]) -> dict[str, SourceText] | None:
+def place_by_name(items: list[SourceText], names: AskedNames) -> dict[str, SourceText] | None:
     """Return each value under the declared name it carries; None if no item carries a name.
 
     Raises
@@ -119,12 +169,12 @@ def place_by_name(items: list[SourceText], names: list[str]) -> dict[str, Source
         name = find_name(typed, names)
         if not name or name in placed:
             code = "used-twice" if name else "unknown-name"
-            raise FormulaReadError(code, item.column(0), typed, names)
+            raise FormulaReadError(code, item.column(0), typed, list(names))
         placed[name] = rest
     return placed
 
 
-def reorder_by_name(items: list[SourceText], names: list[str]) -> list[SourceText]:
+def reorder_by_name(items: list[SourceText], names: AskedNames) -> list[SourceText]:
     """Return the values in the declared order; items without names keep theirs.
 
     Raises

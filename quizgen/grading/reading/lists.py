@@ -19,7 +19,10 @@ _JOINING = re.compile(r"[,;]? (?:and|und|&|এবং|ও) ")
 _UNIT_BEHIND = re.compile(r"[^;,|\d(\[{]*| ?[\[(][^;,|\d\[\](){}]+[\])]")
 _NAMES = re.compile(rf"\(? ?({NAME}(?: ?[,;|] ?{NAME})+) ?\)? ?(?::=|[=:≈]) ?(?=\S)")
 _FRONT = re.compile(rf"({NAME})(?: {NAME})* ?(?::=|[=:≈])? ?(?=[(\[{{<])")
-NAMED_NEXT = re.compile(rf"(?:[,;]? +|[,;])(?={NAME} ?(?::=|[=:≈]|->|→) ?\S)")
+NAMED_NEXT = re.compile(
+    rf"(?:[,;]? +|[,;])(?={NAME} ?(?::=|[=:≈]|->|→) ?\S)"
+    rf"|[,;] *(?={NAME}(?:[ +-]{NAME}){{1,3}} ?(?::=|[=:≈]|->|→) ?\S)"
+)
 """Where the next of several named values begins."""
 _TORN = re.compile(r"\d+ +\d+(?<! \d{3})")
 _SPACED = re.compile(r"(?<=[\d)%°A-Za-z]) +(?=[-+]?[\d.(])")

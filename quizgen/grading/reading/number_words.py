@@ -75,7 +75,51 @@ def replace_number_word(text: str) -> str:
     match = _compile_number_word_pattern().match(text)
     if match is None:
         return text
-    return f"{list_number_words()[match[0].lower()]}{text[match.end() :]}"
+    value, rest = list_number_words()[match[0].lower()], text[match.end() :]
+    hundreds = _HUNDRED.match(rest) if 0 < value < len("1234567890") else None
+    if hundreds:
+        value, rest = value * 100, rest[hundreds.end() :]
+        more = _compile_number_word_pattern().match(rest)
+        if more and list_number_words()[more[0].lower()] < 100:
+            value, rest = value + list_number_words()[more[0].lower()], rest[more.end() :]
+        else:
+            rest = f" {rest}".rstrip()
+    digits, rest = _read_spoken_decimals(rest)
+    return f"{value}{digits}{rest}"
+
+
+_HUNDRED = re.compile(r" hundred(?: and)?(?: |$)", re.IGNORECASE)
+_POINT = re.compile(r" (?:point|komma|দশমিক) (?=[^\W\d])", re.IGNORECASE)
+
+
+def _read_spoken_decimals(rest: str) -> tuple[str, str]:
+    """Return the decimals of ``two point five six`` with their mark, and what follows them."""
+    point = _POINT.match(rest)
+    if point is None:
+        return "", rest
+    digits, left = "", rest[point.end() :]
+    while (word := _compile_number_word_pattern().match(left)) is not None:
+        digit = list_number_words()[word[0].lower()]
+        if digit >= len("0123456789"):
+            break
+        digits, left = f"{digits}{digit}", left[word.end() :].lstrip(" ")
+    return (f".{digits}", f" {left}".rstrip()) if digits else ("", rest)
+
+
+def replace_only_number_word(text: str) -> str:
+    """Return ``the blur is four pixels long`` with the digit; the text itself if it has not one.
+
+    ``one`` and ``a`` are too often no number.
+    """
+    words = [
+        match
+        for match in re.finditer(r"[^\W\d_]+(?:-[^\W\d_]+)?", text)
+        if list_number_words().get(match[0].lower(), 1) != 1
+    ]
+    if len(words) != 1 or not text[: words[0].start()].isascii():
+        return text
+    (only,) = words
+    return f"{text[: only.start()]}{list_number_words()[only[0].lower()]}{text[only.end() :]}"
 
 
 def add_large_words(text: str) -> str:

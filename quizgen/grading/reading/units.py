@@ -8,9 +8,10 @@ from functools import cache, lru_cache
 from typing import Any, NamedTuple
 
 import msgspec
-from flint import arb
+from flint import arb, fmpq
 
 from quizgen.core.errors import FormulaError
+from quizgen.grading.judging.spelling import typo_distance
 from quizgen.locale import FIRST, list_languages, load_words
 from quizgen.maths.numbers import to_rational
 from quizgen.maths.precision import working_precision
@@ -104,6 +105,11 @@ WORDS = {
     "Gbps": "Gbit/s",
     "electron volt": "eV",
     "electron volts": "eV",
+    "bps": "bit/s",
+    "mtr": "m",
+    "metern": "m",
+    "gr": "g",
+    "pxl": "px",
     "inches": "in",
     "Inch": "in",
     "degC": "°C",
@@ -116,6 +122,9 @@ WORDS = {
 """Abbreviations and other spellings (any case when they are longer than three letters); what units
 are called in full stands in ``speech.toml`` of each language."""
 
+ELECTRON_VOLT = fmpq(1602176634, 10**28)
+"""Joules in one electron volt, exactly so by definition."""
+_JOULE = {"kg": 1, "m": 2, "s": -2}
 _LARGE = "kMGT"
 """Prefixes that are written before a word as well: ``MBytes``."""
 _NO_UNIT = {"", "1"}
@@ -209,13 +218,17 @@ def listed_unit(listed: str) -> TypedUnit:
 @lru_cache(maxsize=2048)
 @working_precision()
 def _get_listed_unit(known: UnitRegistry, listed: str) -> TypedUnit:
-    """Return a unit of a registry with its factor and dimension, angles in degrees."""
+    """Return a unit of a registry with its factor and dimension: angles in degrees, energies in J."""
     found: Unit = known.unit(listed)
     factor, powers = to_rational(found.factor), dict(found.dimension)
     turned = powers.pop("rad", 0)
     if turned:  # the registry keeps the two apart, since their ratio is not rational
         factor = factor * (180 / arb.pi()) ** turned
         powers["deg"] = powers.get("deg", 0) + turned
+    charged = powers.pop("eV", 0)
+    factor = factor * ELECTRON_VOLT**charged
+    for base, power in _JOULE.items() if charged else ():
+        powers[base] = powers.get(base, 0) + power * charged
     return TypedUnit(listed, factor, tuple(sorted((b, p) for b, p in powers.items() if p)))
 
 
@@ -235,9 +248,30 @@ def _find_unit_word(word: str) -> str:
     listed = words.get(word) or lower.get(word.lower()) or words.get(_POINTS.sub("", word))
     if listed is None and word.startswith(("µ", "μ")):
         listed = "u" + word[1:] if "u" + word[1:] in known.simple else None
+    listed = listed or _find_misspelt_unit(word, lower)
     if listed is None:
         raise FormulaError(f"unknown unit {word!r}")
     return listed
+
+
+def _find_misspelt_unit(word: str, known: Mapping[str, str]) -> str | None:
+    """Return the one unit whose full name is a slip away, ``milimeter``; None if it is not one.
+
+    A prefix is no slip: a letter that is left out, doubled or exchanged with its neighbour is.
+    """
+    small = word.lower()
+    if len(small) < _LONG_WORD or not small.isalpha():
+        return None
+    found = {
+        to
+        for name, to in known.items()
+        if abs(len(name) - len(small)) <= 1 and typo_distance(small, name, 1) == 1
+    }
+    return found.pop() if len(found) == 1 else None
+
+
+_LONG_WORD = 6
+"""Letters of a unit's name in which a slip of spelling is understood."""
 
 
 def read_unit(text: str) -> TypedUnit:

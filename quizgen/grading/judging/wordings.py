@@ -1,0 +1,168 @@
+"""Which of several wordings is meant: options, sides of pairs, steps typed by their words.
+
+A wording is meant if the answer has a word that only this one has, and none that speaks against
+it: no word of another one that this one lacks, no denial, nothing that changes what it says.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Sequence
+from functools import lru_cache
+from itertools import pairwise
+
+from quizgen.grading.judging.spelling import allowed_typos, fold_word, typo_distance
+from quizgen.grading.reading.answer_reader import says_otherwise
+
+_TOKEN = re.compile(
+    r"[-+−]?(?:\d+/)?√?\d+(?:[.,]\d+)?(?:/√?\d+)?|[^\W\d_]+/\d+|(?:[^\W\d_]|[\u0980-\u09ff])+\d*"
+)
+_ROOT = re.compile(r"(?:sqrt|√) ?\(? ?(\d+) ?\)?")
+_SHARES = (
+    (re.compile(r"\b(?:a |one )?half\b"), "1/2"),
+    (re.compile(r"\b(?:a|one) third\b"), "1/3"),
+    (re.compile(r"\btwo thirds\b"), "2/3"),
+    (re.compile(r"\bthree quarters\b"), "3/4"),
+    (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
+    (re.compile("∞"), "infinity"),
+    (re.compile(r"\b(?:minus|negative) (?=\d)"), "-"),
+    (re.compile(r"(?<!\S)\+(?=\d)"), ""),
+    (re.compile(r"\b(?:between|zwischen) (.+) (?:and|und) "), r"from \1 to "),
+    (re.compile(r"\bvon\b"), "from"),
+    (re.compile(r"\bbis\b|থেকে"), "to"),
+)
+"""Shares in words, and other ways to say what a wording has."""
+_IDLE = frozenset(
+    {
+        "a",
+        "an",
+        "the",
+        "it",
+        "its",
+        "is",
+        "are",
+        "be",
+        "of",
+        "this",
+        "that",
+        "these",
+        "those",
+        "and",
+    }
+    | {"becomes", "become", "der", "die", "das", "ist", "sind", "und", "ein", "eine", "i", "think"}
+)
+_AGAINST = frozenset(
+    {"wrong", "false", "incorrect", "falsch", "instead", "rather", "other", "others", "ভুল", "মিথ্যা"}
+)
+_MOST_WORDS_MORE = 8
+"""Words of an answer that the meant wording has not."""
+
+
+def find_wording(typed: str, wordings: Sequence[str]) -> int:
+    """Return the place (from 1) of the wording that is meant; 0 if none or several may be.
+
+    Parameters
+    ----------
+    typed : str
+    wordings : sequence of str
+        What there is to choose from.
+    """
+    spoken = _split_words(typed)
+    listed = [frozenset(_split_words(wording)) for wording in wordings]
+    said = frozenset(spoken)
+    same = [place for place, words in enumerate(listed, 1) if said and words == said]
+    if len(same) == 1:
+        return same[0]
+    known = frozenset().union(*listed)
+    meant = frozenset(_find_known_word(word, known) for word in _join_compounds(spoken, known))
+    hits = [place for place, words in enumerate(listed, 1) if _own_words(words, listed) & meant]
+    if len(hits) != 1:
+        hits = _find_nearest(meant, listed)
+    if len(hits) != 1:
+        return 0
+    wanted = listed[hits[0] - 1]
+    more = meant - wanted
+    if more & known or more & _AGAINST or len(more) > _MOST_WORDS_MORE:
+        return 0
+    if not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
+        return 0
+    denied = says_otherwise(" ".join(more)) or _denies(wanted) != _denies(meant)
+    return 0 if denied else hits[0]
+
+
+def _find_nearest(meant: frozenset[str], listed: list[frozenset[str]]) -> list[int]:
+    """Return the places of wordings that have all these words, without those that say more."""
+    having = {place: words for place, words in enumerate(listed, 1) if meant and meant <= words}
+    return [
+        place for place, words in having.items() if not any(one < words for one in having.values())
+    ]
+
+
+def _join_compounds(spoken: tuple[str, ...], known: frozenset[str]) -> tuple[str, ...]:
+    """Return the words with those put together that are one: ``attribute error``."""
+    for first, second in pairwise(spoken):
+        if first + second in known:
+            rest = " ".join(spoken).replace(f"{first} {second}", first + second)
+            return tuple(rest.split(" "))
+    return spoken
+
+
+def _says_enough(
+    wording: tuple[str, ...], meant: frozenset[str], listed: list[frozenset[str]]
+) -> bool:
+    """Return whether an answer has enough of a wording: ``barrel``, but not ``pixels`` for hot ones.
+
+    It has all numbers and letters in it, and at least half of the words that no other one has; more
+    words of its own only with all of these.
+    """
+    exact = {word for word in wording if len(word) == 1 or not word.isalpha()}
+    own = _own_words(frozenset(wording), listed)
+    said = own & meant
+    if exact - meant or 2 * len(said) < len(own):
+        return False
+    if said == own:
+        return True
+    return not meant - {*wording} and said != {wording[-1]}
+
+
+def _own_words(words: frozenset[str], listed: list[frozenset[str]]) -> frozenset[str]:
+    """Return the words that no other wording has."""
+    return frozenset(word for word in words if sum(word in other for other in listed) == 1)
+
+
+def _denies(words: frozenset[str]) -> bool:
+    """Return whether a word of denial is among some."""
+    return bool(words & {"not", "no", "without", "never", "nicht", "kein", "keine", "ohne"})
+
+
+def _find_known_word(word: str, known: frozenset[str]) -> str:
+    """Return the known word that a typed one is, maybe with slips in spelling; else itself."""
+    if word in known or not word.isalpha():
+        return word
+    near = [
+        one
+        for one in known
+        if one[:1] == word[:1] and typo_distance(word, one, 1) <= min(1, allowed_typos(one))
+    ]
+    return near[0] if len(near) == 1 else word
+
+
+@lru_cache(maxsize=1024)
+def _split_words(text: str) -> tuple[str, ...]:
+    """Return the words of a text by which wordings are told apart, in order."""
+    text = _ROOT.sub(r"√\1", unicodedata.normalize("NFC", text).casefold().replace("−", "-"))
+    for pattern, sign in _SHARES:
+        text = pattern.sub(sign, text)
+    folded = (_fold(token) for token in _TOKEN.findall(text))
+    return tuple(word for word in folded if word and word not in _IDLE)
+
+
+def _fold(token: str) -> str:
+    """Return a word without the ending of its plural and without spelling variants."""
+    if not token.isalpha():
+        return token
+    word = fold_word(token)
+    return (
+        word.removesuffix("s") if len(word) > len("axis") - 1 and not word.endswith("ss") else word
+    )
