@@ -40,6 +40,7 @@ from quizgen.maths.numbers import (
     format_rounded,
     has_more_figures,
     is_readable_exactly,
+    is_short_decimal,
     to_float,
     to_rational,
 )
@@ -143,7 +144,9 @@ class Variant:
         if name not in self._texts:
             value = self.shown_values[name]
             unit = self.template.units[name]
-            exactly = None if self.is_rounded(name) else format_exact_in_unit(value, unit)
+            fits = is_short_decimal(value) and not has_more_figures(value, SHOWN_FIGURES)
+            is_exact = fits or not self.is_rounded(name)
+            exactly = format_exact_in_unit(value, unit) if is_exact else None
             self._texts[name] = exactly or format_rounded(value, figures=SHOWN_FIGURES)
         return self._texts[name]
 
