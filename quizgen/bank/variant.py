@@ -40,6 +40,7 @@ from quizgen.maths.numbers import (
     format_rounded,
     has_more_figures,
     is_readable_exactly,
+    is_short_decimal,
     to_float,
     to_rational,
 )
@@ -143,9 +144,15 @@ class Variant:
         if name not in self._texts:
             value = self.shown_values[name]
             unit = self.template.units[name]
-            exactly = None if self.is_rounded(name) else format_exact_in_unit(value, unit)
+            exactly = None if self.is_cut(name) else format_exact_in_unit(value, unit)
             self._texts[name] = exactly or format_rounded(value, figures=SHOWN_FIGURES)
         return self._texts[name]
+
+    def is_cut(self, name: str) -> bool:
+        """Return whether a quantity has more figures than formulas show of it."""
+        value = self.shown_values[name]
+        fits = is_short_decimal(value) and not has_more_figures(value, SHOWN_FIGURES)
+        return self.is_rounded(name) and not fits
 
     def is_rounded(self, name: str) -> bool:
         """Return whether a quantity's text is not its exact value."""

@@ -105,7 +105,7 @@ def _substitute_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
     if names_in(expr) & drawn.lists.keys():
         return _with_list_values(drawn, expr)
     quantities = sorted(names_in(expr))
-    sign = "≈" if any(drawn.is_rounded(name) for name in quantities) else "="
+    sign = "≈" if any(drawn.is_cut(name) for name in quantities) else "="
     node = typeset.lay_out(expr, leaves={name: value_node(drawn, name) for name in quantities})
     if isinstance(expr, Sym):
         return WorkedSide(sign, node, format_quantity(drawn, expr.name), NUMBERS)
@@ -121,7 +121,7 @@ def _with_list_values(drawn: Variant, expr: Expr) -> WorkedSide:
     """Return the formula with sums over lists written out, and other lists as they stand."""
     written = write_out_lists(expr, drawn)
     scalars = names_in(written.expr) - written.texts.keys()
-    rounded = written.rounded or any(drawn.is_rounded(name) for name in scalars)
+    rounded = written.rounded or any(drawn.is_cut(name) for name in scalars)
     nodes = {name: value_node(drawn, name) for name in scalars} | written.nodes
     typed = {name: value_typed(drawn, name) for name in scalars} | written.texts
     node = typeset.lay_out(written.expr, leaves=nodes)
