@@ -50,6 +50,7 @@ ROWS = {
     "0007": {"stock": {"paper": "f" * 64, "blueprint": "trial", "version": "v", "minutes": 9, "pauses": None}},
     "0008": {},
     "0009": {},
+    "0010": {},
 }  # fmt: skip
 """What each release keeps, in the tables that it has added."""
 

@@ -80,11 +80,15 @@ document.addEventListener("keydown", (event) => {
   });
 })();
 
-// Signs that the keyboard of a phone hides, put where the last field had its caret.
+// Signs that the keyboard of a phone hides, put where the last field had its caret. Once there, they
+// stay: whatever moved under a finger would not be pressed.
 (() => {
   let last = null;
   document.addEventListener("pointerdown", (event) => { if (event.target.closest("[data-put]")) { event.preventDefault(); } });
-  document.addEventListener("focusin", (event) => { if (event.target.matches("section.part input[type=text]")) { last = event.target; } });
+  document.addEventListener("focusin", (event) => { if (event.target.matches("section.part input[type=text]")) {
+    last = event.target;
+    last.closest("section.part").querySelector(".signs")?.classList.add("shown");
+  } });
   document.addEventListener("click", (event) => {
     const sign = event.target.closest("[data-put]");
     const field = last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])");
