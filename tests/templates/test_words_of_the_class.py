@@ -5,7 +5,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 SECTION, JUDGED = re.compile(r"^## (\w+)"), {"gaps", "accept", "half", "refuse"}
-ENDINGS = "|".join(("", "ের", "ে", "য়", "য়ের", "তে", "কে", "টি", "টা", "টির", "গুলো", "ও", "ই"))
+ENDINGS = "|ের|ে|য়|য়ের|তে|কে|টি|টা|টির|গুলো|ও|ই"
 
 
 def refused_spellings() -> list[str]:
