@@ -187,6 +187,12 @@ def look_into_figures(student, look) -> None:
     expect(values).not_to_have_js_property("innerText", shown)
 
 
+def show(field) -> None:
+    """Turn to the question of an exam that a field is in."""
+    field.evaluate("field => { location.hash = field.closest('.question').id; }")
+    expect(field).to_be_visible()
+
+
 def sit_the_trial_exam(student, server, look) -> None:
     """The server dies in it, and nothing is lost; results by time; what cost points again."""
     page = student.page
@@ -196,12 +202,14 @@ def sit_the_trial_exam(student, server, look) -> None:
     expect(page.locator("#exam")).to_be_visible()
     page.wait_for_load_state()
     kept = page.locator("#kept")
-    student.choose(page.locator(".question.shown .option > input").first)
+    option = page.locator("#exam .option > input").first
+    show(option)
+    student.choose(option)
     expect(kept).not_to_be_empty()
     saved = kept.inner_text()
     server.kill()
     typed = page.locator("#exam input[type=text]").first
-    typed.evaluate("field => { location.hash = field.closest('.question').id; }")
+    show(typed)
     student.write(typed, "12.5")
     expect(kept).not_to_have_text(saved)
     server.start()
