@@ -21,7 +21,9 @@ DOORS = [
         r":caption: \w+\n\n(.*?)```", (DOCS / "index.md").read_text("utf-8"), re.DOTALL
     )
 ]
-PAGES = [(name, after) for door in DOORS for name, after in zip(door, [*door[1:], "index"], strict=True)]
+PAGES = [
+    (name, after) for door in DOORS for name, after in zip(door, [*door[1:], "index"], strict=True)
+]
 INCLUDED = {"architecture": "ARCHITECTURE", "contributing": "CONTRIBUTING"}
 WORDS_A_MINUTE = 180
 

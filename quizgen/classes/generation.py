@@ -10,6 +10,7 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, partial
@@ -226,6 +227,42 @@ def replace_template(
         templates=tuple(templates),
         digest=_compute_class_digest(bank, blueprint, templates),
     )
+
+
+def replace_by_comparable(
+    settings: ClassSettings,
+    bank: Bank,
+    blueprint: Blueprint,
+    number: int,
+    difficulties: Mapping[str, float],
+) -> ClassSettings:
+    """Return the settings with the template for one question that was about as difficult.
+
+    Parameters
+    ----------
+    settings : ClassSettings
+    bank : Bank
+    blueprint : Blueprint
+    number : int
+        Of the question, from 1.
+    difficulties : mapping of str to float
+        Template to the mean share of the points in earlier classes.
+
+    Raises
+    ------
+    ClassError
+        If nothing is known of the question, or of nothing that may stand there.
+    """
+    if not 1 <= number <= len(settings.templates):
+        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
+    now = settings.templates[number - 1][0]
+    if now not in difficulties:
+        raise ClassError(f"no earlier class was asked {now}, of question {number}")
+    others = (difficulties.keys() - {now}) & bank.template_paths.keys()
+    for other in sorted(others, key=lambda one: (abs(difficulties[one] - difficulties[now]), one)):
+        with suppress(ClassError):
+            return replace_template(settings, bank, blueprint, number, other)
+    raise ClassError(f"nothing that earlier classes were asked can stand for question {number}")
 
 
 def make_preview(settings: ClassSettings, blueprint: Blueprint, exam: ExamDetails) -> Paper:

@@ -10,14 +10,15 @@ from collections.abc import Collection, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from quizgen.classes.class_folder import SOLUTIONS, ClassFolder
-from quizgen.classes.gradebook import FOLDER, KEY_CHANGED
+from quizgen.classes.class_folder import SOLUTIONS, ClassFolder, PrintedHead
+from quizgen.classes.gradebook import FOLDER, KEY_CHANGED, GradedStudent
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.objections import read_objections
 from quizgen.classes.scanning.pages import WHOLE
 from quizgen.classes.scanning.scan_folder import find_page_pictures
+from quizgen.classes.scans import find_crop
 from quizgen.classes.student_reports import grade_folder, make_report, report_to_pdf
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
@@ -62,11 +63,20 @@ def write_inspection(folder: ClassFolder, wanted: Collection[str]) -> list[Path]
             with error_context(keys.path, KeyFileError):
                 report = make_report(line, keys.key(who), own)
             solved = folder.path / SOLUTIONS / f"{line.student.file}.pdf"
-            read = find_page_pictures(folder, keys.places[who][0])
-            whole = _join_pdfs(report_to_pdf(report, room=True), solved, read)
+            head, _ = keys.places[who]
+            crops, read = _find_crops(folder, head, line), find_page_pictures(folder, head)
+            whole = _join_pdfs(report_to_pdf(report, room=True, crops=crops), solved, read)
             name = f"{line.student.file}.pdf"
             paths += write_all(folder.path / FOLDER / INSPECTION, {name: whole}, PRIVATE)
     return paths
+
+
+def _find_crops(folder: ClassFolder, head: PrintedHead, line: GradedStudent) -> dict[str, Path]:
+    """Return the pictures of what a student wrote and a person marks, by part."""
+    own = line.marks.parts if line.marks else ()
+    found = {one.id: find_crop(folder.path, head, one.id) for one in own
+             if one.by or one.needs_decision}  # fmt: skip
+    return {part: path for part, path in found.items() if path is not None}
 
 
 def _join_pdfs(first: bytes, second: Path, pictures: Sequence[Path]) -> bytes:

@@ -388,10 +388,21 @@ def object_(
 @click.command()
 @_folder
 @click.option("--lang", type=LanguageParam(), default=FIRST, help="Of the page.")
-def analyse(folder: Path, lang: str) -> None:
-    """Write the item analysis of the class in FOLDER: results/analysis.html."""
+@click.option(
+    "--earlier",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="A class of another year, for results/templates.csv; may be repeated.",
+)
+def analyse(folder: Path, lang: str, earlier: tuple[Path, ...]) -> None:
+    """Write the item analysis of the class in FOLDER: results/analysis.html.
+
+    results/items.csv has its figures, results/templates.csv those of each part of a template, over
+    all classes that are named.
+    """
     from quizgen.classes.analysis_page import write_analysis_page
     from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.template_history import write_template_history
 
     found, path = write_analysis_page(ClassFolder(folder), lang)
     print_sentence(
@@ -401,6 +412,8 @@ def analyse(folder: Path, lang: str) -> None:
         low, high = found.interval
         print_sentence(f"Cronbach's alpha {found.alpha:.2f} (95 % {low:.2f} to {high:.2f})")
     print_sentence(str(path))
+    others = [ClassFolder(one) for one in earlier]
+    print_sentence(str(write_template_history(ClassFolder(folder), others)))
 
 
 COMMANDS = (mark, table, rule, points, status, history, grade, inspect, object_, analyse)

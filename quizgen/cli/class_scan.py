@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ from quizgen.grading.echo import safe_echo
 from quizgen.locale import FIRST, load_words
 
 if TYPE_CHECKING:
+    from quizgen.classes.scanning.pages import PageReading
     from quizgen.classes.scanning.scan_run import ScanReport
 
 A_PICTURE = 0.25
@@ -63,11 +64,7 @@ def _report_scan(folder: Path, report: ScanReport) -> None:
     if report.typed:
         print_sentence(f"{format_count(report.typed, 'answer')} taken from what was typed")
     print_list("Not read", [*report.problems])
-    print_list("Of no sheet of this class", [
-        f"{safe_echo(one.file)}, page {one.number}: {why[one.fault]}"
-        + (f" ({safe_echo(one.said)})" if one.said else "")
-        for one in report.strays
-    ])  # fmt: skip
+    print_list("Of no sheet of this class", [_describe_stray(one, why) for one in report.strays])
     print_list("Pages missing", [*_iter_page_lines(report, "missing")])
     print_list("Pages that came twice", [*_iter_page_lines(report, "twice")])
     print_list("Pages that are asked whole", [
@@ -94,6 +91,14 @@ def _report_scan(folder: Path, report: ScanReport) -> None:
         )
     if report.problems or report.strays or any(one.missing or one.faults for one in report.sheets):
         raise SystemExit(1)
+
+
+def _describe_stray(one: PageReading, why: Mapping[str, str]) -> str:
+    """Return in a line which picture is of no sheet of the class, and why."""
+    place = f"{safe_echo(one.file)}, page {one.number}"
+    if one.fault == "unreadable":
+        return f"{place}: {one.said}"
+    return f"{place}: {why[one.fault]}" + (f" ({safe_echo(one.said)})" if one.said else "")
 
 
 def _iter_page_lines(report: ScanReport, which: str) -> Iterator[str]:

@@ -47,6 +47,8 @@ class SpecBase:
     of: list[str] | dict[str, str]
     written_as: ClassVar[AnswerForm] = "verbatim"
     """What an answer is made of, which says what may be dropped around it."""
+    may_be_range: ClassVar[bool] = False
+    """Whether ``from 5 to 10`` can be two of its values: cells of a table, no coordinates."""
     reasons_tell: ClassVar[bool] = False
     """Whether the reasons for a wrong answer hold the right one."""
 

@@ -86,7 +86,7 @@ _BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
 _FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
 _IT_IS = re.compile(
     r"^(?:(?:it|this|that)(?: is|'s)|(?:it|this|that)(?= isn't)|the (?:statement|claim) is|বিবৃতিটি"
-    r"|(?:es|das|die (?:aussage|behauptung))(?: ist)?|ist|এটা|এটি) ",
+    r"|(?:es|das|der satz|die (?:aussage|behauptung))(?: ist)?|ist|এটা|এটি) ",
     re.IGNORECASE,
 )
 _DENIED = re.compile(
@@ -128,6 +128,10 @@ _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
 _ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
 _WORDED = re.compile(r"[,;\n]| (?:and|und|&|ও|এবং) ")
 """What stands between several options that are named by their words."""
+_PLACE = re.compile(
+    r"(?:the )?(first|second|third|fourth|fifth|sixth)(?: one| option| answer)?", re.IGNORECASE
+)
+_LETTER_LAST = re.compile(r"(?P<words>[^\W\d_]{3,}|[^:]*[^\W\d_]{3}[^:]*:) (?P<mark>[A-Z])")
 _LONG_WORD = 8
 """Letters of a word that can stand for an option by itself."""
 _FILLERS = re.compile(
@@ -248,11 +252,28 @@ def _read_options(spec: ChoiceSpec, typed: str) -> list[int]:
     try:
         read = read or _read_positions(spec, typed)
     except FormulaReadError:
-        meant = _find_worded_options(spec, typed)
+        meant = _find_worded_options(spec, typed) or _find_named_option(spec, typed)
         if not meant:
             raise
         return meant
     return (spec.kind == "choice" and len(read) > 1 and _find_worded_options(spec, typed)) or read
+
+
+def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
+    """Return the option whose letter ends the answer: ``camera D``, ``each one is smaller: D``.
+
+    Also that of ``the fourth``. None is meant where words deny it or another letter stands there.
+    """
+    text = typed.strip(_AROUND)
+    place = _PLACE.fullmatch(text)
+    if place is not None and not find_wording(text, spec.choices()):
+        number = "first second third fourth fifth sixth".split().index(place[1].lower()) + 1
+        return [number] if number <= len(spec.choices()) else []
+    named = _LETTER_LAST.fullmatch(text)
+    if named is None or says_otherwise(named["words"]) or find_wording(named["words"], spec.choices()):
+        return []
+    position = LETTERS.find(named["mark"]) + 1
+    return [position] if position <= len(spec.choices()) else []
 
 
 def _find_worded_options(spec: ChoiceSpec, typed: str) -> list[int]:
@@ -414,6 +435,8 @@ def _parse_labelled_option(spec: ChoiceSpec, piece: str) -> int:
     meant = _find_meant_options(spec, match["words"], foreign=bool(_SET_OFF.search(text)))
     if not 1 <= position <= len(spec.choices()) or not meant:
         return 0
+    if position not in meant and text.startswith("a ") and len(meant) == 1:
+        return meant[0]  # the article of "a smaller spot", and no letter
     if position not in meant:
         raise FormulaReadError("two-readings", 1, safe_echo(piece))
     return position

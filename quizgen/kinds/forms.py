@@ -117,7 +117,8 @@ def split_sides(typed: str, names: Collection[str] = ()) -> list[str]:
     called = not first.strip() or (
         _DERIVED.fullmatch(first) is not None and first.strip(" $") not in names
     )
-    return others if called else [first, *others]
+    product = not names and _CALLED.sub("", f"{first}=0") == "0"
+    return others if called or product else [first, *others]
 
 
 def drop_name(typed: str) -> str:

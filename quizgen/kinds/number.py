@@ -260,7 +260,7 @@ def _sides(source: SourceText, options: GradingOptions) -> list[EqualitySide]:
         )
         return read_sides(bare, options.decimal)
     except FormulaReadError as error:
-        if error.code == "two-readings":
+        if error.code in {"two-readings", "sides-differ"}:
             raise
         return []
 

@@ -87,6 +87,7 @@ class TableSpec(NumericSpec, kw_only=True, frozen=True):
     """
 
     written_as: ClassVar[AnswerForm] = "values"
+    may_be_range: ClassVar[bool] = True
 
     values: dict[str, Scalar]
     units: dict[str, str] = msgspec.field(default_factory=dict)

@@ -160,8 +160,7 @@ class _Round:
     def _make_paper(self) -> tuple[Candidate, ...] | None:
         """Return the next paper; one that shares more where none is found that does not."""
         for attempt in range(TRIES + MORE_TRIES):
-            shared = self.shared if attempt < TRIES else len(self.places)
-            paper = self._fill_places(attempt, shared)
+            paper = self._fill_places(attempt)
             if paper:
                 key = next((one.key for one in self.demands if not one.holds(paper)), "")
                 if not key:
@@ -169,15 +168,22 @@ class _Round:
                 self.missed[key] += 1
         return None
 
-    def _fill_places(self, attempt: int, shared: int) -> tuple[Candidate, ...]:
-        """Return a template for each place; none where nothing may stand at one of them."""
+    def _fill_places(self, attempt: int) -> tuple[Candidate, ...]:
+        """Return a template for each place; none where nothing may stand at one of them.
+
+        With every attempt it matters less how often a template has come.
+        """
+        left = max(0, TRIES - attempt)
+        shared = self.shared if left else len(self.places)
         salt = f"quota/{self.number}/{len(self.papers)}/{attempt}".encode()
         drawn = hashlib.shake_128(salt).digest(2 * len(self.places))
         alike = [0] * (shared + 1)  # earlier papers that share so many questions or more, as bits
         taken, paper = 0, []
         for place, fitting in enumerate(self.places):
             start = int.from_bytes(drawn[2 * place : 2 * place + 2], "big")
-            best = self._choose_template(fitting, start, taken, alike[shared])
+            best = self._choose_template(
+                fitting, start, taken, alike[shared], Fraction(left, TRIES)
+            )
             if best is None:
                 return ()
             earlier = self.papers_with[best.name]
@@ -188,14 +194,19 @@ class _Round:
         return tuple(paper)
 
     def _choose_template(
-        self, fitting: Sequence[Candidate], start: int, taken: int, full: int
+        self,
+        fitting: Sequence[Candidate],
+        start: int,
+        taken: int,
+        full: int,
+        care: Fraction,
     ) -> Candidate | None:
         """Return who comes first from ``start`` on, those that have come often so far set back.
 
         None of those taken may be near, and no paper that shares enough already may hold it.
         """
         count = len(fitting)
-        weight = count * count // (3 * len(self.papers) + 1)
+        weight = int(care * count * count / (3 * len(self.papers) + 1))
         ranked = (
             ((place - start) % count + weight * self.papers_with[one.name].bit_count(), place)
             for place, one in enumerate(fitting)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import getpass
 import secrets
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, lru_cache
@@ -211,7 +211,7 @@ async def _render_card(
     query = request.query_params
     moved = desk.list_moved(query["changed"]) if query.get("changed") else []
     return page_response(
-        request, "marking_answer.html.j2", **content, moved=_describe_moved(desk, moved),
+        request, "marking_answer.html.j2", **content, moved=_describe_moved(desk, moved, asked),
         note=query.get("note", ""), taken=query.get("taken", ""), **more,
     )  # fmt: skip
 
@@ -453,7 +453,7 @@ async def change_line(request: Request) -> Response:
             if plan.moved:
                 return await _render_card(
                     request, who, desk, asked, place, proposed=line,
-                    proposal=_describe_moved(desk, plan.moved),
+                    proposal=_describe_moved(desk, plan.moved, asked),
                 )  # fmt: skip
         plan = await run_in_threadpool(desk.change_line, asked.item, line, who.name)
     except (ClassError, FormulaError):
@@ -471,15 +471,15 @@ class _MovedMark:
 
 
 def _describe_moved(
-    desk: MarkingDesk, moved: list[tuple[Ruling, Ruling]] | tuple[tuple[Ruling, Ruling], ...]
+    desk: MarkingDesk, moved: Sequence[tuple[Ruling, Ruling]], asked: _Asked
 ) -> list[_MovedMark]:
     """Return whom a change of the rubric concerns, by the points before and after it.
 
-    Decisions of second markers are not listed: they are no marks.
+    Only points of the round that is marked: a second marker learns nothing of the first.
     """
     index, found = desk.index(), dict[tuple[str, str], list[str]]()
     for before, after in moved:
-        if after.what == DECIDE:
+        if after.what == (SECOND if asked.second else DECIDE):
             names = [index.describe(one.student) for one in index.students.get(after.group, ())]
             found.setdefault((before.value, after.value), []).extend(names)
     return [_MovedMark(names, *points) for points, names in sorted(found.items())]

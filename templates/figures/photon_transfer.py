@@ -1,4 +1,4 @@
-"""Variance against mean of evenly lit pictures, up to full photosites: the photon transfer curve."""
+"""The photon transfer curve: variance against mean of evenly lit pictures, to full photosites."""
 
 from __future__ import annotations
 
@@ -41,4 +41,5 @@ def alt(values: Values, lang: str, *, quiz: bool) -> str:
         f"{format_given(full * step / 8)}: {format_given(low + (high - low) * step / 8)}"
         for step in steps
     )
-    return words["figure"].format(read=read)
+    told = words["figure"].format(read=read)
+    return told if quiz else told + words["line"].format(low=format_derived(low))

@@ -7,6 +7,7 @@ import re
 import time
 from dataclasses import replace
 
+import msgspec
 import pytest
 from class_server import (
     ADA,
@@ -23,6 +24,7 @@ from people import ADDRESS
 from starlette.testclient import TestClient
 
 from quizgen.classes.admission import write_admission_cards
+from quizgen.classes.class_folder import format_settings
 from quizgen.classes.exam_details import read_exam_details
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.grading_run import grade_class
@@ -260,7 +262,10 @@ def test_a_server_that_was_killed_goes_on_where_it_was(opened, tmp_path, monkeyp
 def test_a_database_of_another_class_is_refused(opened, tmp_path):
     exam = opened()
     other = make_class(tmp_path / "other")
-    settings = replace(exam_settings(exam.folder), class_exam=other.path)
+    other.path.joinpath("class.toml").write_bytes(
+        format_settings(msgspec.structs.replace(other.settings, secret="5" * 32))
+    )
+    settings = replace(exam_settings(exam.folder), class_exam=other.path, workers=1)
     with pytest.raises(ClassError, match="of another class"):
         create_app(settings)
 

@@ -105,8 +105,8 @@ def test_two_markers_work_through_all_sentences_by_keys(browser, tmp_path, stude
         mark_blindly(two, server.address, folder)
         change_rubric(one, server.address, folder)
         one.goto(f"{server.address}/marking")
-        one.get_by_role("button", name="Mark the class anew").click()
-        one.get_by_text("The class was marked anew").wait_for(timeout=120_000)
+        one.get_by_role("button", name="Mark the class again").click(timeout=120_000)
+        one.get_by_text("The class was marked again").wait_for(timeout=120_000)
         assert one.wrong + two.wrong == []
     finally:
         server.kill()

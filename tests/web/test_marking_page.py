@@ -261,6 +261,12 @@ def test_a_second_marker_sees_nothing_of_the_first_and_moves_no_mark(first, seco
     assert ticked(page) == []
     assert "secret remark" not in page
     assert "AM" not in page
+    assert (
+        "1 →"
+        not in second.post(
+            "line", line="cone", text="c", points="0.25", card=card[0], second="1"
+        ).text
+    )
     second.decide(card, ["cone"], second="1")
     assert (values(folder), values(folder, SECOND)) == ({card[0]: "1"}, {card[0]: "0.5"})
     assert f"card={card[0]}" not in str(first.client.get(f"{PAGE}&second=1").url)
@@ -305,6 +311,7 @@ def test_pictures_are_shown_from_the_scans_alone(first, folder):
     scans.mkdir(parents=True)
     Image.new("L", (80, 20), 255).save(scans / "3b.png")
     (scans / "1a.png").symlink_to(folder / "class.toml")
+    (folder / "scans" / "report.json").write_text("{}")  # the last that is written: all is there
     page = first.get(PAGE + "&card=" + find_blank(first))
     assert f'src="/marking/crop/{codes["4"]}/3b"' in page
     assert "(nothing typed)" in page

@@ -382,10 +382,17 @@ class _SheetReader:
         return ReadPicture(made, pictures)
 
     def _draw_blank(self) -> NDArray[np.uint8]:
-        """Return the page as it was printed."""
+        """Return the page as it was printed.
+
+        Raises ``ScanFileError`` if its file is not there or damaged.
+        """
         path = self.folder.path / SHEETS / f"{RosterStudent(self.base.student).file}.pdf"
-        with open_pdf(path) as document:
-            return draw_blank_page(document[self.base.page - 1])
+        try:
+            with open_pdf(path) as document:
+                return draw_blank_page(document[self.base.page - 1])
+        except (ScanFileError, RuntimeError, IndexError, ValueError):
+            said = "is missing or damaged; quizgen class make makes it again"
+            raise ScanFileError(said, rule="QG610", file=path) from None
 
     def _find_fault(
         self,

@@ -32,9 +32,7 @@ def write_review_page(
 ) -> Path:
     """Write the page of what was read so far; return its path."""
     words = load_words(lang, "classes")["scan"]
-    boxes = doubtful = 0
-    for one in scans.iter_pages():
-        boxes, doubtful = boxes + one.boxes, doubtful + one.doubtful
+    boxes, doubtful = scans.count_boxes()
     asked = _group_asked_parts(sheets)
 
     def say(student: str, page: int, why: str = "") -> str:

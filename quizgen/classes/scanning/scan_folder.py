@@ -192,6 +192,15 @@ class ScanFolder:
                                           typed))  # fmt: skip
         return sheets
 
+    def count_boxes(self) -> tuple[int, int]:
+        """Return the boxes on all pages, each page counted once, and how many were not read."""
+        best: dict[tuple[str, int], PageReading] = {}
+        for one in self.iter_pages():
+            whose = one.student, one.page
+            if whose not in best or (best[whose].fault and not one.fault):
+                best[whose] = one
+        return sum(one.boxes for one in best.values()), sum(one.doubtful for one in best.values())
+
     def list_strays(self) -> list[PageReading]:
         """Return pictures that are of no sheet and not empty."""
         odd = {FOREIGN, NO_CODE, UNREADABLE}

@@ -59,7 +59,7 @@ class ScanReport:
     known : int
         Pictures of the files that had been read before.
     empty : int
-        Pictures with nothing on them, backs of sheets.
+        Pictures of those read now that have nothing on them: backs of sheets.
     typed : int
         Answers that people typed, and that are new.
     problems : tuple of str
@@ -124,15 +124,16 @@ def scan_class(
         done = scans.find_done()
         problems: list[str] = []
         files = [*_find_files([path for path in paths if path not in tables], done, problems)]
-        read = 0
+        read = empty = 0
         for found in map_ordered(executor, read_job, _iter_jobs(folder.path, files), ahead):
             scans.add_pages(found)
             read += len({one.reading.number for one in found})
+            empty += sum(one.reading.fault == EMPTY_PAGE for one in found)
             for one in {(one.reading.number, one.reading.file) for one in found}:
                 tell(one[1])
         typed = scans.add_typed(rows) if rows else 0
         known = sum(len(done.get(one.digest, ())) for one in files)
-        report = _describe_run(scans, (read, known, typed), problems)
+        report = _describe_run(scans, (read, known, empty, typed), problems)
         if report.sheets:
             scans.write_results(report.sheets)
         write_review_page(scans, report.sheets, report.strays, report.absent, lang)
@@ -171,21 +172,14 @@ def _iter_jobs(folder: Path, files: Sequence[ScanFile]) -> Iterator[ReadingJob]:
 
 
 def _describe_run(
-    scans: ScanFolder, counts: tuple[int, int, int], problems: Sequence[str]
+    scans: ScanFolder, counts: tuple[int, int, int, int], problems: Sequence[str]
 ) -> ScanReport:
     """Return what a run did, after all that has been read so far."""
     sheets = scans.join_sheets()
     here = {one.student for one in sheets}
-    boxes = doubtful = empty = 0
-    for page in scans.iter_pages():
-        boxes, doubtful = boxes + page.boxes, doubtful + page.doubtful
-        empty += page.fault == EMPTY_PAGE
-    read, known, typed = counts
+    boxes, doubtful = scans.count_boxes()
     return ScanReport(
-        read,
-        known,
-        empty,
-        typed,
+        *counts,
         tuple(problems),
         tuple(scans.list_strays()),
         tuple(sheets),

@@ -85,6 +85,8 @@ def find_wording(typed: str, wordings: Sequence[str]) -> int:
     more = meant - wanted
     if more & known or more & _AGAINST or len(more) > _MOST_WORDS_MORE:
         return 0
+    if not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
+        return 0
     denied = says_otherwise(" ".join(more)) or _denies(wanted) != _denies(meant)
     return 0 if denied else hits[0]
 
@@ -104,6 +106,24 @@ def _join_compounds(spoken: tuple[str, ...], known: frozenset[str]) -> tuple[str
             rest = " ".join(spoken).replace(f"{first} {second}", first + second)
             return tuple(rest.split(" "))
     return spoken
+
+
+def _says_enough(
+    wording: tuple[str, ...], meant: frozenset[str], listed: list[frozenset[str]]
+) -> bool:
+    """Return whether an answer has enough of a wording: ``barrel``, but not ``pixels`` for hot ones.
+
+    It has all numbers and letters in it, and at least half of the words that no other one has; more
+    words of its own only with all of these.
+    """
+    exact = {word for word in wording if len(word) == 1 or not word.isalpha()}
+    own = _own_words(frozenset(wording), listed)
+    said = own & meant
+    if exact - meant or 2 * len(said) < len(own):
+        return False
+    if said == own:
+        return True
+    return not meant - {*wording} and said != {wording[-1]}
 
 
 def _own_words(words: frozenset[str], listed: list[frozenset[str]]) -> frozenset[str]:

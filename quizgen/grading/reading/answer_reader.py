@@ -70,7 +70,8 @@ _LABEL = re.compile(
     r"(?=[-+−]?[.,]?\d)"
 )
 _BEHIND = re.compile(rf"([-+−]?\d+(?:[.,]\d+)?) ?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)(?:[ ,;]+|$)")
-_LABELLED = re.compile(rf"(.*\d.*?)[ (]+((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)\)?")
+_LONG_LABEL = re.compile(rf"(?:{_LETTERS}+ ){{1,2}}({_LETTERS}+)(?: ?[:=] ?| )(?=[-+−]?[.,]?\d)")
+_LABELLED = re.compile(rf"(.*\d.*?)[ (]+(?:for |für )?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)\)?")
 _PARTED = re.compile(r"[;\n]|,(?!\d)| (?:and|und|ও|এবং) ")
 _JOINED = re.compile(r"[ ,;]*(?:(?<![\w\u0980-\u09ff])(?:and|und|ও|এবং))?[ ,;]*$")
 _FEWEST = 2
@@ -137,7 +138,7 @@ _NEARLY = re.compile(rf"(?:almost|nearly|fast|প্রায়){_END}", re.IGN
 _LOOKS_SAFE = re.compile(r"[\s\w.,:!?'’\"“”„()=≈\u0980-\u09ff-]*")
 
 
-def list_plainer_texts(typed: str, form: AnswerForm, names: AskedNames = ()) -> Iterator[str]:
+def list_plainer_texts(typed: str, form: AnswerForm, names: AskedNames = (), *, ranges: bool = False) -> Iterator[str]:
     """Yield what may have been meant by an answer that was not read, plainest change first.
 
     Parameters
@@ -148,6 +149,8 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: AskedNames = ()) -> 
         What an answer of this kind is made of.
     names : sequence or mapping
         Names that its values may carry.
+    ranges : bool
+        Whether two values may be given as from one to the other.
 
     Yields
     ------
@@ -169,7 +172,7 @@ def list_plainer_texts(typed: str, form: AnswerForm, names: AskedNames = ()) -> 
             yield spelt
         if form == "values":
             yield from separate_labelled_values(spelt, names)
-            yield from rejoin_values(spelt, len(names))
+            yield from rejoin_values(spelt, len(names), ranges=ranges)
         else:
             yield from _single_answer(spelt, form)
 
@@ -307,8 +310,11 @@ def separate_labelled_values(text: str, names: AskedNames) -> Iterator[str]:
 def _read_labelled_piece(piece: str) -> Iterator[tuple[str, str]]:
     """Yield the label and the value of ``step 1/15``, or of ``16 levels``."""
     ahead = _LABEL.match(piece)
+    several = None if ahead else _LONG_LABEL.match(piece)
     if ahead:
         yield ahead[1], piece[ahead.end() :]
+    elif several:
+        yield several[1], piece[several.end() :]
     elif behind := _LABELLED.fullmatch(piece):
         yield behind[2], behind[1]
 

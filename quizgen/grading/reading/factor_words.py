@@ -20,6 +20,10 @@ _FACTOR = re.compile(
 )
 
 
+_PART_OF = re.compile(r"(\d+ ?/ ?\d+) (?:of|von) (?:the|its|that|der|des|dem) [^\W\d_]+(?: [^\W\d_]+)?")
+"""A share of something: ``1/24 of the size``."""
+
+
 @cache
 def _load_factor_words() -> dict[str, list[str]]:
     """Return the words of factors, shares and bounds, of all languages."""
@@ -41,7 +45,21 @@ def _compile(name: str) -> re.Pattern[str]:
 def _list_shares() -> dict[str, str]:
     """Return shares in words to fractions: ``a quarter``, ``one fortieth``, ``ein Dreißigstel``."""
     rows = (row.split(" ", 1) for row in _load_factor_words()["shares"])
-    return {word.casefold(): value for value, word in rows}
+    ordinals = {
+        f"{word.removesuffix('y')}{'ie' if word.endswith('y') else ''}{ending}": f"1/{value}"
+        for word, value in list_number_words().items()
+        for ending in ("th", "tel", "stel")
+        if value >= len("1234")
+    }
+    compound = {
+        f"{tens}-{word}": f"1/{value + int(share[2:])}"
+        for tens, value in list_number_words().items()
+        if value in range(20, 100, 10) and tens.isascii()
+        for share, word in (("1/1", "first"), ("1/2", "second"), ("1/3", "third"), ("1/5", "fifth"),
+                            ("1/8", "eighth"), ("1/9", "ninth"))
+    }  # fmt: skip
+    listed = {word.casefold(): value for value, word in rows}
+    return {**{word.casefold(): value for word, value in (ordinals | compound).items()}, **listed}
 
 
 def read_factor(typed: str) -> str:
@@ -56,6 +74,9 @@ def read_factor(typed: str) -> str:
     )
     if share:
         return share
+    part = _PART_OF.fullmatch(text)
+    if part:
+        return part[1]
     for word, number in _split_multiples():
         if text == word or text.startswith(f"{word} "):
             text = f"{number} times{text[len(word) :]}"

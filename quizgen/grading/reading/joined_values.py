@@ -29,11 +29,12 @@ _JOINTS = tuple(
     for joint in (
         r" *(?:[-–—=]+>|[→⇒]) *",
         r",? +(?:(?:and )?then|und dann|dann|তারপর) +",
-        r" +(?:to|bis|until|till|vs\.?|versus|gegen|থেকে) +",
+        r" +(?:vs\.?|versus) +",
         r" +(?:and|und|ও|এবং) +",
         r" */ *",
     )
 )
+_TO = re.compile(r" +(?:to|bis|until|till|থেকে) +", re.IGNORECASE)
 _BETWEEN = re.compile(r" *[<≤] *[^\W\d_]\w* *[<≤] *")
 _DASH = re.compile(r" +[-–—] +| *[–—] *")
 _DASHES = re.compile(r" *[-–—] *")
@@ -41,7 +42,7 @@ _AROUND = re.compile(rf"({_VALUE}) *(?:±|\+/-|\+-) *({_VALUE})")
 _PAIR = 2
 
 
-def rejoin_values(text: str, count: int) -> Iterator[str]:
+def rejoin_values(text: str, count: int, *, ranges: bool = False) -> Iterator[str]:
     """Yield a typed text as a list with semicolons, if it joins ``count`` values otherwise.
 
     Parameters
@@ -50,6 +51,8 @@ def rejoin_values(text: str, count: int) -> Iterator[str]:
         As it was typed, without what stands around it.
     count : int
         How many values are asked.
+    ranges : bool
+        Whether two of them may be given as from one to the other.
 
     Yields
     ------
@@ -59,15 +62,18 @@ def rejoin_values(text: str, count: int) -> Iterator[str]:
     if count < _PAIR:
         return
     array = _ARRAY.fullmatch(text)
-    text = array[1] if array else text
+    if array:
+        text = array[1]
+        yield text
     yield from _flatten_rows(text, count)
     text = _LEADING.sub("", text)
     for joint in _JOINTS:
         yield from _cut_at(joint, text, count)
-    if count == _PAIR:
+    if count == _PAIR and ranges:
+        yield from _cut_at(_TO, text, count)
         yield from _cut_at(_BETWEEN, text, count)
         yield from _cut_range(text)
-    elif not re.search(r"[;,\s]", text):
+    if count > _PAIR and not re.search(r"[;,\s]", text):
         yield from _cut_at(_DASHES, text, count)
 
 

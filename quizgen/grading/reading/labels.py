@@ -127,8 +127,8 @@ def _is_held_by(label: str, words: str) -> bool:
 
 def _split_label(text: str) -> list[str]:
     """Return the words of a label, without what every label may have."""
-    words = (fold_word(word).removesuffix("s") for word in re.split(r"[\s/-]+", text))
-    return [word for word in words if word and word not in _EMPTY_WORDS]
+    words = [fold_word(word).removesuffix("s") for word in re.split(r"[\s/-]+", text)]
+    return [word for word in words if word and word not in _EMPTY_WORDS] or words
 
 
 _EMPTY_WORDS = frozenset({"a", "an", "the", "image", "with", "value", "and", "of"})

@@ -11,6 +11,7 @@ from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
 from quizgen.bank.variant import Variant
 from quizgen.grading.spec import AnySpec
 from quizgen.kinds.contract import LINE, InputControl
+from quizgen.kinds.work import Unit, sum_minutes
 from quizgen.question.solution import PartSolution, Solution
 
 Choice = tuple[str, tuple[Inline, ...]]
@@ -39,11 +40,15 @@ class LevelPart(msgspec.Struct, frozen=True):
 
 
 class LevelQuestion(msgspec.Struct, frozen=True):
-    """A whole question at a level; its parts and those of its solution belong together."""
+    """A whole question at a level; its parts and those of its solution belong together.
+
+    ``minutes`` is None where the parts are those of the exam.
+    """
 
     stem: tuple[Block, ...]
     parts: tuple[LevelPart, ...]
     solution: Solution
+    minutes: Fraction | None = None
 
 
 class Level(Protocol):
@@ -64,3 +69,22 @@ def without_bold_questions(block: Block) -> Block:
     for part in block.children:
         plain += part.children if isinstance(part, Emphasis) and part.style == "strong" else (part,)
     return Paragraph(tuple(plain))
+
+
+def estimate_part_minutes(part: LevelPart, *, solved: bool) -> Fraction:
+    """Return the minutes of a part that a level makes: options to weigh, or a value to find.
+
+    Parameters
+    ----------
+    part : LevelPart
+    solved : bool
+        Whether what its solution computes is computed in any case, for another part.
+    """
+    work: dict[Unit, int | Fraction] = {"question": 1}
+    if part.options:
+        work["tick"] = Fraction(len(part.options), 2)
+    else:
+        work["cell"] = 1
+    if not solved:
+        work["step"] = max(1, len(part.solved.lines))
+    return sum_minutes(work)
