@@ -107,6 +107,7 @@ def chromium():
 
 def press_and_swap(student, button) -> None:
     """Press a button of a part; wait until the part has been put in place anew."""
+    student.page.wait_for_load_state()  # then the scripts have run
     old = button.element_handle()
     student.press(button)
     student.page.wait_for_function("button => !button.isConnected", arg=old)
