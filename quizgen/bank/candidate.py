@@ -58,7 +58,10 @@ class Candidate(msgspec.Struct, frozen=True):
         """Return the same candidate worth so many points; None leaves its own."""
         if points is None:
             return self
-        shares = rescale_points([worth for _, worth in self.parts], Fraction(str(points)))
+        worth = Fraction(str(points))
+        if worth == self.points:
+            return self
+        shares = rescale_points(tuple(one for _, one in self.parts), worth)
         verbs = (verb for verb, _ in self.parts)
         return replace(self, parts=tuple(zip(verbs, shares, strict=True)))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import lru_cache
 
 LEAST = Fraction(1, 4)
 """Points that a part has at least, and that marks are told in."""
@@ -27,7 +28,8 @@ def share_points(total: Fraction, weights: Sequence[Fraction]) -> tuple[Fraction
     return tuple(LEAST + share for share in found)
 
 
-def rescale_points(points: Sequence[Fraction], total: Fraction) -> tuple[Fraction, ...]:
+@lru_cache(maxsize=4096)
+def rescale_points(points: tuple[Fraction, ...], total: Fraction) -> tuple[Fraction, ...]:
     """Return points of parts that add up to another total, each to each as near as quarters allow.
 
     Where there is less than a quarter for each, or quarters come out by themselves, they are exact.

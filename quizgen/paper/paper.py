@@ -467,7 +467,7 @@ def _distribute_points(question: Question, points: float | None) -> Question:
     """
     if points is None:
         return question
-    shares = rescale_points([part.points for part in question.parts], Fraction(str(points)))
+    shares = rescale_points(tuple(part.points for part in question.parts), Fraction(str(points)))
     parts = tuple(
         replace(part, points=worth) for part, worth in zip(question.parts, shares, strict=True)
     )
