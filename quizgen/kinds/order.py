@@ -315,11 +315,11 @@ def _is_letter(label: str) -> bool:
 
 def _find_worded_step(piece: str, labels: list[str], wordings: list[str]) -> int:
     """Return the place (from 1) of a step by its words, or by its label before them; 0 if none."""
-    words = find_wording(piece, wordings)
+    words = find_wording(piece, wordings, all_named=True)
     named = _STEP_LABEL.fullmatch(piece)
     if named is None or named[1] not in labels:
         return words
-    meant = find_wording(named[2], wordings)
+    meant = find_wording(named[2], wordings, all_named=True)
     return labels.index(named[1]) + 1 if meant in {0, labels.index(named[1]) + 1} else 0
 
 
