@@ -1,15 +1,17 @@
 """What the browser waits for: ``uv run python benchmarks/web.py [SECONDS]``.
 
-Starts a server of its own and asks it on a schedule, with a bounded number of requests: the echo
-of what is typed 100 times a second, answers, the next question of somebody who looks at each for
-a second. Then 300 learners with papers of their own, made ahead, begin within 10 seconds, save
-every 5 seconds (60 seconds, or as many as are given) and hand in within 10. Beside them are four
-who mean harm: one sends halves of requests, one wrong passwords, one begins long exams as one of
-the learners who may, one sends answers under parts that no paper has; what they are answered counts
-nowhere. ``--exam`` leaves the first part out. Prints what half and what 95 and 99
-of a hundred waited, beside what they may, errors,
-CPU of the server for each request, and memory of all its processes; exit code 1 if one is over.
-Waiting counts from when a request was due; the client shares the machine.
+Starts a server of its own and asks it on a schedule, with a bounded number of requests: the echo of
+what is typed 100 times a second, answers, wrong ones with the page that draws them, the next part,
+the next question of somebody who looks at each for a second. Then 300 learners with papers of their
+own, made ahead, begin within 10 seconds, save every 5 seconds (60 seconds, or as many as are given)
+and hand in within 10. Beside them are four who mean harm: one sends halves of requests, one wrong
+passwords, one begins long exams as one of the learners who may, one sends answers under parts that
+no paper has; what they are answered counts nowhere. ``--exam`` leaves the first part out.
+``--class N`` has only a class of N students, with papers of its folder, come in by their codes,
+begin, save, ask what has changed, and hand in; it ends when all forms are in the folder. Prints
+what half and what 95 and 99 of a hundred waited, beside what they may, errors, CPU of the server
+for each request, and memory of all its processes; exit code 1 if one is over. Waiting counts from
+when a request was due; the client shares the machine.
 """
 
 from __future__ import annotations
@@ -24,11 +26,14 @@ import sys
 import tempfile
 import time
 from collections.abc import Awaitable, Callable
+from http.cookiejar import DefaultCookiePolicy
 from pathlib import Path
 
 import httpx2
 from sqlalchemy import func, insert, select
 
+from quizgen.classes.class_folder import ClassFolder
+from quizgen.classes.seats import DATABASE, entry_code
 from quizgen.store import Store
 from quizgen.store.schema import ACCOUNT, LEARNER, STOCK
 from quizgen.web.auth import COOKIE, csrf_token
@@ -38,6 +43,7 @@ STUDENTS, EVERY, WITHIN = 300, 5.0, 10.0
 MEMORY, MEMORY_OF_CLASS = 400, 700
 FIRST_PAGE = 60_000
 QUESTION = "point-to-image-plane"
+QUESTION_OF_PARTS = "recognise-and-sketch-distortion"
 
 over: list[str] = []
 
@@ -52,11 +58,13 @@ def told(name: str, value: float, most: float, unit: str, more: str = "") -> Non
 class Served:
     """A server in processes of its own."""
 
-    def __init__(self, folder: str, file: str = "x.sqlite3", *more: str) -> None:
+    def __init__(
+        self, folder: str, file: str = "x.sqlite3", *more: str, command: tuple[str, ...] = ()
+    ) -> None:
         began = time.perf_counter()
+        own = ("serve", "--database", f"sqlite:///{folder}/{file}")
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "quizgen", "serve", "--no-open", "--database",
-             f"sqlite:///{folder}/{file}", *more],
+            [sys.executable, "-m", "quizgen", *(command or own), "--no-open", *more],
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, start_new_session=True,
         )  # fmt: skip
         self.entrance = self.process.stdout.readline().split()[-1]
@@ -143,6 +151,27 @@ async def practice(client: httpx2.AsyncClient, served: Served, token: str) -> No
     report("its page, 20 a second", await scheduled(
         served, 100, 20, lambda n: client.get(many[n])), 60)  # fmt: skip
 
+    async def verdict(number: int) -> httpx2.Response:
+        """Answer with a wrong value, and get the page on which it is drawn."""
+        wrong = {"token": token, "a": [str(number + 3), "-7"]}
+        return await client.get(
+            (await client.post(f"{many[number]}/1", data=wrong)).headers["location"]
+        )
+
+    many = [
+        (await client.post(f"{at}/again", data={"token": token})).headers["location"]
+        for _ in range(60)
+    ]
+    report("verdict and its page, 2 a second", await scheduled(served, 60, 2, verdict), 60)
+    parts = {"token": token, "template": QUESTION_OF_PARTS}
+    of = (await client.post("/practice", data=parts)).headers["location"]
+    await client.get(of)
+
+    async def part(number: int) -> httpx2.Response:
+        return await client.get(of, params={"part": f"1{'ab'[number % 2]}"})
+
+    report("next part, 2 a second", await scheduled(served, 60, 2, part), 80)
+
     async def following(_: int) -> httpx2.Response:
         nonlocal at
         at = (await client.post(f"{at}/next", data={"token": token})).headers["location"]
@@ -197,8 +226,9 @@ class Class:
 
     async def save(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
         """Save an answer, as a page does every few seconds."""
-        who = number % STUDENTS
-        part = self.parts[who][number // STUDENTS % len(self.parts[who])]
+        count = len(self.sittings)
+        who = number % count
+        part = self.parts[who][number // count % len(self.parts[who])]
         body = {"token": csrf_token(self.tokens[who]), f"on-{part}": "", f"a-{part}": f"{number},5"}
         return await client.post(self.sittings[who], data=body, headers=self._who(who))
 
@@ -346,6 +376,117 @@ async def exams(folder: str, seconds: float) -> None:
         served.end()
 
 
+class Seated(Class):
+    """Students of a class's folder, who come in by the codes of their cards.
+
+    Parameters
+    ----------
+    folder : ClassFolder
+    """
+
+    def __init__(self, folder: ClassFolder) -> None:
+        self.codes = [entry_code(folder.settings.secret, one.id, 0) for one in folder.students()]
+        self.tokens = [""] * len(self.codes)
+        self.sittings, self.parts, self.tags, self.marked = {}, {}, {}, 0.0
+
+    async def begin(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
+        """Come in, begin, and see the paper."""
+        door = await client.get("/")
+        token = door.headers["set-cookie"].partition("=")[2].partition(";")[0]
+        sent = {"token": csrf_token(token), "code": self.codes[number]}
+        inside = await client.post("/", data=sent, headers={"cookie": f"{COOKIE}={token}"})
+        self.tokens[number] = inside.headers["set-cookie"].partition("=")[2].partition(";")[0]
+        return await self._see_paper(client, number)
+
+    async def _see_paper(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
+        """Press the button and read the page."""
+        who = self._who(number)
+        sent = {"token": csrf_token(self.tokens[number])}
+        begun = await client.post("/seat/begin", data=sent, headers=who)
+        self.sittings[number] = begun.headers.get("location", "/")
+        page = await client.get(self.sittings[number], headers=who)
+        self.parts[number] = re.findall(r'<fieldset data-part="(\w+)"', page.text) or ["1"]
+        self.tags[number] = re.search(r"tag=(\w+)", page.text)[1]
+        return page
+
+    async def ask(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
+        """Ask whether anything has changed, as a page does every 8 s."""
+        who = number % len(self.codes)
+        at = f"/seat/state?tag={self.tags[who]}"
+        answer = await client.get(at, headers=self._who(who))
+        answer.status_code = 200 if answer.status_code == 204 else 500
+        return answer
+
+    async def hand_in(self, client: httpx2.AsyncClient, number: int) -> httpx2.Response:
+        """Hand in; what is marked is the form in the folder."""
+        sent = {"token": csrf_token(self.tokens[number]), "do": "hand-in"}
+        return await client.post(self.sittings[number], data=sent, headers=self._who(number))
+
+
+def make_class(folder: Path, count: int) -> ClassFolder:
+    """A class that sits the mock exam, from now on; its papers take a third of a second each."""
+    lines = ["id,name", *(f"{4711000 + n},Student {n}" for n in range(count))]
+    (folder / "roster.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    about = "[browser]\nbegins = 2020-01-01T10:00:00\n"
+    (folder / "exam.toml").write_text(about, encoding="utf-8")
+    command = [sys.executable, "-m", "quizgen", "class", "make", str(folder / "roster.csv"),
+               "--out", str(folder / "class"), "--about", str(folder / "exam.toml")]  # fmt: skip
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    return ClassFolder(folder / "class")
+
+
+def wait_for_papers(folder: Path) -> float:
+    """Seconds until each student's paper is made."""
+    began, store = time.perf_counter(), Store(f"sqlite:///{folder / DATABASE}")
+    with contextlib.closing(store):
+        while any(one.paper is None for one in store.seats.list_seats()):
+            time.sleep(0.5)
+    return time.perf_counter() - began
+
+
+def wait_for_files(folder: Path, count: int, most: float) -> float:
+    """Seconds until a folder has so many files."""
+    began = time.perf_counter()
+    while time.perf_counter() - began < most and len([*folder.glob("*.json")]) < count:
+        time.sleep(0.2)
+    return time.perf_counter() - began
+
+
+async def class_exam(place: str, count: int, seconds: float) -> None:
+    """A class with papers of its folder: all come in and begin in 10 s, save, hand in in 10 s."""
+    folder = make_class(Path(place), count)
+    served = Served(place, "x.sqlite3", command=("class", "open", str(folder.path)))
+    try:
+        print(f"{count} papers made ahead in {wait_for_papers(folder.path):.0f} s")
+        seated = Seated(folder)
+        port = int(re.search(r":(\d+)/", served.entrance)[1])
+        limits = httpx2.Limits(max_connections=400, max_keepalive_connections=400)
+        async with httpx2.AsyncClient(
+            base_url=f"http://127.0.0.1:{port}", limits=limits, timeout=120
+        ) as client:
+            client.cookies.jar.set_policy(
+                DefaultCookiePolicy(allowed_domains=[])
+            )  # each has others
+            each = count / WITHIN
+            report(f"{count} come in and begin", await scheduled(
+                served, count, each, lambda n: seated.begin(client, n)), 8000)  # fmt: skip
+            saved, asked = await asyncio.gather(
+                scheduled(served, int(count * seconds / EVERY), count / EVERY,
+                          lambda n: seated.save(client, n)),
+                scheduled(served, int(count * seconds / 8), count / 8,
+                          lambda n: seated.ask(client, n)),
+            )  # fmt: skip
+            report(f"{count} save", saved, 500, 0.99)
+            report(f"{count} ask for news", asked, 500, 0.99)
+            report(f"{count} hand in", await scheduled(
+                served, count, each, lambda n: seated.hand_in(client, n)), 8000)  # fmt: skip
+        stored = wait_for_files(folder.path / "answers" / "browser", count, 120)
+        told("last form in the folder", stored, 60, "s")
+        told("memory in an exam", served.memory(), MEMORY_OF_CLASS, "MB")
+    finally:
+        served.end()
+
+
 async def first_page(client: httpx2.AsyncClient) -> None:
     page = await client.get("/")
     size, found = (
@@ -391,4 +532,10 @@ def one_learner(folder: str) -> None:
 if __name__ == "__main__":
     given = [one for one in sys.argv[1:] if one != "--exam"]
     allow_connections()
+    if "--class" in given:
+        count = int(given.pop(given.index("--class") + 1))
+        given.remove("--class")
+        with tempfile.TemporaryDirectory() as place:
+            asyncio.run(class_exam(place, count, float(given[0]) if given else 60))
+        sys.exit(bool(over))
     sys.exit(main(float(given[0]) if given else 60, alone="--exam" in sys.argv))

@@ -25,12 +25,6 @@ from quizgen.maths import model
 ROOT = Path(__file__).parent.parent
 
 
-def test_examples_of_the_readme_run():
-    result = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
-    assert result.attempted >= 8
-    assert result.failed == 0
-
-
 def test_examples_of_the_python_interface_run():
     page = str(ROOT / "docs" / "api.md")
     result = doctest.testfile(page, module_relative=False, optionflags=doctest.ELLIPSIS)
@@ -46,18 +40,16 @@ def test_examples_in_docstrings_run(module):
 
 
 @together("name", list(COMMANDS))
-def test_every_command_loads_and_is_in_the_readme(name):
+def test_every_command_loads_and_is_in_the_table(name):
     command = root_group.get_command(None, name)
     assert command is not None
     assert command.help
-    assert (
-        f"quizgen {name}" in (ROOT / "README.md").read_text()
-        or f"`{name}" in (ROOT / "README.md").read_text()
-    )
+    text = (ROOT / "docs" / "commands.md").read_text("utf-8")
+    assert f"quizgen {name}" in text or f"`{name}" in text
 
 
 def test_every_key_of_a_template_is_documented():
-    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "template.md").read_text(encoding="utf-8")
     for field in msgspec.structs.fields(Rules):
         name = field.encode_name
         assert f"`{name}`" in text or f"`[{name}]`" in text or f"`[[{name}]]`" in text, name
@@ -89,12 +81,19 @@ def test_every_word_has_the_same_blanks_in_every_language(file, lang):
         assert str(other[name]).strip(), name
 
 
+def list_files():
+    """Every file of the repository; of an unpacked sdist, which git does not know, what it has."""
+    if (ROOT / ".git").exists():
+        command = ["git", "ls-files"]
+        done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT)
+        return done.stdout.split("\n")
+    found = [path for place in PLACES for path in (ROOT / place).rglob("*")]
+    return [path.relative_to(ROOT).as_posix() for path in found if "node_modules" not in path.parts]
+
+
 def test_nothing_in_the_repository_names_a_machine():
-    files = subprocess.run(
-        ["git", "ls-files"], capture_output=True, text=True, check=True, cwd=ROOT
-    )
     marks = ["/" + a + b + "/" for a, b in (("ro", "ot"), ("ho", "me"), ("wo", "rk"))]
-    for name in files.stdout.split("\n"):
+    for name in list_files():
         path = ROOT / name
         if (
             name
@@ -141,13 +140,7 @@ def test_every_option_is_documented_and_explained(name, inner):
             assert option.help, option.opts
 
 
-def test_links_of_the_readme_lead_somewhere():
-    for target in re.findall(r"\]\(([^)#]+)\)", (ROOT / "README.md").read_text(encoding="utf-8")):
-        assert (ROOT / target).exists(), target
-
-
 NOT_RUN = {
-    "uv run pytest": "these very tests",
     "uv run quizgen check tests/lms/moodle/quiz.keys.jsonl "
     "tests/lms/moodle/responses.csv": "tests/cli/test_check_responses.py",
 }
@@ -271,7 +264,7 @@ ARCHAIC = re.compile(r"\bof which\b|\banew\b|\bwhoever\b|\bbesides\b", re.IGNORE
 @together("page", PAGES)
 def test_pages_are_in_plain_modern_english(page):
     text = page.read_text("utf-8")
-    if page.name == "ARCHITECTURE.md":  # lists the words that are not used
+    if page.name == "glossary.md":  # lists the words that are not used
         text = text.partition("Words that name nothing here:")[0]
     assert ARCHAIC.findall(text) == []
 
@@ -283,8 +276,8 @@ def test_the_rooms_of_the_architecture_are_the_packages():
 
 
 def test_names_of_the_glossary_stand_in_the_code():
-    text = (ROOT / "ARCHITECTURE.md").read_text("utf-8")
-    glossary = text.partition("## Glossary")[2].partition("Verbs mean")[0]
+    text = (ROOT / "docs" / "glossary.md").read_text("utf-8")
+    glossary = text.partition("Verbs mean")[0]
     names = set(re.findall(r"`([A-Z]\w+|\w+_\w+)`", glossary))
     code = "\n".join(path.read_text("utf-8") for path in (ROOT / "quizgen").rglob("*.py"))
     assert len(names) >= 35

@@ -89,6 +89,7 @@ def _own_modules(extra: str) -> list[str]:
         ("class", "serve --no-open --class .", "quizgen serve --class"),
         ("print", "class make roster.csv --out midterm --one-file",
          "quizgen class make --one-file"),
+        ("scan", "class scan midterm a.pdf", "quizgen class scan"),
         ("postgres", "practice --database postgresql+psycopg://me@localhost/quiz",
          "a database of PostgreSQL"),
         ("cluster", "class make roster.csv --out midterm --scheduler tcp://localhost:8786",
@@ -135,7 +136,11 @@ for words in {commands!r}:
 
 def test_the_doctor_lists_the_extras_that_are_there(tmp_path):
     done = run_without(_own_modules("web") + _own_modules("print"), "doctor", cwd=tmp_path)
-    assert "ok  extras: class, lms, anki, postgres, cluster, image, circuits\n" in done.stdout
+    assert (
+        "ok  extras: class, lms, anki, postgres, cluster, image, scan, circuits, irt
+"
+        in done.stdout
+    )
 
 
 def test_commands_work_without_extras(tmp_path):

@@ -31,6 +31,9 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     "formulas": ([sys.executable, "tools/list_formulas.py"],),
     "figures": ([sys.executable, "tools/figures.py"],),
     "picture": ([sys.executable, "tools/picture.py"],),
+    "docs": (
+        ["uv", "run", "--group", "docs", "sphinx-build", "-W", "--keep-going", "-q", "docs", "site"],
+    ),
     "scenes": ([sys.executable, "tools/scenes.py"],),
 }
 """What to type, and what it runs."""

@@ -30,6 +30,8 @@ SPELLINGS = {
 
 HEAD = """# What a step may use
 
+*For authors of questions. To look things up.*
+
 This page is made from the table of operators (`quizgen/maths/operators.py`) by
 `uv run python tools/list_functions.py`. A step of a solver is any SymPy expression that comes to
 these; what is typed by students and in `template.toml` is read by the same names.
@@ -55,6 +57,8 @@ A step is a **form** and no number if its formula holds a name of `free` (`Model
 Later steps see it in place: `Step(f, a*x**2)` with `f = Function("f")(x)`, then `Step(df, diff(f,
 x))` and `Step(D, df.subs(x, c))`; `A = MatrixSymbol("A", 2, 2)`, then `Step(d, det(A))`. In words
 `{{{{ f }}}}` prints it with the drawn numbers, and `of = "df"` asks for it.
+
+Next: [Figures](figures.md)
 """
 
 

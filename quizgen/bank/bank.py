@@ -32,9 +32,10 @@ from quizgen.bank.metadata import (
 )
 from quizgen.bank.pictures import pictures_beside, read_pictures
 from quizgen.bank.quantities import QuantityNames, read_quantities
-from quizgen.bank.rules import Rules, suggested_minutes, total_points
+from quizgen.bank.rules import Rules
 from quizgen.bank.solvers import import_module_file, load_chain, unload_modules
 from quizgen.bank.template import Template, check_against_chain, read_rules
+from quizgen.bank.working_time import working_minutes
 from quizgen.core.cache import compute_digest
 from quizgen.core.errors import BankError, QuizgenError
 from quizgen.core.trusted_files import trust_folder
@@ -43,11 +44,14 @@ from quizgen.core.untrusted import (
     error_context,
     is_identifier,
     read_bytes,
+    read_text,
     require_identifier,
 )
+from quizgen.kinds import KINDS
 from quizgen.locale import list_languages, register_languages, resolve_language_choice
 from quizgen.locale.custom import TAG
 from quizgen.maths.chain import Chain
+from quizgen.maths.numbers import parse_written_number
 
 SOLVERS, TEMPLATES, FIGURES = "solvers", "templates", "templates/figures"
 """Where the Python of a bank stands."""
@@ -110,6 +114,7 @@ class Bank:
         self._templates: dict[str, Template] = {}
         self._rules: dict[str, Rules] = {}
         self._candidates: dict[str, Candidate] = {}
+        self._minutes: dict[str, Fraction] = {}
         self._pages: dict[str, list[Path]] = {}
         self._chains: dict[str, tuple[Chain, bytes]] = {}
         if not self.folder.is_dir():
@@ -163,6 +168,21 @@ class Bank:
     def curriculum(self) -> Curriculum:
         """Return what the bank is to cover; empty if it has no such file."""
         return read_optional(self.folder / "curriculum.toml", Curriculum)
+
+    @cached_property
+    def _sections(self) -> Mapping[str, str]:
+        """Return the section of the notes in which each item of the curriculum stands."""
+        return self.curriculum.sections
+
+    def notes_section(self, template: str) -> str:
+        """Return the number of the section of the notes that a template is about, or nothing."""
+        covers = self.rules(template).covers
+        return next((self._sections[item] for item in covers if item in self._sections), "")
+
+    def section_title(self, section: str, lang: str) -> str:
+        """Return the title of a section of the notes; its number if there is none."""
+        titles = {one.section: one.title for one in self.curriculum.notes}
+        return pick_language(titles.get(section, {}), lang, section)
 
     @cached_property
     def languages(self) -> tuple[str, ...]:
@@ -462,14 +482,43 @@ class Bank:
                 rules.tier,
                 rules.topic,
                 rules.beyond,
-                total_points(rules),
-                Fraction(suggested_minutes(rules)),
+                tuple(
+                    (KINDS[part.answer["kind"]].verb, parse_written_number(part.points))
+                    for part in rules.part
+                ),
+                self.minutes(name),
                 figure,
                 figure in owner.metadata.photographs,
                 frozenset(rules.apart),
                 rules.pool,
             )
         return self._candidates[name]
+
+    def minutes(self, name: str) -> Fraction:
+        """Return the working time of a template in minutes, worked out once.
+
+        A solver or words that cannot be read say so when a paper is to hold the template; until
+        then they take no time.
+
+        Raises
+        ------
+        BankError
+            If its rules cannot be read.
+        """
+        if name not in self._minutes:
+            rules, chain, page = self.rules(name), Chain({}, ()), ""
+            owner, _ = self.owner_of(name)
+            with suppress(QuizgenError):
+                file = min(self._list_prose_files(name), key=self._rank_language, default=None)
+                page = read_text(file, BankError) if file else ""
+                chain = owner.chain(rules.solver)[0] if rules.solver else chain
+            self._minutes[name] = working_minutes(rules, chain, page)
+        return self._minutes[name]
+
+    def _rank_language(self, file: Path) -> tuple[int, str]:
+        """Return the sort key of a language file: the languages of the bank in their order."""
+        known = list(self.languages)
+        return (known.index(file.stem) if file.stem in known else len(known), file.stem)
 
     def template(self, name: str) -> Template:
         """Return a template, loaded once.
@@ -588,7 +637,7 @@ class Bank:
             name, rules, chain, ordered, digest, folder, self.metadata, quantities, figure,
             self._solver_file(rules.solver), data,
             compute_digest(read_bytes(check, BankError)) if check else "",
-            read_pictures(folder, ordered),
+            read_pictures(folder, ordered), self.minutes(name),
         )  # fmt: skip
         check_against_chain(template)
         return template

@@ -7,6 +7,8 @@ from fractions import Fraction
 import msgspec
 from msgspec.structs import replace
 
+from quizgen.core.shares import rescale_points
+
 
 class Candidate(msgspec.Struct, frozen=True):
     """A template that may fill a place of a paper, and what it adds to the paper.
@@ -20,9 +22,10 @@ class Candidate(msgspec.Struct, frozen=True):
     tier, topic : str
     beyond : bool
         Whether it lies past the syllabus.
-    points : Fraction
+    parts : tuple of (str, Fraction)
+        What each part asks for, by the verbs of answer kinds, and its points.
     minutes : Fraction
-        Working time, which goes with the points.
+        Working time; more points make a question no longer.
     figure : str
         Kind of figure that the question shows; empty for none.
     photograph : bool
@@ -39,19 +42,25 @@ class Candidate(msgspec.Struct, frozen=True):
     tier: str
     topic: str
     beyond: bool
-    points: Fraction
+    parts: tuple[tuple[str, Fraction], ...]
     minutes: Fraction
     figure: str
     photograph: bool
     apart: frozenset[str]
     pool: int | None
 
+    @property
+    def points(self) -> Fraction:
+        """Return the marks of all parts."""
+        return sum((worth for _, worth in self.parts), Fraction(0))
+
     def scale_to(self, points: float | None) -> Candidate:
         """Return the same candidate worth so many points; None leaves its own."""
         if points is None:
             return self
-        worth = Fraction(str(points))
-        return replace(self, points=worth, minutes=self.minutes * worth / self.points)
+        shares = rescale_points([worth for _, worth in self.parts], Fraction(str(points)))
+        verbs = (verb for verb, _ in self.parts)
+        return replace(self, parts=tuple(zip(verbs, shares, strict=True)))
 
     def excludes(self, other: Candidate) -> bool:
         """Return whether one of the two says that they may not stand in one paper."""

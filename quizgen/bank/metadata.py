@@ -58,18 +58,38 @@ class BankMetadata(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
         return build_unit_registry(self.units)
 
 
+class NotesSection(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
+    """A section of the notes: its number, its title by language, the items that stand in it."""
+
+    section: str
+    title: dict[str, str]
+    items: tuple[str, ...]
+
+
 class Curriculum(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     """What there is to cover.
 
     ``groups`` lists the items of each group, ``F01..F46`` being a row of numbers; ``verbs`` lists
     the items that ask to explain, define, derive, ... in words of one's own; ``figures``
-    says which item a figure covers; items past the curriculum are any of ``beyond`` and a number.
+    says which item a figure covers; items past the curriculum are any of ``beyond`` and a number;
+    ``notes`` are the sections of the notes, in their order.
     """
 
     groups: dict[str, tuple[str, ...]] = {}
     verbs: dict[str, tuple[str, ...]] = {}
     figures: dict[str, str] = {}
     beyond: tuple[str, ...] = ()
+    notes: tuple[NotesSection, ...] = ()
+
+    @property
+    def sections(self) -> Mapping[str, str]:
+        """Return the number of the section in which each item of the notes stands."""
+        return {
+            item: one.section
+            for one in self.notes
+            for row in one.items
+            for item in _expand_range(row)
+        }
 
     @property
     def inventory(self) -> Mapping[str, tuple[str, ...]]:

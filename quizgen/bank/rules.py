@@ -154,14 +154,6 @@ def get_claim(rules: Rules, name: str) -> ClaimRule:
     return claim if isinstance(claim, ClaimRule) else ClaimRule(claim)
 
 
-TIER_MINUTES = {"A": 3, "B": 5, "C": 10, "D": 12}
-
-
-def suggested_minutes(rules: Rules) -> int:
-    """Return the suggested working time of a template in minutes."""
-    return rules.minutes or TIER_MINUTES[rules.tier]
-
-
 def part_points(rules: Rules) -> dict[str, float]:
     """Return what each part is worth, by its label; the label of a sole part is empty."""
     labels = PART_LABELS if len(rules.part) > 1 else ("",)

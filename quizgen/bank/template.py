@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
+from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
 from types import ModuleType
@@ -22,7 +23,7 @@ from quizgen.bank.markdown import FIELD_MARK, slot_names
 from quizgen.bank.metadata import BankMetadata
 from quizgen.bank.pictures import PictureFile
 from quizgen.bank.quantities import QuantityNames
-from quizgen.bank.rules import PART_LABELS, WAYS, Rules, get_draw_way, suggested_minutes
+from quizgen.bank.rules import PART_LABELS, WAYS, Rules, get_draw_way
 from quizgen.bank.solvers import import_module_file
 from quizgen.bank.validation import find_malformed_answers, find_problems
 from quizgen.core.complaints import complaint_of, written_place
@@ -69,6 +70,8 @@ class Template:
         Of its ``check.py``; empty without one.
     pictures : mapping of str to PictureFile
         The files that its words show, by their names.
+    minutes : Fraction
+        Its working time.
     """
 
     id: str
@@ -84,6 +87,7 @@ class Template:
     data_file: Path | None = None
     check_digest: str = ""
     pictures: Mapping[str, PictureFile] = field(default_factory=dict)
+    minutes: Fraction = Fraction(1)
 
     def __getstate__(self) -> dict[str, object]:
         """Return what another process is sent: nothing that it can work out again."""
@@ -126,17 +130,19 @@ class Template:
         """Return the languages that the template is written in."""
         return tuple(self.texts)
 
-    @property
-    def minutes(self) -> int:
-        """Return the suggested working time in minutes."""
-        return suggested_minutes(self.rules)
-
     @cached_property
     def exact_steps(self) -> frozenset[str]:
         """Names of the steps whose values lead to answers that must be exact."""
         asked = (asked_quantities(p.answer) for p in self.rules.part if p.answer.get("exact"))
         names = {name for quantities in asked for name in quantities} & self.chain.by_name.keys()
         return frozenset().union(*map(self.chain.required_steps, names), names)
+
+    @cached_property
+    def estimated_steps(self) -> frozenset[str]:
+        """Names of the steps that are asked within a share of their value, nothing exact behind."""
+        asked = (asked_quantities(p.answer) for p in self.rules.part if "rel" in p.answer)
+        names = frozenset(name for quantities in asked for name in quantities)
+        return names & self.chain.by_name.keys() - self.exact_steps
 
     @cached_property
     def units(self) -> dict[str, str]:

@@ -36,7 +36,9 @@ from quizgen.maths.notation import format_tree
 from quizgen.maths.numbers import (
     format_decimal,
     format_exact,
+    format_exact_in_unit,
     format_rounded,
+    has_more_figures,
     is_readable_exactly,
     to_float,
     to_rational,
@@ -140,13 +142,16 @@ class Variant:
         """Return a quantity's number as text: exact if drawn or short, else rounded."""
         if name not in self._texts:
             value = self.shown_values[name]
-            exactly = None if self.is_rounded(name) else format_exact(value)
+            unit = self.template.units[name]
+            exactly = None if self.is_rounded(name) else format_exact_in_unit(value, unit)
             self._texts[name] = exactly or format_rounded(value, figures=SHOWN_FIGURES)
         return self._texts[name]
 
     def is_rounded(self, name: str) -> bool:
         """Return whether a quantity's text is not its exact value."""
         value = self.shown_values[name]
+        if name in self.template.estimated_steps and has_more_figures(value):
+            return True
         return not is_readable_exactly(value) and (
             name not in self.shown or format_exact(value) is None
         )

@@ -54,7 +54,7 @@ def write_analysis_page(folder: ClassFolder, lang: str = FIRST) -> tuple[ClassAn
         If nothing has been marked.
     """
     keys = KeyIndex(folder)
-    found = analyse_class(_iter_marks_with_outlines(GradingHistory(folder.path), keys))
+    found = analyse_class(iter_marks_with_outlines(GradingHistory(folder.path), keys))
     if not found.students:
         raise ClassError(f"{folder.path}: nothing has been marked yet (quizgen class mark)")
     scale = read_grade_scale(folder.path)
@@ -106,7 +106,7 @@ def _format_items(found: ClassAnalysis) -> bytes:
     return out.getvalue().encode("utf-8-sig")
 
 
-def _iter_marks_with_outlines(
+def iter_marks_with_outlines(
     history: GradingHistory, keys: KeyIndex
 ) -> Iterator[tuple[StudentMarks, PaperOutline]]:
     """Yield each student's current marks with the outline of that student's paper.

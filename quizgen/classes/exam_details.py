@@ -6,8 +6,10 @@ Every text is one for all languages, or a table of one for each: ``course.en``, 
 from __future__ import annotations
 
 import datetime as dt
+import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
@@ -16,14 +18,56 @@ from quizgen.classes.roster import RosterStudent
 from quizgen.core.decoding import convert
 from quizgen.core.errors import ClassError
 from quizgen.core.untrusted import parse_toml, read_text
+from quizgen.grading.echo import safe_echo
 from quizgen.locale import FIRST, list_languages
 from quizgen.paper.paper import PaperCover
 
 FILE = "exam.toml"
 LONGEST = 500
 """Characters of a text."""
+MOST_MINUTES = 24 * 60
+_KEY = re.compile("[0-9a-f]{64}")
 Text = str | dict[str, str]
 Rules = list[str] | dict[str, list[str]]
+
+
+class BrowserExam(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """When and how a class sits its exam in the browser: the table ``[browser]``.
+
+    Parameters
+    ----------
+    begins, ends : datetime.datetime, optional
+        Nobody begins before the one or writes after the other, but for the own extra time. Without
+        an offset they are in the time of the machine. Without ``begins`` a person opens the exam.
+    minutes : int, optional
+        Of each from the own beginning; without it, those of the paper.
+    config_keys, exam_keys : sequence of str
+        Of Safe Exam Browser, in hexadecimal digits: if there are any, no other browser is let in.
+    """
+
+    begins: dt.datetime | None = None
+    ends: dt.datetime | None = None
+    minutes: int | None = None
+    config_keys: list[str] = []
+    exam_keys: list[str] = []
+
+    def check(self) -> None:
+        """Raise ``ClassError`` for what cannot be meant.
+
+        Raises
+        ------
+        ClassError
+            Naming the key.
+        """
+        if self.begins and self.ends and self.begins.timestamp() >= self.ends.timestamp():
+            raise ClassError("browser: ends before it begins")
+        if self.minutes is not None and not 1 <= self.minutes <= MOST_MINUTES:
+            raise ClassError(f"browser.minutes: {self.minutes} (1 to {MOST_MINUTES})")
+        for name in ("config_keys", "exam_keys"):
+            for key in getattr(self, name):
+                if not _KEY.fullmatch(key.lower()):
+                    shown = safe_echo(key)[:20]
+                    raise ClassError(f"browser.{name}: {shown!r} is not of 64 hexadecimal digits")
 
 
 class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -45,6 +89,8 @@ class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         Language of the tables for the examination office.
     pseudonyms : bool
         Whether names stand on covers alone, so that who marks the pages reads codes.
+    browser : BrowserExam
+        What holds where the class sits the exam in the browser.
     """
 
     title: Text = ""
@@ -57,6 +103,7 @@ class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     keep_until: dt.date | None = None
     office: str = FIRST
     pseudonyms: bool = False
+    browser: BrowserExam = BrowserExam()
 
     def build_cover(self, student: RosterStudent) -> PaperCover:
         """Return what a student's cover says."""
@@ -90,6 +137,7 @@ class ExamDetails(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         if self.office not in list_languages():
             known = ", ".join(list_languages())
             raise ClassError(f"office: {self.office[:40]!r} (there are {known})")
+        self.browser.check()
         for name in ("title", "course", "date", "room", "examiner", "rules"):
             found = getattr(self, name)
             texts = [*found.values()] if isinstance(found, dict) else [found]
@@ -127,11 +175,21 @@ def read_exam_details(path: Path) -> ExamDetails | None:
     if not path.exists():
         return None
     table = parse_toml(read_text(path, ClassError), path, ClassError)
-    plain = {name: value.isoformat() if isinstance(value, dt.date | dt.time) else value
-             for name, value in table.items()}  # fmt: skip
     try:
-        found = convert(plain, ExamDetails)
+        found = convert(_spell_dates(table), ExamDetails)
         found.check()
     except (msgspec.ValidationError, ClassError) as error:
         raise ClassError(f"{path}: {error}") from None
     return found
+
+
+def _spell_dates(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a table in which dates and times are texts, as JSON has them."""
+    return {
+        name: _spell_dates(value)
+        if isinstance(value, dict)
+        else value.isoformat()
+        if isinstance(value, dt.date | dt.time)
+        else value
+        for name, value in table.items()
+    }

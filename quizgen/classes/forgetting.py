@@ -13,6 +13,7 @@ from pathlib import Path
 
 import msgspec
 
+from quizgen.classes.agreement import is_settlement
 from quizgen.classes.class_folder import (
     KEYS,
     ROSTER,
@@ -140,7 +141,7 @@ def _format_agreement(folder: Path) -> bytes:
             for name in COLUMNS
         ]
         for one in read_rulings(folder)
-        if one.what in {DECIDE, SECOND} and one.group and not one.student
+        if one.what in {DECIDE, SECOND} and one.group and not (one.student or is_settlement(one))
     ]
     return format_csv([COLUMNS, *rows]).encode()
 

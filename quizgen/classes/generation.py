@@ -10,6 +10,7 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, partial
@@ -45,14 +46,16 @@ from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context
 from quizgen.paper.answer_form import has_answers, write_blank_form
 from quizgen.paper.answer_key import make_answer_key
-from quizgen.paper.blueprint import Blueprint
+from quizgen.paper.blueprint import Blueprint, load_blueprint
 from quizgen.paper.code import PaperCode, source_digest
 from quizgen.paper.paper import (
     Paper,
     PaperCover,
     PaperHolder,
+    PaperItem,
     ProgressCallback,
     compose_paper,
+    compose_paper_item,
 )
 from quizgen.paper.provenance import describe_differences
 from quizgen.paper.selection import (
@@ -226,6 +229,42 @@ def replace_template(
     )
 
 
+def replace_by_comparable(
+    settings: ClassSettings,
+    bank: Bank,
+    blueprint: Blueprint,
+    number: int,
+    difficulties: Mapping[str, float],
+) -> ClassSettings:
+    """Return the settings with the template for one question that was about as difficult.
+
+    Parameters
+    ----------
+    settings : ClassSettings
+    bank : Bank
+    blueprint : Blueprint
+    number : int
+        Of the question, from 1.
+    difficulties : mapping of str to float
+        Template to the mean share of the points in earlier classes.
+
+    Raises
+    ------
+    ClassError
+        If nothing is known of the question, or of nothing that may stand there.
+    """
+    if not 1 <= number <= len(settings.templates):
+        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
+    now = settings.templates[number - 1][0]
+    if now not in difficulties:
+        raise ClassError(f"no earlier class was asked {now}, of question {number}")
+    others = (difficulties.keys() - {now}) & bank.template_paths.keys()
+    for other in sorted(others, key=lambda one: (abs(difficulties[one] - difficulties[now]), one)):
+        with suppress(ClassError):
+            return replace_template(settings, bank, blueprint, number, other)
+    raise ClassError(f"nothing that earlier classes were asked can stand for question {number}")
+
+
 def make_preview(settings: ClassSettings, blueprint: Blueprint, exam: ExamDetails) -> Paper:
     """Return a paper as students will get it, with numbers that nobody gets."""
     sample = RosterStudent(PREVIEW, PREVIEW)
@@ -313,6 +352,45 @@ def _check_bank_unchanged(folder: ClassFolder, blueprint: Blueprint) -> None:
             f"{told and f' ({told})'}; its papers keep their keys, and new ones need a new folder "
             "(--out)"
         )
+
+
+def list_paper_jobs(folder: ClassFolder, blueprint: Blueprint) -> dict[str, GenerationJob]:
+    """Return for each student with a paper the job that composes it once more.
+
+    Raises
+    ------
+    ClassError
+        If the bank or the blueprint is no longer that of the papers there are.
+    """
+    _check_bank_unchanged(folder, blueprint)
+    heads, students = folder.heads(), folder.students()
+    exam = read_exam_details(folder.path / EXAM) or ExamDetails()
+    near = _assign_neighbours(students, heads)
+    return {
+        one.id: GenerationJob(
+            folder.settings, blueprint, (one,), _select_neighbours((one,), near), {}, exam
+        )
+        for one in students
+        if one.id in heads
+    }
+
+
+def compose_paper_again(job: GenerationJob, code: str) -> Paper:
+    """Return the paper of a job's first student, as it was printed with a code.
+
+    Raises
+    ------
+    ClassError
+        If another paper would be composed now.
+    """
+    one, drawing = job.students[0], _Drawing(job)
+    made = _compose_student_paper(job, one, drawing.bank, drawing.of(one.id))
+    paper = _assign_student_code(job, one, made)
+    if paper.code != code:
+        raise ClassError(
+            f"the paper of {one.id} is not the one that was made; run quizgen class make again"
+        )
+    return paper
 
 
 def _iter_jobs(whole: GenerationJob) -> Iterator[GenerationJob]:
@@ -512,6 +590,57 @@ def _find_shared_questions(
         for number, one in enumerate(drawn, 1)
         if any(shared_content(one, other[number - 1]) for other in neighbours)
     )
+
+
+def redraw_question(
+    settings: ClassSettings,
+    heads: Mapping[str, PrintedHead],
+    student: str,
+    template: str,
+    lang: str,
+) -> PaperItem | None:
+    """Return a question of a student's paper as it was printed, in one language.
+
+    None where the class has no papers of its own, or its bank has changed since.
+
+    Parameters
+    ----------
+    settings : ClassSettings
+    heads : mapping of str to PrintedHead
+        What was printed for each student.
+    student, template, lang : str
+        If the template is not written in this language, it comes in its first one.
+
+    Raises
+    ------
+    QuizgenError
+        If bank or blueprint cannot be read.
+    """
+    opened = _open_unchanged_class(settings)
+    if opened is None or student not in heads:
+        return None
+    beside = {one: head.beside for one, head in heads.items()}
+    near = _select_neighbours([RosterStudent(student, "")], beside)
+    drawn = _Drawing(GenerationJob(settings, opened, (), near, {}, ExamDetails())).of(student)
+    for place, one in enumerate(drawn):
+        if one.template.id == template:
+            spoken = lang if lang in one.template.languages else one.template.languages[0]
+            return compose_paper_item(opened, drawn, place, (spoken,))
+    return None
+
+
+@cache
+def _open_unchanged_class(settings: ClassSettings) -> Blueprint | None:
+    """Return the blueprint of a class; None if its papers cannot be made again.
+
+    Its bank has changed since, or the class has no papers of its own.
+    """
+    if not settings.digest:
+        return None
+    bank = open_class_bank(settings)
+    blueprint = load_blueprint(settings.blueprint, bank)
+    is_same = _compute_class_digest(bank, blueprint, settings.templates) == settings.digest
+    return blueprint if is_same else None
 
 
 @cache

@@ -22,6 +22,7 @@ from quizgen.classes.rulings import (
     Ruling,
     RulingBook,
     answer_group,
+    blank_group,
     fold_answer,
     is_on_paper,
 )
@@ -225,7 +226,11 @@ def _iter_graded_parts(
         rulings = book.rulings_for(item, sheet.student)
         if not typed.strip():
             blank = GradedClassPart(part.id, item, typed, "blank", float(part.points_exact()), 0.0)
-            yield _apply_rulings(blank, [one for one in rulings if one.what in WHOLE])
+            on_paper = blank_group(item, sheet.student) if rulings else ""
+            yield _apply_rulings(
+                blank,
+                [one for one in rulings if one.what in WHOLE or one.group == on_paper],
+            )
             continue
         found = marker.judge_part(_with_tolerance(part, item, rulings), typed)
         yield _apply_decisions(found, part, item, rulings, sheet.student)

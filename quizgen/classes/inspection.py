@@ -1,18 +1,24 @@
-"""What a student looks at when the marked papers are shown: one PDF file for each."""
+"""What a student looks at when the marked papers are shown: one PDF file for each.
+
+Where the answer sheet was scanned, its pages are in it, with what was read of them.
+"""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from quizgen.classes.class_folder import SOLUTIONS, ClassFolder
-from quizgen.classes.gradebook import FOLDER, KEY_CHANGED
+from quizgen.classes.class_folder import SOLUTIONS, ClassFolder, PrintedHead
+from quizgen.classes.gradebook import FOLDER, KEY_CHANGED, GradedStudent
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
 from quizgen.classes.lock import lock_folder
 from quizgen.classes.objections import read_objections
+from quizgen.classes.scanning.pages import WHOLE
+from quizgen.classes.scanning.scan_folder import find_page_pictures
+from quizgen.classes.scans import find_crop
 from quizgen.classes.student_reports import grade_folder, make_report, report_to_pdf
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
@@ -57,28 +63,43 @@ def write_inspection(folder: ClassFolder, wanted: Collection[str]) -> list[Path]
             with error_context(keys.path, KeyFileError):
                 report = make_report(line, keys.key(who), own)
             solved = folder.path / SOLUTIONS / f"{line.student.file}.pdf"
-            whole = _join_pdfs(report_to_pdf(report, room=True), solved)
+            head, _ = keys.places[who]
+            crops, read = _find_crops(folder, head, line), find_page_pictures(folder, head)
+            whole = _join_pdfs(report_to_pdf(report, room=True, crops=crops), solved, read)
             name = f"{line.student.file}.pdf"
             paths += write_all(folder.path / FOLDER / INSPECTION, {name: whole}, PRIVATE)
     return paths
 
 
-def _join_pdfs(first: bytes, second: Path) -> bytes:
-    """Return a PDF file with the pages of another one behind its own, if that one is there.
+def _find_crops(folder: ClassFolder, head: PrintedHead, line: GradedStudent) -> dict[str, Path]:
+    """Return the pictures of what a student wrote and a person marks, by part."""
+    own = line.marks.parts if line.marks else ()
+    found = {one.id: find_crop(folder.path, head, one.id) for one in own
+             if one.by or one.needs_decision}  # fmt: skip
+    return {part: path for part, path in found.items() if path is not None}
 
-    Raises ``ClassError`` if it is damaged.
+
+def _join_pdfs(first: bytes, second: Path, pictures: Sequence[Path]) -> bytes:
+    """Return a PDF file with pictures, and the pages of another one if it is there, behind its own.
+
+    Raises ``ClassError`` if something is damaged.
     """
     import pikepdf
+    from PIL import Image
 
-    if not second.exists():  # a quiz that was played has none
-        return first
-    out = io.BytesIO()
+    out, place = io.BytesIO(), second
     try:
         with ExitStack() as opened:
             whole = opened.enter_context(pikepdf.open(io.BytesIO(first)))
-            more = opened.enter_context(pikepdf.open(second))
-            whole.pages.extend(more.pages)
+            for place in pictures:
+                page = io.BytesIO()
+                with Image.open(place, formats=("JPEG",)) as picture:
+                    picture.save(page, "PDF", resolution=WHOLE * 25.4)
+                whole.pages.extend(opened.enter_context(pikepdf.open(page)).pages)
+            place = second
+            if second.exists():  # a quiz that was played has none
+                whole.pages.extend(opened.enter_context(pikepdf.open(second)).pages)
             whole.save(out, deterministic_id=True)
-    except (pikepdf.PdfError, RuntimeError, ValueError) as error:
-        raise ClassError(f"{second}: is damaged ({error})") from None
+    except (pikepdf.PdfError, OSError, RuntimeError, ValueError) as error:
+        raise ClassError(f"{place}: is damaged ({error})") from None
     return out.getvalue()

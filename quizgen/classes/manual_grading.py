@@ -16,6 +16,7 @@ from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
+from quizgen.classes.agreement import is_settlement
 from quizgen.classes.grading import StudentMarks, item_name, stands_alone
 from quizgen.classes.rulings import (
     DECIDE,
@@ -221,10 +222,11 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
         suggested = None if worth is None else round_to_quarters(worth)
         return DecisionCase(answer, spec.show_in(lang), verdict.message, suggested, alone=alone)
     made, ideas = spec.suggest(answer.typed), spec.list_ideas(lang)
+    scale = Fraction(answer.worth) / parse_written_number(spec.full)
     criteria = tuple(
         CriterionCase(
             found.name,
-            one.worth,
+            one.worth * scale,
             ideas.get(found.name, found.name),
             tuple(one.accept[:EXAMPLES]),
             tuple(one.refuse[:EXAMPLES]),
@@ -234,9 +236,7 @@ def _build_review_case(answer: AnswerGroupMember, part: KeyPart, lang: str) -> D
         )
         for found, one in zip(made.findings, spec.criteria.values(), strict=True)
     )
-    suggested = round_to_quarters(
-        made.points / parse_written_number(spec.full) * Fraction(answer.worth)
-    )
+    suggested = round_to_quarters(made.points * scale)
     shown = "; ".join(f"{one.name}: {one.status}" for one in made.findings)
     return DecisionCase(answer, spec.show_in(lang), shown, suggested, criteria, made.spots, alone)
 
@@ -429,7 +429,8 @@ class Agreement:
 
 def marker_agreement(rulings: Sequence[Ruling]) -> Agreement:
     """Return the agreement of first and second marker, by their last ruling on each group."""
-    first, second = latest_rulings(rulings, DECIDE), latest_rulings(rulings, SECOND)
+    first = latest_rulings((one for one in rulings if not is_settlement(one)), DECIDE)
+    second = latest_rulings(rulings, SECOND)
     both = [(one, second[group]) for group, one in first.items() if group in second]
     said = [(a.points, b.points) for a, b in both]
     apart = tuple(pair for pair, (a, b) in zip(both, said, strict=True) if a != b)

@@ -24,7 +24,7 @@ def new_secret() -> str:
 
 def student_seed(secret: str, *whose: str) -> str:
     """Return a seed of 128 bits in hexadecimal: of a student by the id, of the class without."""
-    return _compute_mac(secret, "seed", *whose)[:BYTES].hex()
+    return student_mac(secret, "seed", *whose)[:BYTES].hex()
 
 
 def student_code(secret: str, student: str, digest: str) -> str:
@@ -38,7 +38,7 @@ def student_code(secret: str, student: str, digest: str) -> str:
     digest : str
         Of what the paper asks.
     """
-    number = int.from_bytes(_compute_mac(secret, "code", student, digest), "big")
+    number = int.from_bytes(student_mac(secret, "code", student, digest), "big")
     signs = "".join(SIGNS[(number >> 5 * place) % len(SIGNS)] for place in range(GROUP * GROUPS))
     return "-".join([GRADED, *(signs[at : at + GROUP] for at in range(0, len(signs), GROUP))])
 
@@ -48,14 +48,14 @@ def form_seal(secret: str, student: str, digest: str) -> str:
 
     The digest would confirm guesses at the numbers to a student who can compute it.
     """
-    return _compute_mac(secret, "seal", student, digest)[:8].hex()
+    return student_mac(secret, "seal", student, digest)[:8].hex()
 
 
 def sheet_seal(secret: str, code: str, version: int, page: int) -> str:
     """Return 8 hexadecimal digits in capitals that sign a page of an answer sheet."""
-    return _compute_mac(secret, "sheet", code, str(version), str(page))[:4].hex().upper()
+    return student_mac(secret, "sheet", code, str(version), str(page))[:4].hex().upper()
 
 
-def _compute_mac(secret: str, *words: str) -> bytes:
+def student_mac(secret: str, *words: str) -> bytes:
     """Return the HMAC-SHA-256 of some words under the secret (32 bytes)."""
     return hmac.new(bytes.fromhex(secret), json.dumps(words).encode(), hashlib.sha256).digest()

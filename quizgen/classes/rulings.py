@@ -79,6 +79,13 @@ class Ruling(msgspec.Struct, frozen=True):
     who, when, comment : str
     group : str
         The group of equal answers, as the queue names it.
+    lines : str
+        Ids of the rubric's lines that the points are made of, separated by blanks.
+    step : str
+        What was decided at once bears one name, by which it is undone.
+    because : str
+        Why it stands here, if nobody gave these points to this answer: a line of the rubric was
+        changed, a step was undone, two markers settled what they differed in.
     """
 
     what: str
@@ -90,6 +97,9 @@ class Ruling(msgspec.Struct, frozen=True):
     when: str = ""
     comment: str = ""
     group: str = ""
+    lines: str = ""
+    step: str = ""
+    because: str = ""
 
     @property
     def points(self) -> Fraction | None:
@@ -104,7 +114,8 @@ class Ruling(msgspec.Struct, frozen=True):
     @property
     def describe(self) -> str:
         """Return the kind of ruling and its author, for the history of a mark."""
-        return f"{self.what} ({self.who})" if self.who else self.what
+        told = f"{self.what} ({self.who})" if self.who else self.what
+        return f"{told}, {self.because}" if self.because else told
 
     def check(self) -> None:
         """Raise ``ClassError`` naming the column if the ruling cannot be applied.
@@ -169,7 +180,8 @@ class Ruling(msgspec.Struct, frozen=True):
         return {found[1]: int(found[2])} if found[1] else {found[3]: found[4]}
 
 
-COLUMNS = ("when", "who", "what", "item", "answer", "value", "student", "comment", "group")
+COLUMNS = ("when", "who", "what", "item", "answer", "value", "student", "comment", "group",
+           "lines", "step", "because")  # fmt: skip
 _HEAD = ",".join(COLUMNS).encode()
 
 
@@ -282,6 +294,11 @@ def answer_group(item: str, key: str, answer: str, *, words: bool) -> str:
     """
     whole = "\0".join((item, key, fold_answer(answer, words=words)))
     return f"g{hashlib.sha256(whole.encode()).hexdigest()[:10]}"
+
+
+def blank_group(item: str, student: str) -> str:
+    """Return the name of what one student left blank in the form, but may have put on paper."""
+    return answer_group(item, f"\0{student}", "", words=False)
 
 
 def latest_rulings(rulings: Iterable[Ruling], what: str) -> dict[str, Ruling]:

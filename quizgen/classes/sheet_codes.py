@@ -20,6 +20,34 @@ def format_sheet_code(secret: str, code: str, page: int) -> str:
     return f"{PREFIX}{VERSION}:{bare}:{page}:{sheet_seal(secret, code, VERSION, page)}"
 
 
+class SheetIndex:
+    """Whose page of an answer sheet has which code, and where the line of its key begins.
+
+    Parameters
+    ----------
+    folder : ClassFolder
+    """
+
+    def __init__(self, folder: ClassFolder) -> None:
+        self.folder = folder
+        self._secret = folder.settings.secret
+        self._owners = {
+            code.replace("-", ""): (head, at, code)
+            for head, at in folder.places().values()
+            for code in head.codes
+        }
+
+    def find_page(self, text: str) -> tuple[PrintedHead, int, int] | None:
+        """Return head, byte offset of the key's line, and page; None if the code is not ours."""
+        found = _CODE_TEXT.fullmatch(text.strip().upper())
+        if found and found["paper"] in self._owners:
+            head, at, code = self._owners[found["paper"]]
+            page = int(found["page"])
+            if format_sheet_code(self._secret, code, page) == found[0]:
+                return head, at, page
+        return None
+
+
 def find_sheet_page(folder: ClassFolder, text: str) -> tuple[PrintedHead, int]:
     """Return whose page of an answer sheet has a code, and which page it is.
 
@@ -28,12 +56,7 @@ def find_sheet_page(folder: ClassFolder, text: str) -> tuple[PrintedHead, int]:
     ClassError
         If the code is of no page of this class, or was not made with its secret.
     """
-    found = _CODE_TEXT.fullmatch(text.strip().upper())
-    if found:
-        page = int(found["page"])
-        for head, _ in folder.places().values():
-            for code in head.codes:
-                made = format_sheet_code(folder.settings.secret, code, page)
-                if code.replace("-", "") == found["paper"] and made == found[0]:
-                    return head, page
-    raise ClassError(f"{folder.path}: no page of this class has the code {safe_echo(text)!r}")
+    found = SheetIndex(folder).find_page(text)
+    if found is None:
+        raise ClassError(f"{folder.path}: no page of this class has the code {safe_echo(text)!r}")
+    return found[0], found[2]

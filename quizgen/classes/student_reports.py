@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import base64
+import io
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
+from typing import NamedTuple
 
 import jinja2
 from markupsafe import Markup
@@ -67,6 +70,8 @@ MOST_TO_REVISE = 5
 NOT_TYPED = frozenset({"program", "sketch"})
 """Kinds whose key nobody types."""
 PACKAGE = "quizgen.classes"
+WIDEST, TALLEST, DOTS = 165.0, 200.0, 4.0
+"""Millimetres of a picture on a page, and its dots for one of them at least."""
 
 
 @dataclass(frozen=True)
@@ -351,7 +356,9 @@ def report_css() -> Markup:
     return Markup(write_theme_css() + page)
 
 
-def report_to_pdf(report: StudentReport, *, room: bool = False) -> bytes:
+def report_to_pdf(
+    report: StudentReport, *, room: bool = False, crops: Mapping[str, Path] | None = None
+) -> bytes:
     """Return the report as a tagged PDF.
 
     Parameters
@@ -359,6 +366,8 @@ def report_to_pdf(report: StudentReport, *, room: bool = False) -> bytes:
     report : StudentReport
     room : bool
         Whether lines follow on which the student may object, and sign for having seen it.
+    crops : mapping of str to pathlib.Path, optional
+        Pictures of what stands on paper, by part; the marks are put on them.
 
     Raises
     ------
@@ -377,12 +386,55 @@ def report_to_pdf(report: StudentReport, *, room: bool = False) -> bytes:
     )
     heads = ", ".join(typst_literal(words[name]) for name in ("part", "yours", "right", "points"))
     body = "\n".join(_typeset_question(section, heads) for section in report.sections)
+    pictures = {part: _Picture.read(path) for part, path in (crops or {}).items()}
+    if pictures:
+        body += f"\n{_typeset_pictures(report, pictures)}"
     if room:
         names = ("objections", "part", "objection", "objections_about", "signature")
         body += f"\n#object({', '.join(typst_literal(words[name]) for name in names)})"
-    return compile_pdf(
-        document_files("report.typ", f"{head}\n{_typeset_revision_list(report)}\n{body}\n", PACKAGE)
+    whole = f"{head}\n{_typeset_revision_list(report)}\n{body}\n"
+    files = {f"{part}.svg": picture.svg for part, picture in pictures.items()}
+    return compile_pdf({**document_files("report.typ", whole, PACKAGE), **files})
+
+
+class _Picture(NamedTuple):
+    """A picture of what stands on paper, as SVG, for documents hold no other files."""
+
+    svg: bytes
+    width: float
+    """How wide it is printed, in millimetres, so that it fits on a page."""
+
+    @classmethod
+    def read(cls, path: Path) -> _Picture:
+        """Return the picture in a file; ``ClassError`` if it is none."""
+        from PIL import Image
+
+        try:
+            data = path.read_bytes()
+            with Image.open(io.BytesIO(data)) as opened:
+                opened.verify()
+                wide, tall = opened.size
+        except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+            raise ClassError(f"{path}: is no picture ({error})") from None
+        svg = (
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{tall}">'
+            f'<image width="{wide}" height="{tall}" '
+            f'href="data:image/png;base64,{base64.b64encode(data).decode()}"/></svg>'
+        )
+        return cls(svg.encode(), min(WIDEST, TALLEST * wide / max(1, tall), wide / DOTS))
+
+
+def _typeset_pictures(report: StudentReport, pictures: Mapping[str, _Picture]) -> str:
+    """Return Typst source of what stands on paper, with the marks on it and the remark below."""
+    rows = "".join(
+        f"({typst_literal(part)}, {typst_literal(part + '.svg')}, "
+        f"{pictures[part].width:.1f} * 1mm, "
+        f"{typst_literal(row.marks)}, {_typeset_text(row.said)}), "
+        for section in report.sections
+        for row in section.rows
+        if (part := section.number + row.label) in pictures
     )
+    return f"#on-paper({typst_literal(report.words['on_paper'])}, ({rows}))"
 
 
 def _typeset_revision_list(report: StudentReport) -> str:

@@ -180,7 +180,8 @@ class Submissions:
         typed = form.list_typed_texts()
         if odd := [name for name in unknown if typed[name].strip()]:
             raise KeyFileError(self._describe_unknown_parts(student, odd))
-        return Submission(student, answers, about.lang, about.decimal, self._name_file(path))
+        where, minutes = self._name_file(path), _parse_minutes({"minutes": str(form.minutes)})
+        return Submission(student, answers, about.lang, about.decimal, where, minutes)
 
     def _name_parts(self, student: str) -> PartNames:
         """Return the names of the parts of a student's paper."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from quizgen.cli.options import MOST_JOBS, IntRangeParam, LanguageParam, match_choice, split_names
-from quizgen.cli.terminal import format_count, print_sentence, to_one_line
+from quizgen.cli.terminal import format_count, print_list, print_sentence, to_one_line
 from quizgen.core.errors import require_extra
 from quizgen.grading.echo import safe_echo
 from quizgen.locale import FIRST
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from quizgen.classes.grading_run import GradeChange, GradingRun
     from quizgen.classes.submissions import RivalAnswers
 
-SHOWN = 20
-"""Lines of a list that the terminal shows; the files have all."""
 REPORTS = ("html", "pdf")
 
 _folder = click.argument("folder", type=click.Path(path_type=Path))
@@ -75,18 +73,18 @@ def _report_run(folder: Path, run: GradingRun, lost: list[str]) -> None:
     )
     problems = [*lost, *run.problems]
     where = f" (mend or remove the file in {folder}/{ANSWERS}, then mark again)"
-    _print_list(f"{len(problems)} not marked{where if run.problems else ''}", problems)
-    _print_list("Answers that came twice and differ", [*_iter_rival_lines(folder, run.rivals)])
-    _print_list("Parts filled in, the fewest first", [*_iter_filled_lines(run.filled)])
+    print_list(f"{len(problems)} not marked{where if run.problems else ''}", problems)
+    print_list("Answers that came twice and differ", [*_iter_rival_lines(folder, run.rivals)])
+    print_list("Parts filled in, the fewest first", [*_iter_filled_lines(run.filled)])
     if run.decided:
         print_sentence(f"{format_count(run.decided, 'decision')} taken from decisions.csv")
-    _print_list(
+    print_list(
         f"{format_count(len(run.grades), 'grade')} changed", [*map(_format_grade, run.grades)]
     )
     changes = outcome.changes
     if changes and not run.grades:
         print_sentence("No grade changed")
-    _print_list(f"{format_count(len(changes), 'mark')} changed", _list_change_lines(changes))
+    print_list(f"{format_count(len(changes), 'mark')} changed", _list_change_lines(changes))
     if run.groups:
         print_sentence(
             f"To be decided: {format_count(outcome.undecided, 'answer')}"
@@ -150,17 +148,6 @@ def _remind_to_forget(folder: Path) -> None:
     overdue = describe_overdue(folder, dt.datetime.now(tz=dt.UTC).date())
     if overdue:
         print_sentence(overdue)
-
-
-def _print_list(head: str, lines: list[str]) -> None:
-    """Print a heading and at most ``SHOWN`` lines; nothing without lines."""
-    if not lines:
-        return
-    print_sentence(f"{head}:")
-    for line in lines[:SHOWN]:
-        print_sentence(to_one_line(line))
-    if len(lines) > SHOWN:
-        print_sentence(f"... and {len(lines) - SHOWN} more")
 
 
 def _format_change(change: MarkChange) -> str:
@@ -341,7 +328,7 @@ def grade(folder: Path, reports: str, *, anonymous: bool, office: str | None) ->
     if open_still:
         print_sentence(f"Provisional: {format_count(open_still, 'answer')} still to be decided")
     held = [f"{one.student.id}: {one.held}" for one in lines if one.held]
-    _print_list("Before these are final, somebody has to see to it", held)
+    print_list("Before these are final, somebody has to see to it", held)
     for path in files:
         print_sentence(str(path))
     _remind_to_forget(folder)
@@ -389,7 +376,7 @@ def object_(
     if student is None:
         waiting = [f"{one.student} {one.part}: {one.objection}"
                    for one in list_open(read_objections(found.path))]  # fmt: skip
-        _print_list(f"{format_count(len(waiting), 'objection')} without a reply", waiting)
+        print_list(f"{format_count(len(waiting), 'objection')} without a reply", waiting)
         return
     if part is None or not text:
         raise click.UsageError("a student, a part and a text belong together")
@@ -401,10 +388,21 @@ def object_(
 @click.command()
 @_folder
 @click.option("--lang", type=LanguageParam(), default=FIRST, help="Of the page.")
-def analyse(folder: Path, lang: str) -> None:
-    """Write the item analysis of the class in FOLDER: results/analysis.html."""
+@click.option(
+    "--earlier",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="A class of another year, for results/templates.csv; may be repeated.",
+)
+def analyse(folder: Path, lang: str, earlier: tuple[Path, ...]) -> None:
+    """Write the item analysis of the class in FOLDER: results/analysis.html.
+
+    results/items.csv has its figures, results/templates.csv those of each part of a template, over
+    all classes that are named.
+    """
     from quizgen.classes.analysis_page import write_analysis_page
     from quizgen.classes.class_folder import ClassFolder
+    from quizgen.classes.template_history import write_template_history
 
     found, path = write_analysis_page(ClassFolder(folder), lang)
     print_sentence(
@@ -414,6 +412,8 @@ def analyse(folder: Path, lang: str) -> None:
         low, high = found.interval
         print_sentence(f"Cronbach's alpha {found.alpha:.2f} (95 % {low:.2f} to {high:.2f})")
     print_sentence(str(path))
+    others = [ClassFolder(one) for one in earlier]
+    print_sentence(str(write_template_history(ClassFolder(folder), others)))
 
 
 COMMANDS = (mark, table, rule, points, status, history, grade, inspect, object_, analyse)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from quizgen.cli.class_grading import COMMANDS
+from quizgen.cli import class_exam, class_grading, class_scan
 from quizgen.cli.options import (
     BankOptions,
     LanguageParam,
@@ -149,23 +149,40 @@ def code(folder: Path, printed: str) -> None:
 @click.argument("folder", type=click.Path(path_type=Path))
 @click.argument("number", type=int)
 @click.option("--template", default="", help="Which. [default: any that fits]")
-def redraw(folder: Path, number: int, template: str) -> None:
+@click.option(
+    "--like",
+    type=click.Path(path_type=Path),
+    help="templates.csv of earlier classes: what fits and was about as difficult there.",
+)
+def redraw(folder: Path, number: int, template: str, like: Path | None) -> None:
     """Ask something else as question NUMBER of the class in FOLDER, which has no papers yet.
 
     What is asked instead fits the same slot and is worth as many points, and what the blueprint
     asks of the whole paper still holds. Writes the preview again.
     """
     from quizgen.classes.class_folder import ClassFolder
-    from quizgen.classes.generation import open_class_bank, replace_template
+    from quizgen.classes.generation import (
+        open_class_bank,
+        replace_by_comparable,
+        replace_template,
+    )
     from quizgen.classes.lock import lock_folder
+    from quizgen.classes.template_history import read_difficulties
     from quizgen.paper.blueprint import load_blueprint
 
     found = ClassFolder(folder)
     settings = found.settings
     bank = open_class_bank(settings)
     blueprint = load_blueprint(settings.blueprint, bank)
+    if template and like:
+        raise click.UsageError("--template says which; --like looks for one")
+    known = read_difficulties(like) if like else {}
     with lock_folder(folder):
-        found.change_settings(replace_template(settings, bank, blueprint, number, template))
+        found.change_settings(
+            replace_by_comparable(settings, bank, blueprint, number, known)
+            if like
+            else replace_template(settings, bank, blueprint, number, template)
+        )
         _write_preview(found, blueprint)
 
 
@@ -379,5 +396,5 @@ def _describe_papers(report: GenerationReport) -> str:
     return "; ".join(" or ".join(sorted({*each})) for each in (tiers, points, minutes))
 
 
-for _command in COMMANDS:
+for _command in (*class_exam.COMMANDS, *class_grading.COMMANDS, class_scan.scan):
     class_.add_command(_command)

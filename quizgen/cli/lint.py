@@ -24,6 +24,7 @@ from quizgen.cli.terminal import ProgressLine, print_table, shorten_message, was
 from quizgen.core.errors import QuizgenError
 from quizgen.core.executor import map_ordered, open_executor
 from quizgen.core.untrusted import escape_control_characters
+from quizgen.locale.explanations import explain_diagnostic
 
 if TYPE_CHECKING:
     from quizgen.bank.bank import Bank
@@ -56,6 +57,7 @@ class LintOptions(BankOptions):
     limit: int | None
     debug: bool
     json: bool
+    lang: str
     jobs: int | None
 
 
@@ -81,6 +83,8 @@ class LintOptions(BankOptions):
     f"[default: {ENOUGH:g}, and {ENOUGH_A_DRAW:g} for each draw]",
 )
 @click.option("--json", is_flag=True, help="Print problems as JSON, one a line, for editors.")
+@click.option("--lang", type=click.Choice(["en", "de"]), default="en",
+              help="Say what is wrong, and what helps, in this language.")  # fmt: skip
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
 @jobs_option
 @bank_options
@@ -117,11 +121,13 @@ def _lint_bank(bank: Bank, names: tuple[str, ...], options: LintOptions) -> int:
     broken = list({str(problem): problem for problem in broken}.values())
     if options["json"]:
         for problem in broken:
-            click.echo(json.dumps(problem.as_json(), ensure_ascii=False))
+            said = explain_diagnostic(problem, options["lang"])
+            click.echo(json.dumps(said.as_json(), ensure_ascii=False))
     else:
         print_table(HEAD, rows)
         for problem in broken:
-            click.echo(shorten_message(str(problem)), err=True)
+            said = explain_diagnostic(problem, options["lang"])
+            click.echo(shorten_message(str(said)), err=True)
         _advise_on_words(bank)
     return int(bool(broken))
 

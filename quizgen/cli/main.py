@@ -81,8 +81,29 @@ class _Lazy(click.Group):
             formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
 
 
+DECIDING = ("matplotlib", "typst", "fontpkg-hind-siliguri")
+"""Packages whose version decides the bytes of a paper; a wheel fixes them for who installs it."""
+
+
+def _print_version(context: click.Context, _option: click.Parameter, wanted: bool) -> None:
+    """Print our version and those that decide bytes, and end."""
+    if wanted and not context.resilient_parsing:
+        from importlib.metadata import version
+
+        others = ", ".join(f"{name} {version(name)}" for name in DECIDING)
+        click.echo(f"quizgen {version('quizgen')} ({others}, Python {sys.version.split()[0]})")
+        context.exit()
+
+
 @click.group(cls=_Lazy, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(package_name="quizgen")
+@click.option(
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_print_version,
+    help="Show the versions that decide what is made.",
+)
 @click.pass_context
 def root_group(context: click.Context) -> None:
     """Mock exams from parametric templates: exact solutions, figures, typed answers checked.

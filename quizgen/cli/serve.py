@@ -132,7 +132,7 @@ class ServeOptions(BankOptions):
     "--class",
     "classroom",
     type=click.Path(path_type=Path, file_okay=False, exists=True),
-    help="Folder of a class: decide there what no program can.",
+    help="Folder of a class: mark there what no program can; who signs in is named as a marker.",
 )
 @bank_options
 def serve(**options: Unpack[ServeOptions]) -> None:
@@ -165,8 +165,8 @@ def serve(**options: Unpack[ServeOptions]) -> None:
     _check_blueprints(settings.bank, options["papers_ahead"])
     if (settings.accounts or settings.phone) and options["author"]:
         raise click.UsageError("--author shows every solution: on this machine alone")
-    if (settings.accounts or settings.phone) and options["classroom"]:
-        raise click.UsageError("--class shows names and keys: on this machine alone")
+    if settings.phone and options["classroom"]:
+        raise click.UsageError("--class shows names and keys: with --phone nobody signs in")
     if options["invite"] and not settings.accounts:
         raise click.UsageError("--invite: nobody signs in; see --host")
     from quizgen.web.server import run_server

@@ -23,6 +23,8 @@ from pathlib import Path
 
 NARROWEST = 20
 """Columns that text is laid out for at least."""
+SHOWN = 20
+"""Lines of a list that the terminal shows; the files have all."""
 PATIENCE = 1.0
 """Seconds before progress is shown."""
 LONGEST_MESSAGE = 1500
@@ -110,6 +112,17 @@ def shorten_message(message: str) -> str:
     if len(shown) <= LONGEST_MESSAGE:
         return shown
     return f"{shown[: LONGEST_MESSAGE - 200]} ... {shown[-200:]}"
+
+
+def print_list(head: str, lines: Sequence[str]) -> None:
+    """Print a heading and at most ``SHOWN`` lines; nothing without lines."""
+    if not lines:
+        return
+    print_sentence(f"{head}:")
+    for line in lines[:SHOWN]:
+        print_sentence(to_one_line(line))
+    if len(lines) > SHOWN:
+        print_sentence(f"... and {len(lines) - SHOWN} more")
 
 
 class ProgressLine:

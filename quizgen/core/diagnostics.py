@@ -283,7 +283,13 @@ _CODES = {
     "QG312": Rule("Numbered pictures are shown in any order."),
     "QG313": Rule("An option is never right (``--teach`` alone)."),
     "QG314": Rule("Each option is always right or always wrong (``--teach`` alone)."),
-    "QG315": Rule("Points or minutes are far from the estimate (``--teach`` alone)."),
+    "QG315": Rule("Points are far from the working time (``--teach`` alone)."),
+    "QG320": Rule("A quota is of no verb, tier or topic.", "take one of those listed"),
+    "QG321": Rule("A quota is no range of points.", "write [least, most]"),
+    "QG322": Rule("Points, quotas and slots of a blueprint contradict each other.",
+                  "make the sums agree"),
+    "QG323": Rule("No paper meets the quotas of a blueprint.",
+                  "widen the quota, or list other templates in the slots"),
     # Figures.
     "QG401": Rule("The figure of the question shows the answer.",
                   "leave it out of draw and alt where quiz is true"),
@@ -317,6 +323,11 @@ _CODES = {
     "QG602": Rule("The author's Python does not end.",
                   "let every loop end, or give it more time with --limit"),
     "QG603": Rule("quizgen fails itself: an error that nobody expected."),
+    # Sheets that come back on paper.
+    "QG610": Rule("A file of a scanner cannot be read.", "save it again as PDF, JPEG or PNG"),
+    "QG611": Rule("A picture is too large to be that of a page.", "scan it with 150 to 300 dpi"),
+    "QG612": Rule("What was typed beside scanned sheets, or kept of them, cannot be read.",
+                  "mend the line that the message names"),
 }  # fmt: skip
 CODES: Mapping[str, Rule] = MappingProxyType(_CODES)
 """Code of every rule; those of QG2, QG3 and QG4 can be ignored."""

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 # Extra of pyproject.toml to the modules that are imported of it. Without "image" the same pictures
 # are computed, only more slowly; "lms" and "anki" need no packages yet; "circuits" is for figures
-# of banks.
+# of banks; without "irt" tables of earlier classes have classical values alone.
 EXTRA_MODULES = {
     "web": (
         "starlette", "uvicorn", "python_multipart", "sqlalchemy", "alembic", "fsrs", "argon2",
@@ -54,7 +54,9 @@ EXTRA_MODULES = {
     "postgres": ("psycopg",),
     "cluster": ("distributed",),
     "image": ("cv2",),
+    "scan": ("cv2", "zxingcpp", "pypdfium2"),
     "circuits": ("schemdraw",),
+    "irt": ("mirt",),
 }  # fmt: skip
 
 

@@ -73,9 +73,7 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
         for text in _list_spellings(typed):
             with suppress(FormulaReadError):
                 sides = read_typed_sides(text, options.decimal)
-                found.append(
-                    best_verdict(_judge_equal_side(self, side, options) for side in sides)
-                )
+                found.append(best_verdict(_judge_equal_side(self, side, options) for side in sides))
         if not found:
             read_typed_sides(typed, options.decimal)
         return max(reversed(found), key=lambda verdict: verdict.credit)

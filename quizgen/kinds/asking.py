@@ -20,7 +20,6 @@ from quizgen.locale import localise_numbers, translate
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import pretty
 from quizgen.maths.numbers import (
-    format_duration,
     format_for_key,
     is_short_decimal,
     to_float,
@@ -140,10 +139,6 @@ def assign_letters(names: Iterable[str]) -> tuple[LabelledName, ...]:
 
 def show_exact_first(spec: ScalarSpec | VectorSpec, lang: str) -> str:
     """Return the key with its exact value before the rounded one, where that differs."""
-    if isinstance(spec, ScalarSpec) and spec.printed_unit == SECONDS:
-        duration = format_duration(parse_exact(spec.value))
-        if duration and spec.decimals is None:
-            return f"{duration} {SECONDS}"
     rounded = show_spec(spec, lang)
     if spec.decimals is not None or not _help_as_fractions(spec):
         return rounded
@@ -156,7 +151,6 @@ def show_exact_first(spec: ScalarSpec | VectorSpec, lang: str) -> str:
     return f"{exactly} ≈ {rounded}" if exactly != rounded and _FRACTION.search(exactly) else rounded
 
 
-SECONDS = "s"
 _SHORT = re.compile(r"-?\d{1,3}(/\d{1,2})?")
 _FRACTION = re.compile(r"\d/\d")
 
@@ -384,6 +378,8 @@ def rounding_hint(spec: NumericSpec, key: KeyNumbers, lang: str) -> str:
 
 
 def _is_whole(spec: NumericSpec, key: KeyNumbers) -> bool:
-    """Return whether key and mistakes are all whole numbers, so that no one expects fractions."""
+    """Return whether things are counted, or key and mistakes all are whole, without fractions."""
+    if _has(spec, "counts"):
+        return True
     answers = [key, *spec.traps.values()]
     return not any("/" in text for answer in answers for text in number_texts(answer))

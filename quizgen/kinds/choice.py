@@ -29,13 +29,25 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
+from quizgen.kinds.work import Work
 from quizgen.locale import fallback_language, translate
 from quizgen.maths.notation import FormulaReadError
 
 _TRUE = frozenset(
     {"true", "t", "yes", "y", "right", "correct", "wahr", "w", "ja", "j", "richtig", "r", "stimmt"}
     | {"holds", "trifft zu", "zutreffend", "yep", "yeah", "ture", "tru", "truee", "treu", "korrekt"}
-    | {"✅", "☑", "jo", "jawohl", "stimmt schon", "absolutely true", "definitely true", "ঠিক আছে", "হাঁ", "satya"}
+    | {
+        "✅",
+        "☑",
+        "jo",
+        "jawohl",
+        "stimmt schon",
+        "absolutely true",
+        "definitely true",
+        "ঠিক আছে",
+        "হাঁ",
+        "satya",
+    }
     | {"সত্য", "হ্যাঁ", "হ্যা", "সত্যি", "ঠিক", "সঠিক", "স", "1", "✓", "✔"}
 )
 _FALSE = frozenset(
@@ -60,6 +72,8 @@ _FALSE = frozenset(
 )
 _FEWEST_VALUES = 2
 """Values that there are to choose from, at least."""
+_USUAL_VALUES = 5
+"""Options between values where nobody says how many: the key, and what mistakes give."""
 _SHORTEST = 4
 """Letters that a part of an option's words must have to be recognised."""
 
@@ -80,7 +94,9 @@ _DENIED = re.compile(
     re.IGNORECASE,
 )
 """A word that is denied: what is not true is false, and the other way round."""
-_TRUTH_FIRST = re.compile(r"(?P<first>[^\s,;:.(]+)(?:[,;:.] ?| (?=\()|[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)")
+_TRUTH_FIRST = re.compile(
+    r"(?P<first>[^\s,;:.(]+)(?:[,;:.] ?| (?=\()|[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)"
+)
 """*Yes* or *false* with a reason behind it."""
 _SHORT_DENIAL = re.compile(
     r"(?:it|they|this|that|he|she) (?:does|do|is|are|was|has|can|will)(?P<no>(?: not|n't))?(?: .*)?"
@@ -631,4 +647,12 @@ def ask_options(part: PartContext, control: InputControl) -> AskedPart[ChoiceSpe
     )
 
 
-KIND = AnswerKind(AuthoredChoice, ChoiceSpec, ask, hint("ask.choice"))
+def count_options(answer: Mapping[str, Any], _points: Fraction, _words: int) -> Work:
+    """Return half a claim for each option: they are weighed against each other, not alone."""
+    shown = answer.get("take") or len(answer.get("options", ())) or _USUAL_VALUES
+    return {"tick": Fraction(shown, 2)}
+
+
+KIND = AnswerKind(
+    AuthoredChoice, ChoiceSpec, ask, hint("ask.choice"), verb="tick", work=count_options
+)

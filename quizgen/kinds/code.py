@@ -20,6 +20,7 @@ from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import HALF, Verdict, correct, partial, wrong
 from quizgen.kinds.asking import explain_as_code, hint, make_spec, misconception_specs, say_on_paper
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, InputControl, PartContext
+from quizgen.kinds.work import count_once
 from quizgen.maths.notation import FormulaReadError
 
 
@@ -92,7 +93,8 @@ _ALL_QUOTED = re.compile(r"(?:\"|')(.+)(?:\"|')", re.DOTALL)
 _ASSIGNED = re.compile(r"^(?:-+>|=>|→|⇒|\$|print:|[^\W\d][\w.]*(?:\[[\d,: ]*\])?=(?!=)|=)\s*")
 """What an output is called, or an arrow to it."""
 _TAIL = re.compile(
-    r"\s*(?:\((?=[^\W\d])[^()\d]*\)|#.*|(?:,\s*)?\b(?:because|since|weil|কারণ)\b.*|\s[-–—]\s.*)$", re.DOTALL
+    r"\s*(?:\((?=[^\W\d])[^()\d]*\)|#.*|(?:,\s*)?\b(?:because|since|weil|কারণ)\b.*|\s[-–—]\s.*)$",
+    re.DOTALL,
 )
 """A remark behind an output."""
 _STRAIGHT = {**dict.fromkeys("“”„‟«»", '"'), **dict.fromkeys("‘’‚‛", "'")}
@@ -198,5 +200,11 @@ def ask(part: PartContext) -> AskedPart[CodeSpec]:
 
 
 KIND = AnswerKind(
-    AuthoredCode, CodeSpec, ask, hint("ask.code"), explain_as_code, say_on_paper("ask.code")
+    AuthoredCode,
+    CodeSpec,
+    ask,
+    hint("ask.code"),
+    explain_as_code,
+    say_on_paper("ask.code"),
+    work=count_once("step", 2),
 )

@@ -38,6 +38,7 @@ from quizgen.core.errors import BankError
 from quizgen.core.positions import Place
 from quizgen.grading.judge import show_spec
 from quizgen.grading.spec import AnySpec
+from quizgen.kinds.work import Verb, WorkCounter, count_values
 from quizgen.maths.constants import Scalar
 from quizgen.maths.numbers import to_rational
 from quizgen.maths.tolerance import Tolerance
@@ -536,6 +537,10 @@ class AnswerKind(Generic[S]):
         a word on precision or form, most often nothing.
     accepted : callable
         What a marker accepts besides the printed answer, in few words; empty for nothing.
+    verb : str
+        What it asks for, as blueprints count it.
+    work : callable
+        What is done to answer it, from which its minutes follow.
     """
 
     authored: type[AuthoredAnswer | AuthoredMeasured]
@@ -545,6 +550,8 @@ class AnswerKind(Generic[S]):
     explain_key: Callable[[S, str], TextOrInlines] = show_spec
     paper_hints: Callable[[S, str], tuple[TextOrInlines, ...]] = no_paper_hints
     accepted: Callable[[S, str], str] = accept_nothing_else
+    verb: Verb = "compute"
+    work: WorkCounter = count_values
 
     @property
     def name(self) -> str:

@@ -54,6 +54,7 @@ from quizgen.kinds.contract import (
 from quizgen.kinds.equation import RELATIONS as SAME_SIGN
 from quizgen.kinds.forms import typeset_key
 from quizgen.kinds.rubric import Criterion, RubricSpec
+from quizgen.kinds.work import count_listed
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import format_tree, parse_formula, pretty
 from quizgen.maths.numbers import format_for_key, to_fraction
@@ -436,4 +437,12 @@ def explain_key(spec: DerivationSpec, _lang: str) -> TextOrInlines:
     return join_inlines(shown, "; ")
 
 
-KIND = AnswerKind(AuthoredDerivation, DerivationSpec, ask, input_hints, explain_key)
+KIND = AnswerKind(
+    AuthoredDerivation,
+    DerivationSpec,
+    ask,
+    input_hints,
+    explain_key,
+    verb="derive",
+    work=count_listed("line derived", "lines"),
+)

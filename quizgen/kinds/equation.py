@@ -21,6 +21,7 @@ from quizgen.grading.verdict import Verdict, ambiguous, correct, wrong
 from quizgen.kinds.asking import hint, make_spec, misconception_specs
 from quizgen.kinds.contract import AnswerKind, AskedPart, AuthoredAnswer, PartContext
 from quizgen.kinds.forms import require_form, typeset_key
+from quizgen.kinds.work import count_once
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
 from quizgen.maths.tree import Call, Expr, names_in
 
@@ -143,4 +144,11 @@ def explain_key(spec: EquationSpec, _lang: str) -> TextOrInlines:
     return typeset_key(parse_authored(spec.value, tuple(spec.symbols)))
 
 
-KIND = AnswerKind(AuthoredEquation, EquationSpec, ask, hint("ask.equation"), explain_key)
+KIND = AnswerKind(
+    AuthoredEquation,
+    EquationSpec,
+    ask,
+    hint("ask.equation"),
+    explain_key,
+    work=count_once("line derived", 2),
+)

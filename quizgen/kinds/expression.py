@@ -37,6 +37,7 @@ from quizgen.kinds.contract import (
     SymbolDomain,
 )
 from quizgen.kinds.forms import split_sides, typeset_key
+from quizgen.kinds.work import count_once
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError, format_tree, pretty
@@ -295,4 +296,5 @@ KIND = AnswerKind(
     explain_key,
     paper_hints,
     accept_equivalent,
+    work=count_once("line derived", 2),
 )

@@ -24,7 +24,7 @@ from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, r
 from quizgen.grading.reading.source_map import SourceText
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous, correct, unreadable, verdict_by_share, wrong
-from quizgen.kinds.asking import hint, make_spec
+from quizgen.kinds.asking import make_spec
 from quizgen.kinds.contract import (
     AnswerKind,
     AskedPart,
@@ -33,7 +33,8 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
-from quizgen.locale import FIRST, fallback_language, is_written_in
+from quizgen.kinds.work import count_listed
+from quizgen.locale import FIRST, fallback_language, is_written_in, translate
 from quizgen.maths.notation import FormulaReadError
 
 
@@ -278,7 +279,21 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
 _ZEROS = re.compile(r"(?<=\d)[.,]0+(?!\d)")
 """Decimals that say nothing: ``507.0``."""
 _IDLE = frozenset(
-    {"colour", "color", "still", "it", "gets", "result", "the", "a", "an", "is", "becomes", "looks", "appears"}
+    {
+        "colour",
+        "color",
+        "still",
+        "it",
+        "gets",
+        "result",
+        "the",
+        "a",
+        "an",
+        "is",
+        "becomes",
+        "looks",
+        "appears",
+    }
     | {"farbe", "noch", "immer", "es", "wird", "ist", "space", "রং", "রঙ"}
 )
 
@@ -403,4 +418,20 @@ def accept_synonyms(spec: GapSpec, lang: str) -> str:
 
 
 MOST_SYNONYMS = 3
-KIND = AnswerKind(AuthoredGap, GapSpec, ask, hint("ask.gap"), accepted=accept_synonyms)
+
+
+def input_hints(spec: GapSpec, lang: str) -> tuple[str, ...]:
+    """Return how to fill in several gaps: with numbers where no gap takes another word."""
+    numbers = all(gap[0].isdecimal() for gap in spec.gaps())
+    return (translate(lang, "ask.gap_numbers" if numbers else "ask.gap"),)
+
+
+KIND = AnswerKind(
+    AuthoredGap,
+    GapSpec,
+    ask,
+    input_hints,
+    accepted=accept_synonyms,
+    verb="tick",
+    work=count_listed("cell", "gaps"),
+)

@@ -28,6 +28,7 @@ from quizgen.kinds.contract import (
     find_extra_problems,
     find_name_problems,
 )
+from quizgen.kinds.work import count_listed
 from quizgen.maths.notation import FormulaReadError
 
 _SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
@@ -203,7 +204,9 @@ def _read_groups(spec: MatchSpec, text: str) -> list[tuple[str, str]]:
 
 def _read_group(spec: MatchSpec, group: str) -> list[tuple[str, str]]:
     """Return the pairs of one right side with its left ones, by labels or words; else none."""
-    tokens = [token for token in re.split(r"[\s,:=→>()-]+", group) if token not in {"", "and", "und"}]
+    tokens = [
+        token for token in re.split(r"[\s,:=→>()-]+", group) if token not in {"", "and", "und"}
+    ]
     runs = [token for token in tokens if _is_run_of_labels(spec, token)]
     lefts = [label for token in runs for label in token]
     rest = " ".join(token for token in tokens if token not in runs)
@@ -316,4 +319,11 @@ def ask(part: PartContext) -> AskedPart[MatchSpec]:
     )
 
 
-KIND = AnswerKind(AuthoredMatch, MatchSpec, ask, hint("ask.match"))
+KIND = AnswerKind(
+    AuthoredMatch,
+    MatchSpec,
+    ask,
+    hint("ask.match"),
+    verb="tick",
+    work=count_listed("tick", "pairs"),
+)

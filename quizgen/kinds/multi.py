@@ -5,6 +5,7 @@ from __future__ import annotations
 from quizgen.kinds.asking import hint, say_on_paper
 from quizgen.kinds.choice import AuthoredChoice, ChoiceSpec, ask_options
 from quizgen.kinds.contract import AnswerKind, AskedPart, InputControl, PartContext
+from quizgen.kinds.work import count_listed
 
 
 class AuthoredMulti(AuthoredChoice, tag="multi", frozen=True):
@@ -19,4 +20,5 @@ def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
 
 
 KIND = AnswerKind(AuthoredMulti, ChoiceSpec, ask, hint("ask.multi"),
-                  paper_hints=say_on_paper("ask.multi"))  # fmt: skip
+                  paper_hints=say_on_paper("ask.multi"), verb="tick",
+                  work=count_listed("tick", "options"))  # fmt: skip

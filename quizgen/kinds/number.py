@@ -21,9 +21,9 @@ from quizgen.grading.reading.count_nouns import (
     drop_count_noun,
 )
 from quizgen.grading.reading.equalities import EqualitySide, read_sides
+from quizgen.grading.reading.factor_words import read_factor
 from quizgen.grading.reading.labels import drop_name
 from quizgen.grading.reading.normalise import normalise_typed
-from quizgen.grading.reading.factor_words import read_factor
 from quizgen.grading.reading.numbers import (
     Readings,
     ReadNumber,

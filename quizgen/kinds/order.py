@@ -28,6 +28,7 @@ from quizgen.kinds.contract import (
     find_extra_problems,
     find_name_problems,
 )
+from quizgen.kinds.work import count_listed
 from quizgen.locale import translate
 from quizgen.maths.notation import FormulaReadError
 
@@ -49,7 +50,8 @@ _BETWEEN_STEPS = tuple(
     )
 )
 _STEP_NUMBER = re.compile(
-    r"^(?:\d{1,2}[.)]\s+|(?:first|firstly|and|then|finally|last|zuerst|erst|dann|প্রথমে|শেষে) )+", re.IGNORECASE
+    r"^(?:\d{1,2}[.)]\s+|(?:first|firstly|and|then|finally|last|zuerst|erst|dann|প্রথমে|শেষে) )+",
+    re.IGNORECASE,
 )
 _COMPARED = re.compile(r"(?<![-=])[<>](?!>)")
 _STEP_LABEL = re.compile(r"([A-Z]) ?[(:] ?([^()]+)\)?")
@@ -158,7 +160,9 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
         later = later_steps(self)
         if _COMPARED.search(typed) and not first_misplaced(self, chosen[::-1], later):
             whole = len(chosen) == len(self.steps)
-            if whole and first_misplaced(self, chosen, later):  # C < A is A > C: which way is meant?
+            if whole and first_misplaced(
+                self, chosen, later
+            ):  # C < A is A > C: which way is meant?
                 raise FormulaReadError("two-readings", 1, safe_echo(typed))
         steps = [label for label in chosen if label in later]
         intruders = [label for label in chosen if label not in later]
@@ -289,7 +293,11 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
     text = apply_rewrite("digits", typed.strip())
     kept = _LEFT_OUT.fullmatch(text)
     if kept is not None:
-        label = re.compile(rf"\b[{''.join(spec.steps)}]\b") if all(map(_is_letter, spec.steps)) else None
+        label = (
+            re.compile(rf"\b[{''.join(spec.steps)}]\b")
+            if all(map(_is_letter, spec.steps))
+            else None
+        )
         try:
             chosen = _read_labels(spec, kept["kept"])
         except FormulaReadError:
@@ -432,4 +440,12 @@ def input_hints(spec: OrderSpec, lang: str) -> tuple[str, ...]:
     return (translate(lang, "ask.order" if spec.distractors else "ask.order_all"),)
 
 
-KIND = AnswerKind(AuthoredOrder, OrderSpec, ask, input_hints, paper_hints=input_hints)
+KIND = AnswerKind(
+    AuthoredOrder,
+    OrderSpec,
+    ask,
+    input_hints,
+    paper_hints=input_hints,
+    verb="tick",
+    work=count_listed("tick", "steps", 2),
+)

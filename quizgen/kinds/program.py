@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -27,6 +27,7 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
+from quizgen.kinds.work import Work
 from quizgen.maths.notation import FormulaReadError
 from quizgen.maths.numbers import to_float
 
@@ -243,4 +244,11 @@ def explain_key(spec: ProgramSpec, _lang: str) -> TextOrInlines:
     return (InlineCode(spec.solution.strip("\n")),)
 
 
-KIND = AnswerKind(AuthoredProgram, ProgramSpec, ask, input_hints, explain_key)
+def count_lines(answer: Mapping[str, Any], _points: Fraction, _words: int) -> Work:
+    """Return the lines of the solution."""
+    return {"line of code": len(answer["solution"].strip().splitlines())}
+
+
+KIND = AnswerKind(
+    AuthoredProgram, ProgramSpec, ask, input_hints, explain_key, verb="program", work=count_lines
+)

@@ -40,6 +40,7 @@ from quizgen.kinds.contract import (
 from quizgen.locale import translate
 from quizgen.maths.constants import parse_exact
 from quizgen.maths.notation import FormulaReadError, pretty
+from quizgen.maths.numbers import SECONDS, format_duration
 from quizgen.maths.units import format_unit
 from quizgen.maths.values import Value
 
@@ -99,8 +100,11 @@ class QuantitySpec(ScalarSpec, kw_only=True, frozen=True):
         return self.unit
 
     def show(self) -> str:
-        """Return the key as printed and as it can be typed back."""
-        number = pretty.format_number(format_key(self, parse_exact(self.value)))
+        """Return the key as printed and as it can be typed back: short times as cameras do."""
+        value = parse_exact(self.value)
+        if self.unit == SECONDS and self.decimals is None and (time := format_duration(value)):
+            return f"{time} {SECONDS}"
+        number = pretty.format_number(format_key(self, value))
         return f"{number} {format_unit(self.unit)}".strip()
 
 

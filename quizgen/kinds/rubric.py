@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import msgspec
 from msgspec import Meta
@@ -40,6 +40,7 @@ from quizgen.kinds.contract import (
     SchemeRow,
     find_name_problems,
 )
+from quizgen.kinds.work import Work
 from quizgen.locale import translate
 from quizgen.maths.constants import Scalar
 from quizgen.maths.notation import FormulaReadError
@@ -393,4 +394,19 @@ def explain_key(spec: RubricSpec, lang: str) -> str:
     return spec.model.get(lang, "")
 
 
-KIND = AnswerKind(AuthoredRubric, RubricSpec, ask, input_hints, explain_key, input_hints)
+def count_words(answer: Mapping[str, Any], points: Fraction, words: int) -> Work:
+    """Return the words to be written: of a model answer that says more, the share that counts."""
+    whole = sum(map(parse_written_number, answer["criteria"].values()))
+    return {"word written": words * min(Fraction(1), points / whole)}
+
+
+KIND = AnswerKind(
+    AuthoredRubric,
+    RubricSpec,
+    ask,
+    input_hints,
+    explain_key,
+    input_hints,
+    verb="write",
+    work=count_words,
+)

@@ -36,6 +36,7 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
+from quizgen.kinds.work import Work
 from quizgen.maths.constants import Scalar
 from quizgen.maths.notation import parse_formula
 from quizgen.maths.number_systems import CompiledFormula, compile_expr, float64_system
@@ -356,4 +357,13 @@ def _fill_feature(place: _TemplateFormulas, authored: Mapping[str, Any]) -> dict
 
 
 HOW_TO_TYPE = hint("ask.sketch", example="0,0 1,0.4 2,0; 0,1 2,1")
-KIND = AnswerKind(AuthoredSketch, SketchSpec, ask, HOW_TO_TYPE, explain_as_code)
+
+
+def count_strokes(answer: Mapping[str, Any], _points: Fraction, _words: int) -> Work:
+    """Return what has to be right about the lines, and half as much for drawing each."""
+    return {"feature drawn": len(answer["features"]) + Fraction(len(answer["lines"]), 2)}
+
+
+KIND = AnswerKind(
+    AuthoredSketch, SketchSpec, ask, HOW_TO_TYPE, explain_as_code, verb="sketch", work=count_strokes
+)

@@ -16,6 +16,7 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
+from quizgen.kinds.work import count_once
 
 
 class AuthoredTrueFalse(AuthoredAnswer, tag="tf", frozen=True):
@@ -57,4 +58,6 @@ def ask(part: PartContext) -> AskedPart[ChoiceSpec]:
     )
 
 
-KIND = AnswerKind(AuthoredTrueFalse, ChoiceSpec, ask, hint("ask.tf"))
+KIND = AnswerKind(
+    AuthoredTrueFalse, ChoiceSpec, ask, hint("ask.tf"), verb="tick", work=count_once("tick")
+)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -56,6 +56,7 @@ from quizgen.kinds.contract import (
     PartContext,
     SymbolDomain,
 )
+from quizgen.kinds.work import Work
 from quizgen.maths.constants import Scalar, parse_exact
 from quizgen.maths.notation import FormulaReadError, format_tree, parse_formula, pretty
 from quizgen.maths.notation.names import FUNCTIONS
@@ -522,4 +523,11 @@ def explain_key(spec: WitnessSpec, lang: str) -> TextOrInlines:
     return explain_assigned(spec.iter_example())
 
 
-KIND = AnswerKind(AuthoredWitness, WitnessSpec, ask, input_hints, explain_key)
+def count_demands(answer: Mapping[str, Any], _points: Fraction, _words: int) -> Work:
+    """Return the demands to be met, and the values that meet them."""
+    return {"demand met": len(answer.get("demands", ())) or 1, "cell": len(answer["symbols"])}
+
+
+KIND = AnswerKind(
+    AuthoredWitness, WitnessSpec, ask, input_hints, explain_key, verb="design", work=count_demands
+)

@@ -16,7 +16,7 @@ from itertools import product
 from typing import Any, Literal
 
 from quizgen.bank.pools import count_pool_variants, matching_pairs, select_from_pool
-from quizgen.bank.rules import suggested_minutes, total_points
+from quizgen.bank.rules import total_points
 from quizgen.bank.sampler import sampler_for, solve_candidate
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant, draw_variant
@@ -25,7 +25,6 @@ from quizgen.kinds.contract import asked_form
 from quizgen.lint.figures import figure_text
 from quizgen.lint.unused_draws import find_unused_draws
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import Call, Expr
 from quizgen.question.interpolation import Interpolator, inlines_to_text
 from quizgen.question.part_context import VariantPart, ask_part
 
@@ -275,69 +274,15 @@ def _check_option_letters(one: Variant, index: int) -> Said:
         yield "error", "QG312", "numbered pictures are out of order: use in_order"
 
 
-READING = 0.5
-"""Minutes for the stem and the figure."""
-PART, OPERATION = 0.5, 0.3
-"""Minutes for writing down a calculation, and for each operation of a step not done before."""
-ENTRY = {"choice": 0.15, "multi": 0.4, "match": 0.3, "order": 0.5, "gap": 0.4, "rubric": 0.75,
-         "sketch": 1.0, "derivation": 1.0}  # fmt: skip
-"""Minutes for each option, pair, step, gap, criterion or feature that is shown or asked."""
-LISTED = {"choice": "options", "multi": "options", "match": "pairs", "order": "steps",
-          "gap": "gaps", "rubric": "criteria", "sketch": "features",
-          "derivation": "lines"}  # fmt: skip
-WHOLE = {"tf": 0.5, "code": 1.5, "witness": 3.0, "expression": 2.0, "program": 2.0}
-"""Minutes for a part that has no entries."""
-DEMAND = 0.75
-"""Minutes more for each demand that an example has to meet, and each line of a program."""
 FAR = 2.0
-"""Factor by which points or minutes are far from the estimate."""
-
-
-def estimate_minutes(template: Template) -> float:
-    """Return the minutes that a template takes, by its operations, options and criteria."""
-    done: set[str] = set()
-    parts = (
-        _estimate_part_minutes(template, index, done) for index in range(len(template.rules.part))
-    )
-    return READING + sum(parts)
-
-
-def _estimate_part_minutes(template: Template, index: int, done: set[str]) -> float:
-    """Return the minutes of one part; add its steps to ``done``.
-
-    A step that an earlier part needed is not computed twice.
-    """
-    answer: dict[str, Any] = template.rules.part[index].answer
-    kind = answer["kind"]
-    if kind in WHOLE:
-        lines = answer.get("solution", "").strip().count("\n")
-        return WHOLE[kind] + DEMAND * (len(answer.get("demands", ())) + lines)
-    if kind in ENTRY and not choice.has_value_options(answer):
-        return PART + ENTRY[kind] * answer.get("take", len(answer.get(LISTED[kind], ())))
-    steps = [step for step in sampler_for(template).parts[index].steps if step.name not in done]
-    done.update(step.name for step in steps)
-    return PART + OPERATION * sum(_count_operations(step.expr) for step in steps)
-
-
-def _count_operations(expr: Expr) -> int:
-    """Return the number of operations of a formula; of several cases the longest."""
-    if not isinstance(expr, Call) or not expr.args:
-        return 0
-    if expr.op == "piecewise":
-        return 1 + max(map(_count_operations, expr.args[::2]))
-    return max(1, len(expr.args) - 1) + sum(map(_count_operations, expr.args))
+"""Factor by which points are far from the minutes."""
 
 
 def check_workload(template: Template) -> Iterator[str]:
-    """Yield points and minutes that are a factor ``FAR`` from the estimate."""
-    minutes = estimate_minutes(template)
-    given = (
-        ("points", float(total_points(template.rules))),
-        ("minutes", suggested_minutes(template.rules)),
-    )
-    for name, value in given:
-        if not minutes / FAR <= value <= minutes * FAR:
-            yield f"{value:g} {name}, where its operations take about {minutes:.1f} minutes"
+    """Yield points that are a factor ``FAR`` from the working time."""
+    points, minutes = float(total_points(template.rules)), float(template.minutes)
+    if not minutes / FAR <= points <= minutes * FAR:
+        yield f"{points:g} points, where it takes about {minutes:.1f} minutes"
 
 
 CLOSED = frozenset({"choice", "multi", "tf", "match", "order", "gap"})

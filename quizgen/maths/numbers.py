@@ -199,11 +199,26 @@ def is_readable_exactly(value: Value) -> bool:
     return max(top, bottom) < EASY or (top == 1 and bottom < LARGEST_UNIT_FRACTION)
 
 
+def has_more_figures(value: Value, figures: int = 4) -> bool:
+    """Return whether a short decimal has more significant figures than that."""
+    return (
+        is_short_decimal(value) and round_to(value, decimals_for_figures(value, figures)) != value
+    )
+
+
 def format_duration(value: Value) -> str | None:
     """Return seconds as cameras write them, such as 1/400; None if they are no such fraction."""
     if not is_exact(value) or int(value.p) != 1:
         return None
     return format_fraction(value) if SHORTEST <= int(value.q) < LARGEST_UNIT_FRACTION else None
+
+
+SECONDS = "s"
+
+
+def format_exact_in_unit(value: Value, unit: str) -> str | None:
+    """Return the exact value as text: 1/400 for a short time in seconds, else as any other."""
+    return (unit == SECONDS and format_duration(value)) or format_exact(value)
 
 
 def format_exact(value: Value, *, minus: str = MINUS) -> str | None:

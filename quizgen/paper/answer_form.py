@@ -69,6 +69,8 @@ class FilledForm(msgspec.Struct):
     code: str = ""
     paper: str = ""
     seal: str = ""
+    minutes: str | float = ""
+    """Time that was taken, where a browser has measured it."""
 
     @property
     def is_blank(self) -> bool:

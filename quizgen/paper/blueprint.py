@@ -13,6 +13,9 @@
 
 What the paper as a whole is to hold may be asked for: ``total = 100`` points exactly,
 ``minutes = [110, 120]``, at least ``figures = 6`` of ``figure_kinds = 4`` and ``photographs = 2``.
+With ``[quota.verb]``, ``[quota.tier]`` or ``[quota.topic]`` so many points of verbs, tiers or
+topics are asked for, such as ``"write + derive" = [25, 60]``; ``shared = 4`` is how many questions
+papers of neighbouring seeds may have in common.
 ``pauses = false`` forbids to stop the clock where it is sat in a browser, ``true`` allows it.
 ``colour = false`` leaves out questions whose figures cannot be read on grey paper.
 
@@ -24,8 +27,9 @@ topic, tiers in turn, as many as the time allows.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import TypeAlias
 
 import msgspec
 
@@ -35,14 +39,22 @@ from quizgen.bank.qualified_names import BETWEEN
 from quizgen.core.complaints import complaint_of
 from quizgen.core.decoding import convert
 from quizgen.core.errors import BlueprintError
+from quizgen.core.positions import Place
 from quizgen.core.untrusted import NAMES, error_context, is_identifier, parse_toml, read_text
 from quizgen.kinds.contract import MOST_MINUTES, MOST_POINTS
+from quizgen.kinds.work import VERBS
 from quizgen.locale import list_languages, translate
 
 MOST_QUESTIONS = 200
 """Questions of a paper."""
-MOST_TOTAL = 10_000
+MOST_TOTAL = UNLIMITED = 10_000
 """Points that a paper may be asked to have."""
+TOGETHER = " + "
+"""Between the names of a quota that count together."""
+QuotaProblem: TypeAlias = tuple[Place, str, str]
+"""Where, the code of the diagnostic, and what is wrong."""
+QUOTAS: Mapping[str, tuple[str, ...]] = {"verb": VERBS, "tier": tuple("ABCD"), "topic": ()}
+"""What quotas may be of, and what each can name; topics are those of the bank."""
 _CODE_NAME = re.compile(r"[\w .-]{1,80}")
 
 
@@ -65,6 +77,8 @@ class BlueprintFile(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
     minutes: int | tuple[int, int] | None = None
     reference: tuple[str, ...] = ()
     total: float | None = None
+    quota: dict[str, dict[str, tuple[float, float]]] = {}
+    shared: int | None = None
     figures: int = 0
     figure_kinds: int = 0
     photographs: int = 0
@@ -91,6 +105,11 @@ class Blueprint(BlueprintFile, frozen=True):
     budget: int = 0
     file: Path | None = None
     level: str = EXAM
+
+
+def split_quota(key: str) -> tuple[str, ...]:
+    """Return the verbs, tiers or topics that count together under a key."""
+    return tuple(key.split(TOGETHER))
 
 
 EVERYTHING = "all"
@@ -245,6 +264,8 @@ def _check_blueprint(blueprint: BlueprintFile) -> None:
         raise BlueprintError(f"{total} questions (at most {MOST_QUESTIONS})", rule="QG110")
     for key, problem in _check_paper_constraints(blueprint):
         raise BlueprintError(problem, rule="QG107", place=(key,))
+    for where, rule, problem in _find_quota_problems(blueprint):
+        raise BlueprintError(problem, rule=rule, place=where)
 
 
 def _check_paper_constraints(blueprint: BlueprintFile) -> Iterator[tuple[str, str]]:
@@ -260,6 +281,52 @@ def _check_paper_constraints(blueprint: BlueprintFile) -> Iterator[tuple[str, st
             yield name, f"{name} must be 0 to {MOST_QUESTIONS}"
     if not any(blueprint.title.values()):
         yield "title", "title: is empty (write it in the language of the bank, such as title.en)"
+
+
+def _find_quota_problems(blueprint: BlueprintFile) -> Iterator[QuotaProblem]:
+    """Yield the place, code and problem of quotas that cannot hold, whatever the bank has."""
+    for group, limits in blueprint.quota.items():
+        for key, span in limits.items():
+            yield from _check_quota(("quota", group, key), span)
+    worth = [slot.points for slot in blueprint.slot for _ in range(slot.count)]
+    if blueprint.quota:
+        yield from _check_sums(blueprint, worth)
+    if blueprint.shared is not None and not (blueprint.quota and blueprint.shared >= 0):
+        yield ("shared",), "QG322", "shared must be 0 or more, in a blueprint with [quota]"
+
+
+def _check_quota(place: tuple[str, str, str], span: tuple[float, float]) -> Iterator[QuotaProblem]:
+    """Yield unknown names of a quota, and a span that is none."""
+    _, group, key = place
+    if group not in QUOTAS:
+        yield place[:2], "QG320", f"quota.{group} is unknown (allowed: {', '.join(QUOTAS)})"
+        return
+    allowed = QUOTAS[group]
+    for name in split_quota(key):
+        if name not in allowed if allowed else not is_identifier(name):
+            listed = f" (allowed: {', '.join(allowed)})" if allowed else " is no name"
+            yield place, "QG320", f"quota.{group}: {name!r}{listed}"
+    least, most = span
+    if not 0 <= least <= most <= UNLIMITED:
+        what = f"[{least:g}, {most:g}] is not [least, most] of 0 to {UNLIMITED} points"
+        yield place, "QG321", f"quota.{group}.{key}: {what}"
+
+
+def _check_sums(blueprint: BlueprintFile, worth: Sequence[float | None]) -> Iterator[QuotaProblem]:
+    """Yield sums of a blueprint with quotas that contradict each other."""
+    total = blueprint.total
+    if total is None:
+        return
+    known = [one for one in worth if one is not None]
+    if len(known) == len(worth) and sum(known) != total:
+        what = f"total = {total:g} cannot be met: the slots give {sum(known):g} points"
+        yield ("total",), "QG322", what
+    for group, limits in blueprint.quota.items():
+        names = [name for key in limits for name in split_quota(key)]
+        least = sum(low for low, _ in limits.values())
+        if least > total and len(set(names)) == len(names):
+            what = f"quota.{group} asks for {least:g} points at least, and the total is {total:g}"
+            yield ("quota", group), "QG322", what
 
 
 def _check_slot(slot: SlotRule) -> Iterator[tuple[str, str]]:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
+from itertools import islice
 from typing import NamedTuple
 
 import msgspec
@@ -18,6 +19,7 @@ from quizgen.bank.metadata import pick_language
 from quizgen.bank.template import Template
 from quizgen.bank.variant import Variant
 from quizgen.core.errors import BlueprintError, PaperCodeError
+from quizgen.core.shares import rescale_points
 from quizgen.core.untrusted import error_context
 from quizgen.locale import localise_numbers, translate
 from quizgen.maths.notation import pretty
@@ -262,6 +264,25 @@ def compose_paper(
     return Paper(code, blueprint, langs, tuple(items), banks=banks)
 
 
+def compose_paper_item(
+    blueprint: Blueprint, drawn: Sequence[Variant], place: int, langs: Sequence[str]
+) -> PaperItem:
+    """Return one question of a paper, as it stands there.
+
+    Parameters
+    ----------
+    blueprint : Blueprint
+    drawn : sequence of Variant
+        Of the whole paper: what a question may tell depends on the others.
+    place : int
+        From 0.
+    langs : sequence of str
+    """
+    asked = [*_iter_question_levels(drawn, slot_levels(blueprint))]
+    points = next(islice(slot_points(blueprint), place, None))
+    return _build_paper_item(asked[place], tuple(langs), str(place + 1), points)
+
+
 class _WantedQuestion(NamedTuple):
     """A variant and the level that it is asked at."""
 
@@ -363,7 +384,13 @@ def build_reference_paper(
     named = PaperCode(blueprint.name, REFERENCE, choice, level=blueprint.level)
     slotless = msgspec.structs.replace(blueprint, slot=())  # its slots are for other questions
     ready = compose_paper(bank, slotless, drawn, named, figures=figures, progress=progress)
-    return replace(ready, blueprint=blueprint)
+    title = {lang: _title_reference(lang, text) for lang, text in blueprint.title.items()}
+    return replace(ready, blueprint=msgspec.structs.replace(blueprint, title=title))
+
+
+def _title_reference(lang: str, title: str) -> str:
+    """Return the title of all questions at once, which is longer than the exam it names."""
+    return translate(lang, "paper.reference", title=title)
 
 
 def single_question_paper(
@@ -436,12 +463,12 @@ def _strip_language(block: Block) -> object:
 def _distribute_points(question: Question, points: float | None) -> Question:
     """Return a question with the marks of its slot shared out over the parts.
 
-    They stand to each other as the parts' own marks do.
-
-    The time goes with the marks.
+    They stand to each other as the parts' own marks do; the time is what it was.
     """
     if points is None:
         return question
-    scale = Fraction(str(points)) / question.points
-    parts = tuple(replace(p, points=p.points * scale) for p in question.parts)
-    return replace(question, parts=parts, minutes=question.minutes * scale)
+    shares = rescale_points([part.points for part in question.parts], Fraction(str(points)))
+    parts = tuple(
+        replace(part, points=worth) for part, worth in zip(question.parts, shares, strict=True)
+    )
+    return replace(question, parts=parts)

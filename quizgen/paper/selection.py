@@ -20,12 +20,15 @@ from quizgen.bank.variant import draw_variant
 from quizgen.core.errors import BankError, BlueprintError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, Blueprint, SlotRule
 from quizgen.paper.constraints import ConstraintSolver, explain_infeasible, paper_minutes
+from quizgen.paper.quota import select_by_quota
 from quizgen.question.figure import has_coloured_figure
 
 ORDERS = 3
 """Orders in which the places of a demanding blueprint are filled; an impossible one takes all."""
 DRAWN = 20
 """Draws by which a template is judged whose figure needs colour for some values alone."""
+NEAR = 1
+"""Minutes by which questions may differ that stand for each other."""
 TRIES = 20
 """Choices of templates until none is used more often than it has numbers."""
 
@@ -51,6 +54,8 @@ def select_templates(
     if blueprint.topic:
         return _fill_minutes(_leave_out(bank.candidates(), without), blueprint, seed)
     slots = _list_slot_candidates(bank, blueprint, without)
+    if blueprint.quota:
+        return select_by_quota(blueprint, _list_places(slots, blueprint), seed)
     if blueprint.has_constraints:
         return _fill_under_constraints(slots, blueprint, seed)
     tries = (_fill_slots(slots, blueprint, f"{seed}/{n}" if n else str(seed)) for n in range(TRIES))
@@ -78,10 +83,7 @@ def _fill_under_constraints(
         If no choice meets all demands, or none was found.
     """
     numbers = [n for n, slot in enumerate(blueprint.slot, 1) for _ in range(slot.count)]
-    places = [
-        [one.scale_to(points) for one in slots[index - 1]]
-        for index, points in zip(numbers, slot_points(blueprint), strict=False)
-    ]
+    places = _list_places(slots, blueprint)
     for n in range(ORDERS):
         salt = f"{seed}/{n}" if n else str(seed)
         ranked = [
@@ -95,6 +97,17 @@ def _fill_under_constraints(
         if chosen:
             return chosen
     raise BlueprintError(explain_infeasible(blueprint, places), file=blueprint.file)
+
+
+def _list_places(
+    slots: Sequence[Sequence[Candidate]], blueprint: Blueprint
+) -> tuple[tuple[Candidate, ...], ...]:
+    """Return who may stand at each place of a paper, with the points that the place gives."""
+    return tuple(
+        tuple(one.scale_to(slot.points) for one in fitting)
+        for slot, fitting in zip(blueprint.slot, slots, strict=True)
+        for _ in range(slot.count)
+    )
 
 
 def _shuffle_fill_order(salt: str, count: int) -> list[int]:
@@ -201,8 +214,9 @@ def alternatives(
 ) -> list[tuple[str, ...]]:
     """Return, for each question, the templates that may stand there instead, itself first.
 
-    They have its tier, topic, points and minutes, and a figure if it has one; none may stand in two
-    places, and none tells what another one asks. So papers that take any one of each are alike.
+    They have its tier, topic and points, about its minutes, and a figure if it has one; none may
+    stand in two places, and none tells what another one asks. So papers that take any one of each
+    are alike.
     """
     slots = _list_slot_candidates(bank, blueprint, without)
     places = [fitting for slot, fitting in zip(blueprint.slot, slots, strict=True)
@@ -214,7 +228,9 @@ def alternatives(
         family = [one]
         fitting = places[place] if place < len(places) else _leave_out(bank.candidates(), without)
         for other in sorted(fitting, key=lambda one: one.origin):
+            near = abs(other.minutes - one.minutes) <= NEAR
             alike = other not in taken and _get_comparable_features(other.scale_to(worth)) == like
+            alike = alike and near
             if alike and not any(other.excludes(said) for said in taken if said not in family):
                 family.append(other)
                 taken.append(other)
@@ -271,7 +287,8 @@ def select_instead(
     names: list[tuple[str, ...]] = [(name,) for name in chosen]
     names[place] = tuple(fitting)
     pinned = tuple(replace(slot, templates=names[at], count=1) for at, slot in enumerate(slots))
-    return select_templates(bank, replace(blueprint, topic="", slot=pinned), seed)
+    only = replace(blueprint, topic="", slot=pinned, shared=None)
+    return select_templates(bank, only, seed)
 
 
 def _list_fitting(
@@ -293,7 +310,6 @@ def _get_comparable_features(one: Candidate) -> tuple[object, ...]:
         one.topic,
         one.beyond,
         one.points,
-        one.minutes,
         bool(one.figure),
         one.photograph,
     )

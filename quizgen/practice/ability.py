@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quizgen.bank.bank import Bank
-from quizgen.bank.rules import Rules, part_points, suggested_minutes
+from quizgen.bank.rules import Rules, part_points
 from quizgen.practice.scheduler import DAY
 from quizgen.practice.session_state import Attempt
 
@@ -102,13 +102,13 @@ def read_practice_items(bank: Bank) -> tuple[PracticeItem, ...]:
     curriculum = bank.curriculum
     formulas = frozenset(curriculum.inventory.get("formulas", ()))
     return tuple(
-        _read_item(name, bank.rules(name), formulas, curriculum.beyond)
+        _read_item(name, bank.rules(name), float(bank.minutes(name)), formulas, curriculum.beyond)
         for name in bank.template_paths
     )
 
 
 def _read_item(
-    name: str, rules: Rules, formulas: frozenset[str], beyond: Sequence[str]
+    name: str, rules: Rules, minutes: float, formulas: frozenset[str], beyond: Sequence[str]
 ) -> PracticeItem:
     """Return one template as the model sees it."""
     points = [*part_points(rules).values()]
@@ -123,7 +123,7 @@ def _read_item(
         rules.tier,
         tuple(item for item in rules.covers if item in formulas),
         kinds,
-        float(suggested_minutes(rules)),
+        minutes,
         tuple(
             PartWeight(worth / whole, _count_pieces(part.answer), _guess_share(part.answer))
             for part, worth in zip(rules.part, points, strict=True)

@@ -262,7 +262,7 @@ def _build_question_and_key(
         tier=template.rules.tier,
         topic=template.rules.topic,
         title=template.texts[lang].title,
-        minutes=Fraction(template.minutes),
+        minutes=template.minutes if asking.minutes is None else asking.minutes,
         stem=localise(lang, (*asking.stem, *build_file_paragraphs(drawn, lang, number))),
         parts=localise(lang, tuple(_build_part(part, lang, number) for part in asking.parts)),
         figure=draw_question_figure(drawn, lang, quiz=True) if figures else None,

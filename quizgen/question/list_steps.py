@@ -12,7 +12,7 @@ from quizgen import typeset
 from quizgen.bank.variant import Variant
 from quizgen.maths.list_operators import compute_mean
 from quizgen.maths.notation import pretty
-from quizgen.maths.numbers import format_rounded, is_short_decimal
+from quizgen.maths.numbers import format_decimal, format_rounded, is_short_decimal
 from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Expr, Num, Sym
 from quizgen.typeset.nodes import Word
@@ -139,8 +139,10 @@ def _write_variance(less: int) -> Callable[[str, Variant, WrittenLists], Expr]:
         """
         with working_precision():
             mean: fmpq = compute_mean(drawn.lists[name])
-        written.rounded |= not is_short_decimal(mean)
-        centre = _put_value(format_rounded(mean, figures=6), written)
+        is_short = is_short_decimal(mean)
+        written.rounded |= not is_short
+        text = format_decimal(mean) if is_short else format_rounded(mean, figures=6)
+        centre = _put_value(text, written)
         squares = [
             term if written.texts[term.name] == _GAP
             else Call("pow", (Call("sub", (term, centre)), _TWO))

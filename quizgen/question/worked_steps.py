@@ -18,8 +18,7 @@ from quizgen.maths.chain import ChainStep
 from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.number_systems import exact_system, select_branch
 from quizgen.maths.numbers import (
-    format_duration,
-    format_exact,
+    format_exact_in_unit,
     format_rounded,
     is_readable_exactly,
     is_short_decimal,
@@ -141,7 +140,6 @@ def value_typed(drawn: Variant, name: str) -> str:
 
 
 WHOLE = frozenset({"ceil", "floor", "round"})
-SECONDS = "s"
 
 
 def _build_value_sides(drawn: Variant, step: ChainStep, *, about: bool) -> list[WorkedSide]:
@@ -151,16 +149,23 @@ def _build_value_sides(drawn: Variant, step: ChainStep, *, about: bool) -> list[
     but whole numbers are what they are. A fraction is shown if it is read at a glance, or leads to
     an answer that must be exact.
     """
-    value, unit = drawn.shown_values[step.name], format_unit(step.unit)
+    value = drawn.shown_values[step.name]
     about = about and not (isinstance(step.expr, Call) and step.expr.op in WHOLE)
+    is_short = is_short_decimal(value)
+    if is_short and drawn.is_rounded(step.name):
+        return [_result_side("≈", format_rounded(value), step.unit)]
     is_told = is_readable_exactly(value) or step.name in drawn.template.exact_steps
     exactly = None
-    if is_told and not (about and not is_short_decimal(value)):
-        exactly = (step.unit == SECONDS and format_duration(value)) or format_exact(value)
+    if is_told and not (about and not is_short):
+        exactly = format_exact_in_unit(value, step.unit)
     texts = [] if exactly is None else [("≈" if about else "=", exactly)]
-    if not is_short_decimal(value):
+    if not is_short:
         texts.append(("≈", format_rounded(value)))
-    return [
-        WorkedSide(sign, typeset.quantity(text, unit), join_unit(text, step.unit), RESULT)
-        for sign, text in texts
-    ]
+    return [_result_side(sign, text, step.unit) for sign, text in texts]
+
+
+def _result_side(sign: str, text: str, unit: str) -> WorkedSide:
+    """Return a value as the last side of a step."""
+    return WorkedSide(
+        sign, typeset.quantity(text, format_unit(unit)), join_unit(text, unit), RESULT
+    )

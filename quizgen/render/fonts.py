@@ -1,4 +1,4 @@
-"""Fonts: Source Sans 3 on paper, Hind Siliguri for Bangla, STIX Two Math for formulas on pages.
+"""Fonts: Source Sans 3 for words, Hind Siliguri for Bangla, STIX Two Math for formulas on pages.
 
 The PDF takes Hind Siliguri from a pinned package; its formulas are in a font of the typesetter, its
 other words in two weights of Source Sans 3, packed in ``printfonts``.
@@ -23,6 +23,8 @@ WEB = Path(__file__).parent / "webfonts"
 PRINT = Path(__file__).parent / "printfonts"
 PRINT_WEIGHTS = (400, 600)
 """Regular and semibold."""
+TEXT = "source-sans-3"
+"""The packed font of words in Latin letters."""
 MATHS, ALL_MATHS = "stix-two-math", "stix-two-math-all"
 """The packed font of formulas, and the one with all signs that LaTeX can put into them."""
 MATHS_RANGE = [
@@ -81,6 +83,12 @@ def bangla_faces(langs: Iterable[str], text: str = "") -> dict[int, str]:
     if not (set(langs) & set(languages_in_script("Beng")) or any(map(_is_bangla, text))):
         return {}
     return {400: bangla_uri(), 700: bangla_uri("Bold")}
+
+
+@cache
+def text_uri() -> str:
+    """Return the font of words, of all weights, as a data address for a page."""
+    return _build_font_uri(TEXT)
 
 
 @cache

@@ -57,8 +57,10 @@ def _build_environment(way: HtmlDialect = OURS) -> jinja2.Environment:
 @cache
 def _build_paper_css() -> str:
     """Return the style sheet of papers."""
-    page = (_HERE / "pages" / "paper.css").read_text(encoding="utf-8")
-    return language_css(":lang({})") + write_theme_css() + page
+    shared, own = (
+        (_HERE / name).read_text(encoding="utf-8") for name in ("look/look.css", "pages/paper.css")
+    )
+    return language_css(":lang({})") + write_theme_css() + shared + own
 
 
 def _read_board_file(name: str) -> Markup:
@@ -88,6 +90,7 @@ def render_html_page(
         .render(
             main=langs[0],
             style=Markup(_build_paper_css() + style),
+            text_font=fonts.text_uri(),
             maths_font=fonts.maths_uri(),
             bangla_fonts=fonts.bangla_faces(langs),
             **content,

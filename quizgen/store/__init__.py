@@ -13,6 +13,7 @@ from quizgen.store.records import (
     Person,
     QuestionRef,
 )
+from quizgen.store.seats import Seat
 from quizgen.store.store import Store
 
 __all__ = [
@@ -24,5 +25,6 @@ __all__ = [
     "Packed",
     "Person",
     "QuestionRef",
+    "Seat",
     "Store",
 ]

@@ -68,7 +68,7 @@ class Accounts:
         row = {"learner": learner, "manages": manages, "until": now + INVITATION_DAYS * DAY}
         with self.database.writing() as connection:
             connection.execute(delete(INVITATION).where(INVITATION.c.until < now))
-            connection.execute(insert(INVITATION).values(hash=_hash_token(token), **row))
+            connection.execute(insert(INVITATION).values(hash=hash_token(token), **row))
         return token
 
     def find_valid_invitation(self, token: str) -> Invitation | None:
@@ -152,7 +152,7 @@ class Accounts:
     def start_session(self, learner: int) -> str:
         """Return the token of a new session of a learner."""
         token, now = secrets.token_urlsafe(24), time.time()
-        row = {"hash": _hash_token(token), "learner": learner, "until": now + SESSION_DAYS * DAY}
+        row = {"hash": hash_token(token), "learner": learner, "until": now + SESSION_DAYS * DAY}
         with self.database.writing(learner) as connection:
             connection.execute(delete(SESSION).where(SESSION.c.until < now))
             connection.execute(insert(SESSION).values(row))
@@ -161,25 +161,25 @@ class Accounts:
     def end_session(self, token: str) -> None:
         """Delete the session of a token: its learner is signed out."""
         with self.database.writing() as connection:
-            connection.execute(delete(SESSION).where(SESSION.c.hash == _hash_token(token)))
+            connection.execute(delete(SESSION).where(SESSION.c.hash == hash_token(token)))
 
     def end_other_sessions(self, learner: int, token: str) -> None:
         """Delete all sessions of a learner but the one of a token."""
-        others = (SESSION.c.learner == learner, SESSION.c.hash != _hash_token(token))
+        others = (SESSION.c.learner == learner, SESSION.c.hash != hash_token(token))
         with self.database.writing(learner) as connection:
             connection.execute(delete(SESSION).where(*others))
 
     def signed_in(self, token: str) -> Learner | None:
         """Return the learner whose session a token is of; None if there is none."""
         query = _select_people(LEARNER.c.settings, ACCOUNT.c.manages).join(SESSION)
-        query = query.where(SESSION.c.hash == _hash_token(token), SESSION.c.until > time.time())
+        query = query.where(SESSION.c.hash == hash_token(token), SESSION.c.until > time.time())
         with self.database.reading() as connection:
             row = connection.execute(query).mappings().first()
         return row_to_record(row, Learner) if row else None
 
     def is_session(self, token: str, learner: int) -> bool:
         """Return whether a token is a session of this learner, who may have no account."""
-        place = (SESSION.c.hash == _hash_token(token), SESSION.c.learner == learner)
+        place = (SESSION.c.hash == hash_token(token), SESSION.c.learner == learner)
         query = select(SESSION.c.hash).where(*place, SESSION.c.until > time.time())
         with self.database.reading() as connection:
             return connection.execute(query).first() is not None
@@ -223,7 +223,7 @@ def _match_learner(table: Table, learner: int) -> ColumnElement[bool]:
     return table.c.learner == learner
 
 
-def _hash_token(token: str) -> str:
+def hash_token(token: str) -> str:
     """Return the SHA-256 of a token, in hexadecimal digits.
 
     Tokens are random and long, so that no slow password hash is needed.
@@ -233,7 +233,7 @@ def _hash_token(token: str) -> str:
 
 def _find_invitation(connection: Connection, token: str) -> Invitation | None:
     """Return the invitation of a token that is still good, or None."""
-    good = (INVITATION.c.hash == _hash_token(token), INVITATION.c.until > time.time())
+    good = (INVITATION.c.hash == hash_token(token), INVITATION.c.until > time.time())
     row = connection.execute(select(INVITATION).where(*good)).mappings().first()
     return row_to_record(row, Invitation) if row else None
 
@@ -244,7 +244,7 @@ def _consume_invitation(connection: Connection, token: str) -> Invitation | None
     Of two requests at once only one gets it.
     """
     found = _find_invitation(connection, token)
-    gone = connection.execute(delete(INVITATION).where(INVITATION.c.hash == _hash_token(token)))
+    gone = connection.execute(delete(INVITATION).where(INVITATION.c.hash == hash_token(token)))
     return found if gone.rowcount else None
 
 

@@ -134,9 +134,21 @@ class ExamStore:
             return frozenset(map(str, connection.execute(query).scalars()))
 
     def save(
-        self, learner: int, name: str, answers: Mapping[str, list[str]]
+        self,
+        learner: int,
+        name: str,
+        answers: Mapping[str, list[str]],
+        spent: Mapping[str, float] | None = None,
     ) -> tuple[ExamRecord | None, bool]:
         """Store what stands in the fields of some parts, while the exam runs.
+
+        Parameters
+        ----------
+        learner : int
+        name : str
+        answers : mapping
+        spent : mapping, optional
+            Number of a question to the seconds for which it was looked at since the last time.
 
         Returns
         -------
@@ -157,6 +169,8 @@ class ExamStore:
             for part, fields in answers.items():
                 row = {"sitting": name, "part": part, "fields": fields, "at": now}
                 upsert(connection, ANSWER, row, ["sitting", "part"], ["fields", "at"])
+            if spent:
+                _update_sitting(connection, known, spent=_add_times(known, spent, now))
             return known, True
 
         return self.database.write(learner, work)
@@ -225,6 +239,17 @@ class ExamStore:
                 others = {n: v for n, v in known.marks.items() if not n.startswith(f"{part}/")}
                 ticked = {f"{part}/{name}": value for name, value in criteria.items()}
                 _update_sitting(connection, sitting, marks={**others, part: share, **ticked})
+
+
+def _add_times(sitting: ExamRecord, more: Mapping[str, float], now: float) -> dict[str, float]:
+    """Return the seconds of each question with more added: together no more than have passed."""
+    total = dict(sitting.spent)
+    left = now - sitting.begun - sitting.rested - sum(total.values())
+    for number, seconds in more.items():
+        added = min(max(seconds, 0.0), max(left, 0.0))
+        total[number] = round(total.get(number, 0.0) + added, 1)
+        left -= added
+    return total
 
 
 def _find_sitting(connection: Connection, learner: int, name: str) -> ExamRecord | None:

@@ -14,7 +14,7 @@ import msgspec
 
 from quizgen.bank.bank import Bank
 from quizgen.bank.levels import GUIDED
-from quizgen.bank.rules import Rules, part_points, suggested_minutes
+from quizgen.bank.rules import Rules, part_points
 from quizgen.grading.options import DECIMALS
 from quizgen.practice.agenda import Agenda
 from quizgen.practice.scheduler import ReviewEvent, days_left, local_date, make_review_event
@@ -113,7 +113,7 @@ class LearnerProgress(msgspec.Struct, frozen=True):
                 lost[one.template] = lost.get(one.template, 0.0) + worth * (1 - (one.credit or 0))
             else:
                 lost.pop(one.template, None)
-        minutes = {name: suggested_minutes(self.bank.rules(name)) for name in lost}
+        minutes = {name: self.bank.minutes(name) for name in lost}
         return sorted(
             (name for name, points in lost.items() if points),
             key=lambda name: (-lost[name] / minutes[name], name),

@@ -12,7 +12,7 @@ from quizgen.store.clock import Clock
 from quizgen.store.database import Database
 from quizgen.store.exam_attempts import find_exams_with_numbers, insert_paper
 from quizgen.store.records import ExamRecord, Packed
-from quizgen.store.schema import PAPER, SITTING, STOCK
+from quizgen.store.schema import PAPER, SEAT, SITTING, STOCK
 
 AGAIN = 3600.0
 """Seconds after which a learner may take another paper of a blueprint from the stock.
@@ -134,7 +134,9 @@ def delete_unused_papers(connection: Connection) -> None:
     """Remove the papers that nobody sits and that wait for nobody."""
     sat = select(SITTING.c.paper).where(SITTING.c.paper.is_not(None))
     waiting = select(STOCK.c.paper)
-    connection.execute(delete(PAPER).where(PAPER.c.id.not_in(sat), PAPER.c.id.not_in(waiting)))
+    seated = select(SEAT.c.paper).where(SEAT.c.paper.is_not(None))
+    unused = [PAPER.c.id.not_in(found) for found in (sat, waiting, seated)]
+    connection.execute(delete(PAPER).where(*unused))
 
 
 def _match_stock(blueprint: str, version: str) -> tuple[ColumnElement[bool], ...]:

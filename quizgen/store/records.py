@@ -176,6 +176,8 @@ class ExamRecord(msgspec.Struct, frozen=True):
         Whether its key had been shown to the learner before.
     counted : bool
         Whether it is counted in what the learner has done.
+    spent : mapping
+        Number of a question to the seconds for which it was on the screen.
     """
 
     id: str
@@ -191,6 +193,7 @@ class ExamRecord(msgspec.Struct, frozen=True):
     paper: str | None = None
     practice: bool = False
     counted: bool = False
+    spent: dict[str, float] = {}
 
     @property
     def ends(self) -> float | None:

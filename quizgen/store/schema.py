@@ -106,6 +106,7 @@ SITTING = Table(
     Column("handed", Float),
     Column("counted", Boolean, nullable=False, server_default=text("false")),
     Column("marks", JSON, nullable=False),
+    Column("spent", JSON, nullable=False, server_default=text("'{}'")),
     Index("sitting_of", "learner", "begun"),
 )
 """An exam that somebody sits, see ``rows.Sitting``."""
@@ -119,6 +120,20 @@ ANSWER = Table(
     Column("at", Float, nullable=False),
 )
 """What stands in the fields of a part."""
+
+SEAT = Table(
+    "seat",
+    METADATA,
+    Column("student", String(200), primary_key=True),
+    Column("learner", ForeignKey("learner.id", ondelete="CASCADE"), nullable=False, unique=True),
+    Column("issue", Integer, nullable=False),
+    Column("used", Float),
+    Column("more", Float, nullable=False),
+    Column("paper", ForeignKey("paper.id")),
+    Column("sitting", ForeignKey("sitting.id", ondelete="SET NULL")),
+    Column("stored", Float),
+)
+"""A student of a class that sits its exam here, see ``store.seats``."""
 
 FLAG = Table(
     "flag",

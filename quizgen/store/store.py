@@ -20,6 +20,7 @@ from quizgen.store.paper_stock import PaperStock
 from quizgen.store.records import AttemptRecord, Learner, OutcomeRecord, QuestionRef, row_to_record
 from quizgen.store.review_cards import ReviewCardStore
 from quizgen.store.schema import ATTEMPT, LEARNER, SEEN, SERVER
+from quizgen.store.seats import SeatStore
 
 
 class Store:
@@ -46,6 +47,8 @@ class Store:
         """Exams that are sat."""
         self.stock = PaperStock(self.database, self.clock)
         """Papers that were made ahead."""
+        self.seats = SeatStore(self.database, self.clock)
+        """Students of a class that sits its exam."""
         self.cards = ReviewCardStore(self.database)
         """What is asked again, and when."""
         self.accounts = Accounts(self.database)

@@ -69,9 +69,13 @@ def create_app(settings: ServerSettings) -> Starlette:
             site.workers.warm()
             attaching = asyncio.ensure_future(site.papers.attach_all())
             filling = asyncio.ensure_future(site.papers_ahead.fill_always())
+            sitting = [] if site.room is None else [
+                asyncio.ensure_future(one)
+                for one in (site.room.make_all_papers(), site.room.watch())
+            ]  # fmt: skip
             yield
-            attaching.cancel()
-            filling.cancel()
+            for task in (attaching, filling, *sitting):
+                task.cancel()
         finally:
             site.close()
 
@@ -81,6 +85,7 @@ def create_app(settings: ServerSettings) -> Starlette:
             Middleware(SecurityMiddleware, settings=site.settings),
             Middleware(GZipMiddleware, minimum_size=2000, compresslevel=3),
             Middleware(AuthMiddleware, site=site),
+            *_load_class_exam_middleware(site),
         ],
         exception_handlers={
             HTTPException: handle_http_error,
@@ -95,18 +100,42 @@ def create_app(settings: ServerSettings) -> Starlette:
 
 def _build_routes(settings: ServerSettings) -> list[BaseRoute]:
     """Return the routes; those for authors, classes and accounts only where they are in use."""
+    common = [
+        Route("/settings", set_language, methods=["POST"]),
+        Route("/static/languages.css", serve_language_css),
+        Mount("/static/fonts", StaticFiles(directory=WEB)),
+        *(
+            Mount(f"/static/{name}", StaticFiles(directory=str(files("quizgen.render") / name)))
+            for name in ("board", "look")
+        ),
+        Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
+    ]
+    if settings.class_exam:
+        return [*_load_class_exam_routes(), *exam.SITTING_ROUTES, *accounts.ROUTES, *common]
     return [
         *PAGES,
         *(author.ROUTES if settings.examine else ()),
         *(_load_classroom_routes() if settings.classroom else ()),
         *(accounts.ROUTES if settings.accounts else ()),
         *(_load_phone_routes() if settings.phone else ()),
-        Route("/settings", set_language, methods=["POST"]),
-        Route("/static/languages.css", serve_language_css),
-        Mount("/static/fonts", StaticFiles(directory=WEB)),
-        Mount("/static/board", StaticFiles(directory=str(files("quizgen.render") / "board"))),
-        Mount("/static", StaticFiles(directory=str(files("quizgen.web") / "static"))),
+        *common,
     ]
+
+
+def _load_class_exam_routes() -> list[Route]:
+    """Return the pages of a class that sits its exam, imported only where one does."""
+    from quizgen.web import class_exam, class_live
+
+    return [*class_exam.ROUTES, *class_live.ROUTES]
+
+
+def _load_class_exam_middleware(site: ServerState) -> list[Middleware]:
+    """Return what stands before these pages."""
+    if site.room is None:
+        return []
+    from quizgen.web.class_exam import ClassExamMiddleware
+
+    return [Middleware(ClassExamMiddleware, room=site.room)]
 
 
 def _load_phone_routes() -> list[Route]:
@@ -117,10 +146,10 @@ def _load_phone_routes() -> list[Route]:
 
 
 def _load_classroom_routes() -> list[Route]:
-    """Return the pages for grading a class, imported only where there is one."""
-    from quizgen.web import manual_grading
+    """Return the pages for marking a class, imported only where there is one."""
+    from quizgen.web import marking
 
-    return manual_grading.ROUTES
+    return marking.ROUTES
 
 
 async def set_language(request: Request) -> Response:

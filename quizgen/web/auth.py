@@ -16,7 +16,8 @@ from starlette.datastructures import Headers, MutableHeaders, QueryParams
 from starlette.responses import JSONResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from quizgen.store import Learner
+from quizgen.store import Learner, Seat
+from quizgen.store.accounts import hash_token
 from quizgen.web.event_log import find_cause
 from quizgen.web.security import OPEN, plain_error
 from quizgen.web.state import ServerState
@@ -28,6 +29,8 @@ HEALTH = "/health"
 """Where a monitor asks how the server is; it lets nobody in and tells of nobody."""
 LONGEST_CHECK = 5.0
 """Seconds in which the database is to answer."""
+SUPERVISION = "/live"
+"""Before the pages of those who watch an exam."""
 SIGN_IN, INVITED = "/sign-in", "/invited"
 """What somebody may see who has not signed in."""
 
@@ -48,6 +51,7 @@ class AuthMiddleware:
 
     def __init__(self, app: ASGIApp, site: ServerState) -> None:
         self.app, self.site = app, site
+        self._open = {SIGN_IN, INVITED, *(["/"] if site.room else [])}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request that is not admitted, or pass it to the application."""
@@ -117,15 +121,24 @@ class AuthMiddleware:
     async def _signed_in(self, scope: Scope) -> Response | None:
         """Admit a learner who has a session; else return the way to the sign-in page."""
         token = _read_session_cookie(scope)
-        accounts = self.site.store.accounts
-        learner = await run_in_threadpool(accounts.signed_in, token) if token else None
         state = scope.setdefault("state", {})
+        learner, state["seat"] = await run_in_threadpool(self._find_session, token)
         state.update(learner=learner or _make_visitor(scope, self.site.languages), token=token)
-        if learner is not None or scope["path"] in {SIGN_IN, INVITED}:
+        if learner is not None or scope["path"] in self._open:
             if not token:
                 state["token"] = state["new_token"] = secrets.token_urlsafe(24)
             return None
-        return _to_sign_in(scope)
+        if self.site.room and not scope["path"].startswith(SUPERVISION):
+            return _to_sign_in(scope, "/")
+        return _to_sign_in(scope, SIGN_IN)
+
+    def _find_session(self, token: str) -> tuple[Learner | None, Seat | None]:
+        """Return whose session a token is, and the seat of one who sits an exam of a class."""
+        store = self.site.store
+        found = store.seats.signed_in(hash_token(token)) if token and self.site.room else None
+        if found is not None:
+            return found
+        return (store.accounts.signed_in(token) if token else None), None
 
 
 def set_session_cookie(scope: Scope, response: Response, token: str) -> Response:
@@ -187,18 +200,18 @@ def _strip_country(lang: str) -> str:
     return lang.partition("-")[0].lower()
 
 
-def _to_sign_in(scope: Scope) -> Response:
-    """Return a redirect to the sign-in page that leads back to the page of the request.
+def _to_sign_in(scope: Scope, door: str) -> Response:
+    """Return a redirect to a page to sign in on, which leads back to the page of the request.
 
     A script gets a header instead, and what is no page a plain error.
     """
     headers = Headers(scope=scope)
     by_script = "hx-request" in headers
     if scope["method"] in {"GET", "HEAD"} and not by_script:
-        return RedirectResponse(f"{SIGN_IN}?{urlencode({'to': scope['path']})}", 303)
+        return RedirectResponse(f"{door}?{urlencode({'to': scope['path']})}", 303)
     page = headers.get("hx-current-url") or headers.get("referer", "")
     back = re.sub("^[a-z]+://[^/]*", "", page).partition("?")[0] or "/"
-    where = f"{SIGN_IN}?{urlencode({'to': back, 'ended': 1})}"
+    where = f"{door}?{urlencode({'to': back, 'ended': 1})}"
     if by_script:
         return Response(status_code=403, headers={"hx-redirect": where})
     if "text/html" in headers.get("accept", ""):

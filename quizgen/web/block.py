@@ -10,7 +10,7 @@ from typing import Any
 
 from quizgen.core.decoding import convert
 from quizgen.practice.session_state import PartState
-from quizgen.store import AttemptRecord, Store
+from quizgen.store import AttemptRecord, OutcomeRecord, Store
 
 MOST = 60
 """Attempts that are looked through for those of a block; none is as long."""
@@ -55,6 +55,20 @@ class PracticeBlockView:
         """Return for each question ``full``, ``hollow``, ``here`` or an empty text."""
         seen = [_name_state(one) for one in self.attempts]
         return [*seen, *[""] * (self.size - len(seen))]
+
+    def count_mended(self, outcomes: Iterable[OutcomeRecord]) -> int:
+        """Return how many questions are right now that had gone wrong before.
+
+        Parameters
+        ----------
+        outcomes : iterable of OutcomeRecord
+            How the learner's parts went, of any time.
+        """
+        went_wrong = [(one.template, one.at) for one in outcomes if not one.right]
+        right = [one for one in self.attempts if _name_state(one) == "full"]
+        return sum(
+            any(t == one.template and at < one.begun for t, at in went_wrong) for one in right
+        )
 
     def weak_attempts(self) -> list[AttemptRecord]:
         """Return the attempts with a part that was not right, one of each template."""

@@ -16,7 +16,6 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from quizgen.bank.rules import suggested_minutes
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import BlueprintError, PaperCodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, TRIAL, find_blueprint
@@ -24,7 +23,13 @@ from quizgen.paper.code import LARGEST_SEED, parse_code
 from quizgen.practice.input_fields import is_complete
 from quizgen.store import ExamRecord
 from quizgen.store.exam_attempts import GRACE, ExamStore
-from quizgen.web.exam_results import ExamResults, grade_exam, outcome_records, review_events
+from quizgen.web.exam_results import (
+    ExamResults,
+    grade_exam,
+    outcome_records,
+    plan_seconds,
+    review_events,
+)
 from quizgen.web.forms import (
     field_text,
     field_texts,
@@ -50,6 +55,10 @@ FIELDS = "a-"
 """Before the name of a part in a form."""
 SHOWN = "on-"
 """Before the name of a part in a form: what its fields held when the page was made."""
+SPENT = "spent-"
+"""Before the number of a question in a form: seconds on the screen since the last time."""
+QUESTION = re.compile(r"[0-9]{1,4}")
+SECONDS = re.compile(r"[0-9]{1,6}(?:\.[0-9]{1,3})?")
 PART = re.compile(r"[0-9]{1,4}[a-z]{0,4}[0-9]{0,2}")
 """Names of parts."""
 MINUTES = (15, 30, 45, 60, 90)
@@ -217,14 +226,17 @@ async def show_exam(request: Request) -> Response:
     paper, now = await _make_paper(request, sitting), request.app.state.site.store.clock.now()
     store = request.app.state.site.store.sittings
     answers = await run_in_threadpool(store.answers, sitting)
+    if sitting.handed is not None and request.app.state.site.room:
+        return redirect("/seat")
     if sitting.handed is not None:
         results = await _count(request, sitting, paper, answers)
         learning = progress_of(request)
         repairs = await run_in_threadpool(learning.list_repairs, sitting.id)
-        minutes = sum(suggested_minutes(learning.bank.rules(name)) for name in repairs)
+        bank = learning.bank
+        minutes = {name: max(1, round(bank.minutes(name))) for name in repairs}
         return page_response(
             request, "results.html.j2", sitting=sitting, paper=paper, results=results,
-            repairs=repairs, minutes=minutes,
+            repairs=minutes, planned=plan_seconds(paper, learning.bank),
         )  # fmt: skip
     flags = await run_in_threadpool(store.flags, sitting)
     return page_response(request, "exam.html.j2", sitting=sitting, paper=paper, answers=answers,
@@ -262,6 +274,20 @@ def _decode_shown_fields(sent: str) -> list[str] | None:
         return None
 
 
+def _read_times(form: FormData) -> dict[str, float]:
+    """Return the seconds that were spent on each question; what is no time is left out."""
+    times = {
+        name.removeprefix(SPENT): str(value)
+        for name, value in form.multi_items()
+        if name.startswith(SPENT)
+    }
+    return {
+        number: float(seconds)
+        for number, seconds in times.items()
+        if QUESTION.fullmatch(number) and SECONDS.fullmatch(seconds)
+    }
+
+
 def _normalise_fields(values: list[str]) -> list[str]:
     """Return fields in the form they are compared in.
 
@@ -276,7 +302,9 @@ async def save_answers(request: Request) -> Response:
     site: ServerState = request.app.state.site
     store: ExamStore = site.store.sittings
     learner, name = request.state.learner.id, request.path_params["sitting"]
-    sitting, kept = await run_in_threadpool(store.save, learner, name, _read_changed_fields(form))
+    sitting, kept = await run_in_threadpool(
+        store.save, learner, name, _read_changed_fields(form), _read_times(form)
+    )
     if sitting is None:
         raise HTTPException(404)
     over = sitting.resting is not None or sitting.is_over(site.store.clock.now() - GRACE)
@@ -415,13 +443,17 @@ async def save_self_mark(request: Request) -> Response:
     return redirect(f"/exam/{sitting.id}#part-{part.field.id}")
 
 
-ROUTES = [
-    Route("/exam", list_exams),
-    Route("/exam", start_exam, methods=["POST"]),
+SITTING_ROUTES = [
     Route("/exam/{sitting}", show_exam),
     Route("/exam/{sitting}", save_answers, methods=["POST"]),
     Route("/exam/{sitting}/hand-in", submit_exam),
     Route("/exam/{sitting}/flag/{number}", toggle_flag, methods=["POST"]),
     Route("/exam/{sitting}/read/{part}", preview_exam_answer, methods=["POST"]),
+]
+"""While an exam is sat, whoever set it."""
+ROUTES = [
+    Route("/exam", list_exams),
+    Route("/exam", start_exam, methods=["POST"]),
+    *SITTING_ROUTES,
     Route("/exam/{sitting}/judge/{part}", save_self_mark, methods=["POST"]),
 ]

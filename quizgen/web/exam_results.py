@@ -26,6 +26,7 @@ from quizgen.store import OutcomeRecord
 from quizgen.web.job_cache import WorkerPool
 from quizgen.web.question_view import PaperView, PartView, QuestionView
 from quizgen.web.read_errors import ReadErrorView, explain_read_error
+from quizgen.web.views import translate_page
 
 WRONG = frozenset({"wrong", "partial"})
 
@@ -75,6 +76,19 @@ class ExamPartResult:
         return self.result.marks
 
     @property
+    def reason(self) -> str:
+        """Return why it did not get all points, in a sentence."""
+        if self.result.is_blank:
+            return translate_page(self.lang, "results.blank")
+        said = self.unread.message if self.unread else self.verdict.message
+        return said or translate_page(self.lang, f"results.{self.word}")
+
+    @property
+    def lost(self) -> Fraction:
+        """Return the points that it cost; none while undecided."""
+        return Fraction(0) if self.marks is None else self.result.points - self.marks
+
+    @property
     def status(self) -> str:
         """Return ``blank``, ``open``, ``judged`` (by the learner) or the verdict."""
         if self.result.status == "open":
@@ -104,10 +118,24 @@ class ExamQuestionResult:
         """Return the most marks the question can have."""
         return sum((part.result.points for part in self.parts), Fraction(0))
 
+
+@dataclass(frozen=True)
+class ExamLoss:
+    """Parts of one question that cost points for the same reason."""
+
+    made: QuestionView
+    parts: tuple[ExamPartResult, ...]
+
     @property
-    def weak(self) -> bool:
-        """Whether marks were lost, so that the question is worth practising."""
-        return self.marks < self.points
+    def points(self) -> Fraction:
+        """Return the points that they cost together."""
+        return sum((part.lost for part in self.parts), Fraction(0))
+
+    @property
+    def name(self) -> str:
+        """Return the number of the question with the labels of the parts: ``3b, c``."""
+        labels = ", ".join(part.part.label for part in self.parts)
+        return f"{self.made.wanted.number}{labels}"
 
 
 @dataclass(frozen=True)
@@ -129,22 +157,43 @@ class ExamResults:
     @property
     def to_judge(self) -> int:
         """Return the number of sentences that the learner has yet to grade."""
-        return sum(part.status == "open" for q in self.questions for part in q.parts)
+        return len(self.open_parts())
 
-    def losses(self) -> list[ExamQuestionResult]:
-        """Return the questions that cost points, the most first."""
-        weak = [question for question in self.questions if question.weak]
-        return sorted(weak, key=lambda question: question.marks - question.points)
+    @property
+    def highest(self) -> Fraction:
+        """Return the marks it can still have, once all sentences are judged."""
+        return self.marks + sum((part.result.points for part in self.open_parts()), Fraction(0))
 
-    def mistakes(self) -> list[tuple[str, list[QuestionView]]]:
-        """Return each feedback on wrong parts with its questions, the most frequent first."""
-        found: dict[str, list[QuestionView]] = {}
+    def open_parts(self) -> list[ExamPartResult]:
+        """Return the sentences that the learner has yet to grade."""
+        return [part for q in self.questions for part in q.parts if part.status == "open"]
+
+    def losses(self) -> list[ExamLoss]:
+        """Return what cost points and why, the most first."""
+        found: dict[tuple[str, str], list[ExamPartResult]] = {}
         for question in self.questions:
             for part in question.parts:
-                graded = part.status in WRONG and part.verdict.note
-                if graded and question.made not in found.setdefault(part.verdict.message, []):
-                    found[part.verdict.message].append(question.made)
-        return sorted(found.items(), key=lambda one: -len(one[1]))
+                if part.lost:
+                    key = (question.made.wanted.number, part.reason)
+                    found.setdefault(key, []).append(part)
+        made = {question.made.wanted.number: question.made for question in self.questions}
+        losses = [ExamLoss(made[number], tuple(parts)) for (number, _), parts in found.items()]
+        return sorted(losses, key=lambda one: -one.points)
+
+
+def plan_seconds(paper: PaperView, bank: Bank) -> dict[str, float]:
+    """Return for how long each question of a paper is planned, by its number.
+
+    The minutes of the paper are shared out as those of its questions are, or as their points where
+    the bank has lost one of them.
+    """
+    names = [item.wanted.template for item in paper.items]
+    if all(name in bank.template_paths for name in names):
+        weights = [float(bank.minutes(name)) for name in names]
+    else:
+        weights = [sum(part.points for part in item.parts) for item in paper.items]
+    whole = paper.minutes * 60 / (sum(weights) or 1)
+    return {i.wanted.number: w * whole for i, w in zip(paper.items, weights, strict=True)}
 
 
 @dataclass(frozen=True)

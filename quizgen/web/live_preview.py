@@ -41,24 +41,34 @@ def preview_reading(
 ) -> Markup:
     """Return how an answer is read, typeset; empty if it is incomplete or unreadable."""
     part = next(part for part in key.parts if part.id == field.id)
+    boxes = bool(field.control.boxes)
+    there = [bool(value.strip()) for value in values]
+    if boxes and any(there):  # an empty box beside it must not change how a value is read
+        values = [value if full else "0" for value, full in zip(values, there, strict=True)]
     typed = join_fields(field.control, values, field.marks)
     if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
         return Markup()
     verdict = grade_answer(part.parse_spec(), typed, decimal=decimal)
-    boxes = bool(field.control.boxes)
-    return _typeset_values(verdict.read_as, lang, boxes=boxes) if verdict.is_graded else Markup()
+    if not verdict.is_graded:
+        return Markup()
+    return _typeset_values(verdict.read_as, lang, boxes=boxes, filled=there)
 
 
-def _typeset_values(text: str, lang: str, *, boxes: bool = False) -> Markup:
+def _typeset_values(
+    text: str, lang: str, *, boxes: bool = False, filled: Sequence[bool] = ()
+) -> Markup:
     """Return values typeset one by one, with the signs around and between them.
 
-    Values from boxes have no brackets, since nobody typed them, and each has its unit.
+    Values from boxes have no brackets, since nobody typed them, and each has its unit; only those
+    of boxes that are ``filled`` are shown.
     """
     several = _SEVERAL.fullmatch(text)
     before, inner, after = several.groups() if several else ("", text, "")
     if boxes:
-        unit = after.lstrip(")}]")
-        before, inner, after = "", inner.replace("; ", f"{unit}; ") + unit, ""
+        unit, read = after.lstrip(")}]"), inner.split("; ")
+        if len(read) == len(filled):
+            read = [value for value, full in zip(read, filled, strict=True) if full]
+        before, inner, after = "", "; ".join(value + unit for value in read), ""
     pieces = [
         escape(p) if _BETWEEN.fullmatch(p) else _typeset_value(p, lang)
         for p in _BETWEEN.split(inner)

@@ -17,7 +17,6 @@ from starlette.routing import Route
 
 from quizgen.bank.formulas import templates_by_formula
 from quizgen.bank.levels import GUIDED
-from quizgen.bank.rules import suggested_minutes
 from quizgen.practice.scheduler import local_date
 from quizgen.practice.selection import matching_templates
 from quizgen.practice.session_state import PracticeRequest
@@ -27,6 +26,7 @@ from quizgen.web.forms import field_text, read_answer, read_form, read_ticked_cr
 from quizgen.web.live_preview import preview_reading
 from quizgen.web.question_attempt import AttemptInBrowser, AttemptPart
 from quizgen.web.question_view import MarkedFigureJob, QuestionRequest, QuestionView
+from quizgen.web.questions import list_places
 from quizgen.web.state import ServerState
 from quizgen.web.tonight import MINUTES, count_days, look_at_tonight, progress_of
 from quizgen.web.views import page_response, redirect, request_language, translate_page
@@ -95,7 +95,10 @@ async def show_block_end(request: Request) -> Response:
     if block is None or tonight is None:
         return redirect("/")
     weak = [await _describe_weak_attempt(request, one) for one in block.weak_attempts()]
-    return page_response(request, "block.html.j2", block=block, tonight=tonight, weak=weak)
+    mended = block.count_mended(await run_in_threadpool(store.list_outcomes, learner))
+    return page_response(
+        request, "block.html.j2", block=block, tonight=tonight, weak=weak, mended=mended
+    )
 
 
 async def _describe_weak_attempt(request: Request, attempt: AttemptRecord) -> WeakAttempt:
@@ -105,7 +108,7 @@ async def _describe_weak_attempt(request: Request, attempt: AttemptRecord) -> We
     made = await _make_question(request, attempt)
     question = AttemptInBrowser(made, attempt, decimal)
     wrong = [place.task.explain_wrong() for place in question.places if not place.is_right]
-    minutes = max(1, round(suggested_minutes(site.bank.rules(attempt.template))))
+    minutes = max(1, round(site.bank.minutes(attempt.template)))
     return WeakAttempt(attempt.id, made.title, next(filter(None, wrong), ""), minutes)
 
 
@@ -123,7 +126,7 @@ async def set_minutes(request: Request) -> Response:
 async def start_question(request: Request) -> Response:
     """Choose a question by topic, template or an exam to repair, and redirect to it."""
     form = await read_form(request)
-    named = {name: field_text(form, name) for name in ("topic", "formula", "repair")}
+    named = {name: field_text(form, name) for name in ("topic", "section", "formula", "repair")}
     wish: dict[str, Any] = {name: value for name, value in named.items() if value}
     template = field_text(form, "template")
     site: ServerState = request.app.state.site
@@ -158,6 +161,8 @@ async def _find_next_question(request: Request, wish: dict[str, Any]) -> Questio
             topic=wish.get("topic") or None,
         ),
     )
+    if wish.get("section"):
+        names = tuple(n for n in names if site.bank.notes_section(n) == wish["section"])
     if wish.get("formula"):
         about = templates_by_formula(site.bank).get(wish["formula"], ())
         names = tuple(name for name in names if name in about)
@@ -218,6 +223,7 @@ def _get_part_attempt(request: Request, question: AttemptInBrowser) -> AttemptPa
 
 async def show_question(request: Request) -> Response:
     """Return the page of a question with the learner's progress in it."""
+    site: ServerState = request.app.state.site
     question = await _get_question_attempt(request)
     said = question.find_part(request.query_params.get("said", ""))
     group = question.choose_group(said.name if said else request.query_params.get("part", ""))
@@ -232,6 +238,8 @@ async def show_question(request: Request) -> Response:
         group=group,
         figure=await _choose_figure(request, question, group),
         block=block,
+        place=(await run_in_threadpool(list_places, site.bank))[question.attempt.template],
+        section=site.bank.notes_section(question.attempt.template),
         said_last=group if said else [],
     )
     shown.background = BackgroundTask(_prepare_likely_next, request, question.attempt)

@@ -264,6 +264,11 @@ def make_papers(bank: Bank, code: str, blueprint: str, seed: int) -> dict[str, P
         if plan is None:
             raise BlueprintError(f"no blueprint {blueprint!r}")
         paper = build_paper(bank, plan, seed, BOTH)
+    return paper_views(paper)
+
+
+def paper_views(paper: Paper) -> dict[str, PaperView]:
+    """Return a paper as HTML in each of its languages."""
     return {lang: _build_paper(paper, place) for place, lang in enumerate(paper.langs)}
 
 

@@ -134,6 +134,8 @@ def run_server(
     def ready() -> None:
         """Print the address and open the browser, once the server listens."""
         tell(f"quizgen is at {address}\nCtrl-C ends it; nothing that was answered is lost.")
+        if settings.class_exam:
+            tell(f"Students come in at {settings.base_url(listening.getsockname()[1])}")
         if show:
             webbrowser.open(_build_browser_url(site, address))
 

@@ -46,6 +46,8 @@ class ServerSettings:
         Whether the sole learner may go on with a phone of the same network.
     classroom : pathlib.Path, optional
         Folder of a class whose examiner asks; without it there are no pages for decisions.
+    class_exam : pathlib.Path, optional
+        Folder of a class that sits its exam here: then there is nothing else to do.
     examine : callable, optional
         Says what is wrong with a template; without it there are no pages for authors.
     """
@@ -60,6 +62,7 @@ class ServerSettings:
     papers_ahead: tuple[tuple[str, int], ...] = ()
     phone: bool = False
     classroom: Path | None = None
+    class_exam: Path | None = None
     examine: Callable[[Bank, str], list[str]] | None = None
 
     @property
@@ -67,6 +70,8 @@ class ServerSettings:
         """Whether people sign in: wherever others can reach the server, but with a phone of one."""
         if self.phone:
             return False
+        if self.class_exam:
+            return True
         return self.behind_proxy or not (self.host in LOCAL or _is_loopback(self.host))
 
     def is_own_name(self, name: str) -> bool:

@@ -8,6 +8,7 @@ import logging
 import secrets
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 from weakref import WeakValueDictionary
 
 from starlette.exceptions import HTTPException
@@ -22,6 +23,9 @@ from quizgen.web.papers import Papers
 from quizgen.web.papers_ahead import PapersAhead
 from quizgen.web.passwords import PasswordLimits
 from quizgen.web.settings import ServerSettings
+
+if TYPE_CHECKING:
+    from quizgen.web.class_room import ClassRoom
 
 SCAN_SECONDS = 600.0
 """How long a code on the screen may be scanned."""
@@ -84,6 +88,17 @@ class Keys:
         self._once.clear()
 
 
+def open_class_room(
+    settings: ServerSettings, store: Store, workers: WorkerPool, papers: Papers
+) -> ClassRoom | None:
+    """Return the class that sits its exam on a server; None for any other server."""
+    if settings.class_exam is None:
+        return None
+    from quizgen.web.class_room import ClassRoom  # what a class needs may not be installed
+
+    return ClassRoom(settings.class_exam, store, workers, papers)
+
+
 QUOTAS = {"exam": (30, 600.0), "practice": (300, 10.0), "import": (3, 21_600.0)}
 """What a learner may begin at once, and seconds until once more: each takes room on the disk."""
 
@@ -116,6 +131,8 @@ class ServerState:
         """Tokens that the database has said to be good, so that not each request asks it."""
         self.papers = Papers(self.store, self.workers)
         self.papers_ahead = PapersAhead(settings, self.store, self.workers, self.papers)
+        self.room = open_class_room(settings, self.store, self.workers, self.papers)
+        """The class that sits its exam here, if one does."""
         self.password_limits = PasswordLimits()
         self.browser_secret = self.store.shared_value("browsers", secrets.token_urlsafe(24))
         """What proves that somebody has signed in at a browser before."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import Response
+from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route
 
 from quizgen.bank.bank import Bank
@@ -49,14 +49,14 @@ def find_task_figure(bank: Bank, template: str) -> Figure | None:
 
 
 async def show_task_picture(request: Request) -> Response:
-    """Return the picture of a template (SVG); HTTP 404 if there is none."""
+    """Return the picture of a template (SVG), or the address of a sign where there is none."""
     site: ServerState = request.app.state.site
     template = request.path_params["template"]
     if template not in site.bank.template_paths:
         raise HTTPException(404)
     data = await site.workers.get_result(TaskPictureJob(template), request.state.learner.id)
-    if not data:
-        raise HTTPException(404)
+    if not data:  # the sign of the pages
+        return RedirectResponse("/static/icon.svg")
     return Response(
         data, media_type="image/svg+xml", headers={"cache-control": f"private, max-age={DAY}"}
     )

@@ -72,18 +72,31 @@ class BlockEntry:
     minutes : int
     gain : float
         Points of the exam that they are expected to bring.
+    in_exam : bool
+        Whether the exam may ask all of them.
     """
 
     title: str
     count: int
     minutes: int
     gain: float
+    in_exam: bool
 
 
 @dataclass(frozen=True)
 class TopicRow:
-    """A topic of the notes: how much of it is known, and how long going through it takes."""
+    """A section of the notes, or a topic: how much of it is known, how long it takes.
 
+    Parameters
+    ----------
+    kind : str
+        ``section`` or ``topic``.
+    name, title : str
+    minutes : int
+    aperture : Markup
+    """
+
+    kind: str
     name: str
     title: str
     minutes: int
@@ -138,6 +151,11 @@ class TonightView:
     block: tuple[BlockEntry, ...]
     topics: tuple[TopicRow, ...]
     is_new: bool
+
+    @property
+    def gain(self) -> float:
+        """The points that the block is expected to bring, in halves."""
+        return round(2 * sum(one.gain for one in self.block)) / 2
 
     @property
     def expected_points(self) -> float | None:
@@ -243,27 +261,37 @@ def _list_entries(
         yield BlockEntry(
             title or bank.topic_title(topic, lang), len(places),
             max(1, round(float(sum(minutes[place] for place in places)))), gain,
+            names <= plan.goal.templates,
         )  # fmt: skip
 
 
 def _list_topics(
     plan: ExamPlan, names: Collection[str], bank: Bank, lang: str
 ) -> Iterator[TopicRow]:
-    """Yield the topics of the notes with what is known of them."""
-    credit = plan.model.expected_credit()
-    seen = {one.template for one in plan.attempts}
-    for topic in bank.topics:
-        places = [
-            place
-            for place, item in enumerate(plan.model.items)
-            if item.topic == topic and item.name in names and not item.beyond
-        ]
-        if places:
-            known = [credit[p] if plan.model.items[p].name in seen else 0.0 for p in places]
+    """Yield the sections of the notes, then topics that are in none, with what is known of each."""
+    places = [
+        place
+        for place, item in enumerate(plan.model.items)
+        if item.name in names and not item.beyond
+    ]
+    rows = [
+        *(("section", one.section) for one in bank.curriculum.notes),
+        *(("topic", topic) for topic in bank.topics),
+    ]
+    groups: dict[tuple[str, str], list[int]] = {row: [] for row in rows}
+    for place in places:
+        item = plan.model.items[place]
+        section = bank.notes_section(item.name)
+        groups["section" if section else "topic", section or item.topic].append(place)
+    credit, seen = plan.model.expected_credit(), {one.template for one in plan.attempts}
+    for (kind, name), of in groups.items():
+        if of:
+            known = [credit[p] if plan.model.items[p].name in seen else 0.0 for p in of]
+            title = bank.section_title if kind == "section" else bank.topic_title
             yield TopicRow(
-                topic, bank.topic_title(topic, lang),
-                round(sum(plan.model.items[place].minutes for place in places)),
-                draw_aperture(sum(map(float, known)) / len(places)),
+                kind, name, title(name, lang),
+                round(sum(plan.model.items[place].minutes for place in of)),
+                draw_aperture(sum(map(float, known)) / len(of)),
             )  # fmt: skip
 
 

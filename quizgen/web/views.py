@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache
 
@@ -12,6 +13,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from quizgen.bank.bank import builtin_bank
+from quizgen.core.errors import ClassError
 from quizgen.figures.inks import write_theme_css
 from quizgen.grading.drawing.strokes import read_strokes
 from quizgen.kinds.contract import DrawingField
@@ -29,8 +31,10 @@ from quizgen.practice.scheduler import local_date
 from quizgen.question.html import put_fields
 from quizgen.render.layouts import jinja_environment
 from quizgen.store import Learner
+from quizgen.store.seats import NAMES
 from quizgen.web.auth import csrf_token
 from quizgen.web.lens_drawing import draw_aperture, draw_lens_scale
+from quizgen.web.settings import ServerSettings
 from quizgen.web.state import ServerState
 
 SCALE_STEPS = 10
@@ -75,16 +79,39 @@ def _build_menu(site: ServerState, learner: Learner) -> list[tuple[str, str]]:
     here = site.settings
     if here.accounts and not learner.id:
         return []
+    if here.class_exam:
+        return _list_supervision(learner)
     shown = [("/", "practice"), ("/exam", "exam"), ("/progress", "progress")]
     shown += [("/formulas", "formulas")] if "formulas" in site.bank.cards else []
     shown += [("/author", "author")] if here.examine else []
-    shown += [("/class", "class")] if here.classroom else []
+    shown += [("/marking", "marking")] if _is_marker(here, learner) else []
     shown += [("/people", "people")] if learner.manages else []
     return shown + ([("/account", "account")] if here.accounts else [])
 
 
+def _is_marker(settings: ServerSettings, learner: Learner) -> bool:
+    """Return whether a learner may mark the class that the server was started with, if any."""
+    if settings.classroom is None or not settings.accounts:
+        return settings.classroom is not None
+    from quizgen.classes.markers import read_markers
+
+    with suppress(ClassError):  # the page itself says what is wrong with the file
+        return learner.manages or read_markers(settings.classroom).names(learner.name)
+    return False
+
+
+def _list_supervision(learner: Learner) -> list[tuple[str, str]]:
+    """Return the menu of those who watch an exam; students have none."""
+    if learner.name.startswith(NAMES):
+        return []
+    people = [("/people", "people")] if learner.manages else []
+    return [("/live", "live"), *people, ("/account", "account")]
+
+
 def _list_rooms(site: ServerState) -> list[tuple[str, str]]:
     """Return address and key of the name of the pages that nobody needs for an exam."""
+    if site.settings.class_exam:
+        return []
     rooms = [("/questions", "questions")]
     # Scenes and measurements are of the built-in bank's chapter.
     if builtin_bank() in site.bank.members:
@@ -126,7 +153,12 @@ def page_response(request: Request, layout: str, status: int = 200, **content: o
             learner=request.state.learner,
             menu=_build_menu(site, request.state.learner),
             rooms=_list_rooms(site),
-            **{"here": request.url.path, "kept": {}, **content},
+            **{
+                "here": request.url.path,
+                "kept": {},
+                "seat": getattr(request.state, "seat", None),
+                **content,
+            },
         )
     )
     # Formulas and figures have styles in their elements, which the policy of pages forbids: the

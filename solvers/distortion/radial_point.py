@@ -3,7 +3,7 @@
 Source: Hartley & Zisserman, Multiple View Geometry, 2nd ed. (2004), section 7.4, eq. 7.12.
 """
 
-from sympy import evaluate, sqrt, symbols
+from sympy import Eq, Piecewise, evaluate, sqrt, symbols
 
 from quizgen.maths.model import Model, Step
 
@@ -15,7 +15,7 @@ with evaluate(False):
         given={k_1: "", k_2: "", x: "", y: ""},
         steps=(
             Step(R, x**2 + y**2),
-            Step(delta, k_1 * R + k_2 * R**2),
+            Step(delta, Piecewise((k_1 * R, Eq(k_2, 0)), (k_1 * R + k_2 * R**2, True))),
             Step(L, 1 + delta),
             Step(u, x * L),
             Step(v, y * L),

@@ -29,6 +29,7 @@ with evaluate(False):
             "number-forgotten": Step(H, f**2 / c + f),
             "times-number": Step(H, N * f**2 / c + f),
             "exchanged": (Step(near, FAR), Step(far, NEAR)),
+            "swapped": (Step(front, far - s, "m"), Step(rear, s - near, "m")),
             "half-hyperfocal": Step(near, H / 2),
             "mirrored": Step(far, 2 * s - near),
             "front-only": Step(T, s - near),

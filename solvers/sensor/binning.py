@@ -21,7 +21,7 @@ with evaluate(False):
             Step(T, 2 * (k * p), "um"),
         ),
         traps={
-            "side-for-area": Step(E, k * S, "e-"),
+            "side-for-area": (Step(E, k * S, "e-"), Step(Q, E / sqrt(E + k * sigma_r**2))),
             "one-photosite": Step(Q, S / sqrt(S + sigma_r**2)),
             "read-noise-not-squared": Step(Q, E / sqrt(E + k**2 * sigma_r)),
             "shot-noise-left-out": Step(Q, E / sqrt(k**2 * sigma_r**2)),

@@ -8,7 +8,9 @@ import io
 import pikepdf
 import pytest
 from made import made, run
+from PIL import Image
 
+from quizgen.classes.class_folder import ClassFolder
 from quizgen.core.untrusted import unescape_csv_formula
 
 ROWS = [("101", "Ada", "en"), ("102", "Ben", "bn"), ("103", "Cem", "en")]
@@ -84,3 +86,18 @@ def test_items_stand_in_a_table_by_their_printed_numbers(folder):
     assert [row["number"] for row in rows][:3] == ["1a", "1b", "2a"]
     assert rows[0]["item"] == "normalise-from-8-bit-range/a"
     assert {row["students"] for row in rows if row["undecided"] == "0"} == {"2"}
+
+
+def test_marks_stand_on_the_picture_of_what_is_on_paper(folder, capsys):
+    heads = ClassFolder(folder).heads()
+    scans = folder / "scans" / heads["101"].code
+    scans.mkdir(parents=True)
+    Image.effect_noise((600, 150), 90).save(scans / "3b.png")
+    assert run("class", "inspect", folder, "101") == 0
+    pdf = folder / "results" / "inspection" / "101.pdf"
+    with pikepdf.open(pdf) as opened:
+        pictures = [image for page in opened.pages for image in page.get_images().values()]
+        assert (600, 150) in [(int(one.Width), int(one.Height)) for one in pictures]
+    (scans / "3b.png").write_bytes(b"no picture")
+    assert run("class", "inspect", folder, "101") == 2
+    assert "3b.png: is no picture" in capsys.readouterr().err

@@ -119,3 +119,15 @@ def test_help_fits_80_columns(name):
     done = CliRunner().invoke(root_group, [name, "--help"], terminal_width=80)
     assert done.exit_code == 0
     assert max(map(len, done.output.splitlines())) <= 80
+
+
+def test_the_version_names_what_decides_bytes(capsys):
+    from importlib.metadata import version
+
+    from quizgen.cli.main import main
+
+    main(["--version"])
+    said = capsys.readouterr().out
+    assert said.startswith(f"quizgen {version('quizgen')} (")
+    for name in ("matplotlib", "typst", "fontpkg-hind-siliguri"):
+        assert f"{name} {version(name)}" in said

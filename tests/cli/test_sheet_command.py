@@ -15,11 +15,11 @@ def test_both_formats_are_written_and_counted(tmp_path):
 
 
 def test_a_format_and_several_topics_can_be_chosen(tmp_path):
-    options = ["--topic", "প্রক্ষেপণ,eye", "--format", "HTML", "--lang", "bn"]
+    options = ["--topic", "রঙ,eye", "--format", "HTML", "--lang", "bn"]
     done = run("sheet", *options, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert [path.name for path in (tmp_path / "sheet").iterdir()] == ["formulas.html"]
-    assert done.stdout.splitlines()[-1] == "11 formulas in 2 topics"
+    assert done.stdout.splitlines()[-1] == "9 formulas in 2 topics"
 
 
 @pytest.mark.parametrize(

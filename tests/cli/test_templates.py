@@ -72,7 +72,7 @@ def test_filters_hold_together():
     choices = {row[0] for row in rows("--kind", "choice")}
     assert {row[0] for row in rows("--topic", "noise", "--kind", "CHOICE")} == noise & choices
     assert "bayer-site-counts" in {row[0] for row in rows("--search", "PHOTOSITES")}
-    assert "bayer-site-counts" in {row[0] for row in rows("--search", "ফটোসাইট")}
+    assert "bayer-site-counts" in {row[0] for row in rows("--search", "সবুজ photosite")}
     assert rows("--search", "no such words") == []
 
 

@@ -63,6 +63,10 @@ REFERENCE = {
         "L_r": 0.8, "L_g": 0.5, "L_b": 1, "R_r": 0.9, "R_g": 0.3, "R_b": 0.6,
     },
     "gaussian_contours": {"covariances": ((4, 0, 9),), "x": 1, "y": 2},
+    "lamp_and_surface": {
+        "L_400": 0.1, "L_500": 0.3, "L_600": 0.7, "L_700": 1, "R_400": 0.8, "R_500": 0.2, "R_600": 0.4, "R_700": 0.9,
+    },
+    "photon_transfer": {"v_0": 49, "mu_s": 600, "v_s": 289, "top": 400},
     "plate_camera": {"L": 3.5, "v": 10, "w": 100},
     "book_scanner": {"room": 600, "c": 10},
     "imaging_pipeline": {},
@@ -99,6 +103,8 @@ HIDDEN = {
     "imaging_pipeline": ["demosaicing", "gamma"],
     "bayer_counts": ["12", "9"],
     "formula_sketch": [],
+    "lamp_and_surface": ["third"],
+    "photon_transfer": ["line through"],
     "plate_camera": [],
     "book_scanner": [],
 }
@@ -200,6 +206,14 @@ def textbook_draws(rng: random.Random):
         yield "gaussian_contours", {"covariances": (row,), "x": rng.randint(1, 6), "y": 3}
         sensor = {"W": rng.randint(3, 12), "H": rng.randint(3, 12), "phase": rng.randrange(4)}
         yield "bayer_counts", sensor
+        heights = {
+            f"{letter}_{place}": rng.randint(0, 10) / 10
+            for letter in "LR"
+            for place in (400, 500, 600, 700)
+        }
+        yield "lamp_and_surface", heights
+        low, full = rng.randint(16, 64), rng.choice([400, 600, 800])
+        yield "photon_transfer", {"v_0": low, "mu_s": full, "v_s": low + full / 4, "top": 300}
     for one in range(2):
         yield "plate_camera", {"L": 3 + one / 2, "v": 8 + 2 * one, "w": 90 + 10 * one}
         yield "book_scanner", {"room": 600 + 50 * one, "c": 8 + 2 * one}

@@ -247,8 +247,8 @@ def test_the_step_that_is_left_out_is_crossed():
 
 def test_the_pipeline_speaks_the_language_of_the_question():
     bangla = read_labels(draw("imaging_pipeline", {}, lang="bn"))
-    assert "লেন্স" in bangla
-    assert "lens" not in bangla
+    assert "রঙের filter" in bangla
+    assert "colour filters" not in bangla
 
 
 # Bayer -------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import json
 import os
 import random
@@ -119,6 +120,9 @@ COMMANDS = [
                 "class mark {}/quiz"),
     FileCommand("class mark FILES", "class", ("inbox/*",),
                 "class mark {}/class {}/inbox/1.toml {}/inbox/2.json {}/inbox/3.csv"),
+    FileCommand("class scan", "class", (*CLASS, "class/sheets/103.pdf", "class/scans/pages.jsonl",
+                "class/scans/typed.csv", "page.jpg", "stack.pdf", "typed.csv"),
+                "class scan {}/class {}/page.jpg {}/stack.pdf {}/typed.csv --jobs 1", share=6),
     FileCommand("class rule", "class", MARKED, "class rule {}/class drop ITEM", share=2),
     FileCommand("class lists", "class", CLASS, "class lists {}/class", share=2),
     FileCommand("class table", "class", CLASS, "class table {}/class {}/answers.xlsx", share=2),
@@ -469,7 +473,7 @@ def make_class(folder: Path) -> None:
     roster = "id;name;lang;extra\n101;Ada;en;25%\n102;রহিমা;bn;\n103;Cem;en;10\n"
     write(folder, {"short.toml": SHORT, "roster.csv": roster})
     with mock.patch.object(generation, "new_secret", return_value="5" * 32):
-        sound(MAKE, folder)
+        sound(f"{MAKE} --sheet", folder)
     lines = map(json.loads, (folder / "class/keys.jsonl").read_text("utf-8").splitlines())
     forms = [as_form({**one["key"], "code": one["code"]}, one["id"]) for one in lines]
     write(folder, {
@@ -486,6 +490,21 @@ def make_class(folder: Path) -> None:
     })  # fmt: skip
     sound("class rule {}/class accept ITEM --answer 1 --value 0.5 --who me", folder, ITEM=ITEM)
     sound("class grade {}/class --reports none", folder)
+    write(folder, {"typed.csv": "id,part,answer\n101,1a,0.5\n102,2a,1\n"})
+    sheets = [folder / f"class/sheets/{student}.pdf" for student in (102, 103)]
+    write(folder, {"page.jpg": photograph(sheets[0]), "stack.pdf": sheets[1].read_bytes()})
+    sound("class scan {}/class {}/page.jpg {}/typed.csv --jobs 1", folder)
+    (folder / "class/answers/scan.csv").unlink()
+
+
+def photograph(sheet: Path) -> bytes:
+    """Return the first page of a PDF file as JPEG."""
+    import pypdfium2
+
+    out = io.BytesIO()
+    with pypdfium2.PdfDocument(sheet) as document:
+        document[0].render(scale=2, grayscale=True).to_pil().save(out, "JPEG")
+    return out.getvalue()
 
 
 ITEM = "normalise-from-8-bit-range/a"

@@ -167,7 +167,7 @@ def lasers(page: Page) -> dict[str, Any]:
     return {"a": ratio, "b": ratio * second}
 
 
-BANDS = {("gamma", "গামা"): (1e5, 1e6), ("X-ray", "এক্স-রে"): (2e4, 1.5e5),
+BANDS = {("gamma",): (1e5, 1e6), ("X-ray",): (2e4, 1.5e5),
          ("ultraviolet",): (3.27, 100), ("visible", "দৃশ্যমান"): (1.59, 3.27),
          ("infrared",): (0.001, 1.59)}  # fmt: skip
 """Energies of photons in eV where images are made; gamma rays and X-rays overlap."""
@@ -206,7 +206,7 @@ def site(page: Page) -> dict[str, Any]:
             if tile[(x + dx) % 2, (y + dy) % 2] == wanted}  # fmt: skip
     own = tile[x % 2, y % 2]
     if own == wanted:
-        words = ("photosite itself", "এই ফটোসাইট থেকেই")
+        words = ("photosite itself", "এই photosite থেকেই")
     elif len(near) == 4:
         words = ("share an edge", "কিনারা") if (0, 1) in near else ("corners", "কোণার")
     else:
@@ -289,6 +289,6 @@ def inks(page: Page) -> dict[str, Any]:
     plain = [1 - page[name] for name in "RGB"]
     black = min(plain)
     left = [(ink - black) / (1 - black) for ink in plain]
-    names = (("cyan", "সায়ান"), ("magenta", "ম্যাজেন্টা"), ("yellow", "হলুদ"))
+    names = (("cyan",), ("magenta",), ("yellow", "হলুদ"))
     spare = page.parts["c"].saying(*names[left.index(0)])
     return {"a": plain, "b": [*left, black], "c": spare, "d": sum(plain) - sum(left) - black}

@@ -139,7 +139,7 @@ def bent_line(page: Page) -> dict[str, Any]:
 @solves("show-gamma-mismatch")
 def gamma(page: Page) -> dict[str, Any]:
     """Notes D20, F46."""
-    found = re.search(r"(?:are|মান দুটি) ([\d.]+) (?:and|ও) ([\d.]+)", page.stem)
+    found = re.search(r"(?:are|মান দুটো) ([\d.]+) (?:and|ও) ([\d.]+)", page.stem)
     one, other = (float(text) for text in found.groups()) if found else (0.0, 0.0)
     encoded = [light ** (1 / 2.2) for light in (one, other)]
     return {"a": lambda _: {"g": ((one + other) / 2) ** (1 / 2.2), "m": sum(encoded) / 2}}

@@ -52,7 +52,7 @@ def coefficients(page: Page) -> dict[str, Any]:
     rows = [[r**2, r**4] for r in (near, far)]
     changes = [d / r - 1 for d, r in zip(moved, (near, far), strict=True)]
     k_1, k_2 = np.linalg.solve(rows, changes)
-    kinds = {(True, True): ("barrel:", "ব্যারেল:"), (False, False): ("pincushion:", "পিনকুশন:")}
+    kinds = {(True, True): ("barrel:",), (False, False): ("pincushion:",)}
     said = kinds.get((bool(k_1 < 0), moved[1] < far), ("one kind", "এক ধরন"))
     alone = changes[0] / near**2
     return {"a": alone, "b": (float(k_1), float(k_2)), "c": page.parts["c"].saying(*said)}

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 from by_hand import solves
 from printed_numbers import points
 from printed_page import Page
@@ -146,3 +148,45 @@ def level_lines(page: Page) -> dict[str, Any]:
     radius = math.sqrt(both)
     return {"a": [around(float(first), math.sqrt(x_var), math.sqrt(y_var)),
                   around(float(second), radius, radius)]}  # fmt: skip
+
+
+@solves("draw-fall-off-of-light")
+def falls_off(page: Page) -> dict[str, Any]:
+    """Curriculum X-C15: the fourth power of the cosine of the angle whose tangent is r/f."""
+    f, end = 1000 * float(page["f"]), 1000 * float(page["R"])
+    places = [end * step / 12 for step in range(13)]
+    return {"a": [[(r, math.cos(math.atan(r / f)) ** 4) for r in places]]}
+
+
+@solves("draw-field-of-view")
+def field_of_view(page: Page) -> dict[str, Any]:
+    """Notes 4.1: the sensor and what it shows of the wall are seen from the hole at one angle."""
+    f, sensor, far = map(float, page.amounts(""))
+    end = sensor / 2 / f * far
+    rays = [[(-f, side * sensor / 2), (0, 0), (far, -side * end)] for side in (-1, 1)]
+    halves = [half for ray in rays for half in (ray[:2], ray[1:])]
+    ways = {("doubled", "দ্বিগুণ"): ("half as wide", "অর্ধেক চওড়া"), ("halved", "অর্ধেক"): ("twice as wide", "দ্বিগুণ চওড়া"),
+            ("four times as long", "length চার গুণ"): ("a quarter as wide", "চার ভাগের এক ভাগ চওড়া"),
+            ("a quarter as long", "চার ভাগের এক ভাগ"): ("four times as wide", "চার গুণ চওড়া")}  # fmt: skip
+    part = page.parts["b"]
+    said = part.text.replace(")", "")
+    (words,) = [
+        seen
+        for told, seen in ways.items()
+        if any(f" {one} " in f" {said} ".replace(".", " ") for one in told)
+    ]
+    return {"a": [*halves, [(far, -end), (far, end)]], "b": part.saying(*words)}
+
+
+@solves("draw-light-from-a-surface", figure=True)
+def comes_back(page: Page) -> dict[str, Any]:
+    """F02: at each wavelength the share that the surface sends back of what arrives."""
+    corners = [float(value) for value in re.findall(r"\d00 nm: (\d(?:\.\d+)?)", page.figure)]
+    steps = range(400, 701, 50)
+    lamp, surface = (np.interp(steps, range(400, 701, 100), part)
+                     for part in (corners[:4], corners[4:]))  # fmt: skip
+    both = (lamp * surface).tolist()
+    named = both[1], both[3], both[5]
+    words = (("blue", "নীল"), ("green", "সবুজ"), ("red", "লাল"))[named.index(max(named))]
+    curve = list(zip(map(float, steps), both, strict=True))
+    return {"a": named, "b": [curve], "c": page.parts["c"].saying(*words)}

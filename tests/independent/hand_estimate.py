@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
+import statistics
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 from by_hand import solves
 from printed_numbers import quantities
 from printed_page import Page
@@ -104,3 +107,26 @@ def edited_camera(page: Page) -> dict[str, Any]:
         "b": (small[0][0], small[0][2], small[1][2]),
         "c": times(turn, small)[1][2],
     }
+
+
+@solves("gain-and-read-noise-from-plot", figure=True)
+def transfer_curve(page: Page) -> dict[str, Any]:
+    """EMVA 1288: a straight line through the points, by least squares, until the sites are full."""
+    read = re.findall(r"([\d.]+): ([\d.]+)", page.figure.replace("\u202f", ""))
+    means, variances = np.array([[float(x), float(y)] for x, y in read]).T
+    slope, dark = np.polyfit(means, variances, 1)
+    noise = math.sqrt(dark)
+    return {"a": Fraction(slope), "b": (Fraction(noise), Fraction(noise / slope)),
+            "c": Fraction(means[-1] / slope)}  # fmt: skip
+
+
+@solves("noise-and-gain-of-nine-pixels")
+def nine_pixels(page: Page) -> dict[str, Any]:
+    """EMVA 1288: the variance that the dark has not, over the mean above the dark level."""
+    levels = [float(cell) for row in page.rows for cell in row if cell.isdigit()]
+    assert len(levels) == 9
+    signal = statistics.mean(levels) - float(page["b"])
+    spread = statistics.stdev(levels)
+    gain = (spread**2 - float(page["v_d"])) / signal
+    return {"a": (Fraction(statistics.mean(levels)), Fraction(spread)),
+            "b": Fraction(signal / spread), "c": Fraction(gain)}  # fmt: skip

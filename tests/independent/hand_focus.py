@@ -108,7 +108,7 @@ def diffraction(page: Page) -> dict[str, Any]:
     per_stop = page["k"] * page["λ"]
     disc = per_stop * f_number(page.stem)
     wide = disc > 2 * page["p"]
-    words = (("in focus more", "finer pixels", "ফোকাসে থাকা", "আরও ছোট পিক্সেলের") if wide
+    words = (("in focus more", "finer pixels", "focus-এ থাকা", "আরও ছোট pixel-এর") if wide
              else ("The pixels limit", "before diffraction", "সীমিত হচ্ছে", "চোখে পড়ার আগে"))  # fmt: skip
     return {"a": disc, "b": disc / page["p"], "c": page.parts["c"].saying(*words),
             "d": 2 * page["p"] / per_stop}  # fmt: skip
@@ -187,7 +187,7 @@ def pixel_snr(page: Page) -> dict[str, Any]:
     """Curriculum X-C08: variances add up."""
     parts = {
         ("light", "আলো"): page["S"],
-        ("dark", "ডার্ক"): page["D"],
+        ("dark",): page["D"],
         ("read-out", "রিড"): page["σ_r"] ** 2,
     }
     noise = math.sqrt(sum(parts.values()))

@@ -91,7 +91,7 @@ def lens_limits(page: Page) -> dict[str, Any]:
     f = named(object_at.text, "f")
     z = sum(page.amounts("mm", "c")) - f
     return {"b": limit.those(lambda text: multiple_of_f(text) == image),
-            "c": object_at.saying("neither", "কোনো প্রতিবিম্বই") if z == f else _image_said(object_at, f / (z - f))}  # fmt: skip
+            "c": object_at.saying("neither", "কোনো image-ই") if z == f else _image_said(object_at, f / (z - f))}  # fmt: skip
 
 
 def multiple_of_f(text: str) -> Fraction | None:
@@ -118,9 +118,9 @@ def effects(page: Page) -> dict[str, Any]:
     spread = re.search(r"σ\D{1,4}([\d.]*\d)", page.stem)
     assert spread
     noise = Fraction(spread[1]) * 255 / page["F"]
-    changes = {("shutter", "শাটার"): page["G"] * skew, ("noise", "নয়েজ"): 4 * noise,
-               ("defocus", "ডিফোকাস"): page["G"] * disc,
-               ("distortion", "ডিস্টর্শন"): page["G"] * moved}  # fmt: skip
+    changes = {("shutter",): page["G"] * skew, ("noise",): 4 * noise,
+               ("defocus",): page["G"] * disc,
+               ("distortion",): page["G"] * moved}  # fmt: skip
     small = [word for words, change in changes.items() if change <= 2 for word in words]
     return {"a": disc, "b": moved, "c": skew, "d": noise, "e": page.parts["e"].saying(*small)}
 
@@ -140,7 +140,7 @@ def off_axis(page: Page) -> dict[str, Any]:
     x, y = points(page.stem)[-1]
     u, v = distorted(x, y, page["k_1"], page["k_2"])
     share = math.hypot(u, v) / math.hypot(x, y) - 1
-    kind = ("barrel", "ব্যারেল") if share < 0 else ("pincushion", "পিনকুশন")
+    kind = ("barrel",) if share < 0 else ("pincushion",)
     return {"a": (u, v), "b": share, "c": page.parts["c"].saying(*kind)}
 
 
@@ -158,16 +158,16 @@ def points_and_line(page: Page) -> dict[str, Any]:
     return {"a": on_a, "b": on_b, "d": share, "e": bow, **said}
 
 
-BARREL = ("is barrel", "picture in", "smaller", "ব্যারেল", "ভেতরে আসে", "ছোট হয়")
-PINCUSHION = ("is pincushion", "picture out", "larger", "পিনকুশন", "বাইরে যায়", "বড় হয়")
-OUTWARDS = ("outwards", "nearer", "বাইরের দিকে", "অক্ষের কাছে")
-INWARDS = ("inwards", "farther", "ভেতরের দিকে", "অক্ষ থেকে দূরে")
+BARREL = ("barrel", "picture in", "smaller", "ভেতরে আসে", "ছোট হয়")
+PINCUSHION = ("pincushion", "picture out", "larger", "বাইরে যায়", "বড় হয়")
+OUTWARDS = ("outwards", "nearer", "বাইরের দিকে", "axis-এর কাছে")
+INWARDS = ("inwards", "farther", "ভেতরের দিকে", "axis থেকে দূরে")
 
 
 @solves("recognise-distortion-from-numbers")
 def square_in_numbers(page: Page) -> dict[str, Any]:
     """Notes 4.5: where the corners go against the middle of an edge."""
-    asked = {"barrel": ("barrel", "ব্যারেল"), "pincushion": ("pincushion", "পিনকুশন"),
+    asked = {"barrel": ("barrel",), "pincushion": ("pincushion",),
              "scale": ("change of scale", "মাপের"), "turned": ("rotation", "ঘূর্ণন"),
              "tilt": ("tilted", "হেলানো")}  # fmt: skip
     question = page.text.rpartition("\n1; 0")[2]

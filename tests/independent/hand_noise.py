@@ -27,12 +27,12 @@ def two_noises(page: Page) -> dict[str, Any]:
     """Notes 4.4, S16: peaks go like 1/sigma, the area is 1."""
     first, second = page["σ_1"], page["σ_2"]
     true = {("areas under both", "ক্ষেত্রফল সমান"): True,
-            ("the wider density", "যে ঘনত্ব বেশি চওড়া"): False,
-            ("beyond one standard", "এক আদর্শ বিচ্যুতির"): True,
-            ("neither noise", "কোনো নয়েজেই"): True, ("the stronger noise", "বেশি জোরালো"): False,
+            ("the wider density", "যে density বেশি চওড়া"): False,
+            ("beyond one standard", "এক standard deviation-এর"): True,
+            ("neither noise", "কোনো noise-এই"): True, ("the stronger noise", "বেশি জোরালো"): False,
             ("the same for both", "অংশ দুটোতেই সমান"): first == second,
-            ("first density", "প্রথম ঘনত্বের"): first < second,
-            ("second density", "দ্বিতীয় ঘনত্বের"): first > second,
+            ("first density", "প্রথম density-র"): first < second,
+            ("second density", "দ্বিতীয় density-র"): first > second,
             ("first camera", "প্রথম ক্যামেরায়"): first > second,
             ("second camera", "দ্বিতীয় ক্যামেরায়"): first < second}  # fmt: skip
 
@@ -63,7 +63,7 @@ def far_tail(page: Page) -> dict[str, Any]:
     """Notes 4.4, F18; what float64 makes of 1 - erf is tried out."""
     k = float(page["k"])
     share, printed = outside(k, 1), 1 - math.erf(k / math.sqrt(2))
-    words = ("exactly 0", "0: ") if printed == 0 else ("only some digits", "কয়েকটি অঙ্ক")
+    words = ("exactly 0", "0: ") if printed == 0 else ("only some digits", "কয়েকটা অঙ্ক")
     assert abs(printed / share - 1) > 1e-14
     return {"a": share, "b": page.parts["b"].saying(*words)}
 
@@ -132,8 +132,8 @@ def _normalised(page: Page, low: Fraction, high: Fraction) -> dict[str, Any]:
     return {part: share * (top - new) + new for part, (new, top) in to.items()}
 
 
-CHANNELS = [("alpha", 2), ("আলফা", 2), ("RGBA", 4), ("RGB-D", 4), ("CMYK", 4), ("RGB", 3), ("HSV", 3),
-            ("Lab", 3), ("raw", 1), ("mask", 1), ("মাস্ক", 1), ("grey", 1), ("ধূসর", 1)]  # fmt: skip
+CHANNELS = [("alpha", 2), ("RGBA", 4), ("RGB-D", 4), ("CMYK", 4), ("RGB", 3), ("HSV", 3),
+            ("Lab", 3), ("raw", 1), ("mask", 1), ("grey", 1), ("ধূসর", 1)]  # fmt: skip
 
 
 @solves("channel-counts")
@@ -170,7 +170,7 @@ def index_and_shape(page: Page) -> dict[str, Any]:
     if not -height <= row < height:
         words = ("no such row", "সারিটি নেই")
     elif not -width <= column < width:
-        words = ("no such column", "কলামটি নেই")
+        words = ("no such column", "column-টা নেই")
     else:
         words = (
             ("opposite edge", "উল্টো কিনারা") if min(row, column) < 0 else ("upper left", "উপরের বাঁ")

@@ -103,7 +103,7 @@ def formula(function: Callable[..., float]) -> Callable[..., float]:
 @solves("orthographic-and-weak-formulas")
 def two_formulas(page: Page) -> dict[str, Any]:
     """Notes D18, F43: x' = p_x; x' = f p_x / Z."""
-    assert page.says("orthographic", "অর্থোগ্রাফিক")
+    assert page.says("orthographic")
     weak = formula(lambda f, p_x, Z: f * p_x / Z)  # noqa: N803
     return {"a": formula(lambda p_x: p_x), "b": weak}
 
@@ -126,7 +126,7 @@ def gaussian_formula(page: Page) -> dict[str, Any]:
 
 
 SHAPES = {"": ("circles", "বৃত্ত"), "x": ("along x", "x বরাবর"), "y": ("along y", "y বরাবর"),
-          "up": ("y=x", "y=x রেখা বরাবর"), "down": ("y=-x", "y=-x রেখা বরাবর")}  # fmt: skip
+          "up": ("y=x", "y=x লাইন বরাবর"), "down": ("y=-x", "y=-x লাইন বরাবর")}  # fmt: skip
 
 
 def _long_axis(first: tuple[Fraction, ...], second: tuple[Fraction, ...]) -> str:

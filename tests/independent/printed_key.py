@@ -32,7 +32,7 @@ RULES = [
     (r"within ([\d.]+) %|([\d.]+) % পর্যন্ত", lambda n, key: abs(key) * Fraction(n) / 100),
     (r"Round to (\d) decimals?|দশমিকের পর (\d) ঘর", lambda n, _: Fraction(1, 2 * 10 ** int(n))),
     (r"(\d) significant|(\d)টি সার্থক", lambda n, key: _last_place(key, int(n)) / 2),
-    (r"(Round to a whole number)|(পূর্ণসংখ্যায় রাউন্ড)", lambda *_: Fraction(1, 2)),
+    (r"(Round to a whole number)|(পূর্ণসংখ্যায় round)", lambda *_: Fraction(1, 2)),
     (r"(exact value)|(হুবহু মান দিন[।;])", lambda _, key: abs(key) / 10**12),
 ]  # fmt: skip
 

@@ -112,11 +112,11 @@ def _page(node: Element) -> Page:
 
 def _part(node: Element) -> tuple[str, Part]:
     body = " ".join(text_of(child) for child in node if child.get("lang"))
-    place = next(child for child in node if child.get("class") == "field")
+    place = next((child for child in node if child.get("class") == "field"), node)
     hint = " ".join(text_of(one) for one in place.iter("p") if one.get("class") == "hint")
     options = tuple(_option(one) for one in place.iter("div") if one.get("class") == "option")
     targets = tuple(text_of(one) for one in place.iter("li"))
-    field = next(one.get("name") for one in place.iter() if one.get("name"))
+    field = next((one.get("name") for one in place.iter() if one.get("name")), "")
     return (field or "").lstrip("0123456789") or "a", Part(body, hint, options, targets)
 
 

@@ -22,6 +22,8 @@ ROWS = tomllib.loads((HERE / "mistakes.toml").read_text("utf-8"))["mistake"]
 PAGE = HERE.parents[1] / "docs" / "mistakes.md"
 HEAD = """# Mistakes of authors
 
+*For authors of questions. To look things up.*
+
 What `quizgen lint` says, by mistake. It writes `FILE:LINE:COLUMN: CODE MESSAGE; HINT`; the codes are those of
 [diagnostics.md](diagnostics.md). This page is made from `tests/lint/mistakes.toml`, where each mistake is made and its message compared.
 
@@ -75,7 +77,7 @@ def page() -> str:
         code, message = said.split(" ", 1)
         text = message.replace("|", "\\|")
         lines.append(f"| {row['what']} | `{place}` | {code} | `` {text} `` |")
-    return HEAD + "\n".join(lines) + "\n"
+    return HEAD + "\n".join(lines) + "\n\nNext: [Questions for other systems](export.md)\n"
 
 
 def code_of(row: dict[str, Any]) -> str:

@@ -25,6 +25,8 @@ class Shelf:
         given = {**DEFAULT, **self.table[name]}
         given |= {key: Fraction(str(given[key])) for key in ("points", "minutes")}
         given["apart"] = frozenset(given["apart"])
+        points = given.pop("points")
+        given["parts"] = given.get("parts") or (("compute", points),)
         photograph = given["figure"] in PHOTOGRAPHS
         return Candidate(name=name, origin=name, member=0, photograph=photograph, **given)
 

@@ -78,7 +78,7 @@ def test_a_block_fits_into_its_minutes(items, goal, minutes):
 
 def test_what_was_asked_lately_is_not_asked_again_in_the_round(items, goal):
     known = evening([slot.templates[0] for slot in goal.slots[:-1]], 1.0)
-    assert planned(items, goal, known).choose_next() == goal.slots[-1].templates[0]
+    assert planned(items, goal, known).choose_next() in goal.slots[-1].templates
 
 
 def test_what_was_begun_last_does_not_come_at_once(items, goal):

@@ -10,12 +10,12 @@ from sweep import spread
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.markdown import Emphasis, Paragraph
 from quizgen.bank.variant import draw_variant, reference_variant
+from quizgen.core.shares import share_points
 from quizgen.grading.options import GradingOptions
 from quizgen.paper.answer_key import make_key_question
 from quizgen.paper.grading import QuestionGrader
 from quizgen.paper.paper import PaperItem
 from quizgen.question.compose import compose_variant
-from quizgen.question.levels.contract import share_points
 from quizgen.question.levels.guided import guided_stages
 
 CALCULATING = [

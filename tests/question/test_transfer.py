@@ -22,7 +22,7 @@ from quizgen.question.compose import compose_variant
 from quizgen.question.interpolation import inlines_to_text
 from quizgen.question.levels import load_level
 from quizgen.question.levels.comparison import choose_comparison
-from quizgen.question.levels.consequence import choose_consequence
+from quizgen.question.levels.consequence import choose_consequence, choose_way_back
 from quizgen.question.levels.error_spotting import choose_faulty_solution
 from quizgen.question.levels.perturbations import Perturbations, askable_results
 
@@ -58,14 +58,23 @@ def test_the_effect_of_a_change_is_that_of_the_model(draws):
         spec, (before, after) = asked("en").spec, moved(asked.change)
         if asked.way == "factor":
             assert near(after / before, sympy.Rational(str(spec.value)))
-        elif asked.way == "value":
+        else:
             size = unit_factor(
                 getattr(spec, "unit", "") or drawn.template.units[asked.change.target]
             )
             assert near(after, sympy.Rational(format_for_key(parse_exact(spec.value) * size)))
-        else:
-            places = {1: after > before, 2: after < before, 3: near(after, before)}
-            assert [place for place, holds in places.items() if holds] == spec.correct
+
+
+def test_the_way_back_brings_about_what_is_wanted_in_the_model(draws):
+    for drawn in draws:
+        changes = Perturbations(drawn)
+        back = choose_way_back(changes, choose_consequence(changes))
+        if back is not None:
+            given, target = back.change.given, back.change.target
+            found = sympy.Rational(str(back("en").spec.value))
+            after = solved(drawn, **{given: found})[target]
+            wanted = sympy.Rational(str(back.change.factor))
+            assert near(after / solved(drawn)[target], wanted)
 
 
 def test_of_two_changes_the_model_moves_the_same_one_further(draws):

@@ -100,4 +100,4 @@ def test_the_fonts_are_embedded_and_used(browser, pages):
         page.evaluate("[...document.fonts].filter(f => f.status === 'loaded').map(f => f.family)")
     )
     page.close()
-    assert {name.strip('"') for name in loaded} == {"QuizMaths", "QuizBangla"}
+    assert {name.strip('"') for name in loaded} == {"QuizText", "QuizMaths", "QuizBangla"}

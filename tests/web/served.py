@@ -28,9 +28,9 @@ def free_port() -> int:
 class Served:
     """A server of one database and one port, to be killed and started again."""
 
-    def __init__(self, database: str, *more: str) -> None:
+    def __init__(self, database: str, *more: str, command: tuple[str, ...] = ("serve",)) -> None:
         self.port, self.printed = free_port(), ""
-        self.database, self._more = database, more
+        self.database, self._more, self._command = database, more, command
         self._process: subprocess.Popen[str] | None = None
         self.start()
 
@@ -40,7 +40,7 @@ class Served:
 
     def start(self) -> None:
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "quizgen", "serve", "--no-open", "--port", str(self.port),
+            [sys.executable, "-m", "quizgen", *self._command, "--no-open", "--port", str(self.port),
              "--database", self.database, *self._more],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
         )  # fmt: skip

@@ -49,6 +49,8 @@ ROWS = {
     "0006": {"paper": {"id": "f" * 64, "code": "trial-1-both-000000", "parts": '["1a"]', "data": b"packed"}},
     "0007": {"stock": {"paper": "f" * 64, "blueprint": "trial", "version": "v", "minutes": 9, "pauses": None}},
     "0008": {},
+    "0009": {},
+    "0010": {},
 }  # fmt: skip
 """What each release keeps, in the tables that it has added."""
 

@@ -53,6 +53,12 @@ def test_values_of_boxes_are_read_back_one_by_one(read, shown):
     assert plain(str(_typeset_values(read, "en", boxes=True))) == shown
 
 
+def test_an_empty_box_does_not_change_how_the_others_are_read():
+    for filled, shown in (((True, False), "1.5 px"), ((False, True), "0 px")):
+        read = _typeset_values("(1.5; 0) px", "en", boxes=True, filled=filled)
+        assert plain(str(read)) == shown
+
+
 @pytest.mark.parametrize(
     ("read", "shown"),
     [

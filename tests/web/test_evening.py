@@ -6,9 +6,13 @@ import html
 import re
 from datetime import timedelta
 
+import msgspec
 import pytest
 
 from quizgen.practice.scheduler import local_date
+from quizgen.practice.session_state import PartOutcome, PartState
+from quizgen.store import AttemptRecord, OutcomeRecord
+from quizgen.web.block import PracticeBlockView
 
 pytestmark = pytest.mark.usefixtures("nothing_done")
 POINT = "point-to-image-plane"
@@ -119,3 +123,22 @@ def test_before_handing_in_what_cannot_be_read_is_listed(client, token):
     listed = client.get(f"{at}/hand-in").text
     found = re.search(r"What could not be read</h2>\s*<ul>(.*?)</ul>", listed, re.DOTALL)[1]
     assert f"#part-{point}" in found
+
+
+def test_the_end_of_a_block_counts_what_had_gone_wrong_before():
+    def attempt(template, begun, *right):
+        states = [PartState(outcome=PartOutcome("t", one, one)) for one in right]
+        parts = {str(i): {"state": msgspec.to_builtins(one)} for i, one in enumerate(states)}
+        return AttemptRecord(id=template, learner=1, template=template, seed="1", level="exam", wish={},
+                             state={"parts": parts}, begun=begun, ended=begun + 1)  # fmt: skip
+
+    def outcome(template, at, *, right):
+        return OutcomeRecord(template, "t", "", "", right, right, at)
+
+    block = PracticeBlockView(
+        "b", 4, None,
+        (attempt("mended", 10, True), attempt("always", 20, True), attempt("wrong", 30, True, False)),
+    )  # fmt: skip
+    seen = [outcome("mended", 5, right=False), outcome("always", 5, right=True), outcome("always", 40, right=False),
+            outcome("wrong", 5, right=False)]  # fmt: skip
+    assert block.count_mended(seen) == 1

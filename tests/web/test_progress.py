@@ -45,7 +45,7 @@ def test_nothing_yet(client, topic):
     assert "No mistake with a name has been made yet." in page.text
     assert f"0/{topic}" in text(page.text)
     assert "never" in text(page.text)
-    assert "after five you see how many points" in text(client.get("/").text)
+    assert "after five you see your points" in text(client.get("/").text)
 
 
 def formulas(page: str) -> tuple[list[str], list[str]]:

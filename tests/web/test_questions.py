@@ -5,6 +5,12 @@ from __future__ import annotations
 import html
 import re
 
+from quizgen.bank.metadata import Curriculum
+
+
+def text(page: str) -> str:
+    return html.unescape(" ".join(re.sub(r"<[^>]*>", " ", page).split()))
+
 
 def found(page: str) -> list[str]:
     return re.findall(r'<button class="link" name="template" value="([^"]+)"', page)
@@ -64,6 +70,34 @@ def test_a_question_found_is_begun(client, token):
 
 def test_in_bangla_too(client, token):
     client.post("/settings", data={"token": token, "lang": "bn", "back": "/"})
-    page = client.get("/questions", params={"q": "পিক্সেল"}).text
+    page = client.get("/questions", params={"q": "সারি"}).text
     assert found(page)
     assert "টি প্রশ্ন" in page
+
+
+def test_the_notes_stand_by_section_and_their_numbers_find_questions(
+    client, token, bank, nothing_done
+):
+    numbers = [one.section for one in bank.curriculum.notes]
+    assert numbers == sorted(numbers, key=lambda n: [int(i) for i in n.split(".")])
+    home = client.get("/").text
+    buttons = dict(re.findall(r'name="section" value="([\d.]+)"><span class="s">(§[\d.]+)<', home))
+    assert buttons == {number: f"§{number}" for number in numbers}
+    found = text(client.get("/questions", params={"q": "4.5"}).text)
+    assert "§4.5 Radial distortion" in found
+    assert "§4.6" not in found
+    whole = client.get("/questions", params={"q": "§ 2"}).text
+    heads = re.findall(r"<h2>§([\d.]+) ", whole)
+    assert heads[0] == "2.1"
+    assert all(head.startswith("2.") for head in heads)
+    page = client.post("/practice", data={"token": token, "section": "4.5"})
+    store = client.app.state.site.store
+    template = store.latest(store.learner().id, 1)[0].template
+    assert bank.notes_section(template) == "4.5"
+    assert re.search(r'<p class="stands">[^<]*§4\.5</p>', page.text)
+
+
+def test_every_item_of_the_curriculum_stands_in_one_section_of_the_notes(bank):
+    listed = [i for one in bank.curriculum.notes for i in Curriculum({"": one.items}).inventory[""]]
+    assert len(listed) == len({*listed})
+    assert {item for group in bank.curriculum.inventory.values() for item in group} <= {*listed}

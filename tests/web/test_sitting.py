@@ -277,12 +277,12 @@ def test_two_hands_hand_in_once(client, token, exam, app):
 
 
 @pytest.mark.parametrize("code", ["gone-1-en-0a1b2c", "mock-1-xx-0a1b2c", "no code"])
-def test_an_exam_that_cannot_be_made_any_more_is_listed_by_its_code(client, app, code):
+def test_an_exam_that_cannot_be_made_any_more_is_listed(client, app, code):
     store = app.state.site.store
-    store.sittings.begin(store.learner().id, code, None, pauses=True)
+    begun = store.sittings.begin(store.learner().id, code, None, pauses=True)
     listed = client.get("/exam")
     assert listed.status_code == 200
-    assert f'<code class="hint">{code}</code>' in listed.text
+    assert f'<a href="/exam/{begun.id}">' in listed.text
 
 
 def test_what_an_exam_cost_is_repaired_question_by_question(client, token, exam, app):
@@ -307,3 +307,37 @@ def test_what_an_exam_cost_is_repaired_question_by_question(client, token, exam,
         assert asked.url.path.startswith("/q/"), "in the end what the plan says"
     assert sorted(found) == sorted(cost), "each once"
     assert "Repair" not in client.get(at).text
+
+
+def test_results_say_what_each_question_cost_in_points_and_time(client, token, exam, code, app):
+    at, page = exam()
+    store, numbers = app.state.site.store, re.findall(r'data-question="(\d)"', page)
+    begun = store.sittings.find(store.learner().id, at.rpartition("/")[2]).begun
+    with store.database.writing() as connection:  # it began ten minutes ago
+        connection.execute(update(SITTING).values(begun=begun - 600))
+    json_only = {"accept": "application/json"}
+    for seconds in ("65.5", "60"):
+        sent = {
+            "token": token,
+            "spent-1": seconds,
+            "spent-2": "9.0",
+            "spent-x": "3",
+            "spent-3": "-4",
+        }
+        assert client.post(at, data=sent, headers=json_only).json()["kept"] is True
+    client.post(at, data={"token": token, "spent-4": "86400"}, headers=json_only)
+    done = client.post(at, data={"token": token, "do": "hand-in"}).text
+    rows = [shown(row) for row in re.findall(r"<tr>(?:(?!</tr>).)*?</tr>", done, re.DOTALL)]
+    clocks = [
+        re.search(r"(\d+:\d\d) planned (\d+):(\d\d)", row) for row in rows if "planned" in row
+    ]
+    assert len(clocks) == len(numbers)
+    assert [one[1] for one in clocks[:3]] == ["2:06", "0:18", "0:00"]
+    assert clocks[3][1] in {"7:36", "7:37"}, "no more than has passed"
+    planned = sum(60 * int(one[2]) + int(one[3]) for one in clocks)
+    minutes = re.search(r"10:0\d of (\d+) min", shown(done))[1]
+    assert planned == pytest.approx(60 * int(minutes), abs=len(clocks))
+    lost = [float(one) for one in re.findall(r'<span class="lost">−([\d.]+)</span>', done)]
+    assert lost == sorted(lost, reverse=True)
+    assert sum(lost) == 10
+    assert done.count('class="lost"') == len(numbers), "what was left empty stands in one line"

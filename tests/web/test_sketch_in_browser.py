@@ -20,6 +20,7 @@ def field(opened, served):
     page.goto(page.request.post(served.address + "/practice", form=sent).url)
     page.locator(".parts a").nth(1).click()
     part = page.locator("section.part")
+    expect(part.locator(".board[data-ready]")).to_be_visible()
     inward = "barrel" in part.locator("strong").first.inner_text()
     return page, part, -0.15 if inward else 0.15
 
@@ -122,6 +123,7 @@ def test_lines_are_drawn_by_keys_and_what_is_typed_is_drawn(field):
     expect(area).to_have_value("-0.1,0.1 0.5,0.1; 0.5,0.1 0.5,-0.1")
     page.keyboard.press("Backspace")
     expect(area).to_have_value("-0.1,0.1 0.5,0.1")
+    part.get_by_text("Type points instead").click()
     area.fill("\u22121,\u22121 1,1; 0,1")
     expect(svg.locator("polyline")).to_have_count(2)
     part.get_by_role("button", name="Clear").click()

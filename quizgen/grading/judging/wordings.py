@@ -34,7 +34,22 @@ _SHARES = (
 )
 """Shares in words, and other ways to say what a wording has."""
 _IDLE = frozenset(
-    {"a", "an", "the", "it", "its", "is", "are", "be", "of", "this", "that", "these", "those", "and"}
+    {
+        "a",
+        "an",
+        "the",
+        "it",
+        "its",
+        "is",
+        "are",
+        "be",
+        "of",
+        "this",
+        "that",
+        "these",
+        "those",
+        "and",
+    }
     | {"becomes", "become", "der", "die", "das", "ist", "sind", "und", "ein", "eine", "i", "think"}
 )
 _AGAINST = frozenset(
@@ -150,4 +165,6 @@ def _fold(token: str) -> str:
     if not token.isalpha():
         return token
     word = fold_word(token)
-    return word.removesuffix("s") if len(word) > len("axis") - 1 and not word.endswith("ss") else word
+    return (
+        word.removesuffix("s") if len(word) > len("axis") - 1 and not word.endswith("ss") else word
+    )

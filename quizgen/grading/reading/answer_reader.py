@@ -198,13 +198,17 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
 def _is_idle_remark(words: str) -> bool:
     """Return whether what stands in brackets behind a number neither changes it nor offers another."""
     found = [word[0].lower() for word in _WORD.finditer(words)]
-    return len(found) <= _MOST_WORDS and not is_shrinking(words) and not {*found} & (
-        _load_around_words().altering - {"not", "no", "kein", "nicht", "to", "from"}
+    return (
+        len(found) <= _MOST_WORDS
+        and not is_shrinking(words)
+        and not {*found}
+        & (_load_around_words().altering - {"not", "no", "kein", "nicht", "to", "from"})
     )
 
 
 _DISTANCE = re.compile(
-    r"^ (?:(?:away|back) )?(?:from|von) (?=(?:the|a|its|der|dem|den|einer|einem) )|^ away from (?=[^\W\d])", re.IGNORECASE
+    r"^ (?:(?:away|back) )?(?:from|von) (?=(?:the|a|its|der|dem|den|einer|einem) )|^ away from (?=[^\W\d])",
+    re.IGNORECASE,
 )
 """From what a length is measured: no range, where no other number stands."""
 

@@ -69,7 +69,9 @@ def read_factor(typed: str) -> str:
     but in which direction is.
     """
     text = " ".join(typed.split()).strip(" .!").casefold()
-    share = _list_shares().get(text) or _list_shares().get(re.sub(r"^(?:a|an|one|ein|eine) ", "", text))
+    share = _list_shares().get(text) or _list_shares().get(
+        re.sub(r"^(?:a|an|one|ein|eine) ", "", text)
+    )
     if share:
         return share
     part = _PART_OF.fullmatch(text)
@@ -77,7 +79,7 @@ def read_factor(typed: str) -> str:
         return part[1]
     for word, number in _split_multiples():
         if text == word or text.startswith(f"{word} "):
-            text = f"{number} times{text[len(word):]}"
+            text = f"{number} times{text[len(word) :]}"
             break
     plain = _BEFORE.sub("", text)
     match = _FACTOR.fullmatch(_spell_out(plain))
@@ -136,6 +138,8 @@ def find_bound(question: str) -> str:
     question = " ".join(asked) or question
     for bound in ("most", "least"):
         words = "|".join(map(re.escape, _load_factor_words()[f"asking-{bound}"]))
-        if re.search(rf"(?<![\w\u0980-\u09ff])(?:{words})(?![\w\u0980-\u09ff])", question, re.IGNORECASE):
+        if re.search(
+            rf"(?<![\w\u0980-\u09ff])(?:{words})(?![\w\u0980-\u09ff])", question, re.IGNORECASE
+        ):
             return bound
     return ""

@@ -15,7 +15,9 @@ _NUMBER = re.compile(_VALUE)
 _WHOLE = re.compile(
     rf"(?:{_VALUE}|√?\d+|\d*[¼-¾])(?: ?(?:[^\W\d_]|[%°µ/^²³])(?:[^\W\d_]|[\u0980-\u09ff²³/^])*)?"
 )
-_ARRAY = re.compile(r"(?:(?:np|numpy)\.)?(?:array|matrix)\((.+?)(?:, *dtype *=[^()]*)?\)", re.DOTALL)
+_ARRAY = re.compile(
+    r"(?:(?:np|numpy)\.)?(?:array|matrix)\((.+?)(?:, *dtype *=[^()]*)?\)", re.DOTALL
+)
 _NESTED = re.compile(r"([\[({]) *[\[({].*[\])}] *[\])}]|.*[\])}] *[,;\n]? *[\[({].*", re.DOTALL)
 _LEADING = re.compile(
     r"(?:(?:at|from|between|first|von|zwischen|zuerst|erst|প্রথমে) |\d?(?:first|second|third|fourth|1st|"

@@ -99,9 +99,9 @@ def _is_same_perturbation(change: Perturbation, asked: Consequence | None) -> bo
 def _build_decidable_pair(first: Perturbation, second: Perturbation) -> PerturbationPair | None:
     """Return the pair with its answer; None where only precise numbers could tell.
 
-    Two factors of one quantity are no comparison, but for one that grows and one that shrinks.
+    Two factors of one quantity are no comparison.
     """
-    if first.given == second.given and (first.scale > 1) == (second.scale > 1):
+    if first.given == second.given:
         return None
     one, two = change_size(first), change_size(second)
     with working_precision():

@@ -1,22 +1,21 @@
-"""What one change does: a factor where it is the same for all numbers, else value or direction."""
+"""What one change does: a factor where it is the same for all numbers, else the new value."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice
 
 from quizgen import typeset
 from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph, PlainText
-from quizgen.bank.sampler import pick_index, shuffle
+from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
 from quizgen.grading.spec import decode_spec
 from quizgen.kinds import KINDS
 from quizgen.kinds.asking import misconception_specs
 from quizgen.kinds.contract import AskedPart
 from quizgen.kinds.number import NumberSpec
-from quizgen.maths.notation import format_tree
+from quizgen.maths.notation import format_tree, pretty
 from quizgen.maths.numbers import (
     format_exact,
     format_for_key,
@@ -24,12 +23,10 @@ from quizgen.maths.numbers import (
     is_short_decimal,
     to_rational,
 )
-from quizgen.maths.precision import working_precision
 from quizgen.maths.tree import Call, Num, Sym
 from quizgen.maths.values import Value
 from quizgen.question.inlines import TypesetMaths, to_inlines, translate_inlines
 from quizgen.question.interpolation import NBSP, Interpolator, inlines_to_text, join_unit
-from quizgen.question.levels.choice_part import LevelOption, make_choice_part
 from quizgen.question.levels.contract import LevelPart
 from quizgen.question.levels.perturbations import (
     Perturbation,
@@ -47,8 +44,6 @@ from quizgen.question.solution import (
 )
 from quizgen.question.worked_steps import quantity_inlines, value_node, value_typed
 
-DIRECTIONS = ("larger", "smaller", "unchanged")
-
 
 @dataclass(frozen=True)
 class Consequence:
@@ -61,11 +56,7 @@ class Consequence:
         """Return the part in a language."""
         if self.way == "factor":
             return _ask_factor(self.change, lang)
-        return (
-            _ask_new_value(self.change, lang)
-            if self.way == "value"
-            else _ask_direction(self.change, lang)
-        )
+        return _ask_new_value(self.change, lang)
 
 
 def choose_consequence(changes: Perturbations) -> Consequence | None:
@@ -78,33 +69,42 @@ def choose_consequence(changes: Perturbations) -> Consequence | None:
                 return Consequence(change, "factor")
             if change.power is None and change.before > 0:
                 other.append(change)
-    if not other:
-        return None
-    if pick_index(f"{level_seed(drawn)}/effect/way", 2):
-        return Consequence(_draw_directed_change(changes, other), "direction")
-    return Consequence(other[0], "value")
+    return Consequence(other[0], "value") if other else None
 
 
-def _draw_directed_change(changes: Perturbations, moving: list[Perturbation]) -> Perturbation:
-    """Return a change whose result moves in a drawn direction.
+@dataclass(frozen=True)
+class WayBack:
+    """A wanted factor of a result, and the factor of one quantity that brings it about."""
 
-    Among the directions is "unchanged", by a change that the result does not rest on, if there
-    is one: larger and smaller are then not the only answers.
+    change: Perturbation
+
+    def __call__(self, lang: str) -> LevelPart:
+        """Return the part in a language."""
+        change, wanted = self.change, self.change.factor or Fraction(1)
+        slips = {"upside-down": 1 / change.scale, "plain": wanted, "unchanged": Fraction(1)}
+        both = _name_target_and_given(change, lang)
+        number = (PlainText(pretty.format_number(_format_number(to_rational(wanted)))),)
+        body = translate_inlines(lang, "transfer.way_back", number=number, **both)
+        asked = Emphasis("strong", translate_inlines(lang, "transfer.factor_of", **both))
+        hint = translate_inlines(lang, "transfer.factor_hint")
+        return _make_factor_part(
+            change, change.scale, slips, "back",
+            (Paragraph((*body, PlainText(" "), asked, PlainText(" "), *hint)),), lang,
+        )  # fmt: skip
+
+
+def choose_way_back(changes: Perturbations, asked: Consequence | None) -> WayBack | None:
+    """Return what is asked the other way round; None where no power other than 0 is proved.
+
+    Never of the pair of quantities whose change is asked about already.
     """
-    idle = changes.of(moving[0].index, moving[0].target, idle=True)
-    first: dict[str, Perturbation] = {}
-    for change in (*moving, *islice(idle, 1)):
-        first.setdefault(_get_direction(change), change)
-    ways = [way for way in DIRECTIONS if way in first]
-    return first[ways[pick_index(f"{level_seed(changes.drawn)}/effect/direction", len(ways))]]
-
-
-def _get_direction(change: Perturbation) -> str:
-    """Return the direction in which a result moves."""
-    with working_precision():
-        if change.after == change.before:
-            return "unchanged"
-        return "larger" if change.after > change.before else "smaller"
+    drawn = changes.drawn
+    taken = asked and (asked.change.target, asked.change.given)
+    for index, target in shuffle(f"{level_seed(drawn)}/back", list(askable_results(drawn))):
+        for change in changes.of(index, target):
+            if change.factor not in {None, 1} and (change.target, change.given) != taken:
+                return WayBack(change)
+    return None
 
 
 def _build_effect_body(
@@ -123,31 +123,50 @@ def _ask_factor(change: Perturbation, lang: str) -> LevelPart:
     The key follows from the power that the formulas prove.
     """
     found = change.factor or Fraction(1)
+    body = _build_effect_body(change, lang, "transfer.factor", "transfer.factor_hint")
+    slips = dict(_iter_factor_slips(change.scale, found))
+    return _make_factor_part(change, found, slips, "trap", body, lang)
+
+
+def _make_factor_part(
+    change: Perturbation,
+    found: Fraction,
+    slips: Mapping[str, Fraction],
+    told: str,
+    body: tuple[Block, ...],
+    lang: str,
+) -> LevelPart:
+    """Return a part whose answer is a factor, with the wrong ones that learners give.
+
+    ``told`` begins the names of the sentences on them.
+    """
     traps: dict[str, str] = {}
-    for name, wrong in _iter_factor_slips(change.scale, found):
+    for name, wrong in slips.items():
         if wrong != found and str(wrong) not in traps.values():
             traps[name] = str(wrong)
     langs = change.drawn.template.languages
     notes = {
-        each: {trap: inlines_to_text(_build_slip_sentence(change, trap, each)) for trap in traps}
+        each: {
+            trap: inlines_to_text(_build_slip_sentence(change, f"{told}_{trap}", each))
+            for trap in traps
+        }
         for each in langs
     }
     table = {"kind": "number", "value": format_for_key(to_rational(found)), "rel": "0.005"}
     spec = decode_spec(NumberSpec, {**table, "traps": traps, "notes": notes} if traps else table)
     solved = PartSolution(
         label="",
-        lines=tuple(_iter_proof_lines(change, found, lang)),
+        lines=tuple(_iter_proof_lines(change, change.factor or Fraction(1), lang)),
         shown=to_inlines(KINDS["number"].explain_key(spec, lang)),
         mistakes=tuple(
             SolvedMisconception(
                 trap,
-                _build_slip_sentence(change, trap, lang),
+                _build_slip_sentence(change, f"{told}_{trap}", lang),
                 to_inlines(_format_number(to_rational(wrong))),
             )
             for trap, wrong in traps.items()
         ),
     )
-    body = _build_effect_body(change, lang, "transfer.factor", "transfer.factor_hint")
     return LevelPart(Fraction(1), body, spec, solved)
 
 
@@ -163,7 +182,7 @@ def _iter_factor_slips(scale: Fraction, found: Fraction) -> Iterator[tuple[str, 
 
 def _build_slip_sentence(change: Perturbation, trap: str, lang: str) -> tuple[Inline, ...]:
     """Return the sentence for somebody who gave a wrong factor."""
-    return translate_inlines(lang, f"transfer.trap_{trap}", **_name_target_and_given(change, lang))
+    return translate_inlines(lang, f"transfer.{trap}", **_name_target_and_given(change, lang))
 
 
 def _name_target_and_given(change: Perturbation, lang: str) -> dict[str, tuple[Inline, ...]]:
@@ -243,27 +262,3 @@ def _build_solution_lines(change: Perturbation, lang: str) -> tuple[SolutionStep
     return tuple(
         solution_step(filler, one) for one in required_steps(change.changed, change.target)
     )
-
-
-def _ask_direction(change: Perturbation, lang: str) -> LevelPart:
-    """Return a part that asks: larger, smaller or the same? Both values answer each option."""
-    right = _get_direction(change)
-
-    def because(each: str) -> tuple[Inline, ...]:
-        """Return the result before and after the change, in a language."""
-        return translate_inlines(
-            each, "transfer.before_after",
-            target=quantity_inlines(change.drawn, change.target, each),
-            before=value_inlines(change.drawn, change.target),
-            after=value_inlines(change.changed, change.target),
-        )  # fmt: skip
-
-    def option(way: str) -> LevelOption:
-        """Return the option of this direction, and whether it is right."""
-        return LevelOption(
-            lambda each: translate_inlines(each, f"transfer.{way}"), way == right, because, way
-        )
-
-    options = [option(way) for way in DIRECTIONS]
-    body = _build_effect_body(change, lang, "transfer.direction")
-    return make_choice_part(change.drawn, lang, body, options, _build_solution_lines(change, lang))

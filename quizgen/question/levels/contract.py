@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import Protocol
 
@@ -12,13 +11,11 @@ from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
 from quizgen.bank.variant import Variant
 from quizgen.grading.spec import AnySpec
 from quizgen.kinds.contract import LINE, InputControl
+from quizgen.kinds.work import Unit, sum_minutes
 from quizgen.question.solution import PartSolution, Solution
 
 Choice = tuple[str, tuple[Inline, ...]]
 """A mark (letter or number) and what stands beside it."""
-
-LEAST = Fraction(1, 4)
-"""Marks are given in quarters of a point, so no part is worth less."""
 
 
 class LevelPart(msgspec.Struct, frozen=True):
@@ -43,11 +40,15 @@ class LevelPart(msgspec.Struct, frozen=True):
 
 
 class LevelQuestion(msgspec.Struct, frozen=True):
-    """A whole question at a level; its parts and those of its solution belong together."""
+    """A whole question at a level; its parts and those of its solution belong together.
+
+    ``minutes`` is None where the parts are those of the exam.
+    """
 
     stem: tuple[Block, ...]
     parts: tuple[LevelPart, ...]
     solution: Solution
+    minutes: Fraction | None = None
 
 
 class Level(Protocol):
@@ -70,19 +71,20 @@ def without_bold_questions(block: Block) -> Block:
     return Paragraph(tuple(plain))
 
 
-def share_points(total: Fraction, weights: Sequence[Fraction]) -> tuple[Fraction, ...]:
-    """Return marks shared out in quarters by weight, a quarter at least to each.
+def estimate_part_minutes(part: LevelPart, *, solved: bool) -> Fraction:
+    """Return the minutes of a part that a level makes: options to weigh, or a value to find.
 
-    The sum is the total, unless that is less than a quarter for each.
+    Parameters
+    ----------
+    part : LevelPart
+    solved : bool
+        Whether what its solution computes is computed in any case, for another part.
     """
-    whole = sum(weights)
-    spare = total - LEAST * len(weights)
-    if spare <= 0:
-        return (LEAST,) * len(weights)
-    exact = [spare * weight / whole for weight in weights]
-    found = [share // LEAST * LEAST for share in exact]
-    order = sorted(range(len(weights)), key=lambda i: (found[i] - exact[i], i))
-    for place in order[: int((spare - sum(found)) / LEAST)]:
-        found[place] += LEAST
-    found[order[-1]] += spare - sum(found)
-    return tuple(LEAST + share for share in found)
+    work: dict[Unit, int | Fraction] = {"question": 1}
+    if part.options:
+        work["tick"] = Fraction(len(part.options), 2)
+    else:
+        work["cell"] = 1
+    if not solved:
+        work["step"] = max(1, len(part.solved.lines))
+    return sum_minutes(work)

@@ -7,6 +7,7 @@ belongs to the step in which it happens. Parts without a calculation stay as the
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -17,6 +18,7 @@ from msgspec.structs import replace
 from quizgen.bank.markdown import Block, Emphasis, Inline, Paragraph
 from quizgen.bank.sampler import pick_index
 from quizgen.bank.variant import Variant
+from quizgen.core.shares import share_points
 from quizgen.kinds import KINDS, NUMERIC
 from quizgen.kinds.asking import misconception_specs
 from quizgen.kinds.contract import AskedPart, asked_quantities
@@ -29,7 +31,7 @@ from quizgen.question.levels.choice_part import LevelOption, make_choice_part
 from quizgen.question.levels.contract import (
     LevelPart,
     LevelQuestion,
-    share_points,
+    estimate_part_minutes,
     without_bold_questions,
 )
 from quizgen.question.levels.distractors import draw_formula_options
@@ -37,10 +39,12 @@ from quizgen.question.levels.steps import (
     FormulaOption,
     applicable_branch,
     defined_quantities,
+    given_equation,
     gives_away,
     has_name,
     introduced_names,
     level_seed,
+    list_untold_letters,
     part_labels,
     right_option,
     stated_quantities,
@@ -178,7 +182,12 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
     )
     solution = replace(usual.solution, parts=tuple(part.solved for part in parts))
     stem = usual.stem if len(groups) > 1 else tuple(map(without_bold_questions, usual.stem))
-    return LevelQuestion(stem, parts, solution)
+    added = len(parts) - len(usual.parts)
+    made = [part for group in groups if len(group) > 1 for part in group]
+    minutes = sum(
+        (estimate_part_minutes(part, solved=True) for part in made), drawn.template.minutes
+    )
+    return LevelQuestion(stem, parts, solution, minutes if added else None)
 
 
 class _Guide:
@@ -289,10 +298,18 @@ class _Guide:
         body = self._build_strong_paragraph(
             key, thing=quantity_inlines(self.drawn, step.name, self.lang)
         )
-        ways = draw_formula_options(self.drawn, step, stage.known)
+        told = list_untold_letters(self.drawn, step, stage.known)
+        body += tuple(self._build_legend(told))
+        ways = draw_formula_options(self.drawn, step, stage.known | {*told})
         return make_choice_part(
             self.drawn, self.lang, body, [self._build_formula_option(step, way) for way in ways]
         )
+
+    def _build_legend(self, names: Sequence[str]) -> Iterator[Block]:
+        """Yield the line that says which numbers of the text letters of the options stand for."""
+        equations = ((given_equation(self.drawn, name),) for name in names)
+        if names:
+            yield Paragraph(join_inlines(equations, ", "))
 
     def _build_formula_option(self, step: ChainStep, way: FormulaOption) -> LevelOption:
         """Return an option that shows a formula, with the reason why it is right or wrong."""

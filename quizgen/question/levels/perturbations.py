@@ -139,8 +139,8 @@ class Perturbations:
         self.drawn = drawn
         self._solved: dict[tuple[str, Fraction], Variant | None] = {}
 
-    def of(self, index: int, target: str, *, idle: bool = False) -> Iterator[Perturbation]:
-        """Yield the changes of what a result rests on, or (idle) of what it does not, as drawn."""
+    def of(self, index: int, target: str) -> Iterator[Perturbation]:
+        """Yield the changes of what a result rests on, in a drawn order."""
         if self.drawn.values[target] == 0:
             return
         steps = required_steps(self.drawn, target)
@@ -148,7 +148,7 @@ class Perturbations:
         pairs = [
             (given, scale)
             for given in self.drawn.template.chain.given
-            if (given in used) is not idle
+            if given in used
             and _is_changeable(self.drawn, given)
             and not used & _find_dependent_quantities(self.drawn, given)
             for scale in (*SCALES, *SLIGHT)

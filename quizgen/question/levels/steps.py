@@ -40,6 +40,7 @@ from quizgen.maths.tolerance import RULES
 from quizgen.maths.tree import Call, Expr, Num, Sym, names_in, walk_tree
 from quizgen.maths.values import Value
 from quizgen.question.inlines import TypesetMaths
+from quizgen.question.interpolation import format_quantity
 from quizgen.question.part_context import VariantPart, authored_answer
 from quizgen.question.worked_steps import value_node, value_typed
 from quizgen.typeset.names import iter_names_written
@@ -170,6 +171,22 @@ def step_formula(
         typeset.relation_chain(["="], [typeset.lay_out_name(step.name), node]),
         f"{step.name} = {typed}",
     )
+
+
+def list_untold_letters(drawn: Variant, step: ChainStep, known: frozenset[str]) -> list[str]:
+    """Return the letters of a step's formulas that the text gives numbers for, but does not name.
+
+    They are in the order of the chain.
+    """
+    formulas = [step.expr, *(expr for _, expr in _iter_step_misconceptions(drawn, step))]
+    used = {name for expr in formulas for name in names_in(applicable_branch(drawn, expr))}
+    return [name for name in drawn.template.units if name in used - known]
+
+
+def given_equation(drawn: Variant, name: str) -> TypesetMaths:
+    """Return a quantity and its value as an equation."""
+    node = typeset.relation_chain(["="], [typeset.lay_out_name(name), value_node(drawn, name)])
+    return TypesetMaths(node, f"{name} = {format_quantity(drawn, name)}")
 
 
 def gives_away(drawn: Variant, step: ChainStep, known: frozenset[str]) -> bool:

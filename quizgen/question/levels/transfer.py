@@ -1,4 +1,4 @@
-"""The task turned round: what a change does, which of two does more, where a solution goes wrong.
+"""The task turned round: what a change does, what brings it about, where a solution goes wrong.
 
 All of it comes from the chain: results after a change are computed exactly, a factor is asked only
 where the formulas prove that it is the same for all numbers, and a wrong solution is what a known
@@ -16,22 +16,27 @@ from msgspec.structs import replace
 from quizgen.bank.markdown import Block, Emphasis, ListBlock, Paragraph, PlainText
 from quizgen.bank.sampler import shuffle
 from quizgen.bank.variant import Variant
+from quizgen.core.shares import share_points
 from quizgen.kinds import NUMERIC
 from quizgen.locale import translate
 from quizgen.question.interpolation import Interpolator
 from quizgen.question.levels import exam
 from quizgen.question.levels.comparison import choose_comparison
-from quizgen.question.levels.consequence import choose_consequence
+from quizgen.question.levels.consequence import choose_consequence, choose_way_back
 from quizgen.question.levels.contract import (
     LevelPart,
     LevelQuestion,
-    share_points,
+    estimate_part_minutes,
     without_bold_questions,
 )
 from quizgen.question.levels.error_spotting import choose_faulty_solution
 from quizgen.question.levels.perturbations import Perturbations
 from quizgen.question.levels.steps import level_seed, part_labels
 
+READ_TASK = Fraction(1)
+"""Minutes for reading the task, in which nothing is asked."""
+COMPUTED = 3
+"""Points of what is computed to those of what is ticked, of which there is one beside it."""
 SMALL, MIDDLE = 1, 3
 """Points up to which one part is asked, and two."""
 
@@ -51,7 +56,12 @@ def _list_part_builders(drawn: Variant) -> tuple[Maker, ...]:
     """Return the builders of the parts that can be asked of this variant, in order."""
     changes = Perturbations(drawn)
     asked = choose_consequence(changes)
-    makers = (asked, choose_comparison(changes, asked), choose_faulty_solution(drawn))
+    makers = (
+        asked,
+        choose_way_back(changes, asked),
+        choose_comparison(changes, asked),
+        choose_faulty_solution(drawn),
+    )
     return tuple(maker for maker in makers if maker is not None)
 
 
@@ -61,17 +71,25 @@ def ask(drawn: Variant, lang: str) -> LevelQuestion:
     total = sum((part.points for part in usual.parts), Fraction(0))
     makers = _list_part_builders(drawn)
     count = 1 if total <= SMALL else 2 if total <= MIDDLE else 3
-    kept = sorted(shuffle(f"{level_seed(drawn)}/forms", range(len(makers)))[:count])
-    worth = share_points(total, [Fraction(1)] * len(kept))
+    made = [maker(lang) for maker in makers]
+    order = shuffle(f"{level_seed(drawn)}/forms", range(len(made)))
+    computed = [place for place in order if not made[place].options]
+    ticked = [place for place in order if made[place].options]
+    kept = sorted([*computed, *(ticked[:1] if computed else ticked)][:count])
+    weights = [Fraction(1 if made[place].options else COMPUTED) for place in kept]
     parts = tuple(
-        _relabel_part(makers[place](lang), label, points)
-        for place, label, points in zip(kept, part_labels(drawn, len(kept)), worth, strict=True)
+        _relabel_part(made[place], label, points)
+        for place, label, points in zip(
+            kept, part_labels(drawn, len(kept)), share_points(total, weights), strict=True
+        )
     )
     solution = replace(
         usual.solution, parts=tuple(part.solved for part in parts),
         check=(), note=(), why=(), precision=(),
     )  # fmt: skip
-    return LevelQuestion((*_iter_task_blocks(drawn, lang, usual),), parts, solution)
+    stem = (*_iter_task_blocks(drawn, lang, usual),)
+    minutes = sum((estimate_part_minutes(part, solved=False) for part in parts), READ_TASK)
+    return LevelQuestion(stem, parts, solution, minutes)
 
 
 def _relabel_part(part: LevelPart, label: str, points: Fraction) -> LevelPart:

@@ -36,6 +36,7 @@ const sketching = (box) => {
       put("polyline", { points: line.map((point) => toPicture(point).map((v) => v.toFixed(1)).join(",")).join(" ") });
       if (line.length === 1) { const [cx, cy] = toPicture(line[0]); put("circle", { cx, cy, r: 2.5 }); }
     });
+    if (now && pointer !== null) { const [cx, cy] = toPicture(now.at(-1)); put("circle", { cx, cy, r: 6, class: "tip" }); }
     if (cursor && svg === document.activeElement) {
       const [x, y] = toPicture(cursor);
       put("path", { d: `M${x - 8} ${y}h16M${x} ${y - 8}v16`, class: "cursor" });

@@ -38,7 +38,7 @@ const fill = (part, kept) => fields(part).forEach((f, i) => {
 })();
 
 // Practice: whoever answers by keys goes on where they were, or at what comes next where that is gone.
-const TO_FILL = "section.part :is(input:not([type=hidden]), textarea, select, .slot):not([readonly], :disabled, [tabindex='-1']), section.part .dock .main";
+const TO_FILL = "section.part :is(input:not([type=hidden]), textarea, select, .slot):not([readonly], :disabled, [tabindex='-1'], details:not([open]) *), section.part .dock .main";
 document.addEventListener("htmx:after:swap", () => {
   [...document.querySelectorAll("section.part :is(.verdict, .hints > :last-child, .result)")].at(-1)?.scrollIntoView({ block: "nearest" });
   if (document.activeElement && document.activeElement !== document.body) { return; }
@@ -80,11 +80,15 @@ document.addEventListener("keydown", (event) => {
   });
 })();
 
-// Signs that the keyboard of a phone hides, put where the last field had its caret.
+// Signs that the keyboard of a phone hides, put where the last field had its caret. Once there, they
+// stay: whatever moved under a finger would not be pressed.
 (() => {
   let last = null;
   document.addEventListener("pointerdown", (event) => { if (event.target.closest("[data-put]")) { event.preventDefault(); } });
-  document.addEventListener("focusin", (event) => { if (event.target.matches("section.part input[type=text]")) { last = event.target; } });
+  document.addEventListener("focusin", (event) => { if (event.target.matches("section.part input[type=text]")) {
+    last = event.target;
+    last.closest("section.part").querySelector(".signs")?.classList.add("shown");
+  } });
   document.addEventListener("click", (event) => {
     const sign = event.target.closest("[data-put]");
     const field = last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])");
@@ -136,11 +140,21 @@ document.addEventListener("keydown", (event) => {
   });
   const overview = () => { marks(); states(); };
   const waiting = new Set();
+  // How long each question was on the screen; what a request has carried is taken off again.
+  const spent = {};
+  let since = performance.now(), looked = null;
+  const look = (number) => {
+    if (looked) { spent[looked] = (spent[looked] ?? 0) + (performance.now() - since) / 1000; }
+    [since, looked] = [performance.now(), number];
+  };
   let busy = null, later = 0, wait = 0;
   const soon = (after) => { clearTimeout(later); later = setTimeout(send, after); };
   const post = async (keepalive) => {
     const body = new URLSearchParams({ token: form.elements.token.value });
     const sent = new Map();
+    look(looked);
+    const times = Object.entries(spent).filter(([, seconds]) => seconds >= 0.1);
+    times.forEach(([number, seconds]) => body.append("spent-" + number, seconds.toFixed(1)));
     for (const part of parts.filter((p) => waiting.has(p.dataset.part))) {
       const name = part.dataset.part, now = values(part);
       sent.set(name, JSON.stringify(now));
@@ -152,6 +166,7 @@ document.addEventListener("keydown", (event) => {
       if (answer.status === 409) { said.textContent = form.dataset.over; waiting.clear(); location.reload(); return false; }
       if (!answer.ok) { throw new Error(answer.status); }
       const { at } = await answer.json();
+      times.forEach(([number, seconds]) => { spent[number] -= seconds; });
       for (const part of parts.filter((p) => sent.has(p.dataset.part))) {
         const name = part.dataset.part;
         form.elements["on-" + name].value = sent.get(name);
@@ -196,7 +211,8 @@ document.addEventListener("keydown", (event) => {
   }
   overview();
   soon(0);
-  addEventListener("pagehide", () => { if (waiting.size) { flush(true); } });
+  addEventListener("pagehide", () => { if (!leaving) { flush(true); } });
+  document.addEventListener("visibilitychange", () => { look(document.hidden ? null : form.querySelector(".question.shown")?.id.slice("question-".length)); });
   addEventListener("online", () => soon(0));
   // One question on the screen: the one of the address, else the first.
   const questions = [...form.querySelectorAll(".question")];
@@ -204,6 +220,9 @@ document.addEventListener("keydown", (event) => {
     const named = location.hash ? document.getElementById(decodeURIComponent(location.hash.slice(1))) : null;
     const shown = named?.closest(".question") ?? questions[0];
     questions.forEach((one) => one.classList.toggle("shown", one === shown));
+    const before = looked;
+    look(shown.id.slice("question-".length));
+    if (before && before !== looked) { flush(); }
     form.querySelectorAll("a[data-question]").forEach((link) => {
       if (`question-${link.dataset.question}` === shown.id) { link.setAttribute("aria-current", "step"); } else { link.removeAttribute("aria-current"); }
     });

@@ -1,0 +1,347 @@
+"""The folder ``scans`` of a class: what was read of each page, what people said, what follows.
+
+A line of ``pages.jsonl`` is written once its pictures are on the disk, so that a run that is killed
+goes on where it was. All else follows from these lines and ``typed.csv``.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+
+import msgspec
+
+from quizgen.classes.class_folder import ANSWERS, KEYS, ClassFolder, PrintedHead
+from quizgen.classes.key_index import KeyIndex
+from quizgen.classes.part_names import PartNames
+from quizgen.classes.rulings import read_filled_rows
+from quizgen.classes.scanning.pages import (
+    FOREIGN,
+    NO_CODE,
+    PAGE,
+    UNREADABLE,
+    PageReading,
+    PartReading,
+    ReadPicture,
+    read_student_sheet,
+)
+from quizgen.core.decoding import json_decoder
+from quizgen.core.errors import ClassError
+from quizgen.core.files import PRIVATE, open_private, write_all
+from quizgen.core.untrusted import format_csv
+from quizgen.grading.echo import safe_echo
+
+SCANS, PAGES, TYPED, REPORT = "scans", "pages.jsonl", "typed.csv", "report.json"
+STRAYS = "strays"
+ANSWER_FILE = "scan.csv"
+"""What was read, among the answers of the class."""
+ON_PAPER = "see paper"
+"""Stands for an answer that nobody has read: it has no marks until somebody decides."""
+NO_FIELD, NOT_SCANNED, DIFFERS = "no_field", "missing", "differs"
+COLUMNS = ("id", "part", "answer")
+_LINE = json_decoder(PageReading).decode
+
+
+class ReadPart(NamedTuple):
+    """What is known of a part of a student.
+
+    Parameters
+    ----------
+    reading : PartReading
+        Its answer is None while a person is asked.
+    crop : str
+        Its picture below ``scans``; empty if there is none.
+    typed : bool
+        Whether a person said it.
+    """
+
+    reading: PartReading
+    crop: str = ""
+    typed: bool = False
+
+
+@dataclass(frozen=True)
+class ReadSheet:
+    """What came back of a student.
+
+    Parameters
+    ----------
+    student : str
+    paper : str
+        The code of the paper, and its folder below ``scans``.
+    parts : mapping of str to ReadPart
+        All parts of the paper, in its order.
+    missing : tuple of int
+        Pages that did not come.
+    twice : tuple of int
+        Pages of which there are several pictures.
+    pictures : tuple of str
+        Of whole pages, below ``scans``.
+    faults : mapping of int to str
+        Why all of a page is asked, by the page.
+    """
+
+    student: str
+    paper: str
+    parts: Mapping[str, ReadPart]
+    missing: tuple[int, ...] = ()
+    twice: tuple[int, ...] = ()
+    pictures: tuple[str, ...] = ()
+    faults: Mapping[int, str] = field(default_factory=dict)
+
+    @property
+    def asked(self) -> dict[str, ReadPart]:
+        """Return the parts that a person is asked about."""
+        return {name: one for name, one in self.parts.items() if one.reading.answer is None}
+
+
+class ScanFolder:
+    """Reads and writes what was read of the answer sheets of a class.
+
+    Parameters
+    ----------
+    folder : ClassFolder
+    """
+
+    def __init__(self, folder: ClassFolder) -> None:
+        self.folder, self.path = folder, folder.path / SCANS
+        self._copies: dict[tuple[str, int], int] = {}
+
+    def iter_pages(self) -> Iterator[PageReading]:
+        """Yield what was read of each picture; a line that was left half written is not there."""
+        path = self.path / PAGES
+        if path.exists():
+            with path.open("rb") as stream:
+                for number, line in enumerate(stream, 1):
+                    if line.endswith(b"\n"):
+                        try:
+                            yield _LINE(line)
+                        except msgspec.DecodeError as error:
+                            raise ClassError(
+                                f"{path}: line {number}: {error}", rule="QG612"
+                            ) from None
+
+    def find_done(self) -> dict[str, set[int]]:
+        """Return the pictures that have been read, from 0, by the digest of their file."""
+        found: dict[str, set[int]] = {}
+        self._copies.clear()
+        for one in self.iter_pages():
+            found.setdefault(one.digest, set()).add(one.number - 1)
+            self._count_copy(one)
+        return found
+
+    def _count_copy(self, one: PageReading) -> int:
+        """Return which picture of its page this is, from 1: a sound one takes a bad one's place."""
+        whose = one.student, one.page
+        copy = self._copies.get(whose, 0) + 1
+        if one.student and not one.fault:
+            self._copies[whose] = copy
+        return copy
+
+    def add_pages(self, read: Sequence[ReadPicture]) -> list[PageReading]:
+        """Keep the pictures of what was read, then a line for each; return the lines."""
+        kept: list[PageReading] = []
+        files: dict[str, bytes] = {}
+        for reading, pictures in read:
+            made = msgspec.structs.replace(reading, copy=self._count_copy(reading))
+            kept.append(made)
+            files |= {name_picture(made, part): data for part, data in pictures.items()}
+        self.path.mkdir(mode=0o700, exist_ok=True)
+        _write_pictures(self.path, files)
+        path = self.path / PAGES
+        _cut_torn_line(path)
+        with open_private(path) as stream:
+            stream.write(b"".join(msgspec.json.encode(one) + b"\n" for one in kept))
+            stream.flush()
+            os.fsync(stream.fileno())
+        return kept
+
+    def add_typed(self, rows: Iterable[tuple[str, str, str]]) -> int:
+        """Add what people typed to ``typed.csv``, whose last row of a part counts.
+
+        Return how many answers are new.
+        """
+        known = self.read_typed()
+        fresh = [row for row in rows if known.get(row[:2]) != row[2]]
+        known |= {row[:2]: row[2] for row in fresh}
+        text = format_csv([COLUMNS, *((*key, answer) for key, answer in known.items())])
+        write_all(self.path, {TYPED: text.encode("utf-8-sig")}, PRIVATE)
+        return len(fresh)
+
+    def read_typed(self) -> dict[tuple[str, str], str]:
+        """Return what people typed, by student and part."""
+        rows = read_filled_rows(self.path / TYPED, {*COLUMNS})
+        return {(cells["id"], cells["part"]): cells["answer"] for _, cells in rows}
+
+    def join_sheets(self) -> list[ReadSheet]:
+        """Return what came back of each student, in the order in which papers were made."""
+        found: dict[str, list[PageReading]] = {}
+        for one in self.iter_pages():
+            if one.student:
+                found.setdefault(one.student, []).append(one)
+        typed = self.read_typed()
+        keys = self.folder.path / KEYS
+        sheets = []
+        for student, (_, at) in self.folder.places().items():
+            if student in found:
+                whole = read_student_sheet(keys, at)
+                sheets.append(_join_pages(student, found[student], whole.places.pages, whole.kinds,
+                                          typed))  # fmt: skip
+        return sheets
+
+    def count_boxes(self) -> tuple[int, int]:
+        """Return the boxes on all pages, each page counted once, and how many were not read."""
+        best: dict[tuple[str, int], PageReading] = {}
+        for one in self.iter_pages():
+            whose = one.student, one.page
+            if whose not in best or (best[whose].fault and not one.fault):
+                best[whose] = one
+        return sum(one.boxes for one in best.values()), sum(one.doubtful for one in best.values())
+
+    def list_strays(self) -> list[PageReading]:
+        """Return pictures that are of no sheet and not empty."""
+        odd = {FOREIGN, NO_CODE, UNREADABLE}
+        return [one for one in self.iter_pages() if one.fault in odd]
+
+    def write_results(self, sheets: Sequence[ReadSheet]) -> Path:
+        """Write the answers that are known as a hand-in of the class, and the report as JSON.
+
+        What nobody has read is ``ON_PAPER`` there: it is neither right nor wrong.
+        """
+        rows = [
+            (sheet.student, name, ON_PAPER if one.reading.answer is None else one.reading.answer)
+            for sheet in sheets
+            for name, one in sheet.parts.items()
+        ]
+        report = {"version": 1, "students": {one.student: _describe_sheet(one) for one in sheets}}
+        write_all(self.path, {REPORT: msgspec.json.format(msgspec.json.encode(report))}, PRIVATE)
+        made = {ANSWER_FILE: format_csv([COLUMNS, *rows]).encode("utf-8-sig")}
+        return write_all(self.folder.path / ANSWERS, made, PRIVATE)[0]
+
+
+def _cut_torn_line(path: Path) -> None:
+    """Take away what a run that was killed left of a last line."""
+    if not path.exists():
+        return
+    with path.open("r+b") as stream:
+        end = stream.seek(0, os.SEEK_END)
+        while end:
+            stream.seek(end - 1)
+            if stream.read(1) == b"\n":
+                break
+            end -= 1
+        stream.truncate(end)
+
+
+def name_picture(one: PageReading, part: str) -> str:
+    """Return the file below ``scans`` that has the picture of a part, or of the page."""
+    if not one.student:
+        return f"{STRAYS}/{one.digest}-{one.number}.jpg"
+    stem = f"{PAGE}-{one.page}" if part == PAGE else part
+    more = f"-{one.copy}" if one.copy > 1 else ""
+    return f"{one.paper}/{stem}{more}{'.jpg' if part == PAGE else '.png'}"
+
+
+def find_page_pictures(folder: ClassFolder, head: PrintedHead) -> list[Path]:
+    """Return the pictures of the scanned pages of a student's sheet, with what was read."""
+    return sorted((folder.path / SCANS / head.code).glob(f"{PAGE}-*.jpg"))
+
+
+def _write_pictures(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write pictures; they are on the disk before the line that names them is."""
+    for name, data in files.items():
+        path = folder / name
+        path.parent.mkdir(mode=0o700, exist_ok=True)
+        with open_private(path, truncate=True) as stream:
+            stream.write(data)
+
+
+def _join_pages(
+    student: str,
+    pages: Sequence[PageReading],
+    count: int,
+    kinds: Mapping[str, str],
+    typed: Mapping[tuple[str, str], str],
+) -> ReadSheet:
+    """Return what the pictures of a student's pages say together, and what people typed."""
+    known = {one.page for one in pages}
+    missing = tuple(page for page in range(1, count + 1) if page not in known)
+    parts = {}
+    for part in kinds:
+        found = _join_readings(part, pages, missing)
+        if (student, part) in typed:
+            told = msgspec.structs.replace(found.reading, answer=typed[student, part], why="")
+            found = ReadPart(told, found.crop, typed=True)
+        parts[part] = found
+    sound = {one.page for one in pages if not one.fault}
+    return ReadSheet(
+        student,
+        pages[0].paper,
+        parts,
+        missing,
+        tuple(sorted({one.page for one in pages if one.copy > 1})),
+        tuple(sorted({name_picture(one, PAGE) for one in pages})),
+        {one.page: one.fault for one in pages if one.page not in sound},
+    )
+
+
+def _join_readings(part: str, pages: Sequence[PageReading], missing: Sequence[int]) -> ReadPart:
+    """Return what the pictures of a page say of a part: what is certain, unless two differ."""
+    seen = [(one, one.parts[part]) for one in pages if part in one.parts]
+    if not seen:
+        why = NOT_SCANNED if missing else NO_FIELD
+        return ReadPart(PartReading(None, 0.0, 0, (0.0, 0.0, 0.0, 0.0), why))
+    certain = {one.answer for _, one in seen if one.answer is not None}
+    page, best = next((pair for pair in seen if pair[1].answer is not None), seen[0])
+    if len(certain) == 1:
+        return ReadPart(best, name_picture(page, PAGE))
+    if certain:
+        said = " / ".join(sorted(map(str, certain)))
+        best = msgspec.structs.replace(best, answer=None, why=DIFFERS, proposal=said)
+        return ReadPart(best, name_picture(page, PAGE))
+    sharp = next((pair for pair in seen if pair[0].fault == ""), seen[0])
+    return ReadPart(sharp[1], name_picture(sharp[0], part))
+
+
+def _describe_sheet(sheet: ReadSheet) -> dict[str, object]:
+    """Return a student's sheet as plain values for ``report.json``."""
+    parts = {
+        name: msgspec.to_builtins(one.reading)
+        | {"crop": one.crop, "typed": one.typed, "answer": one.reading.answer}
+        for name, one in sheet.parts.items()
+    }
+    return {
+        "folder": sheet.paper,
+        "pages": list(sheet.pictures),
+        "missing": list(sheet.missing),
+        "twice": list(sheet.twice),
+        "faults": {str(page): fault for page, fault in sheet.faults.items()},
+        "parts": parts,
+    }
+
+
+def read_typed_rows(path: Path, keys: KeyIndex) -> list[tuple[str, str, str]]:
+    """Return what a person typed beside the pictures: rows of student, part and answer.
+
+    Raises
+    ------
+    ClassError
+        Naming the line, if nobody has the number or the paper has no such part.
+    """
+    if not path.exists():
+        raise ClassError("there is no such file", rule="QG612", file=path)
+    rows = []
+    for line, cells in read_filled_rows(path, {*COLUMNS}):
+        try:
+            student = keys.find_student(cells["id"])
+        except ClassError as error:
+            raise ClassError(error.message, rule="QG612", file=path, line=line) from None
+        part = PartNames(keys.outline(student).items).find(cells["part"])
+        if not part:
+            said = f"the paper of {safe_echo(student)} has no part {safe_echo(cells['part'])}"
+            raise ClassError(said, rule="QG612", file=path, line=line)
+        rows.append((student, part, cells["answer"].strip()))
+    return rows

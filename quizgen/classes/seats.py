@@ -1,0 +1,125 @@
+"""A class that sits its exam in the browser: codes to come in with, what is handed in, a record.
+
+In: who may come in, what was typed. Out: codes, files that ``class mark`` reads, lines of a record.
+Must never know: HTTP, a database.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+
+import msgspec
+
+from quizgen.classes.class_folder import ANSWERS, ClassFolder
+from quizgen.classes.lock import lock_folder
+from quizgen.classes.pseudonyms import student_mac
+from quizgen.classes.roster import RosterStudent
+from quizgen.classes.statuses import PRESENT, StudentStatus, append_status, read_statuses
+from quizgen.core.files import PRIVATE, open_private, write_all
+from quizgen.core.untrusted import format_csv
+from quizgen.paper.answer_form import FilledForm, FormStudent
+from quizgen.paper.code import SIGNS
+
+DATABASE = "browser.sqlite3"
+"""What is answered in the browser, until and after it is handed in."""
+BROWSER = "browser"
+"""Below the folder of answers, and who says in statuses that somebody was there."""
+RECORD = "browser-record.csv"
+COLUMNS = ("when", "who", "student", "what", "more")
+CODE_SIGNS = 10
+"""Of 32 each: 50 bits, of which a class of 300 takes fewer than 9."""
+_LOOKS_LIKE = str.maketrans("OIL", "011")
+
+
+@dataclass(frozen=True)
+class HandedPaper:
+    """What a student handed in.
+
+    Parameters
+    ----------
+    student : RosterStudent
+    code, lang : str
+        Of the paper.
+    answers : mapping of str to str
+        Part to what was typed, in one line.
+    minutes : float
+        Working time.
+    """
+
+    student: RosterStudent
+    code: str
+    lang: str
+    answers: Mapping[str, str]
+    minutes: float
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether nothing was filled in."""
+        return not any(text.strip() for text in self.answers.values())
+
+
+def entry_code(secret: str, student: str, issue: int) -> str:
+    """Return a code that lets a student in once, such as ``7K2MX-9QD4T``.
+
+    Parameters
+    ----------
+    secret : str
+        Of the class.
+    student : str
+        The id.
+    issue : int
+        How many codes were made for the student before.
+    """
+    number = int.from_bytes(student_mac(secret, "entry", student, str(issue)), "big")
+    signs = "".join(SIGNS[(number >> 5 * place) % len(SIGNS)] for place in range(CODE_SIGNS))
+    return f"{signs[: CODE_SIGNS // 2]}-{signs[CODE_SIGNS // 2 :]}"
+
+
+def normalise_entry_code(typed: str) -> str:
+    """Return a typed code as it is printed, whatever stands between its signs; "" if it is none."""
+    signs = re.sub("[^0-9A-Z]", "", typed[:100].upper()).translate(_LOOKS_LIKE)
+    half = CODE_SIGNS // 2
+    return f"{signs[:half]}-{signs[half:]}" if len(signs) == CODE_SIGNS else ""
+
+
+def store_handed_papers(folder: ClassFolder, papers: Iterable[HandedPaper]) -> None:
+    """Write what was handed in as forms into the folder of answers.
+
+    Who handed in nothing but blank fields is said to have been present.
+
+    Raises
+    ------
+    ClassError
+        If another command writes there for long.
+    """
+    papers = list(papers)
+    forms = {f"{BROWSER}/{one.student.file}.json": _build_form(one) for one in papers}
+    with lock_folder(folder.path):
+        write_all(folder.path / ANSWERS, forms, PRIVATE)
+    for one in papers:
+        if one.is_blank and one.student.id not in read_statuses(folder.path):
+            append_status(folder, StudentStatus(one.student.id, PRESENT, who=BROWSER))
+
+
+def _build_form(paper: HandedPaper) -> bytes:
+    """Return a filled form as JSON."""
+    student = paper.student
+    about = FormStudent(student.name, student.id, paper.lang)
+    form = FilledForm(dict(paper.answers), about, paper.code, minutes=round(paper.minutes, 1))
+    return msgspec.json.format(msgspec.json.encode(form)) + b"\n"
+
+
+def append_record(folder: ClassFolder, who: str, student: str, what: str, more: str = "") -> None:
+    """Append a line to the record of the exam: what happened when, and who did it.
+
+    It is only added to, and on the disk when this returns.
+    """
+    path = folder.path / RECORD
+    when = datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
+    rows = [(when, who, student, what, more)]
+    with open_private(path) as stream:
+        stream.write(format_csv(rows if path.stat().st_size else [COLUMNS, *rows]).encode())
+        stream.flush()

@@ -1,0 +1,32 @@
+"""Exposure time that keeps a picture as bright at another f-number and another ISO value.
+
+Source: S. J. Ray, Applied Photographic Optics, 3rd ed. (2002), chapter 12: H ~ t S/N^2.
+"""
+
+from sympy import evaluate, symbols
+
+from quizgen.maths.model import Model, Step
+
+N_1, N_2, S_1, S_2, r = symbols("N_1 N_2 S_1 S_2 r", positive=True)
+a, b, t_1, t_2 = symbols("a b t_1 t_2", positive=True)
+
+with evaluate(False):
+    MODEL = Model(
+        given={N_1: "", N_2: "", S_1: "", S_2: "", r: ""},
+        steps=(
+            Step(a, (N_2 / N_1) ** 2),
+            Step(b, S_1 / S_2),
+            Step(t_1, 1 / r, "s"),
+            Step(t_2, t_1 * a * b, "s"),
+        ),
+        formulas={"a": "F35"},
+        traps={
+            "not-squared": Step(a, N_2 / N_1),
+            "wrong-way": Step(a, (N_1 / N_2) ** 2),
+            "doubled": Step(a, 2 * (N_2 / N_1)),
+            "iso-inverted": Step(t_2, t_1 * a / b),
+            "iso-forgotten": Step(t_2, t_1 * a),
+            "number-forgotten": Step(t_2, t_1 * b),
+            "iso-squared": Step(t_2, t_1 * a * b**2),
+        },
+    )
