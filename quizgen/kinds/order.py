@@ -34,7 +34,8 @@ from quizgen.maths.notation import FormulaReadError
 
 MOST_STEPS = 40
 _LEFT_OUT = re.compile(
-    r"(?P<kept>.+?)[,;]? ?\(?(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)\)?",
+    r"(?P<kept>.+?)[,;]? ?\(?"
+    r"(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)\)?",
     re.IGNORECASE,
 )
 """Steps, and others that are said not to belong to them."""
@@ -286,7 +287,7 @@ def _read_labels(spec: OrderSpec, typed: str) -> list[str]:
 
 
 def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
-    """Return the labels of steps typed by their words, ``radio < infrared``; none if one is unclear.
+    """Return the labels of steps typed by their words, ``radio < red``; none if one is unclear.
 
     What is said to be left out is, if nothing of it stands among the rest.
     """

@@ -113,7 +113,7 @@ def _join_compounds(spoken: tuple[str, ...], known: frozenset[str]) -> tuple[str
 def _says_enough(
     wording: tuple[str, ...], meant: frozenset[str], listed: list[frozenset[str]]
 ) -> bool:
-    """Return whether an answer has enough of a wording: ``barrel``, but not ``pixels`` for hot ones.
+    """Return whether an answer has enough of a wording: ``barrel``, not ``pixels`` for hot ones.
 
     It has all numbers and letters in it, and at least half of the words that no other one has; more
     words of its own only with all of these.
