@@ -34,6 +34,7 @@ from quizgen.kinds.contract import (
     InputControl,
     PartContext,
 )
+from quizgen.kinds.work import count_listed
 from quizgen.locale import (
     FIRST,
     fallback_language,
@@ -42,7 +43,6 @@ from quizgen.locale import (
     load_words,
     translate,
 )
-from quizgen.locale import FIRST, fallback_language, is_written_in, list_languages, load_words
 from quizgen.maths.notation import FormulaReadError
 
 
