@@ -118,7 +118,7 @@ class _Variable(msgspec.Struct, frozen=True):
     ) -> None:
         """Set the quantity, or the phrase at the place that the formula counts from 0."""
         value = self._compute_value({**shown, **lists} if lists else shown)
-        if isinstance(value, bool | tuple):
+        if isinstance(value, int | tuple):  # truths, and what Python makes of their sum or negative
             what = "a list" if isinstance(value, tuple) else "a condition"
             raise self._fault(f"{what}, where a number is needed")
         if self.words:

@@ -89,7 +89,8 @@ class AngleSpec(ScalarSpec, kw_only=True, frozen=True):
 
 
 _INVERSE = re.compile(
-    r"\\?(?:arc(?:tan|sin|cos)|a(?:tan2?|sin|cos))(?![^\W\d_])|(?:tan|sin|cos) ?(?:\^ ?\(?-1\)?|\^\{-1\}|⁻¹)"
+    r"\\?(?:arc(?:tan|sin|cos)|a(?:tan2?|sin|cos))(?![^\W\d_])"
+    r"|(?:tan|sin|cos) ?(?:\^ ?\(?-1\)?|\^\{-1\}|⁻¹)"
 )
 _MINUTES = re.compile(r"(\d+) ?° ?(\d{1,2}) ?['′’](?: ?(\d{1,2}(?:\.\d+)?) ?(?:''|[″\"]))?")
 _CIRCLE = re.compile(r"(?<=\d) ?\^ ?\{? ?(?:o|\\circ) ?\}?")

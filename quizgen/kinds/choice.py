@@ -95,7 +95,8 @@ _DENIED = re.compile(
 )
 """A word that is denied: what is not true is false, and the other way round."""
 _TRUTH_FIRST = re.compile(
-    r"(?P<first>[^\s,;:.(]+)(?:[,;:.] ?| (?=\()|[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)"
+    r"(?P<first>[^\s,;:.(]+)"
+    r"(?:[,;:.] ?| (?=\()|[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)"
 )
 """*Yes* or *false* with a reason behind it."""
 _SHORT_DENIAL = re.compile(
@@ -128,9 +129,8 @@ _BRACKETED = re.compile(r"(?P<mark>[A-Za-zক-ঞ]) ?\((?P<words>[^()]{2,})\)")
 _ALL = frozenset({"all", "all of them", "all of these", "alle", "সব", "সবগুলো", "সবগুলি"})
 _WORDED = re.compile(r"[,;\n]| (?:and|und|&|ও|এবং) ")
 """What stands between several options that are named by their words."""
-_PLACE = re.compile(
-    r"(?:the )?(first|second|third|fourth|fifth|sixth)(?: one| option| answer)?", re.IGNORECASE
-)
+_PLACES = ["first", "second", "third", "fourth", "fifth", "sixth"]
+_PLACE = re.compile(rf"(?:the )?({'|'.join(_PLACES)})(?: one| option| answer)?", re.IGNORECASE)
 _LETTER_LAST = re.compile(r"(?P<words>[^\W\d_]{3,}|[^:]*[^\W\d_]{3}[^:]*:) (?P<mark>[A-Z])")
 _LONG_WORD = 8
 """Letters of a word that can stand for an option by itself."""
@@ -267,7 +267,7 @@ def _find_named_option(spec: ChoiceSpec, typed: str) -> list[int]:
     text = typed.strip(_AROUND)
     place = _PLACE.fullmatch(text)
     if place is not None and not find_wording(text, spec.choices()):
-        number = "first second third fourth fifth sixth".split().index(place[1].lower()) + 1
+        number = _PLACES.index(place[1].lower()) + 1
         return [number] if number <= len(spec.choices()) else []
     named = _LETTER_LAST.fullmatch(text)
     if (

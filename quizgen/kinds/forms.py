@@ -101,7 +101,8 @@ def entry_matches(value: Value, text: str) -> bool:
 
 _EQUALS = re.compile(r"(?<![<>:!=])=(?!=)")
 _DERIVED = re.compile(
-    r" *(?:\$|\\\()? *(?:\\frac ?\{ ?d\w? ?\} ?\{ ?d\w ?\}|d\w? ?/ ?d\w|d/d\w(?: ?\([^()]*\)| \w)?|\w+'*(?:\(\w\))?) *"
+    r" *(?:\$|\\\()? *(?:\\frac ?\{ ?d\w? ?\} ?\{ ?d\w ?\}"
+    r"|d\w? ?/ ?d\w|d/d\w(?: ?\([^()]*\)| \w)?|\w+'*(?:\(\w\))?) *"
 )
 """What a function or its derivative is called: ``df/dx``, ``f'(x)``."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import cache
 from itertools import chain
 from typing import ClassVar
 
@@ -34,7 +35,14 @@ from quizgen.kinds.contract import (
     PartContext,
 )
 from quizgen.kinds.work import count_listed
-from quizgen.locale import FIRST, fallback_language, is_written_in, translate
+from quizgen.locale import (
+    FIRST,
+    fallback_language,
+    is_written_in,
+    list_languages,
+    load_words,
+    translate,
+)
 from quizgen.maths.notation import FormulaReadError
 
 
@@ -278,30 +286,20 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
 
 _ZEROS = re.compile(r"(?<=\d)[.,]0+(?!\d)")
 """Decimals that say nothing: ``507.0``."""
-_IDLE = frozenset(
-    {
-        "colour",
-        "color",
-        "still",
-        "it",
-        "gets",
-        "result",
-        "the",
-        "a",
-        "an",
-        "is",
-        "becomes",
-        "looks",
-        "appears",
-    }
-    | {"farbe", "noch", "immer", "es", "wird", "ist", "space", "রং", "রঙ"}
-)
+
+
+@cache
+def _load_idle_words() -> frozenset[str]:
+    """Return the words beside a term that say nothing more, of all languages."""
+    return frozenset(
+        word for lang in list_languages() for word in load_words(lang, "answers")["around"]["idle"]
+    )
 
 
 def _drop_idle_words(word: str, terms: list[str]) -> str:
     """Return the term among words that say nothing, ``still green``; else all of it."""
     words = word.split()
-    kept = [one for one in words if one.casefold().strip(".,") not in _IDLE]
+    kept = [one for one in words if one.casefold().strip(".,") not in _load_idle_words()]
     term = " ".join(kept)
     return term if len(kept) < len(words) and fold_word(term) in map(fold_word, terms) else word
 

@@ -238,7 +238,8 @@ def _list_targets(spec: MatchSpec) -> list[str]:
 
 def _find_side(spec: MatchSpec, words: str, labels: Sequence[str]) -> str:
     """Return the label whose wording is meant; empty if none or several may be."""
-    place = find_wording(words, [spec.words.get(label, "") for label in labels])
+    wordings = [spec.words.get(label, "") for label in labels]
+    place = find_wording(words, wordings, all_named=True)
     return labels[place - 1] if place else ""
 
 

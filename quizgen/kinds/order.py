@@ -34,7 +34,8 @@ from quizgen.maths.notation import FormulaReadError
 
 MOST_STEPS = 40
 _LEFT_OUT = re.compile(
-    r"(?P<kept>.+?)[,;]? ?\(?(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)\)?",
+    r"(?P<kept>.+?)[,;]? ?\(?"
+    r"(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)\)?",
     re.IGNORECASE,
 )
 """Steps, and others that are said not to belong to them."""
@@ -286,7 +287,7 @@ def _read_labels(spec: OrderSpec, typed: str) -> list[str]:
 
 
 def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
-    """Return the labels of steps typed by their words, ``radio < infrared``; none if one is unclear.
+    """Return the labels of steps typed by their words, ``radio < red``; none if one is unclear.
 
     What is said to be left out is, if nothing of it stands among the rest.
     """
@@ -323,11 +324,11 @@ def _is_letter(label: str) -> bool:
 
 def _find_worded_step(piece: str, labels: list[str], wordings: list[str]) -> int:
     """Return the place (from 1) of a step by its words, or by its label before them; 0 if none."""
-    words = find_wording(piece, wordings)
+    words = find_wording(piece, wordings, all_named=True)
     named = _STEP_LABEL.fullmatch(piece)
     if named is None or named[1] not in labels:
         return words
-    meant = find_wording(named[2], wordings)
+    meant = find_wording(named[2], wordings, all_named=True)
     return labels.index(named[1]) + 1 if meant in {0, labels.index(named[1]) + 1} else 0
 
 

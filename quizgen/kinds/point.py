@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import msgspec
 from flint import fmpq
@@ -267,7 +267,8 @@ def ask(part: PartContext) -> AskedPart[PointSpec]:
     """Return the coordinates, and those that each mistake gives."""
     of = asked_quantities(part.answer)
     called = part.value_words(dict(zip(part.answer.get("names") or of, of, strict=True)))
-    asked = ask_numeric(PointSpec, part, **({"called": called} if called else {}))
+    said: dict[str, Any] = {"called": called} if called else {}
+    asked = ask_numeric(PointSpec, part, **said)
     boxes = tuple(InputBox("", asked.spec.unit) for _ in asked.spec.values)
     return msgspec.structs.replace(asked, control=InputControl("line", boxes=boxes))
 

@@ -59,7 +59,7 @@ _MOST_WORDS_MORE = 8
 """Words of an answer that the meant wording has not."""
 
 
-def find_wording(typed: str, wordings: Sequence[str]) -> int:
+def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False) -> int:
     """Return the place (from 1) of the wording that is meant; 0 if none or several may be.
 
     Parameters
@@ -67,6 +67,8 @@ def find_wording(typed: str, wordings: Sequence[str]) -> int:
     typed : str
     wordings : sequence of str
         What there is to choose from.
+    all_named : bool
+        Whether each of them is named in the answer, so that a word of it is enough.
     """
     spoken = _split_words(typed)
     listed = [frozenset(_split_words(wording)) for wording in wordings]
@@ -85,7 +87,7 @@ def find_wording(typed: str, wordings: Sequence[str]) -> int:
     more = meant - wanted
     if more & known or more & _AGAINST or len(more) > _MOST_WORDS_MORE:
         return 0
-    if not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
+    if not all_named and not _says_enough(_split_words(wordings[hits[0] - 1]), meant, listed):
         return 0
     denied = says_otherwise(" ".join(more)) or _denies(wanted) != _denies(meant)
     return 0 if denied else hits[0]
@@ -111,7 +113,7 @@ def _join_compounds(spoken: tuple[str, ...], known: frozenset[str]) -> tuple[str
 def _says_enough(
     wording: tuple[str, ...], meant: frozenset[str], listed: list[frozenset[str]]
 ) -> bool:
-    """Return whether an answer has enough of a wording: ``barrel``, but not ``pixels`` for hot ones.
+    """Return whether an answer has enough of a wording: ``barrel``, not ``pixels`` for hot ones.
 
     It has all numbers and letters in it, and at least half of the words that no other one has; more
     words of its own only with all of these.
@@ -123,7 +125,7 @@ def _says_enough(
         return False
     if said == own:
         return True
-    return not meant - {*wording} and said != {wording[-1]}
+    return not meant - {*wording} and not (wording[-1].isalpha() and said == {wording[-1]})
 
 
 def _own_words(words: frozenset[str], listed: list[frozenset[str]]) -> frozenset[str]:

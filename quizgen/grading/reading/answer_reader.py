@@ -66,7 +66,8 @@ _FOUND = re.compile(
 )
 _GROUPED = re.compile(r"(?<![\d.,])\d{1,3}([.,])\d{3}(?:\1\d{3})+(?![\d.,]?\d)")
 _LABEL = re.compile(
-    rf"(?<![^\W\d_])((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)(?: ?[:=] ?| (?:is|are|ist|gleich|equals|হলো|হল) | ?)"
+    rf"(?<![^\W\d_])((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)"
+    r"(?: ?[:=] ?| (?:is|are|ist|gleich|equals|হলো|হল) | ?)"
     r"(?=[-+−]?[.,]?\d)"
 )
 _BEHIND = re.compile(rf"([-+−]?\d+(?:[.,]\d+)?) ?((?:{_LETTERS})+'*(?:_[^\W_]+'*)?)(?:[ ,;]+|$)")
@@ -131,7 +132,8 @@ _CALLED = re.compile(r"[\w-]\(?$|-\s*$")
 """A call of a function, or a dash, right before a number."""
 _BETWEEN = re.compile(r"[\s\w.,:;\u0980-\u09ff-]*")
 _NAMED = re.compile(
-    rf"^(?:so |also )?(?:\|{NAME}\||{NAME}[\u0300-\u036f]?)(?: ?[=≈:] ?| (?:is|ist|gleich) )(?=[-+]?[.,]?\d|√|sqrt)"
+    rf"^(?:so |also )?(?:\|{NAME}\||{NAME}[\u0300-\u036f]?)"
+    r"(?: ?[=≈:] ?| (?:is|ist|gleich) )(?=[-+]?[.,]?\d|√|sqrt)"
 )
 _NEARLY = re.compile(rf"(?:almost|nearly|fast|প্রায়){_END}", re.IGNORECASE)
 """What changes a word, and only rounds a number."""
@@ -198,7 +200,7 @@ def _single_answer(text: str, form: AnswerForm) -> Iterator[str]:
 
 
 def _is_idle_remark(words: str) -> bool:
-    """Return whether what stands in brackets behind a number neither changes it nor offers another."""
+    """Return whether words in brackets behind a number neither change it nor offer another."""
     found = [word[0].lower() for word in _WORD.finditer(words)]
     return (
         len(found) <= _MOST_WORDS
@@ -209,7 +211,8 @@ def _is_idle_remark(words: str) -> bool:
 
 
 _DISTANCE = re.compile(
-    r"^ (?:(?:away|back) )?(?:from|von) (?=(?:the|a|its|der|dem|den|einer|einem) )|^ away from (?=[^\W\d])",
+    r"^ (?:(?:away|back) )?(?:from|von) (?=(?:the|a|its|der|dem|den|einer|einem) )"
+    r"|^ away from (?=[^\W\d])",
     re.IGNORECASE,
 )
 """From what a length is measured: no range, where no other number stands."""

@@ -15,7 +15,8 @@ _BEFORE = re.compile(
 )
 _NUMBER = r"(?P<number>\d+(?:[.,]\d+)?(?: ?/ ?\d+)?)"
 _FACTOR = re.compile(
-    rf"{_NUMBER}(?: ?[-x×]?|[- ](?=[^\W\d]))(?P<sign>times|fold|fach(?:e[rsnm]?)?|mal|x|×|গুণ)?(?P<rest>(?: .+)?)",
+    rf"{_NUMBER}(?: ?[-x×]?|[- ](?=[^\W\d]))(?P<sign>times|fold|fach(?:e[rsnm]?)?|mal|x|×|গুণ)?"
+    r"(?P<rest>(?: .+)?)",
     re.IGNORECASE,
 )
 
@@ -128,7 +129,7 @@ def _compile_bound(bound: str) -> re.Pattern[str]:
 
 
 def drop_bound(typed: str, bound: str) -> str:
-    """Return ``at most 1.25 ms`` without its words where the most is asked; empty if it has none."""
+    """Return ``at most 1.25 ms`` where the most is asked without its words; empty if without."""
     text = typed.strip()
     match = _compile_bound(bound).match(text)
     return text[match.end() :].strip() if match and match.end() < len(text) else ""
@@ -136,7 +137,7 @@ def drop_bound(typed: str, bound: str) -> str:
 
 def find_bound(question: str) -> str:
     """Return whether a question asks what something is at most or at least; empty for neither."""
-    asked = [sentence for sentence in re.findall(r"[^.?!]*\?", question)]
+    asked = re.findall(r"[^.?!]*\?", question)
     question = " ".join(asked) or question
     for bound in ("most", "least"):
         words = "|".join(map(re.escape, _load_factor_words()[f"asking-{bound}"]))

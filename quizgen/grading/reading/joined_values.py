@@ -20,8 +20,8 @@ _ARRAY = re.compile(
 )
 _NESTED = re.compile(r"([\[({]) *[\[({].*[\])}] *[\])}]|.*[\])}] *[,;\n]? *[\[({].*", re.DOTALL)
 _LEADING = re.compile(
-    r"(?:(?:at|from|between|first|von|zwischen|zuerst|erst|প্রথমে) |\d?(?:first|second|third|fourth|1st|"
-    r"2nd|3rd|4th) (?:row|line)s?:? )",
+    r"(?:(?:at|from|between|first|von|zwischen|zuerst|erst|প্রথমে) |\d?(?:first|second|third|fourth|"
+    r"1st|2nd|3rd|4th) (?:row|line)s?:? )",
     re.IGNORECASE,
 )
 _JOINTS = tuple(

@@ -218,7 +218,7 @@ def listed_unit(listed: str) -> TypedUnit:
 @lru_cache(maxsize=2048)
 @working_precision()
 def _get_listed_unit(known: UnitRegistry, listed: str) -> TypedUnit:
-    """Return a unit of a registry with its factor and dimension: angles in degrees, energies in J."""
+    """Return a unit of a registry with factor and dimension: angles in degrees, energies in J."""
     found: Unit = known.unit(listed)
     factor, powers = to_rational(found.factor), dict(found.dimension)
     turned = powers.pop("rad", 0)
