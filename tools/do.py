@@ -32,7 +32,18 @@ COMMANDS: dict[str, tuple[list[str], ...]] = {
     "figures": ([sys.executable, "tools/figures.py"],),
     "picture": ([sys.executable, "tools/picture.py"],),
     "docs": (
-        ["uv", "run", "--group", "docs", "sphinx-build", "-W", "--keep-going", "-q", "docs", "site"],
+        [
+            "uv",
+            "run",
+            "--group",
+            "docs",
+            "sphinx-build",
+            "-W",
+            "--keep-going",
+            "-q",
+            "docs",
+            "site",
+        ],
     ),
     "scenes": ([sys.executable, "tools/scenes.py"],),
 }
