@@ -27,7 +27,7 @@ from quizgen.maths.precision import working_precision
 from quizgen.maths.values import Value
 from quizgen.question.part_context import ask_part
 from quizgen.tradeoff.questions import Counted
-from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, solve_in
+from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, draws_list, solve_in
 
 COUNTED = Path(__file__).parents[1] / "quizgen" / "tradeoff" / "counted.json"
 ROUND = 10_000
@@ -41,7 +41,7 @@ _PLAIN = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789", "\u2
 def count_wrong(bank: Bank, drawn: int = ROUND) -> Counted:
     """Count the wrong keys of each arithmetic, in questions spread evenly over the templates.
 
-    Templates without a computation count, and have none.
+    Templates without a computation, or with one from a list, count and have none.
     """
     wrong: dict[str, Counter[str]] = {system: Counter() for system in ARITHMETICS}
     names = list(bank.template_paths)
@@ -51,6 +51,8 @@ def count_wrong(bank: Bank, drawn: int = ROUND) -> Counted:
         if not template.chain.steps:
             continue
         one = draw_variant(template, i // len(names))
+        if draws_list(one):
+            continue
         for system, counts in wrong.items():
             counts[name] += is_wrong(one, system)
     kept = {system: dict(sorted((+counts).items())) for system, counts in wrong.items()}

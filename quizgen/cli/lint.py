@@ -24,7 +24,8 @@ from quizgen.cli.terminal import ProgressLine, print_table, shorten_message, was
 from quizgen.core.errors import QuizgenError
 from quizgen.core.executor import map_ordered, open_executor
 from quizgen.core.untrusted import escape_control_characters
-from quizgen.locale.explanations import explain_diagnostic
+from quizgen.locale import FIRST
+from quizgen.locale.explanations import explain_diagnostic, list_explained_languages
 
 if TYPE_CHECKING:
     from quizgen.bank.bank import Bank
@@ -83,7 +84,7 @@ class LintOptions(BankOptions):
     f"[default: {ENOUGH:g}, and {ENOUGH_A_DRAW:g} for each draw]",
 )
 @click.option("--json", is_flag=True, help="Print problems as JSON, one a line, for editors.")
-@click.option("--lang", type=click.Choice(["en", "de"]), default="en",
+@click.option("--lang", type=click.Choice(list_explained_languages()), default=FIRST,
               help="Say what is wrong, and what helps, in this language.")  # fmt: skip
 @click.option("--debug", is_flag=True, help="Show where in Python an error came from.")
 @jobs_option

@@ -15,6 +15,11 @@ from quizgen.core.diagnostics import CODES, Diagnostic
 from quizgen.locale import FIRST, SHIPPED
 
 
+def list_explained_languages() -> list[str]:
+    """Return the languages that diagnostics are said in, English first."""
+    return [FIRST, *sorted(file.parent.name for file in SHIPPED.glob("*/diagnostics.toml"))]
+
+
 @cache
 def load_explanations(lang: str) -> dict[str, list[str]]:
     """Return code to what is wrong and, where there is one, what mends it."""

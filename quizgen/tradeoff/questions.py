@@ -23,7 +23,7 @@ from quizgen.numerics.distortion import inverse_radius
 from quizgen.numerics.gamma import srgb_decode
 from quizgen.numerics.hsv import hsv_to_rgb
 from quizgen.tradeoff.rivals import Timing, in_turns
-from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, solve_in
+from quizgen.tradeoff.solving import ARITHMETICS, FAILURES, Arithmetic, draws_list, solve_in
 
 _RUNS = 15
 _ALONE: tuple[Callable[[], object], ...] = (
@@ -103,7 +103,12 @@ def measure_questions(bank: Bank) -> Questions:
 
 
 def _is_solved(drawn: Variant, system: str) -> bool:
-    """Return whether an arithmetic has an answer: balls cannot tell that two colours are equal."""
+    """Return whether an arithmetic has an answer.
+
+    Balls cannot tell that two colours are equal; what is drawn as a list is not timed.
+    """
+    if draws_list(drawn):
+        return False
     try:
         solve_in(drawn, system)
     except FAILURES:

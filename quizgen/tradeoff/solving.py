@@ -88,6 +88,11 @@ FAILURES = (QuizgenError, ZeroDivisionError, OverflowError, ValueError)
 """What an arithmetic raises where it has no answer."""
 
 
+def draws_list(drawn: Variant) -> bool:
+    """Return whether a question computes from a list; only the exact arithmetic has those."""
+    return any(isinstance(drawn.values[name], tuple) for name in drawn.template.chain.given)
+
+
 def solve_in(drawn: Variant, name: str) -> Variant:
     """Return the same variant with the values that an arithmetic of this name gives."""
     way, chain = ARITHMETICS[name], drawn.template.chain

@@ -86,7 +86,7 @@ def test_a_value_is_the_documented_hash(bank):
     for seed in (0, 9, 123456):
         one = draw_variant(template, seed, 3)
         for name, values in listed.items():
-            key = f"A3/1/{seed}/3/{name}/{one.tries - 1}"
+            key = f"A3/2/{seed}/3/{name}/{one.tries - 1}"
             first = int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big")
             assert one.shown[name] == values[first % len(values)], (seed, name)
 

@@ -34,21 +34,21 @@ def test_the_head_of_a_key(paper):
 
 
 def test_the_key_of_one_question(paper):
-    """Seed 7 draws f = 6 and the point (-4, 2, 4): its image is at (-6, 3)."""
+    """Seed 7 draws f = 3 and the point (-12, -8, 6): its image is at (-6, -4)."""
     question = make_answer_key(paper).questions[0]
     assert (question.number, question.points, question.template) == ("1", "3", NAME)
     assert (question.topic, question.tier) == ("projection", "A")
-    assert question.identity == f"{NAME}(f=6, p_x=-4, p_y=2, p_z=4)"
+    assert question.identity == f"{NAME}(f=3, p_x=-12, p_y=-8, p_z=6)"
     assert question.title == {
         "en": "Perspective projection of a point",
         "bn": "একটা বিন্দুর perspective projection",
     }
     (part,) = question.parts
     assert (part.id, part.points, part.points_exact()) == ("1", "3", Fraction(3))
-    assert (part.spec["kind"], part.spec["values"]) == ("point", ["-6", "3"])
+    assert (part.spec["kind"], part.spec["values"]) == ("point", ["-6", "-4"])
     assert question.chain.steps == [("p'_x", "f*p_x/p_z", ""), ("p'_y", "f*p_y/p_z", "")]
     assert {name: given.value for name, given in question.chain.given.items()} == {
-        "f": "6", "p_x": "-4", "p_y": "2", "p_z": "4"}  # fmt: skip
+        "f": "3", "p_x": "-12", "p_y": "-8", "p_z": "6"}  # fmt: skip
 
 
 def test_the_chain_of_a_key_computes_with_its_units():
