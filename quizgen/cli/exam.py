@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import secrets
 from collections.abc import Callable, Collection, Iterator
 from functools import partial
 from pathlib import Path
@@ -278,7 +277,9 @@ def _get_paper_folder(code: str) -> Path:
 
 def _choose_first_seed(options: ExamOptions) -> int:
     """Return the seed in the options, or a random one."""
-    return secrets.randbelow(10**6) if options["seed"] is None else options["seed"]
+    from quizgen.paper.quota import draw_first_seed
+
+    return draw_first_seed() if options["seed"] is None else options["seed"]
 
 
 def _load_blueprint_at_level(options: ExamOptions, bank: Bank) -> Blueprint:

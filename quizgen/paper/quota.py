@@ -1,31 +1,34 @@
 """Papers with quotas: so much of each verb, tier and topic, and no two papers much alike.
 
-There is no search that goes back. Each place of a paper takes, of its list, a template that has
-come seldom so far and tells no answer of those before it; where the sums are not what is asked for,
-the paper is thrown away and another one is drawn. Papers of ``ROUND`` seeds in a row are made one
-after the other, so that none shares more questions with an earlier one than is allowed.
+Papers of ``ROUND`` seeds in a row are made one after the other. Each place of a paper takes, of its
+list, the template that brings the sums nearest to what is asked for, and among those the one that
+the earlier papers share least; place after place, until nothing gets better.
 """
 
 from __future__ import annotations
 
 import hashlib
 import math
+import secrets
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
-from itertools import chain
+from itertools import chain, pairwise
 from typing import NamedTuple
 
 from quizgen.bank.candidate import Candidate
 from quizgen.core.errors import BlueprintError
 from quizgen.paper.blueprint import UNLIMITED, Blueprint, split_quota
+from quizgen.paper.code import LARGEST_SEED
 from quizgen.paper.constraints import READING
 
-ROUND = 20
+ROUND = 200
 """Papers of a round: seeds in a row that know of each other."""
-TRIES, MORE_TRIES = 400, 600
-"""Papers that are tried until one meets all demands: apart from the others, and in any case."""
+TRIES, PASSES = 60, 6
+"""Beginnings of a paper that are tried, and how often each is gone through."""
+TOO_MANY = 20
+"""What a question more than may be shared costs, compared with one that may."""
 
 Places = tuple[tuple[Candidate, ...], ...]
 """Who may stand at each place of a paper."""
@@ -73,6 +76,11 @@ class Demand(NamedTuple):
         return sum(map(min, sums), Fraction(0)), sum(map(max, sums), Fraction(0))
 
 
+def draw_first_seed() -> int:
+    """Return a random seed that begins a round: no papers of others are made before its own."""
+    return secrets.randbelow(LARGEST_SEED // ROUND) * ROUND
+
+
 def list_demands(blueprint: Blueprint) -> tuple[Demand, ...]:
     """Return the demands of a blueprint, those that are missed most often first."""
     found = []
@@ -107,8 +115,10 @@ def select_by_quota(blueprint: Blueprint, places: Places, seed: int | str) -> li
     """
     number = int(seed) if str(seed).isdecimal() else _hash_number(str(seed))
     demands = list_demands(blueprint)
-    papers = _open_round(demands, blueprint.shared, places, number // ROUND)
-    paper = papers.get_paper(number % ROUND)
+    alone = blueprint.shared is None
+    round_number, place = (number, 0) if alone else divmod(number, ROUND)
+    papers = _open_round(demands, blueprint.shared, places, round_number)
+    paper = papers.get_paper(place)
     if paper is None:
         raise _explain_none(blueprint, places, papers.missed)
     return [one.name for one in paper]
@@ -131,7 +141,7 @@ class _Round:
         self, demands: Sequence[Demand], shared: int | None, places: Places, number: int
     ) -> None:
         self.places, self.number = places, number
-        self.shared = len(places) if shared is None else shared
+        shared = len(places) if shared is None else shared
         everyone = {one.name: one for one in chain.from_iterable(places)}
         self.bits = {name: 1 << place for place, name in enumerate(everyone)}
         self.apart = {
@@ -140,11 +150,15 @@ class _Round:
             for name, one in everyone.items()
         }
         """Templates that may not stand beside each, as bits: itself, too."""
-        self.demands = [_ScaledDemand(demand, places) for demand in demands]
+        self.demands = _scale_demands(demands, places)
         self.missed: Counter[str] = Counter()
         self.papers: list[tuple[Candidate, ...]] = []
         self.papers_with: dict[str, int] = dict.fromkeys(everyone, 0)
         """Papers so far that hold each template, as bits."""
+        levels = min(shared, len(places)) + 5
+        costs = [3**count * (1 if count <= shared else TOO_MANY) for count in range(levels + 1)]
+        self.steps = [after - before for before, after in pairwise(costs)]
+        """What one more question adds for a paper that shares so many already."""
 
     def get_paper(self, place: int) -> tuple[Candidate, ...] | None:
         """Return a paper of the round; None where no paper was found that meets all demands."""
@@ -158,62 +172,87 @@ class _Round:
         return self.papers[place]
 
     def _make_paper(self) -> tuple[Candidate, ...] | None:
-        """Return the next paper; one that shares more where none is found that does not."""
-        for attempt in range(TRIES + MORE_TRIES):
-            paper = self._fill_places(attempt)
+        """Return the next paper: the first try that meets all demands."""
+        for attempt in range(TRIES):
+            paper = self._improve_paper(attempt)
             if paper:
                 key = next((one.key for one in self.demands if not one.holds(paper)), "")
                 if not key:
-                    return paper
+                    return tuple(paper)
                 self.missed[key] += 1
         return None
 
-    def _fill_places(self, attempt: int) -> tuple[Candidate, ...]:
+    def _improve_paper(self, attempt: int) -> list[Candidate]:
         """Return a template for each place; none where nothing may stand at one of them.
 
-        With every attempt it matters less how often a template has come.
+        Again and again each place is filled anew, in any order, until nothing gets better. The
+        first time the demands do not count yet; of later attempts it is any template.
         """
-        left = max(0, TRIES - attempt)
-        shared = self.shared if left else len(self.places)
         salt = f"quota/{self.number}/{len(self.papers)}/{attempt}".encode()
-        drawn = hashlib.shake_128(salt).digest(2 * len(self.places))
-        alike = [0] * (shared + 1)  # earlier papers that share so many questions or more, as bits
-        taken, paper = 0, []
-        for place, fitting in enumerate(self.places):
-            start = int.from_bytes(drawn[2 * place : 2 * place + 2], "big")
-            best = self._choose_template(
-                fitting, start, taken, alike[shared], Fraction(left, TRIES)
-            )
-            if best is None:
-                return ()
-            earlier = self.papers_with[best.name]
-            for count in range(shared, 0, -1):
-                alike[count] |= earlier & alike[count - 1] if count > 1 else earlier
-            taken |= self.bits[best.name]
-            paper.append(best)
-        return tuple(paper)
+        count = len(self.places)
+        drawn = hashlib.shake_128(salt).digest(2 * count * (PASSES + 1))
+        paper: dict[int, Candidate] = {}
+        for turn in range(PASSES + 1):
+            keys = [drawn[2 * n : 2 * n + 2] for n in range(turn * count, (turn + 1) * count)]
+            before = dict(paper)
+            for place in sorted(range(count), key=keys.__getitem__):
+                paper.pop(place, None)
+                care = 2 if turn else int(not attempt)
+                best = self._choose_template(place, keys[place][1], paper, care)
+                if best is None:
+                    return []
+                paper[place] = best
+            if turn and paper == before:
+                break
+        return [paper[place] for place in range(count)]
 
     def _choose_template(
-        self,
-        fitting: Sequence[Candidate],
-        start: int,
-        taken: int,
-        full: int,
-        care: Fraction,
+        self, place: int, start: int, others: Mapping[int, Candidate], care: int
     ) -> Candidate | None:
-        """Return who comes first from ``start`` on, those that have come often so far set back.
+        """Return who misses the demands least and then shares least, from ``start`` on.
 
-        None of those taken may be near, and no paper that shares enough already may hold it.
+        Parameters
+        ----------
+        place, start : int
+        others : mapping of int to Candidate
+            Who stands at other places.
+        care : int
+            0 for anyone that may stand there, 1 for what is shared alone, 2 for both.
         """
-        count = len(fitting)
-        weight = int(care * count * count / (3 * len(self.papers) + 1))
-        ranked = (
-            ((place - start) % count + weight * self.papers_with[one.name].bit_count(), place)
-            for place, one in enumerate(fitting)
-            if not (self.apart[one.name] & taken or self.papers_with[one.name] & full)
-        )
-        best = min(ranked, default=None)
-        return fitting[best[1]] if best else None
+        taken = 0
+        alike = [(1 << len(self.papers)) - 1] + [0] * (len(self.steps) - 1)
+        """Papers that share so many questions or more, as bits."""
+        for one in others.values():
+            taken |= self.bits[one.name]
+            earlier = self.papers_with[one.name]
+            for count in range(len(alike) - 1, 0, -1):
+                alike[count] |= earlier & alike[count - 1]
+        rises = [
+            (after - before, papers)
+            for before, after, papers in zip([0, *self.steps], self.steps, alike, strict=False)
+            if papers and care
+        ]
+        room = [one.measure_room(place, others) for one in self.demands] if care > 1 else []
+        fitting = self.places[place]
+        best, least = None, (0, 0)
+        for n in range(len(fitting)):
+            one = fitting[(n + start) % len(fitting)]
+            if self.apart[one.name] & taken:
+                continue
+            missed = 0
+            for amounts, low, high in room:
+                amount = amounts[one.name]
+                if amount < low:
+                    missed += low - amount
+                elif amount > high:
+                    missed += amount - high
+            if best and missed > least[0]:
+                continue
+            earlier = self.papers_with[one.name]
+            cost = sum([rise * (earlier & papers).bit_count() for rise, papers in rises])
+            if best is None or (missed, cost) < least:
+                best, least = one, (missed, cost)
+        return best
 
 
 @lru_cache(maxsize=16)
@@ -227,23 +266,44 @@ def _open_round(
     return _Round(demands, shared, ordered, number)
 
 
-class _ScaledDemand:
+class _ScaledDemand(NamedTuple):
     """A demand in whole numbers."""
 
-    def __init__(self, demand: Demand, places: Sequence[Sequence[Candidate]]) -> None:
-        """Take the amounts of all candidates at all places."""
-        amounts = [{one.name: demand.measure(one) for one in place} for place in places]
-        unit = math.lcm(1, *(one.denominator for place in amounts for one in place.values()))
-        self.key = demand.key
-        self.amounts: list[Mapping[str, int]] = [
-            {name: int(amount * unit) for name, amount in place.items()} for place in amounts
-        ]
-        self.least, self.most = demand.least * unit, demand.most * unit
+    key: str
+    amounts: tuple[Mapping[str, int], ...]
+    """What each candidate adds, place by place."""
+    least: int
+    most: int
 
     def holds(self, paper: Sequence[Candidate]) -> bool:
         """Return whether the paper comes to enough, and not to too much."""
         told = zip(self.amounts, paper, strict=True)
         return self.least <= sum(place[one.name] for place, one in told) <= self.most
+
+    def measure_room(
+        self, place: int, others: Mapping[int, Candidate]
+    ) -> tuple[Mapping[str, int], int, int]:
+        """Return what each candidate for a place adds, and what it should, least and most."""
+        told = sum([self.amounts[at][one.name] for at, one in others.items()])
+        return self.amounts[place], self.least - told, self.most - told
+
+
+def _scale_demands(demands: Sequence[Demand], places: Places) -> list[_ScaledDemand]:
+    """Return the demands in one unit, so that what is missed of them can be added."""
+    found = [
+        [{one.name: demand.measure(one) for one in place} for place in places] for demand in demands
+    ]
+    parts = (amount for told in found for place in told for amount in place.values())
+    unit = math.lcm(1, *(amount.denominator for amount in parts))
+    return [
+        _ScaledDemand(
+            demand.key,
+            tuple({name: int(amount * unit) for name, amount in place.items()} for place in told),
+            math.ceil(demand.least * unit),
+            math.floor(demand.most * unit),
+        )
+        for demand, told in zip(demands, found, strict=True)
+    ]
 
 
 def _explain_none(blueprint: Blueprint, places: Places, missed: Counter[str]) -> BlueprintError:

@@ -24,7 +24,7 @@ from quizgen.maths.numbers import (
     is_short_decimal,
 )
 from quizgen.maths.precision import working_precision
-from quizgen.maths.tree import Call, Expr, Sym, names_in
+from quizgen.maths.tree import Call, Expr, Num, Sym, names_in
 from quizgen.maths.units import format_unit
 from quizgen.question.entry_prose import typeset_slot
 from quizgen.question.inlines import TypesetMaths, name_inline
@@ -106,6 +106,12 @@ def _substitute_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
         return _with_list_values(drawn, expr)
     quantities = sorted(names_in(expr))
     sign = "≈" if any(drawn.is_cut(name) for name in quantities) else "="
+    if _adds_plain_degrees(drawn, expr, quantities):
+        bare = {name: drawn.format_value(name) for name in quantities}
+        node = typeset.lay_out(
+            expr, leaves={name: typeset.quantity(text, "") for name, text in bare.items()}
+        )
+        return WorkedSide(sign, node, format_tree(expr, bare), NUMBERS)
     node = typeset.lay_out(expr, leaves={name: value_node(drawn, name) for name in quantities})
     if isinstance(expr, Sym):
         return WorkedSide(sign, node, format_quantity(drawn, expr.name), NUMBERS)
@@ -114,6 +120,16 @@ def _substitute_numbers(drawn: Variant, expr: Expr) -> WorkedSide:
         node,
         format_tree(expr, {name: value_typed(drawn, name) for name in quantities}),
         NUMBERS,
+    )
+
+
+def _adds_plain_degrees(drawn: Variant, expr: Expr, quantities: Sequence[str]) -> bool:
+    """Whether a sum mixes angles with plain numbers of degrees: no sign of degrees then."""
+    return (
+        isinstance(expr, Call)
+        and expr.op in {"add", "sub"}
+        and any(isinstance(one, Num) for one in expr.args)
+        and all(drawn.template.units[name] == "deg" for name in quantities)
     )
 
 

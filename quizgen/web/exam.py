@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import secrets
 from collections.abc import Mapping
 from dataclasses import dataclass
 from urllib.parse import urlencode
@@ -19,7 +18,8 @@ from starlette.routing import Route
 from quizgen.core.decoding import decode_json
 from quizgen.core.errors import BlueprintError, PaperCodeError, QuizgenError
 from quizgen.paper.blueprint import EVERYTHING, TRIAL, find_blueprint
-from quizgen.paper.code import LARGEST_SEED, parse_code
+from quizgen.paper.code import parse_code
+from quizgen.paper.quota import draw_first_seed
 from quizgen.practice.input_fields import is_complete
 from quizgen.store import ExamRecord
 from quizgen.store.exam_attempts import GRACE, ExamStore
@@ -182,7 +182,7 @@ def _parse_wanted_paper(request: Request, form: FormData) -> MakePaper:
     if minutes.isdecimal() and name not in site.bank.blueprints:
         name = f"{name}.{int(minutes[:4])}"
     _refuse_long(name)
-    return MakePaper(blueprint=name, seed=secrets.randbelow(LARGEST_SEED))
+    return MakePaper(blueprint=name, seed=draw_first_seed())
 
 
 def _refuse_long(name: str) -> None:

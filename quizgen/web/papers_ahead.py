@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import secrets
 import time
 from pathlib import Path
 
@@ -20,7 +19,8 @@ from quizgen.bank.bank import Bank, builtin_root
 from quizgen.core.cache import compute_digest
 from quizgen.core.errors import BankError, QuizgenError
 from quizgen.core.untrusted import read_bytes
-from quizgen.paper.code import ENGINE, LARGEST_SEED
+from quizgen.paper.code import ENGINE
+from quizgen.paper.quota import draw_first_seed
 from quizgen.store import ExamRecord, Store
 from quizgen.web.event_log import find_cause, log_event
 from quizgen.web.job_cache import WorkerPool
@@ -100,7 +100,7 @@ class PapersAhead:
             stock = self._store.stock
             there = await run_in_threadpool(stock.count_papers, blueprint, self._version)
             if there < count:
-                wanted = MakePaper(blueprint=blueprint, seed=secrets.randbelow(LARGEST_SEED))
+                wanted = MakePaper(blueprint=blueprint, seed=draw_first_seed())
                 self._last_made = time.monotonic()
                 paper = await self._papers.make(wanted, self)
                 await run_in_threadpool(stock.add_paper, blueprint, self._version, paper)

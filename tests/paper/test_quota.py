@@ -63,7 +63,7 @@ def test_neighbours_share_no_more_than_is_allowed_and_use_every_template():
     shelf = Shelf({f"{s}{n}": {} for s in "abcdef" for n in range(5)})
     asked = plan(*([f"{s}{n}" for n in range(5)] for s in "abcdef"), shared=2,
                  quota={"tier": {"A": (0, 99)}})  # fmt: skip
-    papers = [set(select_templates(shelf, asked, seed)) for seed in range(ROUND)]
+    papers = [set(select_templates(shelf, asked, seed)) for seed in range(20)]
     assert max(len(one & other) for one, other in combinations(papers, 2)) == 2
     used = Counter(name for paper in papers for name in paper)
     assert len(used) == 30
@@ -143,7 +143,7 @@ def test_a_mock_has_its_points_minutes_and_verbs(bank, seeds):
 
 def test_neighbouring_mocks_share_four_of_twenty_three(bank):
     mock = load_blueprint("mock")
-    papers = [set(select_templates(bank, mock, seed)) for seed in range(ROUND)]
+    papers = [set(select_templates(bank, mock, seed)) for seed in range(20)]
     assert {len(paper) for paper in papers} == {23}
     assert max(len(one & other) for one, other in combinations(papers, 2)) <= 4
 
@@ -151,7 +151,10 @@ def test_neighbouring_mocks_share_four_of_twenty_three(bank):
 @pytest.mark.slow
 def test_over_two_hundred_mocks_every_template_comes_and_none_crowds_out(bank):
     mock = load_blueprint("mock")
-    papers = [select_templates(bank, mock, seed) for seed in range(1, 201)]
+    papers = [select_templates(bank, mock, seed) for seed in range(ROUND)]
+    shared = Counter(len({*one} & {*other}) for one, other in combinations(papers, 2))
+    assert max(shared) <= 6
+    assert sum(shared[count] for count in shared if count > 4) <= 0.06 * shared.total()
     used = Counter(name for paper in papers for name in paper)
     inside = {one.name for one in bank.candidates() if not one.beyond}
     assert set(used) == inside, "each template inside the notes has a slot"

@@ -101,7 +101,8 @@ FORMULA_REWRITES: dict[str, Rewrite] = {
 
 _NAMES, *_MARKS = FORMULA_REWRITES.values()
 
-_EULER = re.compile(r"(?<![^\W_])e ?(?:\^|\*\*) ?(?=[(\w-])")
+_EULER = re.compile(r"(?:(?<![\w'])(\d{1,60})|(?<![^\W_]))e ?(?:\^|\*\*) ?(?=[(\w-])")
+"""Not behind a letter, where ``e`` belongs to a name; digits before it are a factor."""
 _ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
 _POINTED = re.compile(r"\d\.\d+,(?!\d*\.\d*,)|,\d+\.\d|,\d*\.\d")
 """A comma beside a number with a decimal point: it can only stand between arguments."""
@@ -170,8 +171,8 @@ def _right_side(source: SourceText) -> SourceText:
 
 
 def _rewrite_euler_powers(source: SourceText) -> SourceText:
-    """Return ``e^x`` and ``e^(…)`` as ``exp(1)^…``, for formulas in which e is no quantity."""
-    return source.substitute(_EULER, lambda _m: "exp(1)^")
+    """Return ``e^x`` and ``2e^(…)`` as ``exp(1)^…``, for formulas in which e is no quantity."""
+    return source.substitute(_EULER, lambda m: f"{m[1] or ''}exp(1)^")
 
 
 def _refuse_bare_log(source: SourceText, declared: frozenset[str]) -> None:
