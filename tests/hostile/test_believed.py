@@ -142,6 +142,7 @@ def test_a_long_number_in_hexadecimal_is_refused():
         ({"draw": "range = [1, 5, 0]"}, "draw.a.range: the step does not lead"),
         ({"draw": 'pick = ["two"]'}, "draw.a.pick: 'two' is no number"),
         ({"draw": 'is = "1 > 0"'}, "draw.a: a condition, where a number is needed"),
+        ({"draw": 'is = "-(1 = 1)"'}, "draw.a: a condition, where a number is needed"),
         (
             {"draw": 'is = "b" }\nb = { pick = [1]'},
             "draw.a: uses ['b'], not drawn before it",

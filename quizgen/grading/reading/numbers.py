@@ -364,6 +364,8 @@ def relocate_error(error: FormulaReadError, source: SourceText) -> FormulaReadEr
     """Return a reading error that points at the column in the typed text."""
     if error.code == "unknown-name" and not error.expected:
         error.code = "number-expected"
+    if error.code == "empty":  # a sign such as % alone
+        error.code = "no-answer"
     position = (error.column or 1) - 1
     found = error.found
     if error.code == "number-expected" and source.text.startswith(found, position):
