@@ -206,7 +206,7 @@ INVENTED = {
         "templates/locale/",
     ),
     "commands.md": ("templates/locale/",),
-    "tutorial.md": ("templates/bank.toml",),
+    "tutorial.md": ("starter/",),
     "mistakes.md": (
         "solvers/forces/",
         "templates/forces/",

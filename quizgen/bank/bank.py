@@ -552,14 +552,16 @@ class Bank:
         """Return how to go on after an unknown name, to end the message of an error.
 
         It gives the present name of a renamed template, else up to three similar ones, else where
-        all are listed.
+        all are listed. A topic before the name, as in the template's folder, is no part of it.
         """
         renamed = [known for known in self.template_paths if self._has_been_called(known, name)]
         if renamed:
             return f"; it is now called {renamed[0]!r}"
         from difflib import get_close_matches
 
-        close = get_close_matches(name, self.template_paths, 3)
+        own = name.rpartition("/")[2]
+        known = own in self.template_paths
+        close = [own] if known else get_close_matches(own, self.template_paths, 3)
         if close:
             return f"; did you mean {', '.join(close)}?"
         return f" (there are {len(self.template_paths)}; quizgen templates lists them)"

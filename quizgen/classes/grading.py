@@ -19,6 +19,7 @@ from quizgen.classes.rulings import (
     GIVE,
     POINTS,
     TOLERANCE,
+    TRAP,
     Ruling,
     RulingBook,
     answer_group,
@@ -331,7 +332,7 @@ def _is_ruling_about(ruling: Ruling, found: PartResult, group: str, *, words: bo
         return True
     if ruling.group:
         return ruling.group == group
-    if ruling.answer.startswith("trap:"):
+    if ruling.answer.startswith(TRAP):
         return found.verdict.note == ruling.answer
     return fold_answer(ruling.answer, words=words) == fold_answer(found.typed, words=words)
 

@@ -24,7 +24,9 @@ from quizgen.classes.manual_grading import (
     write_queue,
 )
 from quizgen.classes.rulings import (
+    ACCEPT,
     FILE,
+    TRAP,
     USE,
     Ruling,
     RulingBook,
@@ -190,7 +192,8 @@ def check_rulings(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
     Raises
     ------
     ClassError
-        Naming the file, also if one gives more points than its item is worth.
+        Naming the file, also if one gives more points than its item is worth, or accepts a
+        mistake that no key knows.
     """
     stated = [one for one in rulings if one.what != USE]
     worth = keys.worth() if stated else {}
@@ -200,6 +203,8 @@ def check_rulings(rulings: Iterable[Ruling], keys: KeyIndex) -> None:
             raise ClassError(f"{file}: item {one.item!r} is in no paper of this class")
         try:
             one.check_worth(worth[one.item])
+            if one.what == ACCEPT and one.answer.startswith(TRAP):
+                keys.check_trap(one.item, one.answer.removeprefix(TRAP))
         except ClassError as error:
             raise ClassError(f"{file}: {one.what} {one.item}: {error}") from None
     for one in rulings:

@@ -7,7 +7,8 @@ one still ends marking with a ``KeyFileError``.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -187,6 +188,25 @@ class KeyIndex:
                 break
         return found
 
+    def check_trap(self, item: str, name: str) -> None:
+        """Raise ``ClassError`` if no paper knows a mistake of this name in an item.
+
+        Which mistakes are told apart depends on the numbers drawn, so all papers are asked.
+
+        Raises
+        ------
+        ClassError
+            Naming the mistakes that there are.
+        """
+        known: set[str] = set()
+        for student in self.places:
+            with suppress(ClassError):  # a key that was edited counts as not there
+                known.update(*_iter_traps(self.key(student), item))
+            if name in known:
+                return
+        there = f"there are {', '.join(sorted(known))}" if known else "none is known there"
+        raise ClassError(f"answer: no mistake {safe_echo(name)!r} ({there})")
+
     def find_item(self, name: str, student: str = "") -> str:
         """Return the item that a name means: itself, or a part as it is printed, such as ``7b``.
 
@@ -215,6 +235,14 @@ class KeyIndex:
                 f"no part {safe_echo(name)!r} (there are {', '.join(sorted(self.worth()))})"
             )
         return meant.pop()
+
+
+def _iter_traps(key: AnswerKey, item: str) -> Iterator[Iterable[str]]:
+    """Yield the names of the mistakes that a paper knows in an item."""
+    for question in key.questions:
+        for part in question.parts:
+            if item_name_from_parts(question.template, question.number, part.id) == item:
+                yield part.spec.get("traps", ())
 
 
 def read_key_at(path: Path, at: int) -> AnswerKey:

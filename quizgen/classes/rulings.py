@@ -48,6 +48,8 @@ DECIDE, SECOND, ACCEPT, POINTS, TOLERANCE, DROP, GIVE, RESTORE, USE = WHAT = (
 ALWAYS = "always"
 """Value of a ``drop`` that counts for those, too, who reached a larger share of the item's points
 than of the others."""
+TRAP = "trap:"
+"""Before the name of a known mistake, in place of an answer."""
 OF_ONE = frozenset({POINTS, USE})
 """What is about one student."""
 LONGEST = 10_000

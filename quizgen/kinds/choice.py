@@ -95,10 +95,10 @@ _DENIED = re.compile(
 )
 """A word that is denied: what is not true is false, and the other way round."""
 _TRUTH_FIRST = re.compile(
-    r"(?P<first>[^\s,;:.(]+)"
+    r"(?P<first>[^\s,;:.(]+)(?!(?<=\d)[.,]\d)"
     r"(?:[,;:.] ?| (?=\()|[-–—] | (?=it |they |this |that |weil |because ))(?P<rest>.+)"
 )
-"""*Yes* or *false* with a reason behind it."""
+"""*Yes* or *false* with a reason behind it; ``0.5`` is neither."""
 _SHORT_DENIAL = re.compile(
     r"(?:it|they|this|that|he|she) (?:does|do|is|are|was|has|can|will)(?P<no>(?: not|n't))?(?: .*)?"
 )

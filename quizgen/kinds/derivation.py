@@ -68,7 +68,7 @@ RELATIONS = (*SAME_SIGN, "ne")
 """Signs of a line."""
 LONGEST_SHOWN = 200
 """Characters of all lines that are shown back."""
-ROOM = 3
+ROOM = 2
 """Lines that a learner may need besides those that earn points."""
 
 Forms = str | tuple[str, ...]

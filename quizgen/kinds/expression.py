@@ -118,8 +118,11 @@ class ExpressionSpec(WordSpec, kw_only=True, frozen=True):
         """
         free = self.up_to == "constant" and CONSTANT not in self.symbols
         names = (*self.symbols, CONSTANT) if free else self.symbols
+        emphatic = "factorial" not in self.value
         verdicts = [
-            self._judge_formula(read_formula(side, names, options.decimal), options, free=free)
+            self._judge_formula(
+                read_formula(side, names, options.decimal, emphatic=emphatic), options, free=free
+            )
             for side in split_sides(typed, names)
         ]
         if len({bool(verdict.credit) for verdict in verdicts}) > 1:

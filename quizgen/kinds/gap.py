@@ -10,8 +10,10 @@ from itertools import chain
 from typing import ClassVar
 
 import msgspec
+from flint import fmpq
 from msgspec import structs
 
+from quizgen.core.errors import FormulaError
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import (
     confusable_terms,
@@ -22,7 +24,9 @@ from quizgen.grading.judging.spelling import (
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm
 from quizgen.grading.reading.normalise import ANSWER, PICTURES, apply_rewrite, refuse_invisible
+from quizgen.grading.reading.number_words import list_number_words
 from quizgen.grading.reading.source_map import SourceText
+from quizgen.grading.reading.units import read_unit
 from quizgen.grading.spec import WordSpec
 from quizgen.grading.verdict import Verdict, ambiguous, correct, unreadable, verdict_by_share, wrong
 from quizgen.kinds.asking import make_spec
@@ -44,6 +48,8 @@ from quizgen.locale import (
     translate,
 )
 from quizgen.maths.notation import FormulaReadError
+from quizgen.maths.units import Dimension
+from quizgen.maths.values import Value
 
 
 class AuthoredGap(AuthoredPooled, kw_only=True, tag="gap", frozen=True):
@@ -276,6 +282,9 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     if not folded:
         return wrong("", "gap-empty") if not word else unreadable("no-answer")
     folded = _ZEROS.sub("", folded)
+    numbers = [term for term in gap if term[0].isdigit()]
+    if numbers and _is_number_said_otherwise(word, numbers):
+        return correct(safe_echo(word))
     if folded in right or _fold_spelt_out(word) in right or _is_inflection(word, right):
         return correct(safe_echo(" ".join(word.split())))
     others = [o for g in spec.gaps() for o in g if fold_word(o) not in right] + spec.among
@@ -284,6 +293,32 @@ def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     return _judge_by_nearest_term(spec, word, gap, others)
 
 
+def _is_number_said_otherwise(word: str, numbers: list[str]) -> bool:
+    """Return whether a word is a number in letters, or a quantity in another unit.
+
+    ``four`` stands for 4, and ``0.507 µm`` for 507 nm.
+    """
+    if str(list_number_words().get(word.casefold())) in numbers:
+        return True
+    typed = _read_quantity(word)
+    return typed is not None and typed in map(_read_quantity, numbers)
+
+
+def _read_quantity(text: str) -> tuple[Value, Dimension] | None:
+    """Return a value in base units and its dimension; None for anything else."""
+    match = _QUANTITY.fullmatch(apply_rewrite("digits", text))
+    if match is None:
+        return None
+    try:
+        unit = read_unit(match["unit"])
+    except FormulaError:
+        return None
+    number = Fraction(match["number"].replace(",", "."))
+    value = fmpq(number.numerator, number.denominator) * unit.factor
+    return value, unit.dimension
+
+
+_QUANTITY = re.compile(r"(?P<number>\d+(?:[.,]\d+)?) ?(?P<unit>[^\W\d_]{1,3})")
 _ZEROS = re.compile(r"(?<=\d)[.,]0+(?!\d)")
 """Decimals that say nothing: ``507.0``."""
 

@@ -42,8 +42,8 @@ from quizgen.maths.notation import parse_formula
 from quizgen.maths.number_systems import CompiledFormula, compile_expr, float64_system
 from quizgen.maths.numbers import MINUS, to_float
 
-SHOWN = 5
-"""Points of a line beyond which every second one is printed."""
+SHOWN = 7
+"""Points of a line beyond which every second one is printed: a curve bends less between them."""
 
 SketchLines = dict[str, str]
 """Name to a line as it is typed."""

@@ -446,17 +446,22 @@ SHOWN = {
 """Names that are typed on any keyboard, and how they are printed."""
 
 
-_SHOWN_PARTS = re.compile(r"([/*·^()])")
+_SHOWN_PARTS = re.compile(r"([/*·^()⁻⁰¹²³⁴-⁹])")
+_POWER = re.compile(r"\^(-?\d+)")
+_ABOVE = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @lru_cache(maxsize=1024)
 def format_unit(text: str) -> str:
-    """Return a unit as printed: ``um/px`` becomes ``µm/px``, ``1/mm`` becomes ``mm⁻¹``.
+    """Return a unit as printed: ``um/px`` becomes ``µm/px``, ``m/s^2`` ``m/s²``, ``1/mm`` ``mm⁻¹``.
 
     The unit of a pure number prints as nothing.
     """
     if text == "1":
         return ""
-    if text.startswith("1/") and text.count("/") == 1:
+    if below := re.fullmatch(r"1/([^/*·^()]+)\^(\d+)", text):
+        text = f"{below[1]}^-{below[2]}"
+    elif text.startswith("1/") and text.count("/") == 1:
         return f"{format_unit(text[2:])}⁻¹"
+    text = _POWER.sub(lambda match: match[1].translate(_ABOVE), text)
     return "".join(SHOWN.get(part, part) for part in _SHOWN_PARTS.split(text))

@@ -190,7 +190,18 @@ def _typeset_written(one: PaperPart, text: str) -> str:
         return text if "#gap;" in text else _put_beside(one, text, _typeset_values(one))
     if field.control.form == "line" or field.control.boxes:
         return _put_beside(one, text, _typeset_values(one))
-    return f"{typeset_text(one, hint=True)}\n#space({field.control.lines})"
+    return typeset_text(one, hint=True)
+
+
+def typeset_ruled_lines(one: PaperPart, *, hold: bool) -> str:
+    """Return the lines to write on below a part; empty where nothing longer is written.
+
+    ``hold`` keeps all of them on the page of what follows.
+    """
+    control = one.first.field.control
+    if control.form != "lines" or control.boxes or control.board:
+        return ""
+    return f"#space({control.lines}, hold: {str(hold).lower()})"
 
 
 def _put_beside(one: PaperPart, text: str, answer: str) -> str:

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from quizgen.question.compose import QuestionPart
     from quizgen.question.solution import PartSolution
 
-ROWS, ROWS_EACH_STEP, ROWS_EACH_POINT = 1.0, 0.9, 0.25
+ROWS, ROWS_EACH_STEP, ROWS_EACH_POINT = 0.6, 0.75, 0.2
 """Rows of 5 mm for any calculation, for each of its steps, and for each point."""
-LEAST_ROWS, MOST_ROWS = 2, 8
+LEAST_ROWS, MOST_ROWS = 2, 7
 
 
 def count_working_rows(part: QuestionPart, solved: PartSolution) -> int:

@@ -25,6 +25,7 @@ from quizgen.render.answer_fields import (
     typeset_letters,
     typeset_part,
     typeset_room,
+    typeset_ruled_lines,
     typeset_text,
 )
 from quizgen.render.cover import list_cover_facts, typeset_house_rules
@@ -304,7 +305,9 @@ class _TypstPaper:
                 continue
             empty = [field.drawing.figure for field in one.fields if field.drawing]
             drawing = self._typeset_picture(one.first.field.id, empty, BOARD_SCALE)
-            room = typeset_room(count_rows(one), one.first.points, hold=held)
+            room = typeset_ruled_lines(one, hold=held) or typeset_room(
+                count_rows(one), one.first.points, hold=held
+            )
             worth = format_amount(one.first.points, self.main)
             yield (
                 f"#part({typst_literal(one.first.label)}, {typst_literal(worth)}, "

@@ -124,6 +124,10 @@ HEADS: dict[str, Node] = {
     "acosh": Word("arcosh"),
     "atanh": Word("artanh"),
     "sign": Word("sgn"),
+    "normal_cdf": Word("Φ"),
+    "normal_quantile": Scripts(
+        Word("Φ"), None, MathRow((OperatorSign("neg"), Digits("1")), NEGATIVE)
+    ),
 }
 """Functions that are printed under another name than they are typed."""
 

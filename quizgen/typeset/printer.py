@@ -20,7 +20,9 @@ from quizgen.typeset.nodes import Digits, Node, OperatorSign
 TIGHT = frozenset({"deg", "°"})
 """Units set without a space after the number."""
 
-_PART = re.compile(r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹]))?")
+_PART = re.compile(
+    r"(?P<sign>[*/·]?)(?P<name>e[-⁻]|[^*/·^⁻⁰-⁹²³]+)(?:\^?(?P<power>-?\d|⁻?[²³¹⁰⁴-⁹]))?"
+)
 
 
 _NAME = re.compile(r"[^\W\d_]+|e-|°[CF]?|[%‰€$£৳1]")

@@ -202,6 +202,12 @@ def test_regrading_names_who_changes_and_keeps_every_mark(decided, capsys):
     for line in lines:
         assert run("class", "rule", folder, *line) == 0
     capsys.readouterr()
+    before = (folder / "rulings.csv").read_bytes()
+    assert run("class", "rule", folder, "accept", TRAPPED, "--answer", "trap:zzz") == 2
+    said = capsys.readouterr().err
+    assert "no mistake 'zzz'" in said
+    assert name in said
+    assert (folder / "rulings.csv").read_bytes() == before
     assert run("class", "mark", folder) == 1
     said = capsys.readouterr().out
     after = {one: dict(each) for one, each in expected.items()}

@@ -184,6 +184,7 @@ MISTAKES = [
     (["exam", "--code", "trial-4-en-000000", "--topic", "optics"], "already fixes"),
     (["exam", "--blueprint", "trial", "--topic", "optics"], "leave --topic"),
     (["preview", "Z99"], "unknown template"),
+    (["preview", "optics/thin-lens-limits"], "did you mean thin-lens-limits?"),
     (["frobnicate"], "no command 'frobnicate' (there are exam, check, practice"),
     (["exam", "--seed", "abc"], "'abc' is not a valid whole number"),
     (["lint", "--only", "thin-lens-limit"], "did you mean thin-lens-limits"),

@@ -102,6 +102,14 @@ def grid(page: Page) -> dict[str, Any]:
     }
 
 
+@solves("sketch-barrel-or-pincushion")
+def square(page: Page) -> dict[str, Any]:
+    """F22: a point moves to 1 + k r² times its distance; telephoto lenses have k > 0."""
+    outward = page.says("push points away", "$k_1 > 0$", "k_1 > 0", "k1 > 0", "telephoto",
+                        "bow inward", "বাইরে ঠেলে", "ভেতরের দিকে")  # fmt: skip
+    return {"a": _sketched(0.15 if outward else -0.15)[:4]}
+
+
 def _sketched(k: float) -> list[Line]:
     """A square of sides 2 and the lines through its middle, points moved as F22 says."""
     sides = [[(t / 4, 1) for t in range(-4, 5)], [(t / 4, -1) for t in range(-4, 5)],

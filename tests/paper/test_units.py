@@ -143,8 +143,8 @@ def test_another_unit_is_told_as_such(where):
 
 NAMES = {"B": r"\bbytes\b", "dB": r"decibel", "px": r"\bpixels?\b", "%": r"percent",
          "e-": "electrons", "bit": "bits"}  # fmt: skip
-NAMED_BN = {"B": "বাইট", "dB": "ডেসিবেল", "px": "পিক্সেল", "%": "শত(াংশ|করা)",
-            "e-": "ইলেকট্রন", "bit": "বিট"}  # fmt: skip
+NAMED_BN = {"B": r"\bbytes?\b", "dB": "decibel|ডেসিবেল", "px": "pixel", "%": "শত(াংশ|করা)|percent",
+            "e-": "electron", "bit": r"\bbits?\b"}  # fmt: skip
 
 
 def _asks(question, label: str, lang: str) -> str:

@@ -43,9 +43,9 @@ def test_there_is_room_only_where_something_is_computed_and_more_for_more_steps(
         for item in mock.items
         for part, solved in zip(item.questions[0].parts, item.keys[0].solution.parts, strict=True)
     }
-    assert rows["12a"] == (0, 0)  # read off a plot
-    assert rows["4a"] == (0, 0)  # ticked
-    assert rows["11a"][1] < rows["3b"][1] <= 8
+    assert rows["10a"] == (0, 0)  # read off a plot
+    assert rows["12c"] == (0, 0)  # ticked
+    assert rows["12d"][1] < rows["12b"][1] <= 8
 
 
 def test_the_cover_has_aids_points_minutes_and_a_table(mock, body):
@@ -96,8 +96,13 @@ def test_papers_of_a_language_share_their_rules_and_read_sentences_out_of_string
 
 def test_a_trial_has_a_box_to_sketch_in(trial):
     source = pdf.typst_sources(trial, "exam")["main.typ"].decode()
-    number = next(item.number for item in trial.items if "sketch" in item.questions[0].template)
-    assert source.count(f'#image("figure-{number}b.svg"') == 1
+    (part,) = [
+        part.field.id
+        for item in trial.items
+        for part in item.questions[0].parts
+        if part.field.control.board
+    ]
+    assert source.count(f'#image("figure-{part}.svg"') == 1
     page = html.render_paper_html(trial, "exam").decode()
     assert page.count('<path data-part="given"') >= 1
     assert '<path data-part="wanted"' not in page
@@ -134,7 +139,7 @@ def white_below(paper, kind):
 
 @pytest.mark.parametrize(
     ("kind", "seed", "lang", "most"),
-    [("exam", 1, "en", 0.3), ("exam", 2, "bn", 0.3), ("solutions", 0, "en", 0.33)],
+    [("exam", 1, "en", 0.4), ("exam", 2, "bn", 0.4), ("solutions", 0, "en", 0.33)],
 )
 def test_no_page_ends_far_from_its_foot(bank, kind, seed, lang, most):
     paper = build_paper(bank, load_blueprint("mock"), seed, lang)
@@ -164,8 +169,8 @@ def test_nothing_on_paper_is_said_as_it_is_typed(mock, body):
     for typed in ("semicolon", "A2 B1", "(a; b)", "x,y", "= ..."):
         assert typed not in body
     fields = {part.field.id: part.field for item in mock.items for part in item.questions[0].parts}
-    assert (fields["11a"].box.name, fields["11a"].box.unit) == ("p'_y", "mm")
-    assert "3\u00a0decimals" in body
+    assert (fields["16a"].box.name, fields["16a"].box.unit) == ("c", "um")
+    assert "± 0.001" in body
 
 
 def test_questions_with_figures_hold_together_and_others_break_between_parts(mock, body):
@@ -176,7 +181,7 @@ def test_questions_with_figures_hold_together_and_others_break_between_parts(moc
         drawn = any(part.field.drawing for part in item.questions[0].parts)
         if item.questions[0].figure or drawn:
             assert all(held[:-1])
-        elif len(held) > 1 and "#room" not in text:
+        elif len(held) > 1 and "#room" not in text and "#space" not in text:
             assert not any(held)
 
 

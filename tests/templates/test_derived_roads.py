@@ -123,7 +123,7 @@ ROADS: dict[str, list[tuple[int, str, float | None]]] = {
         (
             0,
             "V_a = max(0.5,0.1,0) = 0.5\nV_b = 0.45\nV_s = max(0.55, 0.55, 0) = 0.55\n0.55 < 0.95",
-            None,
+            3,
         ),
         (0, "V_a=0.5; V_b=0.45; V_s=0.55\nV_a + V_b = 0.95 ≠ 0.55", 3),
         (0, "V_s = 0.55\nV_a + V_b = 0.95\nV_s < V_a+V_b", 2),

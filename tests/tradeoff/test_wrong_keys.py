@@ -18,7 +18,7 @@ from quizgen.maths.numbers import to_float
 from quizgen.maths.precision import working_precision
 from quizgen.tradeoff.questions import Counted, load_recorded_counts, measure_questions
 from quizgen.tradeoff.rivals import in_turns
-from quizgen.tradeoff.solving import ARITHMETICS
+from quizgen.tradeoff.solving import ARITHMETICS, draws_list
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "tools"))
 
@@ -70,6 +70,8 @@ def test_no_template_of_a_sample_is_wrong_that_was_right_when_it_was_counted():
         template = bank.template(name)
         if template.chain.steps:
             one = draw_variant(template, 3)
+            if draws_list(one):
+                continue
             wrong = {system for system in ARITHMETICS if is_wrong(one, system)}
             assert wrong <= {system for system, hit in counted.wrong.items() if name in hit}, name
 

@@ -345,3 +345,25 @@ def test_a_matrix_has_one_pair_of_brackets():
     assert to_latex(node) == r"\begin{pmatrix} 1 & 2 \\ 1 & 2 \end{pmatrix}"
     assert to_mathml(node).count('form="prefix"') == 1
     assert to_speech(node).count("bracket") == 0
+
+
+@pytest.mark.parametrize(
+    ("unit", "printed"),
+    [
+        ("s^2", "s²"),
+        ("um^2/px", "µm²/px"),
+        ("kg*m^2/s^2", "kg*m²/s²"),
+        ("1/s^2", "s⁻²"),
+        ("1/mm", "mm⁻¹"),
+        ("m^-4", "m⁻⁴"),
+    ],
+)
+def test_powers_of_units_stand_above_the_line(unit, printed):
+    assert format_unit(unit) == printed
+
+
+def test_the_normal_distribution_has_its_letter():
+    x = Sym("x")
+    assert to_text(lay_out(Call("normal_cdf", (x,)))) == "Φ(x)"
+    assert to_text(lay_out(Call("normal_quantile", (x,)))) == "Φ⁻¹(x)"
+    assert to_speech(lay_out(Call("normal_cdf", (x,)))) == "normal distribution function of x"

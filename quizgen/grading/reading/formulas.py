@@ -13,6 +13,11 @@ from quizgen.grading.reading.literals import Ambiguity, join_digit_groups, with_
 from quizgen.grading.reading.normalise import normalise_typed
 from quizgen.grading.reading.numbers import relocate_error
 from quizgen.grading.reading.source_map import Rewrite, SourceText
+from quizgen.grading.reading.written_functions import (
+    find_closing_bracket,
+    write_factorials,
+    write_roots_and_logs,
+)
 from quizgen.maths.notation import (
     FormulaReadError,
     find_ambiguous_division,
@@ -49,6 +54,8 @@ _SYNONYMS = {
     "Abs": "abs",
     "betrag": "abs",
     "sgn": "sign",
+    "signum": "sign",
+    "cosec": "csc",
     "Log": "log",
     "LN": "ln",
     "Ln": "ln",
@@ -94,7 +101,8 @@ FORMULA_REWRITES: dict[str, Rewrite] = {
 
 _NAMES, *_MARKS = FORMULA_REWRITES.values()
 
-_EULER = re.compile(r"(?<![^\W_])e ?(?:\^|\*\*) ?(?=[(\w-])")
+_EULER = re.compile(r"(?:(?<![\w'])(\d{1,60})|(?<![^\W_]))e ?(?:\^|\*\*) ?(?=[(\w-])")
+"""Not behind a letter, where ``e`` belongs to a name; digits before it are a factor."""
 _ARGUMENTS = re.compile(rf"{MULTI_ARGUMENT} ?\([^()]*\d,\d")
 _POINTED = re.compile(r"\d\.\d+,(?!\d*\.\d*,)|,\d+\.\d|,\d*\.\d")
 """A comma beside a number with a decimal point: it can only stand between arguments."""
@@ -115,7 +123,9 @@ class TypedFormula(msgspec.Struct, frozen=True):
         return pretty.format_formula(format_tree(self.tree))
 
 
-def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> TypedFormula:
+def read_formula(
+    typed: str, symbols: Iterable[str], decimal: str = "auto", *, emphatic: bool = True
+) -> TypedFormula:
     """Return a typed formula over declared names, with its other reading if it has two.
 
     Parameters
@@ -126,6 +136,8 @@ def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> T
         Declared names.
     decimal : str
         The learner's decimal sign.
+    emphatic : bool
+        Whether a ``!`` at the end is no factorial.
 
     Raises
     ------
@@ -140,8 +152,12 @@ def read_formula(typed: str, symbols: Iterable[str], decimal: str = "auto") -> T
     if _MARKED.search(source.text):
         for pattern, new in _MARKS:
             source = source.substitute(pattern, new)
+    if "!" in source.text:
+        source = write_factorials(source, declared, emphatic=emphatic)
     if "e" not in declared:
         source = _rewrite_euler_powers(source)
+    if _WORD.search(source.text):
+        source = write_roots_and_logs(source, declared, decimal)
     _refuse_bare_log(source, declared)
     return _read_number_literals(source, declared, decimal)
 
@@ -155,8 +171,8 @@ def _right_side(source: SourceText) -> SourceText:
 
 
 def _rewrite_euler_powers(source: SourceText) -> SourceText:
-    """Return ``e^x`` and ``e^(…)`` as ``exp(1)^…``, for formulas in which e is no quantity."""
-    return source.substitute(_EULER, lambda _m: "exp(1)^")
+    """Return ``e^x`` and ``2e^(…)`` as ``exp(1)^…``, for formulas in which e is no quantity."""
+    return source.substitute(_EULER, lambda m: f"{m[1] or ''}exp(1)^")
 
 
 def _refuse_bare_log(source: SourceText, declared: frozenset[str]) -> None:
@@ -320,7 +336,7 @@ def _rewrite_call(source: SourceText, match: re.Match[str]) -> SourceText:
     if match["bare"]:
         return _bracket_bare_argument(source, match, power)
     if power and source.text[match.end() : match.end() + 1] == "(":
-        end = _find_closing_bracket(source.text, match.end())
+        end = find_closing_bracket(source.text, match.end())
         if end:
             return _write_call(source, match, source.slice(match.end() + 1, end - 1), end, power)
     return source
@@ -358,13 +374,3 @@ def _write_call(
         source.text[: match.start()] + text + source.text[end:],
         source.columns[: match.start()] + columns + source.columns[end:],
     )
-
-
-def _find_closing_bracket(text: str, start: int) -> int:
-    """Return the position behind the bracket that closes the one at ``start``; 0 if none does."""
-    depth = 0
-    for position in range(start, len(text)):
-        depth += (text[position] == "(") - (text[position] == ")")
-        if depth == 0:
-            return position + 1
-    return 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import msgspec
+from flint import fmpq
 
 from quizgen.core.errors import FormulaError
 from quizgen.grading.reading.source_map import SourceText
@@ -14,6 +15,9 @@ from quizgen.maths.notation import FormulaReadError
 _NUMBER_PART = re.compile(
     r"(?:[\d.,' +()√π^*/-]|[eE](?=[-+]?\d)|sqrt(?=\()|pi(?![^\W\d_])|[xX](?= ?10))*"
 )
+
+_SCALED = re.compile(r"(?P<unit>.*[^\W\d_]) ?(?P<sign>[/*]) ?10\^\(?(?P<power>-?\d{1,2})\)?")
+"""A unit with a power of ten behind it: ``Mg/10^6``."""
 
 
 class TypedQuantity(msgspec.Struct, frozen=True):
@@ -69,7 +73,12 @@ def _read_quantity_unit(text: str, source: SourceText, position: int) -> TypedUn
     FormulaReadError
         With the unit that may be meant, if it differs in case only.
     """
+    scaled = _SCALED.fullmatch(text.strip())
     try:
+        if scaled is not None:
+            unit = read_unit(scaled["unit"])
+            power = fmpq(10) ** (int(scaled["power"]) * (-1 if scaled["sign"] == "/" else 1))
+            return msgspec.structs.replace(unit, text=text.strip(), factor=unit.factor * power)
         return read_unit(text)
     except FormulaError:
         column = source.column(position)

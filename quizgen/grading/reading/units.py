@@ -87,6 +87,8 @@ WORDS = {
     "milliliter": "ml",
     "milliliters": "ml",
     "millilitre": "ml",
+    "cc": "cm^3",
+    "ccm": "cm^3",
     "cms": "cm",
     "mins": "min",
     "hr": "h",
