@@ -49,7 +49,7 @@ from quizgen.maths.numbers import parse_written_number
 HALF = Fraction(1, 2)
 WORDS_A_LINE = 6
 """Words of handwriting on a ruled line."""
-FEWEST_LINES, MOST_LINES = 2, 11
+FEWEST_LINES, MOST_LINES = 2, 10
 
 Status = Literal["found", "half", "follows", "refused", "open", "missing"]
 """What is suggested of a criterion: ``refused`` if it is denied or contradicted, ``open`` if its
