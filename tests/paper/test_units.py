@@ -72,7 +72,7 @@ FULL = {
 """Template and part to answers that get full marks, between bars; ``¦`` is a bar that is typed."""
 
 MISSING = {
-    ("luminous-flux-over-bands", "", "21.77"): "5.5",
+    ("luminous-flux-over-bands", "", "21.77"): "3.5",
     ("thin-lens-image-distance", "a", "66.67"): "2.5",
     ("thin-lens-image-distance", "c", "16.67"): "1",
     ("blur-disc-diameter", "a", "100"): "3.5",
