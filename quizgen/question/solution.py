@@ -5,6 +5,7 @@ The steps come from the solver's chain; the language files add one sentence of w
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from itertools import groupby
@@ -12,7 +13,7 @@ from typing import Any, NamedTuple
 
 import msgspec
 
-from quizgen.bank.markdown import Block, Inline, PlainText, TableBlock
+from quizgen.bank.markdown import Block, Inline, InlineCode, PlainText, TableBlock
 from quizgen.bank.variant import Variant
 from quizgen.figures import FieldPicture
 from quizgen.grading.spec import AnySpec, NumericSpec, ScalarSpec, VectorSpec
@@ -24,6 +25,7 @@ from quizgen.locale import format_amount, translate
 from quizgen.maths.chain import ChainStep
 from quizgen.maths.constants import Scalar
 from quizgen.maths.notation import format_tree
+from quizgen.maths.notation.pretty import format_formula
 from quizgen.maths.number_systems import NumberSystem, compile_expr, float32_system, float64_system
 from quizgen.maths.numbers import format_rounded, parse_written_number, to_fraction
 from quizgen.maths.tree import names_in
@@ -273,8 +275,15 @@ def _list_examples(filler: Interpolator, section: str, name: str) -> tuple[str, 
     """Return the examples of a list in the language's own words; none if it has no such list."""
     if filler.text.sentence(section, name) is None:
         return ()
-    words = inlines_to_text(filler.sentence(section, name)).split("|")
+    words = inlines_to_text(map(_write_typed_formula, filler.sentence(section, name))).split("|")
     return tuple(word.strip() for word in words if word.strip())
+
+
+def _write_typed_formula(part: Inline) -> Inline:
+    """Return a formula that an example gives as it is typed as people write it: N², 1/√N."""
+    if isinstance(part, InlineCode) and re.search(r"sqrt\(|\^", part.text):
+        return PlainText(re.sub(r"√\((\w)\)", r"√\1", format_formula(part.text)))
+    return part
 
 
 def _build_scheme_line(filler: Interpolator, row: SchemeRow) -> SchemeLine:

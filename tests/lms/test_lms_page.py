@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from quizgen.kinds import KINDS
+from quizgen.lms.interactions import _interactions_of
 from quizgen.lms.items import ExportItem, manual_parts
 from quizgen.question.compose import compose_question
 
@@ -47,3 +49,12 @@ def test_the_table_of_the_page(plain):
     lines = [f"| `{kind}` | {row(found[kind], kind)} |" for kind in sorted(found)]
     text = PAGE.read_text(encoding="utf-8")
     assert "\n".join(lines) in text, "\n".join(lines)
+
+
+def test_kinds_that_the_bank_does_not_ask_for_are_named_as_essays(plain):
+    asked = {spec.kind for item in plain for spec in item.key.specs}
+    others = [name for name in sorted(KINDS) if name not in asked]
+    essay = _interactions_of.registry[object]
+    assert all(_interactions_of.dispatch(KINDS[name].spec) is essay for name in others)
+    *names, last = (f"`{name}`" for name in others)
+    assert f"So are {', '.join(names)} and {last}," in PAGE.read_text(encoding="utf-8")
