@@ -102,9 +102,10 @@ def entry_matches(value: Value, text: str) -> bool:
 _EQUALS = re.compile(r"(?<![<>:!=])=(?!=)")
 _DERIVED = re.compile(
     r" *(?:\$|\\\()? *(?:\\frac ?\{ ?d\w? ?\} ?\{ ?d\w ?\}"
-    r"|d\w? ?/ ?d\w|d/d\w(?: ?\([^()]*\)| \w)?|\w+'*(?:\(\w\))?) *"
+    r"|d\w? ?/ ?d\w|d/d\w(?: ?\([^()]*\)| \w)?|\w+['′’]*(?:\(\w\))?|\\mathrm ?\{\w+\}) *"
 )
 """What a function or its derivative is called: ``df/dx``, ``f'(x)``."""
+_IN_DOLLARS = re.compile(r" *\$([^$]*)\$ *")
 
 
 def split_sides(typed: str, names: Collection[str] = ()) -> list[str]:
@@ -112,11 +113,13 @@ def split_sides(typed: str, names: Collection[str] = ()) -> list[str]:
 
     A name of the formula in front is a side: ``N = √N`` says something else than ``√N``.
     """
-    first, *others = _EQUALS.split(typed)
+    inside = _IN_DOLLARS.fullmatch(typed)
+    first, *others = _EQUALS.split(inside[1] if inside else typed)
     if not others or not all(map(str.strip, others)):
         return [typed]
     called = not first.strip() or (
-        _DERIVED.fullmatch(first) is not None and first.strip(" $") not in names
+        _DERIVED.fullmatch(first) is not None
+        and re.sub("[′’]", "'", first.strip(" $")) not in names
     )
     product = not names and _CALLED.sub("", f"{first}=0") == "0"
     return others if called or product else [first, *others]
