@@ -58,7 +58,7 @@ Later steps see it in place: `Step(f, a*x**2)` with `f = Function("f")(x)`, then
 x))` and `Step(D, df.subs(x, c))`; `A = MatrixSymbol("A", 2, 2)`, then `Step(d, det(A))`. In words
 `{{{{ f }}}}` prints it with the drawn numbers, and `of = "df"` asks for it.
 
-Next: [Figures](figures.md)
+Next: [Units](units.md)
 """
 
 

@@ -147,7 +147,7 @@ PREFIXES = {
 _SMALL, _LARGE = "pnuµμm", "kMGT"
 _ALL = _SMALL + _LARGE
 
-_BASE = {
+BASE_UNITS = {
     # unit: prefixes that are in use with it
     "m": "pnuµμmcdkM",
     "g": "nuµμmkM",
@@ -181,7 +181,7 @@ _BASE = {
 3 € to 3 $ without knowing a zero or a rate, so these are kinds as well, and the electronvolt, whose
 joules are too small for tolerances that were chosen for whole numbers of them."""
 
-_DERIVED = {
+DERIVED_UNITS = {
     # unit: (its size, the units it is made of, prefixes that are in use with it)
     "Hz": ("1", "1/s", _LARGE),
     "N": ("1", "kg*m/s^2", _ALL),
@@ -250,11 +250,11 @@ class _SimpleUnit(NamedTuple):
 def _list_simple_units() -> dict[str, _SimpleUnit]:
     """Return every listed unit with every prefix in use, by the name as it is written."""
     table = {"": _SimpleUnit(Fraction(1), ()), "1": _SimpleUnit(Fraction(1), ())}
-    for name, prefixes in _BASE.items():
+    for name, prefixes in BASE_UNITS.items():
         size = _KILOGRAM if name == "g" else Fraction(1)
         base = "kg" if name == "g" else name
         _add_prefixed(table, name, prefixes, _SimpleUnit(size, ((base, 1),)))
-    for name, (times, made_of, prefixes) in _DERIVED.items():
+    for name, (times, made_of, prefixes) in DERIVED_UNITS.items():
         unit = _multiply_out(made_of, table)
         if unit is None:
             raise AssertionError(f"{name} is made of what is not above it")
