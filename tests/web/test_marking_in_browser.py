@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from served import Served
+from sweep import draws
 
 from quizgen.classes.agreement import agreement_by_item
 from quizgen.classes.rulings import DECIDE, SECOND, latest_rulings, read_rulings
@@ -91,7 +92,7 @@ def press(page, *keys: str) -> None:
         assert page.evaluate("[window.stays, scrollY]") == [True, 60]
 
 
-@pytest.mark.parametrize("students", [6, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("students", [6, pytest.param(draws(30), marks=pytest.mark.slow)])
 def test_two_markers_work_through_all_sentences_by_keys(browser, barriers, tmp_path, students):
     folder = make_class(tmp_path, students)
     server = Served(f"sqlite:///{tmp_path / 'l.sqlite3'}", "--class", str(folder))
