@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import subprocess
+from pathlib import Path
 
 import cv2
 import numpy as np
@@ -22,10 +23,13 @@ pytestmark = pytest.mark.browser
 SIZE = 40
 """Pixels of one em: large enough that a hundredth shows."""
 
+LOOK = (Path(fonts.__file__).parent / "look" / "look.css").read_text("utf-8")
+FAMILY = re.search(r"--font-math: [^;]+;", LOOK)[0]
+
 TALLEST = {  # ems from the highest to the lowest ink: no family stands out of its line
     "x": 0.6,
     "x'": 1.0,
-    "p'_y": 1.3,
+    "p'_y": 1.4,
     "p'_y^2": 1.7,
     "x'^2": 1.2,
     "k_1": 1.0,
@@ -47,7 +51,7 @@ def formula(text):
 
 def sheet(body):
     font = f'@font-face {{ font-family: "QuizMaths"; src: url("{fonts.maths_uri()}"); }}'
-    plain = f"html {{ font-size: {SIZE / 1.06}px }} body {{ margin: 0; padding: 0; }}"
+    plain = f":root {{ {FAMILY} }} html {{ font-size: {SIZE / 1.06}px }} body {{ margin: 0; padding: 0; }}"
     return f'<!DOCTYPE html><meta charset="utf-8"><style>{font}{_build_paper_css()}{plain}</style>{body}'
 
 
@@ -167,4 +171,5 @@ def test_a_short_formula_and_its_value_stay_on_one_line(camera):
 
 
 def test_the_style_is_the_one_of_papers():
-    assert re.search(r"math \{[^}]*QuizMaths", _build_paper_css())
+    assert re.search(r"math \{[^}]*var\(--font-math\)", _build_paper_css())
+    assert FAMILY.startswith('--font-math: "QuizMaths"')
