@@ -105,8 +105,8 @@ def grid(page: Page) -> dict[str, Any]:
 @solves("sketch-barrel-or-pincushion")
 def square(page: Page) -> dict[str, Any]:
     """F22: a point moves to 1 + k r² times its distance; telephoto lenses have k > 0."""
-    outward = page.says("push points away", "$k_1 > 0$", "k_1 > 0", "k1 > 0", "telephoto",
-                        "bow inward", "বাইরে ঠেলে", "ভেতরের দিকে")  # fmt: skip
+    words = ("pushes points away", "telephoto", "bow inward", "বাইরে ঠেলে", "ভেতরের দিকে")
+    outward = page.says(*words) or re.search(r"k_?1 ?> ?0", page.text) is not None
     return {"a": _sketched(0.15 if outward else -0.15)[:4]}
 
 

@@ -139,7 +139,7 @@ def white_below(paper, kind):
 
 @pytest.mark.parametrize(
     ("kind", "seed", "lang", "most"),
-    [("exam", 1, "en", 0.4), ("exam", 2, "bn", 0.4), ("solutions", 0, "en", 0.33)],
+    [("exam", 1, "en", 0.5), ("exam", 2, "bn", 0.5), ("solutions", 0, "en", 0.33)],
 )
 def test_no_page_ends_far_from_its_foot(bank, kind, seed, lang, most):
     paper = build_paper(bank, load_blueprint("mock"), seed, lang)
