@@ -16,6 +16,7 @@ from quizgen.question.compose import compose_variant
 from quizgen.question.levels import load_level
 from quizgen.question.levels.guided import guided_stages
 from quizgen.question.levels.steps import wrong_options
+from quizgen.tradeoff.solving import draws_list
 
 CALCULATING = [
     name for name in builtin_bank().template_paths
@@ -35,6 +36,8 @@ def template(request):
 def drawn(request, template):
     """One of a template that promises steps to ask for, and so has some in every draw."""
     found = draw_variant(template, request.param)
+    if draws_list(found):
+        pytest.skip("SymPy's model has no lists; tests/independent works these out with NumPy")
     assert load_level("guided").is_applicable(found)
     return found
 

@@ -51,16 +51,23 @@ def every_part(client, at: str, names) -> str:
     return "".join(client.get(at, params={"part": name}).text for name in names)
 
 
+def takes(forms, name: str, values: list[str]) -> bool:
+    """Whether the form of a part takes an answer; parts in one text share a form, each by its name."""
+    if name in forms and Fields(forms[name]).take("a", values):
+        return True
+    return any(Fields(form).take(f"a-{name}", values) for form in forms.values())
+
+
 def wrong_parts(page: str, answered: str, answers, sentences) -> list[str]:
     """Parts that take their printed answers amiss, and how."""
     part = r'<section class="part[^"]*" id="part-(\w+)"'
     forms = dict(re.findall(part + "(.*?)</section>", page, re.DOTALL))
-    verdict = rf'{part}(?:(?!</section>).)*?<div class="verdict (\w+)"'
-    said = dict(re.findall(verdict, answered, re.DOTALL))
+    verdicts = re.findall(r'<div class="verdict (\w+)" id="verdict-(\w+)"', answered)
+    said = {name: verdict for verdict, name in verdicts}
     found = [
         f"{name}: the fields do not take {values}"
         for name, values in answers.items()
-        if not Fields(forms[name]).take("a", values)
+        if not takes(forms, name, values)
     ]
     right = {name for name, verdict in said.items() if verdict == "correct"}
     return found + [f"{name}: {said.get(name)}" for name in answers.keys() - right - sentences]
@@ -80,7 +87,7 @@ def wrong(client, token, app, at_once):
         answers = typed(question, key)
         page = every_part(client, at, answers)
         for part, values in answers.items():
-            sent = {"token": token, "do": "answer", "a": values}
+            sent = {"token": token, "do": "answer", "a": values, f"a-{part}": values}
             client.post(f"{at}/{part}", data=sent, follow_redirects=False)
         parts = zip(question.parts, key.specs, strict=True)
         sentences = {part.field.id for part, spec in parts if spec.kind == "rubric"}

@@ -217,6 +217,7 @@ document.addEventListener("keydown", (event) => {
   // One question on the screen: the one of the address, else the first.
   const questions = [...form.querySelectorAll(".question")];
   const turn = () => {
+    if (!questions.length) { return; }
     const named = location.hash ? document.getElementById(decodeURIComponent(location.hash.slice(1))) : null;
     const shown = named?.closest(".question") ?? questions[0];
     questions.forEach((one) => one.classList.toggle("shown", one === shown));
