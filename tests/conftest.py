@@ -144,15 +144,21 @@ def firefox():
 
 
 @pytest.fixture(scope="session")
-def browser(chromium):
+def driver():
+    """Playwright, of which a process can have one only."""
     from playwright.sync_api import sync_playwright
 
-    with sync_playwright() as driver:
-        instance = driver.chromium.launch(
-            executable_path=chromium, args=["--no-sandbox", "--disable-background-networking"]
-        )
-        yield instance
-        instance.close()
+    with sync_playwright() as one:
+        yield one
+
+
+@pytest.fixture(scope="session")
+def browser(chromium, driver):
+    instance = driver.chromium.launch(
+        executable_path=chromium, args=["--no-sandbox", "--disable-background-networking"]
+    )
+    yield instance
+    instance.close()
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import pytest
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 WIDTH, HEIGHT = 390, 844
-EVERY = 4
+EVERY = 8
 """Of so many templates one is looked at, of all topics."""
 BOTTOM = "document.querySelector('section.part').getBoundingClientRect().bottom + scrollY"
 

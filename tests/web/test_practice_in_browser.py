@@ -52,7 +52,7 @@ def test_wrong_hint_language_right_and_a_variant(practised):
     x.fill("123")
     y.fill("456")
     y.press("Enter")
-    expect(page.locator(".verdict.wrong")).to_contain_text("2 left")
+    expect(page.locator(".verdict.wrong")).to_contain_text("Tries left: 2")
     expect(page.locator("#said")).to_contain_text("Not right.")
     expect(y).to_be_focused()
     page.get_by_role(BUTTON, name="Hint").click()
@@ -172,7 +172,7 @@ def test_a_verdict_is_announced_once(practised):
             field.fill(number)
         page.locator("input[type=text]").first.press("Enter")
         expect(page.locator("input[type=text]").first).to_have_value(number)
-        expect(page.locator(".verdict")).to_contain_text(f"{3 - int(number)} left")
+        expect(page.locator(".verdict")).to_contain_text(f"Tries left: {3 - int(number)}")
     told = [one for one in page.evaluate("window.told") if one]
     assert len(told) == 2, told
     live = page.evaluate(
@@ -204,7 +204,7 @@ def test_by_keys_alone(opened):
     if page.get_by_text("Choose a question yourself").count():  # the first visit
         Keys(page).to("Choose a question yourself")
         page.keyboard.press("Enter")
-    Keys(page).on(page.get_by_role(BUTTON, name="Projection"))
+    Keys(page).on(page.get_by_role(BUTTON, name="§4.1 Perspective projection"))
     page.keyboard.press("Enter")
     expect(page.locator("section.part").first).to_be_visible()
     Keys(page).on(page.locator(".parts a, .more summary").last)

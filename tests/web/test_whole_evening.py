@@ -9,7 +9,7 @@ import html5lib
 import pytest
 from keys import Keys
 from needed import installed
-from playwright.sync_api import expect, sync_playwright
+from playwright.sync_api import expect
 from served import Served
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
@@ -74,7 +74,7 @@ class Student:
 
 
 @pytest.fixture(params=EVENINGS, ids=lambda one: "-".join(map(str, one)))
-def evening(request, database, tmp_path):
+def evening(request, database, tmp_path, driver):
     """A server for one learner and their phone; a student with a browser before its first page."""
     kind, width, lang, scheme = request.param
     if kind == "firefox":
@@ -85,7 +85,7 @@ def evening(request, database, tmp_path):
         browser_of = chromium()
     server = Served(database(), "--phone")
     try:
-        with sync_playwright() as driver, browser_of(driver) as browser:
+        with browser_of(driver) as browser:
             how = {"viewport": {"width": width, "height": 844 if width < 500 else 800}}
             if kind == "chromium":
                 how |= {"has_touch": width < 500, "bypass_csp": True, "color_scheme": scheme}
