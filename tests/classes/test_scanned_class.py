@@ -23,7 +23,7 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(not shutil.which("pdftoppm"), reason="rasterises with poppler"),
 ]
-STUDENTS = 60
+STUDENTS = 30
 FLAT = ("300", "200", "150", "150", "skew", "upside down", "stain", "punch", "staple")
 HARD = ("fold", "phone")
 ASKED, SILENT, SECONDS = 0.04, 0.001, 0.35

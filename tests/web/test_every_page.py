@@ -86,8 +86,9 @@ def wrong(client, token, app, at_once):
         ((question, key, _),) = at_once.values()
         answers = typed(question, key)
         page = every_part(client, at, answers)
+        shared = {f"a-{part}": values for part, values in answers.items()}
         for part, values in answers.items():
-            sent = {"token": token, "do": "answer", "a": values, f"a-{part}": values}
+            sent = {**shared, "token": token, "do": "answer", "a": values}
             client.post(f"{at}/{part}", data=sent, follow_redirects=False)
         parts = zip(question.parts, key.specs, strict=True)
         sentences = {part.field.id for part, spec in parts if spec.kind == "rubric"}
