@@ -144,6 +144,8 @@ def test_exact_takes_twice_as_long_as_float64_and_some_microseconds_more():
     for name in list(bank.template_paths)[::2]:
         if bank.template(name).chain.steps:
             one = draw_variant(bank.template(name), 0)
+            if draws_list(one):
+                continue
             ours, doubles = (
                 call_seconds(one, exact_system, lambda x: x),
                 call_seconds(one, float64_system, to_float),
