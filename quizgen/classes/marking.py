@@ -226,7 +226,7 @@ class MarkingState:
     first: Mapping[str, Ruling]
     second: Mapping[str, Ruling]
 
-    def said(self, *, second: bool) -> Mapping[str, Ruling]:
+    def list_decisions(self, *, second: bool) -> Mapping[str, Ruling]:
         """Return the decisions of one of the two rounds."""
         return self.second if second else self.first
 
@@ -339,7 +339,7 @@ class MarkingDesk:
         what they decided themselves.
         """
         cards, state = self.index().items.get(item, []), self.state()
-        said = state.said(second=second)
+        said = state.list_decisions(second=second)
         order = [*range(after + 1, len(cards)), *range(after + 1)]
         still_open = [
             place for place in order
@@ -374,7 +374,7 @@ class MarkingDesk:
         with lock_folder(self.folder, PATIENCE):
             state = self.state()
             for one in made:
-                now = state.said(second=one.what == SECOND).get(one.group)
+                now = state.list_decisions(second=one.what == SECOND).get(one.group)
                 if now is not None and now.who != one.who and now.step != seen.get(one.group, ""):
                     raise TakenError(now)
             note_rulings(self.folder, (msgspec.structs.replace(one, step=step) for one in made))

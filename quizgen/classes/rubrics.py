@@ -110,7 +110,7 @@ class ItemRubric(msgspec.Struct, frozen=True):
     history: tuple[RubricChange, ...] = ()
 
     @property
-    def shown(self) -> list[RubricLine]:
+    def current_lines(self) -> list[RubricLine]:
         """Return the lines that can be ticked."""
         return [one for one in self.lines if not one.gone]
 
@@ -232,7 +232,7 @@ def list_suggested_lines(case: DecisionCase, rubric: ItemRubric) -> frozenset[st
     """Return the lines that were recognised in an answer, as far as the rubric still has them."""
     ends = {"found": "", "follows": "", "half": HALF}
     found = (one.name + ends[one.status] for one in case.criteria if one.status in ends)
-    return frozenset(found) & {one.id for one in rubric.shown}
+    return frozenset(found) & {one.id for one in rubric.current_lines}
 
 
 def split_lines(text: str) -> frozenset[str]:

@@ -78,7 +78,7 @@ def _report_scan(folder: Path, report: ScanReport) -> None:
         print_sentence(
             f"{report.boxes - report.doubtful} of {report.boxes} boxes read ({share:.1f} %)"
         )
-    left = report.asked
+    left = report.open_count
     if left:
         print_sentence(
             f"To be typed or decided: {format_count(left, 'answer')}. Open "

@@ -179,7 +179,7 @@ def _cloze_html(question: MoodleQuestion) -> Markup:
     for (part, found), share in zip(question.parts, shares, strict=True):
         text += _escape_braces(part_html(part, found, lang, _file_address))
         for interaction in found:
-            text += _embed(interaction, int(share * scale), lang)
+            text += _embed_interaction(interaction, int(share * scale), lang)
     return text
 
 
@@ -199,12 +199,12 @@ def _count_fields(found: Sequence[Interaction], lang: str) -> int:
 
 
 @singledispatch
-def _embed(interaction: Interaction, _weight: int, _lang: str) -> Markup:
+def _embed_interaction(interaction: Interaction, _weight: int, _lang: str) -> Markup:
     """Return an interaction as cloze fields; ``_weight`` is a whole number of marks for each."""
     raise TypeError(type(interaction).__name__)
 
 
-@_embed.register
+@_embed_interaction.register
 def _embed_number(interaction: NumericInteraction, weight: int, lang: str) -> Markup:
     """Return a numeric field between its name and its unit."""
     answers = weighted_answers(interaction, lang)
@@ -214,7 +214,7 @@ def _embed_number(interaction: NumericInteraction, weight: int, lang: str) -> Ma
     return Markup(around.replace(_FIELD_MARK, field))  # noqa: S704 - escaped
 
 
-@_embed.register
+@_embed_interaction.register
 def _embed_text(interaction: TextEntryInteraction, weight: int, lang: str) -> Markup:
     """Return a field for words; a program's output is compared with its capitals."""
     kind = "SHORTANSWER_C" if interaction.printed else "SHORTANSWER"
@@ -223,7 +223,7 @@ def _embed_text(interaction: TextEntryInteraction, weight: int, lang: str) -> Ma
     return Markup("<p>{}</p>").format(_cloze_field(weight, kind, rows))
 
 
-@_embed.register
+@_embed_interaction.register
 def _embed_choice(interaction: ChoiceInteraction, weight: int, lang: str) -> Markup:
     """Return a list of options to choose from."""
     kind = "MULTIRESPONSE" if interaction.many else "MULTICHOICE_V"
@@ -232,7 +232,7 @@ def _embed_choice(interaction: ChoiceInteraction, weight: int, lang: str) -> Mar
     return Markup("<div>{}</div>").format(_cloze_field(weight, kind, rows))
 
 
-@_embed.register
+@_embed_interaction.register
 def _embed_true_false(interaction: TrueFalseInteraction, weight: int, lang: str) -> Markup:
     """Return the two options of a statement."""
     feedback = to_course_html(interaction.feedback, lang)
@@ -247,8 +247,8 @@ def _embed_true_false(interaction: TrueFalseInteraction, weight: int, lang: str)
     return Markup("<div>{}</div>").format(_cloze_field(weight, "MULTICHOICE_H", rows))
 
 
-@_embed.register(MatchInteraction)
-@_embed.register(OrderInteraction)
+@_embed_interaction.register(MatchInteraction)
+@_embed_interaction.register(OrderInteraction)
 def _embed_match(
     interaction: MatchInteraction | OrderInteraction, weight: int, lang: str
 ) -> Markup:

@@ -288,7 +288,7 @@ class SeatStore:
             for learner, at in handed.items():
                 _update_seat(connection, learner, stored=at)
 
-    def shared(self, name: str) -> str:
+    def find_shared_value(self, name: str) -> str:
         """Return what all servers of this database know under a name; "" if nothing."""
         query = select(SERVER.c.value).where(SERVER.c.name == name)
         with self.database.reading() as connection:

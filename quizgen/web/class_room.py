@@ -176,17 +176,17 @@ class ClassRoom:
 
     def opens(self) -> float | None:
         """Return from when on students may begin; None until a person says so."""
-        opened = self.store.seats.shared(OPENED)
+        opened = self.store.seats.find_shared_value(OPENED)
         begins = self.exam.browser.begins
         return float(opened) if opened else begins.timestamp() if begins else None
 
     def is_held(self) -> bool:
         """Return whether everybody is paused, so that nobody begins either."""
-        return bool(self.store.seats.shared(HELD))
+        return bool(self.store.seats.find_shared_value(HELD))
 
     def is_released(self) -> bool:
         """Return whether students may see their marks."""
-        return bool(self.store.seats.shared(RELEASED))
+        return bool(self.store.seats.find_shared_value(RELEASED))
 
     def time_left(self, seat: Seat, now: float) -> float:
         """Return the seconds that a student has who begins now; negative if it is too late."""

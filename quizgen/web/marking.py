@@ -144,7 +144,7 @@ def _list_progress(desk: MarkingDesk, who: Marker) -> list[ItemProgress]:
 
 def _count_students(cards: list[AnswerCard], state: MarkingState, *, second: bool) -> int:
     """Return of how many students the answers are decided."""
-    said = state.said(second=second)
+    said = state.list_decisions(second=second)
     return sum(case.answer.students for card in cards for case in card.cases
                if case.answer.group in said)  # fmt: skip
 
@@ -230,7 +230,7 @@ def _build_card(
     """Return what stands on the page of a card."""
     index, state, rubric = desk.index(), desk.state(), desk.rubric(asked.item)
     cards = index.items[asked.item]
-    card, said = cards[place], state.said(second=asked.second)
+    card, said = cards[place], state.list_decisions(second=asked.second)
     desk.claim(card, who.name, second=asked.second)
     following = desk.find_next(
         asked.item, who.name, asked.markers, second=asked.second, after=place
@@ -250,7 +250,8 @@ def _build_card(
         "minutes": round(pace * (len(cards) - decided) / 60) if pace else None,
         "answers": [_AnswerRow.build(index, case, said) for case in card.cases],
         "lines": [
-            (one, word_line(one, untouched, first), one.id in ticked) for one in rubric.shown
+            (one, word_line(one, untouched, first), one.id in ticked)
+            for one in rubric.current_lines
         ],
         "total": rubric.add_up(ticked, card.worth), "rubric": rubric, "now": now, "who": who,
         "typed": now.value if now and not now.lines else "",
@@ -394,7 +395,7 @@ def _read_decision(
     ClassError, FormulaError
         If there are no answers, or the points cannot be.
     """
-    lines = {*field_texts(form, "line")} & {one.id for one in rubric.shown}
+    lines = {*field_texts(form, "line")} & {one.id for one in rubric.current_lines}
     typed = field_text(form, "points").strip()
     points = parse_points(typed) if typed else rubric.add_up(lines, card.worth)
     own = field_text(form, "remark").strip()
@@ -506,7 +507,7 @@ def _build_list(desk: MarkingDesk, who: Marker, item: str, second: str) -> dict[
     """Return what stands on the page of all cards of an item."""
     asked, index = _read_round(desk, who, item, second), desk.index()
     return {"asked": asked, "cards": index.items[item], "number": index.numbers[item],
-            "said": desk.state().said(second=asked.second)}  # fmt: skip
+            "said": desk.state().list_decisions(second=asked.second)}  # fmt: skip
 
 
 async def show_apart(request: Request) -> Response:

@@ -86,7 +86,7 @@ def _group_asked_parts(
     """Return what a person is asked, by part: the same thing is typed in one go."""
     found: dict[str, list[dict[str, str]]] = {}
     for sheet in sheets:
-        for part, one in sheet.asked.items():
+        for part, one in sheet.open_parts.items():
             read = one.reading
             if read.why not in {NO_FIELD, NOT_SCANNED}:
                 found.setdefault(part, []).append(

@@ -95,7 +95,7 @@ class ReadSheet:
     faults: Mapping[int, str] = field(default_factory=dict)
 
     @property
-    def asked(self) -> dict[str, ReadPart]:
+    def open_parts(self) -> dict[str, ReadPart]:
         """Return the parts that a person is asked about."""
         return {name: one for name, one in self.parts.items() if one.reading.answer is None}
 

@@ -85,7 +85,7 @@ class ScanReport:
     doubtful: int
 
     @property
-    def asked(self) -> int:
+    def open_count(self) -> int:
         """Return how many parts are to be typed or decided by their pictures."""
         elsewhere = {NO_FIELD, NOT_SCANNED}
         return sum(count for why, count in self.reasons.items() if why not in elsewhere)
@@ -93,7 +93,9 @@ class ScanReport:
     @property
     def reasons(self) -> Counter[str]:
         """Return how many parts a person is asked about, by the reason."""
-        return Counter(one.reading.why for sheet in self.sheets for one in sheet.asked.values())
+        return Counter(
+            one.reading.why for sheet in self.sheets for one in sheet.open_parts.values()
+        )
 
 
 def scan_class(
