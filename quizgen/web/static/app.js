@@ -45,7 +45,7 @@ document.addEventListener("htmx:after:swap", () => {
   document.querySelector(TO_FILL)?.focus({ preventScroll: true });
 });
 // With a mouse there is a keyboard, too; on a phone the focus would lift one over the figure.
-if (document.body.classList.contains("play") && matchMedia("(pointer: fine)").matches && !location.hash) {
+if (document.body.classList.contains("play") && matchMedia("(pointer: fine)").matches) {
   document.querySelector(TO_FILL)?.focus({ preventScroll: true });
 }
 
