@@ -37,7 +37,7 @@ HEAVY = (
     "sqlalchemy.orm",
     "hypothesis",
 )
-OPTIONS = ("-n", "0", "-p", "no:cacheprovider", "-W", "ignore:Module already imported")
+OPTIONS = ("-n", "0", "-p", "no:cacheprovider")
 BROKEN = 1e9
 """Seconds of a test that fails without a mutant."""
 NEAREST, SECONDS = 20, 40.0
