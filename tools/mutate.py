@@ -1,15 +1,15 @@
 """Change one place of the code at a time, and see whether a test notices.
 
-Run: ``nice uv run --isolated --python 3.13 python tools/mutate.py --out mutants.tsv`` (about half an
-hour for 300). ``--only FILE:LINE`` tries the mutants of one line again. It works in a copy of what is
-committed. Each mutant meets the tests that run its line, those of like name first, until one fails.
+Run: ``nice uv run python tools/mutate.py`` (half an hour of CPU for 300). In a copy of what is
+committed, each place gets a switch between the text and its mutant; the tests run once, which says
+who meets which switch; then each mutant meets those tests in a process of its own, those of like
+name first, until one fails. ``mutants.tsv`` lists all: ``killed``, ``hung`` or ``SURVIVED``.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
-import importlib
 import io
 import os
 import pickle
@@ -21,20 +21,15 @@ import sys
 import tarfile
 import tempfile
 import time
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from difflib import SequenceMatcher
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 ROOMS = ("grading", "kinds", "bank", "paper", "classes", "web")
-TESTS = (*ROOMS, "question", "practice", "hostile", "lint")
-HEAVY = ("numpy", "sympy", "matplotlib.figure", "sqlalchemy.orm")
-OPTIONS = ("-n", "0", "-p", "no:cacheprovider")
-BROKEN = 1e9
-"""Seconds of a test that fails without a mutant."""
-NEAREST, SECONDS = 20, 40.0
-"""Tests that a mutant meets at least, and how long it may meet others after them."""
+NEAREST, SECONDS, PATIENCE = 20, 40.0, 150.0
+"""Tests that a mutant meets at least, how long it may meet others, when it hangs."""
 SWAPS: dict[type, type] = {
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq,
     ast.NotEq: ast.Eq, ast.In: ast.NotIn, ast.NotIn: ast.In, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
@@ -42,21 +37,36 @@ SWAPS: dict[type, type] = {
     ast.FloorDiv: ast.Mult, ast.Pow: ast.Mult, ast.And: ast.Or, ast.Or: ast.And,
     ast.BitAnd: ast.BitOr, ast.BitOr: ast.BitAnd,
 }  # fmt: skip
+SWITCH = """import os
+HITS, active = set(), int(os.environ.get("MUTANT", "-1"))
+def on(number):
+    HITS.add(number)
+    return number == active
+"""
+"""What the copy imports: processes that a test starts know the mutant, too."""
+ON = "__import__('mutant_switch').on({number})"
 
 
 class Mutant(NamedTuple):
-    """One change: the lines that run it, and the text of a place before and after."""
+    """One change: a place in bytes of a file, and the text before and after."""
 
     file: str
-    lines: tuple[int, int]
+    line: int
     start: int
     end: int
     old: str
     new: str
 
+    def switch(self, number: int) -> str:
+        """Return the text that stands for both."""
+        on = ON.format(number=number)
+        if self.new == "pass":
+            return f"if not {on}: {self.old}"
+        return f"({self.new} if {on} else ({self.old}))"
 
-def _change(node: ast.AST) -> ast.AST | str | None:
-    """Return another node, or text, in place of a node; None if it stays."""
+
+def _swap(node: ast.AST) -> ast.expr | None:
+    """Return another expression in place of one; None if it stays."""
     match node:
         case ast.Compare(left, [op], [right]) if type(op) in SWAPS:
             return ast.Compare(left, [SWAPS[type(op)]()], [right])
@@ -70,95 +80,150 @@ def _change(node: ast.AST) -> ast.AST | str | None:
             return ast.Constant(not value)
         case ast.Constant(int() | float() as value):
             return ast.Constant(value + 1)
-        case ast.IfExp(test, body, orelse):
-            return ast.IfExp(test, orelse, body)
-        case ast.Return(ast.expr()) | ast.Raise():
-            return "return None"
-        case ast.Expr(ast.Call()) | ast.Continue():
-            return "pass"
-    return None
+    return ast.IfExp(node.test, node.orelse, node.body) if isinstance(node, ast.IfExp) else None
 
 
-def iter_mutants(path: Path, name: str) -> Iterator[Mutant]:
+def _walk(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield what is computed where it stands: no types, no patterns, no parts of f-strings."""
+    yield node
+    for name, value in ast.iter_fields(node):
+        for child in value if isinstance(value, list) else [value]:
+            if (
+                isinstance(child, ast.AST)
+                and name not in {"annotation", "pattern", "decorator_list", "returns"}
+                and not isinstance(child, ast.JoinedStr | ast.arguments)
+            ):
+                yield from _walk(child)
+
+
+def iter_mutants(path: Path) -> Iterator[Mutant]:
     """Yield the mutants of a module, inside functions alone."""
-    text = path.read_text("utf-8")
+    text = path.read_bytes()
+    lines = text.splitlines(keepends=True)
     starts = [0]
-    for line in text.encode().splitlines(keepends=True):
+    for line in lines:
         starts.append(starts[-1] + len(line))
-    for function in ast.walk(ast.parse(text)):
-        if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef):
-            for statement in (s for part in function.body for s in ast.walk(part)):
-                if isinstance(statement, ast.stmt):
-                    yield from _iter_changes(statement, name, text.encode(), starts)
 
-
-def _iter_changes(
-    statement: ast.stmt, name: str, text: bytes, starts: list[int]
-) -> Iterator[Mutant]:
-    """Yield the mutants of a statement and of what it computes itself."""
-    if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-        return
-    own = [n for n in ast.iter_child_nodes(statement) if isinstance(n, ast.expr)]
-    if isinstance(statement, ast.AnnAssign):
-        own = [statement.value] if statement.value else []
-    for node in [statement, *(n for part in own for n in ast.walk(part))]:
-        made = _change(node)
-        if made is None or not isinstance(node, ast.stmt | ast.expr):
-            continue
-        new = made if isinstance(made, str) else f"({ast.unparse(made)})"
+    def make(node: Any, new: str) -> Mutant:
         start = starts[node.lineno - 1] + node.col_offset
-        end = starts[(node.end_lineno or node.lineno) - 1] + (node.end_col_offset or 0)
-        lines = statement.lineno, node.lineno
-        yield Mutant(name, lines, start, end, text[start:end].decode(), new)
+        end = starts[node.end_lineno - 1] + node.end_col_offset
+        return Mutant(str(path), node.lineno, start, end, text[start:end].decode(), new)
+
+    functions = (f for f in ast.walk(ast.parse(text)) if isinstance(f, ast.FunctionDef))
+    for node in {n: 0 for f in functions for part in f.body for n in _walk(part)}:
+        other = _swap(node)
+        if other is not None:
+            yield make(node, f"({ast.unparse(other)})")
+        elif isinstance(node, ast.Return) and node.value and not isinstance(node.value, ast.Name):
+            yield make(node.value, "None")
+        elif isinstance(node, ast.Raise | ast.Continue) or (
+            isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)
+        ):
+            if not lines[node.lineno - 1][: node.col_offset].strip():
+                yield make(node, "pass")
 
 
-class Watcher:
-    """A pytest plugin: which tests run a line of a mutant, and how long each takes."""
+def write_switches(folder: Path, each: int, seed: int) -> list[Mutant]:
+    """Choose mutants of every room, and write their switches into a copy of the code."""
+    chosen: list[Mutant] = []
+    for room in ROOMS:
+        every = [
+            m for path in sorted(Path("quizgen", room).rglob("*.py")) for m in iter_mutants(path)
+        ]
+        random.Random(f"{seed}{room}").shuffle(every)  # noqa: S311
+        mine: list[Mutant] = []
+        for one in every:
+            apart = (one.file != m.file or one.end <= m.start or m.end <= one.start for m in mine)
+            if len(mine) < each and all(apart):
+                mine.append(one)
+        chosen += mine
+    for number, one in sorted(enumerate(chosen), key=lambda pair: -pair[1].start):
+        path = folder / one.file
+        text = path.read_bytes()
+        path.write_bytes(text[: one.start] + one.switch(number).encode() + text[one.end :])
+    (folder / "mutant_switch.py").write_text(SWITCH, "utf-8")
+    return chosen
 
-    def __init__(self, wanted: set[tuple[str, int]]) -> None:
-        self.tests: dict[tuple[str, int], dict[str, None]] = defaultdict(dict)
+
+class Runner:
+    """A pytest plugin that runs the tests for every mutant instead of once."""
+
+    def __init__(self, mutants: list[Mutant], out: Path) -> None:
+        self.mutants, self.out = mutants, out
         self.seconds: dict[str, float] = defaultdict(float)
-        self._now, self._wanted = "", wanted
+        self.failed: set[str] = set()
 
-    def see(self, code: object, line: int) -> object:
-        """Note a line that runs; one without a mutant is not heard of again."""
-        place = (str(getattr(code, "co_filename", "")), line)
-        if place not in self._wanted:
-            return sys.monitoring.DISABLE
-        if self._now:
-            self.tests[place][self._now] = None
-        return None
+    def pytest_runtest_logreport(self, report: Any) -> None:
+        """Remember how long a test takes, and whether it fails."""
+        self.seconds[report.nodeid] += report.duration
+        if report.failed:
+            self.failed.add(report.nodeid)
 
-    def pytest_runtest_logstart(self, nodeid: str) -> None:
-        """Remember which test begins."""
-        self._now = nodeid
+    def pytest_runtestloop(self, session: Any) -> bool:
+        """Find who meets which mutant, then try each."""
+        import mutant_switch  # type: ignore[import-not-found]
 
-    def pytest_runtest_logreport(self, report: object) -> None:
-        """Remember how long it took; one that fails without a mutant finds none."""
-        name, failed = report.nodeid, report.failed  # type: ignore[attr-defined]
-        self.seconds[name] += BROKEN if failed else report.duration  # type: ignore[attr-defined]
+        found = Path("tests.pickle")
+        run_child(lambda: self._map(session.items, mutant_switch, found), 1e5)
+        meets, seconds = pickle.loads(found.read_bytes())  # noqa: S301 - written just now
+        with self.out.open("w", encoding="utf-8", buffering=1) as table:
+            for number, mutant in enumerate(self.mutants):
+                tests = [t for t in session.items if number in meets.get(t.nodeid, ())]
+                near = choose_tests(mutant, tests, seconds)
+                os.environ["MUTANT"] = str(number)
+                code = run_child(lambda n=number, t=near: self._try(t, mutant_switch, n), PATIENCE)
+                result = {0: "SURVIVED", -1: "hung"}.get(code, "killed")
+                place = f"{mutant.file}:{mutant.line}"
+                print(result, place, mutant.old, mutant.new, len(near), sep="\t", file=table)
+        return True
+
+    def _map(self, items: list[Any], switch: Any, found: Path) -> int:
+        """Run all tests, and keep in a file which mutants those that pass meet."""
+        meets: dict[str, set[int]] = {}
+        for item, following in zip(items, [*items[1:], None], strict=True):
+            switch.HITS.clear()
+            item.config.hook.pytest_runtest_protocol(item=item, nextitem=following)
+            if item.nodeid not in self.failed:
+                meets[item.nodeid] = set(switch.HITS)
+        found.write_bytes(pickle.dumps((meets, dict(self.seconds))))
+        return 0
+
+    def _try(self, items: list[Any], switch: Any, number: int) -> int:
+        """Run tests up to the first that fails; code is compiled anew for a mutant of the bank."""
+        switch.active = number
+        if "/bank/" in self.mutants[number].file:
+            os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(dir=".")
+        for item, following in zip(items, [*items[1:], None], strict=True):
+            item.config.hook.pytest_runtest_protocol(item=item, nextitem=following)
+            if self.failed:
+                return 1
+        return 0
 
 
-def watch_tests(folder: Path, mutants: list[Mutant], found: Path) -> int:
-    """Run the tests once, and keep in a file which run what."""
-    import pytest
+def choose_tests(mutant: Mutant, items: list[Any], seconds: dict[str, float]) -> list[Any]:
+    """Return the tests that a mutant meets, those of its room and of like name first."""
+    room, stem = Path(mutant.file).parts[1], Path(mutant.file).stem
 
-    watcher = Watcher({(str(folder / m.file), line) for m in mutants for line in m.lines})
-    tool = sys.monitoring
-    tool.use_tool_id(tool.COVERAGE_ID, "mutate")
-    tool.register_callback(tool.COVERAGE_ID, tool.events.LINE, watcher.see)
-    tool.set_events(tool.COVERAGE_ID, tool.events.LINE)
-    pytest.main([*OPTIONS, *(f"tests/{room}" for room in TESTS)], [watcher])
-    found.write_bytes(pickle.dumps((dict(watcher.tests), dict(watcher.seconds))))
-    return 0
+    def nearness(item: Any) -> tuple[float, float]:
+        path = Path(item.nodeid.partition("::")[0])
+        like = SequenceMatcher(None, stem, path.stem.removeprefix("test_")).ratio()
+        return -like - (path.parts[1] == room), seconds[item.nodeid]
+
+    chosen: list[Any] = []
+    spent = 0.0
+    for item in sorted(items, key=nearness):
+        if len(chosen) < NEAREST or spent + seconds[item.nodeid] < SECONDS:
+            chosen.append(item)
+            spent += seconds[item.nodeid]
+    return chosen
 
 
-def run_child(work: Callable[[], int], seconds: float, log: str = os.devnull) -> int:
+def run_child(work: Callable[[], int], seconds: float) -> int:
     """Return what some work gives in a process forked off, or -1 if it does not end in time."""
     child = os.fork()
     if not child:
         os.setsid()
-        sink = os.open(log, os.O_RDWR | os.O_CREAT | os.O_TRUNC)
+        sink = os.open(os.devnull, os.O_RDWR)
         for stream in (0, 1, 2):
             os.dup2(sink, stream)
         try:
@@ -176,82 +241,27 @@ def run_child(work: Callable[[], int], seconds: float, log: str = os.devnull) ->
     return -1
 
 
-def choose_tests(mutant: Mutant, tests: set[str], seconds: dict[str, float]) -> list[str]:
-    """Return the tests that a mutant meets, those of its room and of like name first."""
-    room, stem = Path(mutant.file).parts[1], Path(mutant.file).stem
-
-    def nearness(test: str) -> tuple[float, float]:
-        path = Path(test.partition("::")[0])
-        like = SequenceMatcher(None, stem, path.stem.removeprefix("test_")).ratio()
-        return -like - (path.parts[1] == room), seconds[test]
-
-    chosen: list[str] = []
-    for test in sorted((t for t in tests if seconds[t] < BROKEN), key=nearness):
-        if len(chosen) < NEAREST or sum(seconds[t] for t in chosen) + seconds[test] < SECONDS:
-            chosen.append(test)
-    return chosen
-
-
-def try_mutant(folder: Path, mutant: Mutant, tests: list[str], now: int) -> str:
-    """Return ``killed``, ``slow`` (killed, too) or ``SURVIVED``."""
-    path = folder / mutant.file
-    before = path.read_bytes()
-    path.write_bytes(before[: mutant.start] + mutant.new.encode() + before[mutant.end :])
-    os.utime(path, (now, now))  # what is compiled of another mutant is older
-
-    def work() -> int:
-        import pytest
-
-        return pytest.main([*OPTIONS, "-x", *tests])
-
-    code = run_child(work, 120) if tests else 0
-    path.write_bytes(before)
-    os.utime(path, (now + 1, now + 1))
-    return "SURVIVED" if code == 0 else "slow" if code == -1 else "killed"
-
-
 def main() -> int:
-    """Make mutants, map the tests to them, try each; print those that survive."""
+    """Make the copy, and let pytest collect its tests once for all mutants."""
+    import pytest
+
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--each", type=int, default=50, help="mutants of each room")
     parser.add_argument("--seed", type=int, default=2029)
-    parser.add_argument("--only", help="mutants of one line instead: FILE:LINE")
-    parser.add_argument(
-        "--out", type=Path, default=Path("mutants.tsv"), help="where they are listed"
-    )
+    parser.add_argument("--tests", default=" ".join(f"tests/{room}" for room in ROOMS))
+    parser.add_argument("--out", type=Path, default=Path("mutants.tsv"))
     args = parser.parse_args()
     folder, out = Path(tempfile.mkdtemp(prefix="mutate-")), args.out.resolve()
     archive = subprocess.run(["git", "archive", "HEAD"], capture_output=True, check=True).stdout
-    tarfile.open(fileobj=io.BytesIO(archive)).extractall(folder, filter="data")
+    with tarfile.open(fileobj=io.BytesIO(archive)) as tree:
+        tree.extractall(folder, filter="data")
     os.chdir(folder)
     os.environ |= {"PYTHONPATH": str(folder), "XDG_CACHE_HOME": str(folder / ".cache")}
     sys.path.insert(0, str(folder))
-    for name in HEAVY:
-        importlib.import_module(name)
-    mutants: list[Mutant] = []
-    for room in ROOMS:
-        files = sorted(Path("quizgen", room).rglob("*.py"))
-        every = sorted({m for path in files for m in iter_mutants(path, str(path))})
-        if args.only:
-            mutants += [m for m in every if f"{m.file}:{m.lines[1]}" == args.only]
-        else:
-            mutants += random.Random(f"{args.seed}{room}").sample(every, args.each)  # noqa: S311
-    found = folder / "tests.pickle"
-    run_child(lambda: watch_tests(folder, mutants, found), 7200, f"{out}.log")
-    ran, seconds = pickle.loads(found.read_bytes())  # noqa: S301 - written just now
-    results: Counter[str] = Counter()
-    with out.open("w", encoding="utf-8", buffering=1) as table:
-        for number, mutant in enumerate(mutants):
-            tests = {t for n in mutant.lines for t in ran.get((str(folder / mutant.file), n), ())}
-            chosen = choose_tests(mutant, tests, seconds)
-            result = try_mutant(folder, mutant, chosen, int(time.time()) + 10 * number)
-            results[result] += 1
-            place = f"{mutant.file}:{mutant.lines[1]}"
-            print(
-                result, place, mutant.old, mutant.new, len(chosen), len(tests), sep="\t", file=table
-            )
+    runner = Runner(write_switches(folder, args.each, args.seed), out)
+    pytest.main(["-n", "0", "-s", "-p", "no:cacheprovider", *args.tests.split()], [runner])
     shutil.rmtree(folder)
-    print(dict(results))
+    print(*(line for line in out.read_text("utf-8").splitlines() if "SURVIVED" in line), sep="\n")
     return 0
 
 
