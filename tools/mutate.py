@@ -172,7 +172,8 @@ class Runner:
                 code = run_child(lambda n=number, t=near: self._try(t, mutant_switch, n), PATIENCE)
                 result = {0: "SURVIVED", -1: "hung"}.get(code, "killed")
                 place = f"{mutant.file}:{mutant.line}"
-                print(result, place, mutant.old, mutant.new, len(near), sep="\t", file=table)
+                row = (result, place, mutant.old, mutant.new, len(near))
+                print(*(" ".join(str(one).split()) for one in row), sep="\t", file=table)
         return True
 
     def _map(self, items: list[Any], switch: Any, found: Path) -> int:
