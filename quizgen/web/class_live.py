@@ -148,7 +148,7 @@ async def change_room(request: Request) -> Response:
 
 
 def _change_exam(room: ClassRoom, what: str) -> None:
-    """Change what holds for those, too, who have not begun."""
+    """Open, pause, resume or release the exam for the whole class, also for who comes later."""
     seats = room.store.seats
     if what == "open":
         seats.share(OPENED, str(room.now()))
