@@ -22,7 +22,7 @@ NAME = "রহিম <b>& Söhne</b> عبد الرحمن " + "W" * 25
 @pytest.fixture(scope="module")
 def served(database):
     """A server for several people."""
-    server = Served(database(), "--host", "0.0.0.0")
+    server = Served(database(), "--host", "0.0.0.0", "--workers", "1")
     yield server
     server.kill()
 
