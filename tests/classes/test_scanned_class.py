@@ -12,6 +12,7 @@ import pytest
 from made import run
 from paper_and_pen import Pen, fill_sheet, rasterise, save_scan, scan, spoil
 from PIL import Image
+from sweep import draws
 from test_scan import read_answers, read_marks
 
 from quizgen.classes import generation
@@ -23,7 +24,7 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(not shutil.which("pdftoppm"), reason="rasterises with poppler"),
 ]
-STUDENTS = 30
+STUDENTS = draws(12, full=60)
 FLAT = ("300", "200", "150", "150", "skew", "upside down", "stain", "punch", "staple")
 HARD = ("fold", "phone")
 ASKED, SILENT, SECONDS = 0.04, 0.001, 0.35
