@@ -134,7 +134,9 @@ def make_answer_sheet(paper: Paper, code_of: Callable[[int], str]) -> tuple[byte
     )
     files = document_files("answer-sheet.typ", "\n".join([opening, *body]) + "\n")
     files |= {f"code-{page}.svg": draw_code(text) for page, text in enumerate(codes, 1)}
-    places = SheetPlaces(VERSION, pages, SIZE, tuple(iter_mark_places(INSET, MARK)), CODE, tuple(fields))
+    places = SheetPlaces(
+        VERSION, pages, SIZE, tuple(iter_mark_places(INSET, MARK)), CODE, tuple(fields)
+    )
     return compile_pdf(files), places
 
 

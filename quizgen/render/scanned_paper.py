@@ -35,9 +35,7 @@ LEAST = 1.0
 """Millimetres that room to work in is high at least."""
 
 
-def render_scanned_paper(
-    paper: Paper, code_of: Callable[[int], str]
-) -> tuple[bytes, SheetPlaces]:
+def render_scanned_paper(paper: Paper, code_of: Callable[[int], str]) -> tuple[bytes, SheetPlaces]:
     """Return a student's paper with marks and codes as a PDF file, and the places of its fields.
 
     Parameters
@@ -92,7 +90,7 @@ def _iter_fields(rows: Sequence[Sequence[Any]]) -> Iterator[SheetField]:
             continue
         x, y, w, h = place
         whose, option = part, what
-        if kind in {"line", "box"} and what != what.strip(" ") or (kind == "box" and " " in what):
+        if (kind in {"line", "box"} and what != what.strip(" ")) or (kind == "box" and " " in what):
             label, _, option = what.partition(" ")
             whose = number + label
         elif kind == "line":

@@ -331,7 +331,7 @@ def test_a_class_without_sheets_says_so(folder, blanks, tmp_path, capsys):
         "utf-8",
     )
     assert run("class", "scan", folder, tmp_path / "a.jpg") == 2
-    assert "has no answer sheets to read (quizgen class make --sheet)" in capsys.readouterr().err
+    assert "has no papers or sheets to read (quizgen class make --scan, --sheet)" in capsys.readouterr().err
     assert run("class", "scan", tmp_path) == 2
     assert "is not the folder of a class" in capsys.readouterr().err
 

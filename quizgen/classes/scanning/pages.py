@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import msgspec
 import numpy as np
 
-from quizgen.classes.class_folder import SHEETS, ClassFolder
+from quizgen.classes.class_folder import PAPERS, SHEETS, ClassFolder
 from quizgen.classes.roster import RosterStudent
 from quizgen.classes.scanning.ink import (
     CROSSED,
@@ -44,13 +44,14 @@ from quizgen.classes.scanning.registration import (
     find_homography,
     find_marks,
     flatten_paper,
+    pick_anchors,
     place_frames,
     straighten_page,
 )
 from quizgen.classes.sheet_codes import SheetIndex
 from quizgen.core.decoding import json_decoder
 from quizgen.core.errors import ClassError
-from quizgen.render.answer_sheet import SheetField, SheetPlaces
+from quizgen.render.answer_sheet import PAPER_VERSION, SheetField, SheetPlaces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -233,7 +234,7 @@ def read_student_sheet(path: Path, at: int) -> StudentSheet:
             raise ClassError(f"{path}: byte {at}: {error}") from None
     if found.sheet is None:
         raise ClassError(
-            f"{path.parent}: has no answer sheets to read (quizgen class make --sheet)"
+            f"{path.parent}: has no papers or sheets to read (quizgen class make --scan, --sheet)"
         )
     kinds = {part.id: part.spec.kind for one in found.key.questions for part in one.parts}
     return StudentSheet(found.sheet, kinds)
@@ -347,7 +348,8 @@ class _SheetReader:
         self.folder, self.base = folder, base
         self.sheet = read_student_sheet(folder.path / "keys.jsonl", at)
         fields = self.sheet.places.fields
-        self.fields = [one for one in fields if one.page == base.page]
+        self.fields = [one for one in fields if one.page == base.page and one.kind != "points"]
+        self.is_paper = self.sheet.places.version == PAPER_VERSION
         self.boxes = [one for one in self.fields if one.kind == "box"]
 
     def read(
@@ -360,7 +362,9 @@ class _SheetReader:
             return self._ask_unstraightened(picture.grey)
         page = straighten_page(picture.grey, places, homography)
         blank = self._draw_blank()
-        frames = place_frames(page, blank, self.boxes) if self.boxes else None
+        anchors = pick_anchors(blank, self.fields) if self.is_paper else []
+        placed = (*self.boxes, *anchors)
+        frames = place_frames(page, blank, placed) if placed else None
         shift = frames.shift if frames else np.zeros((1, 2), np.float32)
         ink = map_ink(page, blank, self.fields, shift)
         fault = self._find_fault(picture, homography, frames.likeness if frames else 1.0, ink)
@@ -386,7 +390,8 @@ class _SheetReader:
 
         Raises ``ScanFileError`` if its file is not there or damaged.
         """
-        path = self.folder.path / SHEETS / f"{RosterStudent(self.base.student).file}.pdf"
+        kind = PAPERS if self.is_paper else SHEETS
+        path = self.folder.path / kind / f"{RosterStudent(self.base.student).file}.pdf"
         try:
             with open_pdf(path) as document:
                 return draw_blank_page(document[self.base.page - 1])
@@ -440,16 +445,19 @@ class _SheetReader:
         """Yield what was read of each part."""
         for part, fields in self._group_fields().items():
             place = self.base.page, _bound_fields(fields)
-            if fields[0].kind == "box":
-                way = _find_way(fields, self.sheet.kinds.get(part, ""))
-                answer, why = _join_crosses(fields, [read[one] for one in fields], way)
-                sure = min(read[one].confidence for one in fields)
+            boxes = [one for one in fields if one.kind == "box"]
+            if boxes:
+                way = _find_way(boxes, self.sheet.kinds.get(part, ""))
+                answer, why = _join_crosses(boxes, [read[one] for one in boxes], way)
+                sure = min(read[one].confidence for one in boxes)
                 asked = fault or why
             else:
                 answer, sure, asked = "", 1.0, fault
-                if any(is_written_on(one, ink) for one in fields):
-                    answer, asked = "", asked or WRITTEN
-                elif has_loose_ink(fields, ink):
+                room = [one for one in fields if one.kind == "room"]
+                lines = [one for one in fields if one.kind == "line"]
+                if any(is_written_on(one, ink) for one in lines):
+                    asked = asked or WRITTEN
+                elif has_loose_ink(lines, ink) or any(is_written_on(one, ink) for one in room):
                     asked = asked or BESIDE
             if asked:
                 yield part, PartReading(None, 0.0, *place, asked, "" if fault else answer)
