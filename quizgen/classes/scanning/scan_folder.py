@@ -10,6 +10,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import NamedTuple
 
@@ -43,6 +44,7 @@ ON_PAPER = "see paper"
 """Stands for an answer that nobody has read: it has no marks until somebody decides."""
 NO_FIELD, NOT_SCANNED, DIFFERS = "no_field", "missing", "differs"
 COLUMNS = ("id", "part", "answer")
+LOGGED = (*COLUMNS, "who", "when")
 _LINE = json_decoder(PageReading).decode
 _PART = re.compile(r"\d{1,3}[a-z]{0,2}")
 
@@ -161,17 +163,35 @@ class ScanFolder:
             os.fsync(stream.fileno())
         return kept
 
-    def add_typed(self, rows: Iterable[tuple[str, str, str]]) -> int:
+    def add_typed(self, rows: Iterable[tuple[str, str, str]], who: str = "") -> int:
         """Add what people typed to ``typed.csv``, whose last row of a part counts.
 
-        Return how many answers are new.
+        Nothing is taken out of it. Return how many answers are new.
         """
-        known = self.read_typed()
-        fresh = [row for row in rows if known.get(row[:2]) != row[2]]
-        known |= {row[:2]: row[2] for row in fresh}
-        text = format_csv([COLUMNS, *((*key, answer) for key, answer in known.items())])
-        write_all(self.path, {TYPED: text.encode("utf-8-sig")}, PRIVATE)
+        path, now = self.path / TYPED, datetime.now(UTC).strftime("%Y-%m-%d %H:%M:%S")
+        before = [cells for _, cells in read_filled_rows(path, {*COLUMNS})]
+        known, fresh = self.read_typed(), list[tuple[str, ...]]()
+        for row in rows:
+            if known.get(row[:2]) != row[2]:
+                known[row[:2]] = row[2]
+                fresh.append((*row, who, now))
+        if fresh:
+            kept = [[cells.get(name, "") for name in LOGGED] for cells in before]
+            text = format_csv([LOGGED, *kept, *fresh])
+            write_all(self.path, {TYPED: text.encode("utf-8-sig")}, PRIVATE)
         return len(fresh)
+
+    def take_typed(self, row: tuple[str, str, str], who: str) -> None:
+        """Add what somebody typed for a part, and put it among the answers of the class."""
+        self.add_typed([row], who)
+        path = self.folder.path / ANSWERS / ANSWER_FILE
+        answers = {
+            (cells["id"], cells["part"]): cells["answer"]
+            for _, cells in read_filled_rows(path, {*COLUMNS})
+        }
+        answers[row[:2]] = row[2]
+        made = format_csv([COLUMNS, *((*key, answer) for key, answer in answers.items())])
+        write_all(path.parent, {path.name: made.encode("utf-8-sig")}, PRIVATE)
 
     def read_typed(self) -> dict[tuple[str, str], str]:
         """Return what people typed, by student and part."""
