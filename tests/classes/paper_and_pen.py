@@ -270,9 +270,9 @@ def fill_sheet(
 def write_field(page: Image.Image, field: dict, pen: Pen) -> None:
     """Write something on a line, or several lines of it where there is room."""
     r = pen.random
-    rows = max(1, int(field["h"] // 9)) if field["h"] > 12 else 1
-    for row in range(min(rows, 1 + r.randrange(3))):
-        most = max(1, min(7, int(field["w"] / 4)))
+    rows = 2 if field["h"] > 20 else 1
+    for row in range(rows):
+        most = max(1, min(5, int(field["w"] / 4)))
         text = "".join(r.choice("0123456789-.netl") for _ in range(r.randint(1, most)))
         text = text if text.strip(".") else f"5{text}"[:most]
         line = field | {"h": min(field["h"], 8.0), "y": field["y"] + 9.0 * row}
