@@ -264,7 +264,7 @@ def _apply_decisions(
     found: PartResult, part: KeyPart, item: str, rulings: list[Ruling], student: str
 ) -> GradedClassPart:
     """Return the mark of an answer after the rulings about it."""
-    unseen = not found.marks and is_on_paper(found.typed)  # a gap would take the words for a wrong term
+    unseen = not found.marks and is_on_paper(found.typed)  # to a gap the words are a wrong term
     asked = unseen or found.status in TO_DECIDE
     kind = part.spec["kind"]
     words = kind == "rubric"

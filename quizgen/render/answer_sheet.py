@@ -133,7 +133,7 @@ def make_answer_sheet(paper: Paper, code_of: Callable[[int], str]) -> tuple[byte
         f"#show: sheet.with(title: {typst_literal(paper.title(lang))}, lang: {typst_literal(lang)})"
     )
     files = document_files("answer-sheet.typ", "\n".join([opening, *body]) + "\n")
-    files |= {f"code-{page}.svg": draw_code(text) for page, text in enumerate(codes, 1)}
+    files |= {f"code-{page}.svg": draw_page_code(text) for page, text in enumerate(codes, 1)}
     places = SheetPlaces(
         VERSION, pages, SIZE, tuple(iter_mark_places(INSET, MARK)), CODE, tuple(fields)
     )
@@ -265,7 +265,7 @@ def _typeset_text(text: str) -> str:
     return typst_literal(replace_unprintable(text))
 
 
-def draw_code(text: str) -> bytes:
+def draw_page_code(text: str) -> bytes:
     """Return a QR code as SVG, without a border: the page around it is white."""
     import segno
 

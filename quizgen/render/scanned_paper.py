@@ -16,7 +16,7 @@ from quizgen.render.answer_sheet import (
     SIZE,
     SheetField,
     SheetPlaces,
-    draw_code,
+    draw_page_code,
     iter_mark_places,
 )
 from quizgen.render.pdf import typst_sources
@@ -61,7 +61,7 @@ def render_scanned_paper(paper: Paper, code_of: Callable[[int], str]) -> tuple[b
     pages = max(row[2] for row in rows)
     if pages > MOST_PAGES:
         raise RenderError(f"PDF: a paper of {pages} pages (at most {MOST_PAGES} can be scanned)")
-    codes = {f"code-{page}.svg": draw_code(code_of(page)) for page in range(1, pages + 1)}
+    codes = {f"code-{page}.svg": draw_page_code(code_of(page)) for page in range(1, pages + 1)}
     places = SheetPlaces(PAPER_VERSION, pages, SIZE, marks, CODE, tuple(_iter_fields(rows)))
     return compile_pdf({**sources, **codes}), places
 
