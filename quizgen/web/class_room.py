@@ -135,7 +135,7 @@ class ClassRoom:
         self.presence = {student: Presence() for student in self.students}
         self.wrong_codes = Allowance(*WRONG_CODES)
         mark = hashlib.sha256(settings.secret.encode()).hexdigest()[:40]
-        if store.shared_value("class", mark) != mark:
+        if store.shared.settle("class", mark) != mark:
             raise ClassError(f"{folder}: the database is of another class; name another one")
         langs = {one.id: one.lang or settings.lang for one in self.students.values()}
         store.seats.add_students({who: self._first_language(lang) for who, lang in langs.items()})
@@ -176,17 +176,17 @@ class ClassRoom:
 
     def opens(self) -> float | None:
         """Return from when on students may begin; None until a person says so."""
-        opened = self.store.seats.find_shared_value(OPENED)
+        opened = self.store.shared.find(OPENED)
         begins = self.exam.browser.begins
         return float(opened) if opened else begins.timestamp() if begins else None
 
     def is_held(self) -> bool:
         """Return whether everybody is paused, so that nobody begins either."""
-        return bool(self.store.seats.find_shared_value(HELD))
+        return bool(self.store.shared.find(HELD))
 
     def is_released(self) -> bool:
         """Return whether students may see their marks."""
-        return bool(self.store.seats.find_shared_value(RELEASED))
+        return bool(self.store.shared.find(RELEASED))
 
     def time_left(self, seat: Seat, now: float) -> float:
         """Return the seconds that a student has who begins now; negative if it is too late."""
@@ -341,7 +341,7 @@ class ClassRoom:
             raise ClassError(
                 f"{self.folder.path}: nothing has been marked yet (quizgen class mark)"
             )
-        self.store.seats.share(RELEASED, str(time.time()) if on else "")
+        self.store.shared.replace(RELEASED, str(time.time()) if on else "")
 
     def marks_of(self, student: str) -> GradedStudent | None:
         """Return marks and grade of a student as they were when they were first asked for."""
