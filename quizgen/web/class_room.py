@@ -31,7 +31,10 @@ from quizgen.classes.generation import (
 from quizgen.classes.gradebook import GradedStudent
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.key_index import KeyIndex
+from quizgen.classes.room_lists import FOLDER as LISTS
 from quizgen.classes.room_lists import number_seats
+from quizgen.classes.safe_exam_browser import FILE as SETTINGS_FILE
+from quizgen.classes.safe_exam_browser import read_config_key
 from quizgen.classes.seats import (
     HandedPaper,
     append_record,
@@ -132,6 +135,7 @@ class ClassRoom:
         self.students = {one.id: one for one, _ in own}
         self.places = {one.id: seat for one, seat in own}
         self.exam = read_exam_details(folder / EXAM) or ExamDetails()
+        self.config_keys = self._list_config_keys()
         self.presence = {student: Presence() for student in self.students}
         self.wrong_codes = Allowance(*WRONG_CODES)
         mark = hashlib.sha256(settings.secret.encode()).hexdigest()[:40]
@@ -142,6 +146,17 @@ class ClassRoom:
         self._jobs = self._list_jobs()
         self._marks: dict[str, GradedStudent] | None = None
         self._stored = asyncio.Lock()
+
+    @property
+    def settings_file(self) -> Path:
+        """Return where the settings file of Safe Exam Browser stands."""
+        return self.folder.path / LISTS / SETTINGS_FILE
+
+    def _list_config_keys(self) -> list[str]:
+        """Return the settings of Safe Exam Browser with which students come in, by their keys."""
+        rules = self.exam.browser
+        own = [read_config_key(self.settings_file)] if rules.safe_exam_browser else []
+        return [*rules.config_keys, *own]
 
     def _list_jobs(self) -> dict[str, GenerationJob]:
         """Return what makes the papers; nothing once all are there, whatever the bank is now."""

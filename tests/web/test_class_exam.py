@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import hashlib
+import plistlib
 import re
 import time
 from dataclasses import replace
@@ -24,11 +26,12 @@ from click.testing import CliRunner
 from people import ADDRESS
 from starlette.testclient import TestClient
 
-from quizgen.classes.admission import write_admission_cards
+from quizgen.classes.admission import write_admission_files
 from quizgen.classes.class_folder import ClassFolder, format_settings
 from quizgen.classes.exam_details import read_exam_details
 from quizgen.classes.grading_history import GradingHistory
 from quizgen.classes.grading_run import grade_class
+from quizgen.classes.safe_exam_browser import read_config_key
 from quizgen.classes.seats import DATABASE, RECORD, entry_code, normalise_entry_code
 from quizgen.classes.statuses import read_statuses
 from quizgen.cli.main import root_group
@@ -291,6 +294,7 @@ def test_a_database_of_another_class_is_refused(opened, tmp_path):
     [("[browser]\nbegins = 2027-02-12T10:00:00\nends = 2027-02-12T09:00:00", "before it begins"),
      ("[browser]\nminutes = 0", "browser.minutes"),
      ('[browser]\nconfig_keys = ["abc"]', "64 hexadecimal digits"),
+     ('[browser]\nquit_password = "x"', "quit_password: is for safe_exam_browser"),
      ("[browser]\nstarts = 2027-02-12T10:00:00", "starts")],
 )  # fmt: skip
 def test_what_cannot_be_meant_is_named_with_its_file(tmp_path, about, wrong):
@@ -312,7 +316,7 @@ def test_codes_are_read_as_people_type_them():
 def test_cards_have_every_code_and_the_address(tmp_path):
     pikepdf = pytest.importorskip("pikepdf")
     folder = make_class(tmp_path)
-    path = write_admission_cards(folder, "https://exam.school.example", "en")
+    (path,) = write_admission_files(folder, "https://exam.school.example", "en")
     with pikepdf.open(path) as found:
         assert len(found.pages) == 1
     assert path.stat().st_mode & 0o077 == 0
@@ -320,3 +324,58 @@ def test_cards_have_every_code_and_the_address(tmp_path):
     done = CliRunner().invoke(root_group, wrong)
     assert done.exit_code == 2
     assert "begins with http" in done.output
+
+
+SEB = OPEN + 'safe_exam_browser = true\nquit_password = "let me out"\n'
+
+
+def seb_settings() -> str:
+    """The settings as the page on Config Keys of the makers of the browser writes them: JSON, by hand."""
+    password = hashlib.sha256(b"let me out").hexdigest()
+    return (
+        '{"allowBrowsingBackForward":false,"allowQuit":true,"allowSpellCheck":false,'
+        '"browserWindowAllowReload":true,"examSessionClearCookiesOnEnd":true,'
+        f'"examSessionClearCookiesOnStart":true,"hashedQuitPassword":"{password}",'
+        f'"quitURL":"{ADDRESS}/seat/end","quitURLConfirm":false,"sebConfigPurpose":0,'
+        '"sendBrowserExamKey":true,"showReloadButton":true,"showTime":true,'
+        f'"startURL":"{ADDRESS}/"}}'
+    )
+
+
+def test_the_settings_file_lets_in_whom_it_locks_in(opened, tmp_path):
+    folder = make_class(tmp_path, SEB)
+    with pytest.raises(ClassError, match=r"exam\.seb: is not there yet"):
+        create_app(exam_settings(folder))
+    _, path = write_admission_files(folder, ADDRESS, "en")
+    assert path.stat().st_mode & 0o077 == 0
+    exam = opened(folder=folder)
+    ada = exam.student(ADA)
+    page = ada.browser.get("/")
+    assert page.status_code == 403
+    assert 'href="seb://' in page.text
+    assert plistlib.loads(ada.browser.get("/exam.seb").content)["startURL"] == f"{ADDRESS}/"
+    key = hashlib.sha256(seb_settings().encode()).hexdigest()
+
+    def proof(place: str) -> dict[str, str]:
+        hashed = hashlib.sha256(f"{ADDRESS}{place}{key}".encode()).hexdigest()
+        return {"x-safeexambrowser-configkeyhash": hashed}
+
+    assert "The code on your card" in ada.browser.get("/", headers=proof("/")).text
+    assert ada.browser.get("/seat", headers=proof("/")).status_code == 403, "of another address"
+    assert ada.browser.post("/", headers=proof("/live")).status_code == 403
+    exam.watcher().get("/live")  # in any browser
+
+
+def test_an_unlocked_settings_file_has_another_key(tmp_path):
+    folder = make_class(tmp_path, SEB)
+    _, path = write_admission_files(folder, ADDRESS, "en")
+    before = read_config_key(path)
+    path.write_bytes(path.read_bytes().replace(b"<false/>", b"<true/>", 1))
+    assert read_config_key(path) != before
+    path.write_bytes(b"pswd" + path.read_bytes())
+    with pytest.raises(ClassError, match="changed by another program"):
+        read_config_key(path)
+
+
+def test_without_the_browser_there_is_no_settings_file(opened):
+    assert opened(OPEN).student(ADA).browser.get("/exam.seb").status_code == 404
