@@ -26,7 +26,7 @@ from quizgen.classes.student_reports import REPORTS
 from quizgen.locale import FIRST
 from quizgen.store import Seat
 from quizgen.web.auth import INVITED, SETTINGS, SIGN_IN, SUPERVISION, set_session_cookie
-from quizgen.web.class_room import ClassRoom
+from quizgen.web.class_room import CAME_IN, ClassRoom
 from quizgen.web.event_log import log_event
 from quizgen.web.forms import field_text, read_form
 from quizgen.web.security import OPEN, plain_error
@@ -98,7 +98,9 @@ class ClassExamMiddleware:
                 return
             seat: Seat | None = scope["state"].get("seat")
             if seat is not None and seat.student in self.room.students:
-                self.room.note_seen(seat.student, _get_client_address(request))
+                address = _get_client_address(request)
+                if self.room.note_seen(seat.student, address):
+                    await run_in_threadpool(self.room.warn, seat.student, "address", address)
         await self.app(scope, receive, send)
 
     def _refuse(self, request: Request) -> ASGIApp:
@@ -210,9 +212,9 @@ async def enter(request: Request) -> Response:
     student, learner, issue, used = found
     if used is None and await run_in_threadpool(room.store.seats.use_code, learner, issue):
         log_event("code used", learner=learner, address=address)
-        await run_in_threadpool(room.record, student, student, "came in", address)
+        await run_in_threadpool(room.record, student, student, CAME_IN, address)
     elif not await run_in_threadpool(_may_look_again, room, learner):
-        room.presence[student].warn(room.now(), "reused", address)
+        await run_in_threadpool(room.warn, student, "reused", address)
         log_event("code used again", learner=learner, address=address)
         return _render_entrance(request, 403, "used", typed)
     token = await run_in_threadpool(room.store.accounts.start_session, learner)

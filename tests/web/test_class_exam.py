@@ -264,6 +264,22 @@ def test_a_server_that_was_killed_goes_on_where_it_was(opened, tmp_path, monkeyp
     assert "You have handed in" in joerg.get("/seat").text
 
 
+def test_what_to_look_at_outlives_the_server(opened):
+    exam = opened(OPEN)
+    exam.begun(ADA)
+    elsewhere = exam.student(ADA, client="10.0.0.99")
+    assert elsewhere.enter().status_code == 403
+    after = opened(folder=exam.folder)
+    watcher = after.watcher("Weber 2")
+    page = watcher.get(f"/live/{after.number(ADA)}").text
+    assert "10.0.0.99" in page
+    assert page.count("10.0.0.99") == 1
+    with (exam.folder.path / RECORD).open(encoding="utf-8") as stream:
+        said = [(row["student"], row["more"]) for row in csv.DictReader(stream)
+                if row["what"] == "code tried again"]  # fmt: skip
+    assert said == [(ADA.id, "10.0.0.99")]
+
+
 def test_papers_that_were_made_outlive_a_changed_bank(opened, monkeypatch):
     exam = opened(OPEN)
     _, at = exam.begun(ADA)
