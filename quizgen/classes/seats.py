@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import lru_cache
 from pathlib import Path
@@ -53,6 +53,8 @@ class HandedPaper:
         Part to what was typed, in one line.
     minutes : float
         Working time.
+    seconds : mapping of str to float
+        Number of a question to the time for which it was on the screen.
     """
 
     student: RosterStudent
@@ -60,6 +62,7 @@ class HandedPaper:
     lang: str
     answers: Mapping[str, str]
     minutes: float
+    seconds: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def is_blank(self) -> bool:
@@ -115,7 +118,10 @@ def _build_form(paper: HandedPaper) -> bytes:
     """Return a filled form as JSON."""
     student = paper.student
     about = FormStudent(student.name, student.id, paper.lang)
-    form = FilledForm(dict(paper.answers), about, paper.code, minutes=round(paper.minutes, 1))
+    form = FilledForm(
+        dict(paper.answers), about, paper.code,
+        minutes=round(paper.minutes, 1), seconds=dict(paper.seconds),
+    )  # fmt: skip
     return msgspec.json.format(msgspec.json.encode(form)) + b"\n"
 
 

@@ -27,6 +27,7 @@ from people import ADDRESS
 from starlette.testclient import TestClient
 
 from quizgen.classes.admission import write_admission_files
+from quizgen.classes.analysis_page import write_analysis_page
 from quizgen.classes.class_folder import ClassFolder, format_settings
 from quizgen.classes.exam_details import read_exam_details
 from quizgen.classes.grading_history import GradingHistory
@@ -34,6 +35,7 @@ from quizgen.classes.grading_run import grade_class
 from quizgen.classes.safe_exam_browser import read_config_key
 from quizgen.classes.seats import DATABASE, RECORD, entry_code, normalise_entry_code
 from quizgen.classes.statuses import read_statuses
+from quizgen.classes.template_history import write_template_history
 from quizgen.cli.main import root_group
 from quizgen.core.errors import ClassError
 from quizgen.core.executor import InlineExecutor
@@ -135,6 +137,31 @@ def test_marks_are_those_of_typed_answers(opened):
         who: [*exam.form(one)["answers"]] for who, one in ((one.id, one) for one in STUDENTS[:2])
     } == {who: [*one] for who, one in typed.items()}
     assert marks[RAHIMA.id].minutes is not None
+
+
+def test_times_of_questions_are_analysed(opened):
+    exam = opened(OPEN)
+    times = {ADA.id: 90, JOERG.id: 150}
+    for who in (ADA, JOERG):
+        student, at = exam.begun(who)
+        exam.later += 170
+        sent = {
+            "token": student.token,
+            "on-1": "",
+            "a-1": ["1", "2"],
+            "spent-1": str(times[who.id]),
+        }
+        student.browser.post(at, data=sent, headers={"accept": "application/json"})
+        student.post(at, do="hand-in")
+    exam.store()
+    assert exam.form(ADA)["seconds"] == {"1": 90}
+    assert grade_class(exam.folder, InlineExecutor(), 1).problems == ()
+    _, page = write_analysis_page(exam.folder)
+    assert "Minutes for the question (median)" in page.read_text("utf-8")
+    write_template_history(exam.folder, [])
+    for table in ("items.csv", "templates.csv"):
+        with (page.parent / table).open(encoding="utf-8-sig") as stream:
+            assert {row["minutes"] for row in csv.DictReader(stream)} == {"2", ""}
 
 
 def test_each_has_the_own_paper_in_the_own_language(opened):
