@@ -35,7 +35,8 @@ from quizgen.maths.notation import FormulaReadError
 MOST_STEPS = 40
 _LEFT_OUT = re.compile(
     r"(?P<kept>.+?)[,;]? ?\(?"
-    r"(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)\)?",
+    r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
+    r"|(?P<wrong>[A-Za-z](?:(?:,| and| und)? [A-Za-z])*) (?:is|are|ist|sind) (?:wrong|false|out|falsch))\)?",
     re.IGNORECASE,
 )
 """Steps, and others that are said not to belong to them."""
@@ -66,6 +67,7 @@ _TIED = re.compile(
 """Steps set equal or beside each other among others in order: ``B = D > A``, ``E G A/B F``."""
 _FILLERS = frozenset(
     {"then", "dann", "danach", "and", "und", "তারপর", "এরপর", "এবং", "first", "zuerst", "প্রথমে", "+"}
+    | {"finally", "last", "next", "zuletzt", "শেষে"}
 )
 
 
@@ -303,7 +305,8 @@ def _read_worded_steps(spec: OrderSpec, typed: str) -> list[str]:
             chosen = _read_labels(spec, kept["kept"])
         except FormulaReadError:
             return []
-        return [] if label is None or label.search(kept["out"]) else chosen
+        out = kept["out"] or kept["wrong"]
+        return [] if label is None or label.search(out) else chosen
     if is_denied(text) or _TIED.search(text):
         return []
     labels = [*spec.steps, *spec.distractors]

@@ -2,7 +2,7 @@
 
 ``fresh_answers.toml`` was written from the printed questions alone. Each answer there goes through the public road, ``mark_part``;
 so do its ``habits`` (right values) and ``traps`` (wrong ones), each typed in every way that people have of typing its kind.
-``uv run python tests/grading/test_fresh_answers.py`` prints where grading and the examiner part, by kind.
+``uv run python tests/grading/test_fresh_answers.py [FILE]`` prints where grading and the examiner part, by kind.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ import quizgen
 
 ANSWERS = Path(__file__).parent / "fresh_answers.toml"
 LATER = Path(__file__).parent / "later_answers.toml"
+NEW = Path(__file__).parent / "new_answers.toml"
 """Answers to other questions, which nobody had marked when they were written down."""
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ANSWERED = Path(__file__).parent / "answered_bank"
@@ -386,10 +387,10 @@ def test_all_later_ones_are_marked_as_an_examiner_would():
     assert not find_accepted(parted)
 
 
-def print_agreement() -> None:
+def print_agreement(file: Path = ANSWERS) -> None:
     """Print agreement by kind, and on standard error every answer on which it fails."""
     kinds: dict[str, list[Row]] = {}
-    for row in read_rows():
+    for row in read_rows(file):
         kinds.setdefault(find_kind(row), []).append(row)
     for kind, rows in sorted(kinds.items()):
         counts, parted = count_agreement(rows)
@@ -411,4 +412,4 @@ def print_agreement() -> None:
 
 
 if __name__ == "__main__":
-    print_agreement()
+    print_agreement(*map(Path, sys.argv[1:]))

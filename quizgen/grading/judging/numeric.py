@@ -177,7 +177,7 @@ def _is_near_printed(spec: Tolerance, number: ReadNumber, value: Value, key: Val
 
     22.6199 is printed as 22.6: then 22.5 is as near to it as 22.7.
     """
-    if spec.decimals is None or spec.within != 1 or number.places > spec.decimals:
+    if spec.decimals is None or spec.within != 1 or number.places != spec.decimals:
         return False
     printed = round_ball_half_away(key, spec.decimals)
     return bool(abs(value - printed) * 10**spec.decimals <= 1)

@@ -50,7 +50,7 @@ _IDLE = frozenset(
         "those",
         "and",
     }
-    | {"becomes", "become", "der", "die", "das", "ist", "sind", "und", "ein", "eine", "i", "think"}
+    | {"by", "or", "oder", "becomes", "become", "der", "die", "das", "ist", "sind", "und", "ein", "eine", "i", "think"}
 )
 _AGAINST = frozenset(
     {"wrong", "false", "incorrect", "falsch", "instead", "rather", "other", "others", "ভুল", "মিথ্যা"}
@@ -73,7 +73,11 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     spoken = _split_words(typed)
     listed = [frozenset(_split_words(wording)) for wording in wordings]
     said = frozenset(spoken)
-    same = [place for place, words in enumerate(listed, 1) if said and words == said]
+    same = [
+        place
+        for place, wording in enumerate(wordings, 1)
+        if said and said in _list_names_of(wording)
+    ]
     if len(same) == 1:
         return same[0]
     known = frozenset().union(*listed)
@@ -91,6 +95,18 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
         return 0
     denied = says_otherwise(" ".join(more)) or _denies(wanted) != _denies(meant)
     return 0 if denied else hits[0]
+
+
+def _list_names_of(wording: str) -> set[frozenset[str]]:
+    """Return the words of a wording, and of what stands for all of it beside a comma or a bracket.
+
+    ``the long ones, 600 to 700 nm (red)`` has three names.
+    """
+    parts = _APART.split(wording) if _APART.search(wording) else []
+    return {frozenset(_split_words(part)) for part in (wording, *parts)}
+
+
+_APART = re.compile(r"(?<!\d)[,;](?= )|(?<=\d)[,;](?= [^\W\d])|[()]")
 
 
 def _find_nearest(meant: frozenset[str], listed: list[frozenset[str]]) -> list[int]:
@@ -142,12 +158,24 @@ def _find_known_word(word: str, known: frozenset[str]) -> str:
     """Return the known word that a typed one is, maybe with slips in spelling; else itself."""
     if word in known or not word.isalpha():
         return word
-    near = [
+    near = [one for one in known if _stem(one) == _stem(word)] or [
         one
         for one in known
         if one[:1] == word[:1] and typo_distance(word, one, 1) <= min(1, allowed_typos(one))
     ]
     return near[0] if len(near) == 1 else word
+
+
+@lru_cache(maxsize=4096)
+def _stem(word: str) -> str:
+    """Return an English word without the ending of its verb: ``averag`` of ``averaging``."""
+    short = _VERB_ENDING.sub("", word)
+    return short if len(short) >= LEAST_STEM else word
+
+
+_VERB_ENDING = re.compile(r"(?:ing|ed|e)$")
+LEAST_STEM = 4
+"""Letters that are left of a word whose ending does not matter."""
 
 
 @lru_cache(maxsize=1024)
