@@ -85,7 +85,8 @@ _LABELLED = re.compile(
 _BEHIND = re.compile(r"(?P<words>.{2,}?) ?[\[(](?P<mark>[A-Za-zক-ঞ])[\])]")
 _FILLING = re.compile(r"^(?:option|অপশন) ", re.IGNORECASE)
 _IT_IS = re.compile(
-    r"^(?:(?:it|this|that)(?: is|'s)|the (?:statement|claim)(?= holds)|(?:it|this|that)(?= isn't)|the (?:statement|claim) is|বিবৃতিটি"
+    r"^(?:(?:it|this|that)(?: is|'s)|(?:it|this|that)(?= isn't)"
+    r"|the (?:statement|claim)(?: is|(?= holds))|বিবৃতিটি"
     r"|(?:es|das|der satz|die (?:aussage|behauptung))(?: ist)?|ist|এটা|এটি) ",
     re.IGNORECASE,
 )
@@ -297,7 +298,7 @@ def _find_reasoned_letter(spec: ChoiceSpec, typed: str) -> list[int]:
     """
     text = typed.strip()
     ahead = _LETTER_AHEAD.fullmatch(text)
-    behind = None if ahead else _CONCLUSION.fullmatch(text)
+    behind = None if ahead else _CONCLUSION.fullmatch(text) or _LETTER_BEHIND.fullmatch(text)
     if ahead:
         mark, reason = ahead["mark"], ahead["reason"]
     elif behind:
@@ -320,6 +321,7 @@ _LETTER_AHEAD = re.compile(
     re.DOTALL,
 )
 """A letter and words behind it that give the reason."""
+_LETTER_BEHIND = re.compile(r".*[^\W\d_]{3}.*, (?P<rest>[A-Z])", re.DOTALL)
 _OTHERS_ARE_WRONG = re.compile(
     r"(?:(?:[A-Z]|and|und|,|;)\s*)+ ?(?:is|are|ist|sind) (?:wrong|false|out|falsch)", re.IGNORECASE
 )

@@ -277,7 +277,9 @@ def _cut_pieces(typed: str, count: int) -> list[str]:
 def _judge_gap(spec: GapSpec, gap: list[str], word: str) -> Verdict:
     """Return the verdict on one gap, by the word itself or the term that it is nearest to."""
     right = {fold_word(term) for term in gap}
-    word = _translate_word(word, [*gap, *(term for one in spec.gaps() for term in one), *spec.among])
+    word = _translate_word(
+        word, [*gap, *(term for one in spec.gaps() for term in one), *spec.among]
+    )
     word = _drop_idle_words(word, [term for one in spec.gaps() for term in one] + spec.among)
     folded = fold_word(word)
     if not folded:

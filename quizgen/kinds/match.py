@@ -35,7 +35,13 @@ _SEPARATORS = re.compile(r"[\s,;.|&\[\]{}।॥]+")
 _ARROWS = re.compile(r"\s*(?:->|=>|<->|--|[-:=>()→↔⇒⇔⟶⟷↦])+\s*|(?<=\w)[/_](?=\w)")
 _COMMAS = re.compile(r"[;,\n](?![^(]*\))\s*")
 """What stands between sides in order, outside brackets."""
-_GROUPS = (r"[;\n]", r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)", r"[;\n]| (?:and|und|&|ও|এবং) ", r"[,;\n]", r"[,;\n]| (?:and|und|&|ও|এবং) ")
+_GROUPS = (
+    r"[;\n]",
+    r"[,;\n](?![^(]*\))\s*(?=[A-Z]\b)",
+    r"[;\n]| (?:and|und|&|ও|এবং) ",
+    r"[,;\n]",
+    r"[,;\n]| (?:and|und|&|ও|এবং) ",
+)
 """What may stand between pairs, or between all that belong to one right side."""
 _SIDES = re.compile(r"\s*(?:-+>|=>|[-:=→⇒])+\s*|\s+(?:-|is|ist|goes with|belongs to|passt zu)\s+")
 _FILLERS = frozenset(

@@ -36,7 +36,8 @@ MOST_STEPS = 40
 _LEFT_OUT = re.compile(
     r"(?P<kept>.+?)[,;]? ?\(?"
     r"(?:(?:without|leave out|leaving out|leaves out|ohne|বাদ) (?P<out>[^()]+)"
-    r"|(?P<wrong>[A-Za-z](?:(?:,| and| und)? [A-Za-z])*) (?:is|are|ist|sind) (?:wrong|false|out|falsch))\)?",
+    r"|(?P<wrong>[A-Za-z](?:(?:,| and| und)? [A-Za-z])*) (?:is|are|ist|sind)"
+    r" (?:wrong|false|out|falsch))\)?",
     re.IGNORECASE,
 )
 """Steps, and others that are said not to belong to them."""

@@ -283,7 +283,7 @@ def _judge_coarse_rounding(
     if number.form not in {"decimal", "integer", "scientific"} or value == 0 or key == 0:
         return None
     figures = _count_right_figures(number, value, key)
-    if figures < LEAST_FIGURES:
+    if figures < LEAST_FIGURES and not (figures and agrees_within_half_percent(value, key)):
         one = figures and not spec.exact
         return wrong(read_as, "rounded-to-one") if one else None
     if spec.exact:

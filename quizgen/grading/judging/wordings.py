@@ -26,6 +26,7 @@ _SHARES = (
     (re.compile(r"\bthree quarters\b"), "3/4"),
     (re.compile(r"\b(?:a |one )?quarter\b"), "1/4"),
     (re.compile("∞"), "infinity"),
+    (re.compile(r"(?<=\d) ?[-–—] ?(?=\d)"), " to "),
     (re.compile(r"\b(?:minus|negative) (?=\d)"), "-"),
     (re.compile(r"(?<!\S)\+(?=\d)"), ""),
     (re.compile(r"\b(?:between|zwischen) (.+) (?:and|und) "), r"from \1 to "),
@@ -50,7 +51,23 @@ _IDLE = frozenset(
         "those",
         "and",
     }
-    | {"by", "or", "oder", "becomes", "become", "der", "die", "das", "ist", "sind", "und", "ein", "eine", "i", "think"}
+    | {
+        "by",
+        "or",
+        "oder",
+        "becomes",
+        "become",
+        "der",
+        "die",
+        "das",
+        "ist",
+        "sind",
+        "und",
+        "ein",
+        "eine",
+        "i",
+        "think",
+    }
 )
 _AGAINST = frozenset(
     {"wrong", "false", "incorrect", "falsch", "instead", "rather", "other", "others", "ভুল", "মিথ্যা"}
@@ -80,6 +97,13 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     ]
     if len(same) == 1:
         return same[0]
+    named = [
+        place
+        for place, wording in enumerate(wordings, 1)
+        if _list_names_of(typed) - {said} <= _list_names_of(wording) and _APART.search(typed)
+    ]
+    if len(named) == 1:
+        return named[0]
     known = frozenset().union(*listed)
     meant = frozenset(_find_known_word(word, known) for word in _join_compounds(spoken, known))
     hits = [place for place, words in enumerate(listed, 1) if _own_words(words, listed) & meant]
