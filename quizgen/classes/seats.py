@@ -48,6 +48,8 @@ class HandedPaper:
         Part to what was typed, in one line.
     minutes : float
         Working time.
+    decimal : str
+        The decimal sign that the student declared, or ``auto``.
     """
 
     student: RosterStudent
@@ -55,6 +57,7 @@ class HandedPaper:
     lang: str
     answers: Mapping[str, str]
     minutes: float
+    decimal: str = "auto"
 
     @property
     def is_blank(self) -> bool:
@@ -109,7 +112,7 @@ def store_handed_papers(folder: ClassFolder, papers: Iterable[HandedPaper]) -> N
 def _build_form(paper: HandedPaper) -> bytes:
     """Return a filled form as JSON."""
     student = paper.student
-    about = FormStudent(student.name, student.id, paper.lang)
+    about = FormStudent(student.name, student.id, paper.lang, paper.decimal)
     form = FilledForm(dict(paper.answers), about, paper.code, minutes=round(paper.minutes, 1))
     return msgspec.json.format(msgspec.json.encode(form)) + b"\n"
 

@@ -326,7 +326,9 @@ class ClassRoom:
         }
         taken = max(0.0, (one.handed or one.begun) - one.begun - one.rested)
         lang = paper.items[0].wanted.lang
-        return HandedPaper(self.students[seat.student], one.code, lang, typed, taken / MINUTE)
+        return HandedPaper(
+            self.students[seat.student], one.code, lang, typed, taken / MINUTE, one.decimal
+        )
 
     def release(self, *, on: bool) -> None:
         """Let students see their marks, or not any more.
