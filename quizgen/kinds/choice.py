@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording
+from quizgen.grading.judging.wordings import find_wording, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, says_otherwise
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, PICTURES, normalise_typed
@@ -221,6 +221,13 @@ class ChoiceSpec(WordSpec, kw_only=True, frozen=True):
         if len(chosen) > 1:
             raise FormulaReadError("one-option", 1, safe_echo(typed))
         return _judge_single_option(self, chosen[0])
+
+    def tells(self, _label: str, reason: str, /) -> bool:
+        """Return whether a reason has the words of a right option."""
+        return any(
+            holds_wording(reason, self.options[one - 1])
+            for one in self.correct[: len(self.options)]
+        )
 
     def show(self) -> str:
         """Return the letters of the right options, or the word for true or false."""

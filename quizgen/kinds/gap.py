@@ -68,7 +68,6 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
     """
 
     written_as: ClassVar[AnswerForm] = "word"
-    reasons_tell: ClassVar[bool] = True
 
     accept: list[list[str] | str]
     among: list[str] = msgspec.field(default_factory=list)
@@ -128,6 +127,10 @@ class GapSpec(WordSpec, kw_only=True, frozen=True):
         """Return the label of a reason: for this word in this gap, else for any wrong one in it."""
         label = f"{place}={fold_word(word)}"
         return label if any(label in reasons for reasons in self.why.values()) else str(place)
+
+    def tells(self, _label: str, _reason: str, /) -> bool:
+        """Return that a reason holds the word that is missing."""
+        return True
 
     def show(self) -> str:
         """Return the words as printed in the first language."""

@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording
+from quizgen.grading.judging.wordings import find_wording, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, LONE_LETTER, PICTURES, normalise_typed
@@ -131,6 +131,11 @@ class MatchSpec(WordSpec, kw_only=True, frozen=True):
                 label for left in missed for label in _list_reason_labels(left, found.get(left))
             ),
         )
+
+    def tells(self, label: str, reason: str, /) -> bool:
+        """Return whether the reason for a left side has the words of its right one."""
+        left = next((one for one in self.pairs if label.startswith(one)), "")
+        return holds_wording(reason, self.words.get(self.pairs.get(left, ""), ""))
 
     def show(self) -> str:
         """Return the pairs as they can be typed."""

@@ -11,7 +11,7 @@ import msgspec
 
 from quizgen.grading.echo import safe_echo
 from quizgen.grading.judging.spelling import fold_word
-from quizgen.grading.judging.wordings import find_wording
+from quizgen.grading.judging.wordings import find_wording, holds_wording
 from quizgen.grading.options import GradingOptions
 from quizgen.grading.reading.answer_reader import AnswerForm, is_denied
 from quizgen.grading.reading.normalise import BANGLA_LETTERS, apply_rewrite, normalise_typed
@@ -190,6 +190,10 @@ class OrderSpec(WordSpec, kw_only=True, frozen=True):
         return verdict_by_share(
             min(credit, Fraction(9, 10)), read_as, known, line=line, because=because
         )
+
+    def tells(self, _label: str, reason: str, /) -> bool:
+        """Return whether a reason has the words of a step: it says where that belongs."""
+        return any(holds_wording(reason, words) for words in self.words.values())
 
     def show(self) -> str:
         """Return one right order."""

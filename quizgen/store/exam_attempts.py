@@ -39,7 +39,7 @@ class ExamStore:
     def __init__(self, database: Database, clock: Clock) -> None:
         self.database, self.clock = database, clock
 
-    def begin(
+    def begin(  # noqa: PLR0913 - what an exam is begun with
         self,
         learner: int,
         code: str,

@@ -121,6 +121,17 @@ def find_wording(typed: str, wordings: Sequence[str], *, all_named: bool = False
     return 0 if denied else hits[0]
 
 
+def holds_wording(text: str, wording: str) -> bool:
+    """Return whether a sentence has all of a wording in it, as words of its own."""
+    said, wanted = (" ".join(_ANY_WORD.findall(one.casefold())) for one in (text, wording))
+    return len(wanted) >= LEAST_TOLD and f" {wanted} " in f" {said} "
+
+
+_ANY_WORD = re.compile(r"[\w\u0980-\u09ff]+")
+LEAST_TOLD = 3
+"""Letters of a wording that can be recognised in a sentence."""
+
+
 def _list_names_of(wording: str) -> set[frozenset[str]]:
     """Return the words of a wording, and of what stands for all of it beside a comma or a bracket.
 
