@@ -10,9 +10,8 @@ from markupsafe import Markup, escape
 
 from quizgen import typeset
 from quizgen.core.errors import FormulaError
-from quizgen.grading.judging.relations import Relation
 from quizgen.grading.options import DECIMALS
-from quizgen.grading.reading.derivations import LineReadError
+from quizgen.grading.reading.derivations import DerivedLine, LineReadError
 from quizgen.kinds.derivation import DerivationSpec
 from quizgen.kinds.grade import grade_answer
 from quizgen.locale import localise_numbers
@@ -68,18 +67,18 @@ def _typeset_lines(spec: DerivationSpec, typed: str, lang: str, decimal: str) ->
         except (LineReadError, FormulaReadError):
             typed = typed.rpartition("\n")[0]
             continue
-        shown = (Markup("; ").join(_typeset_relation(one, lang) for one in line.relations)
-                 for line in lines if line.relations)  # fmt: skip
-        return Markup("").join(Markup('<span class="line">{}</span>').format(one) for one in shown)
+        shown = (_typeset_line(line, lang) for line in lines if line.relations)
+        return Markup().join(Markup('<span class="line">{}</span>').format(one) for one in shown)
     return Markup()
 
 
-def _typeset_relation(relation: Relation, lang: str) -> Markup:
-    """Return a line's relation, typeset."""
+def _typeset_line(line: DerivedLine, lang: str) -> Markup:
+    """Return a line of a derivation, typeset."""
     try:
-        return Markup(typeset.to_mathml(typeset.lay_out(relation.tree), lang))
+        laid_out = [typeset.lay_out(relation.tree) for relation in line.relations]
     except FormulaError:
-        return escape(relation.display_text)
+        return escape(line.display_text)
+    return Markup("; ").join(Markup(typeset.to_mathml(one, lang)) for one in laid_out)
 
 
 def _typeset_values(
