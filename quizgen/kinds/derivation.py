@@ -222,6 +222,10 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
         """Return several relations of the key."""
         return tuple(map(self.relation, texts))
 
+    def reader(self, decimal: str) -> DerivationReader:
+        """Return what reads typed lines, with a decimal sign."""
+        return DerivationReader(self.symbols, decimal, self.goal.left)
+
     def judge(self, typed: str, options: GradingOptions, /) -> Verdict:
         """Return the verdict on typed lines: each of them a cell, the first fault as its note.
 
@@ -231,9 +235,8 @@ class DerivationSpec(WordSpec, kw_only=True, frozen=True):
             If there are no lines, too many, or invisible characters.
         """
         key = self.marking_key()
-        reader = DerivationReader(self.symbols, options.decimal, self.goal.left)
         try:
-            lines = reader.read(typed)
+            lines = self.reader(options.decimal).read(typed)
         except LineReadError as error:
             found = read_error_verdict(error.why)
             fields = {**found.fields, "at_line": error.number}

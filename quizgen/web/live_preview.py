@@ -11,6 +11,8 @@ from markupsafe import Markup, escape
 from quizgen import typeset
 from quizgen.core.errors import FormulaError
 from quizgen.grading.options import DECIMALS
+from quizgen.grading.reading.derivations import DerivedLine, LineReadError
+from quizgen.kinds.derivation import DerivationSpec
 from quizgen.kinds.grade import grade_answer
 from quizgen.locale import localise_numbers
 from quizgen.maths.notation import FormulaReadError, parse_formula
@@ -41,6 +43,9 @@ def preview_reading(
 ) -> Markup:
     """Return how an answer is read, typeset; empty if it is incomplete or unreadable."""
     part = next(part for part in key.parts if part.id == field.id)
+    spec = part.parse_spec()
+    if isinstance(spec, DerivationSpec):
+        return _typeset_lines(spec, "\n".join(values), lang, decimal)
     boxes = bool(field.control.boxes)
     there = [bool(value.strip()) for value in values]
     if boxes and any(there):  # an empty box beside it must not change how a value is read
@@ -48,10 +53,32 @@ def preview_reading(
     typed = join_fields(field.control, values, field.marks)
     if part.spec["kind"] not in READ or not typed or any(map(_HALF.search, values)):
         return Markup()
-    verdict = grade_answer(part.parse_spec(), typed, decimal=decimal)
+    verdict = grade_answer(spec, typed, decimal=decimal)
     if not verdict.is_graded:
         return Markup()
     return _typeset_values(verdict.read_as, lang, boxes=boxes, filled=there)
+
+
+def _typeset_lines(spec: DerivationSpec, typed: str, lang: str, decimal: str) -> Markup:
+    """Return the lines of a derivation, typeset, up to the one that is still being written."""
+    while typed.strip():
+        try:
+            lines = spec.reader(decimal).read(typed)
+        except (LineReadError, FormulaReadError):
+            typed = typed.rpartition("\n")[0]
+            continue
+        shown = (_typeset_line(line, lang) for line in lines if line.relations)
+        return Markup().join(Markup('<span class="line">{}</span>').format(one) for one in shown)
+    return Markup()
+
+
+def _typeset_line(line: DerivedLine, lang: str) -> Markup:
+    """Return a line of a derivation, typeset."""
+    try:
+        laid_out = [typeset.lay_out(relation.tree) for relation in line.relations]
+    except FormulaError:
+        return escape(line.display_text)
+    return Markup("; ").join(Markup(typeset.to_mathml(one, lang)) for one in laid_out)
 
 
 def _typeset_values(

@@ -95,3 +95,17 @@ def test_a_terminal_reads_lines_until_an_empty_one(bank, tmp_path, monkeypatch):
     assert "Line 1: Think of the other carts." in done.output
     assert "Hint: The force moves all of them." in done.output
     assert "Answer: F = " in done.output
+
+
+def test_lines_are_typeset_while_they_are_written_up_to_the_one_in_hand(client):
+    store = client.app.state.site.store
+    question = f"/q/{store.start_attempt(store.learner().id, QuestionRef('train', '3'), {}).id}"
+    page = client.get(question).text
+    assert [*re.findall('data-put="([^"]*)" data-into', page)][:3] == ["F", "m", "a"]
+    data = {"token": csrf_token(client.cookies[COOKIE]), "a": "a = F/m\na = 7*m*F\nF = m*("}
+    read = client.post(f"{question}/1/read", data=data).text
+    assert read.count('class="line"') == 2
+    assert "<mfrac><mi>F</mi><mi>m</mi></mfrac>" in read
+    client.get("/")
+    data["a"] = "F = ("
+    assert client.post(f"{question}/1/read", data=data).text == ""

@@ -92,10 +92,14 @@ document.addEventListener("keydown", (event) => {
   } });
   document.addEventListener("click", (event) => {
     const sign = event.target.closest("[data-put]");
-    const field = last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])");
+    const field = document.getElementById(sign?.dataset.into) ?? (last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])"));
     if (!sign || !field) { return; }
-    field.setRangeText(sign.dataset.put, field.selectionStart, field.selectionEnd, "end");
+    const [from, to] = [field.selectionStart, field.selectionEnd];
+    const [before, after] = sign.dataset.put.split("|");
+    field.setRangeText(before + (after ? field.value.slice(from, to) + after : ""), from, to, "end");
     field.focus();
+    const inside = from === to ? from + before.length : field.selectionEnd - after?.endsWith("()");
+    if (after) { field.setSelectionRange(inside, inside); }
     field.dispatchEvent(new Event("input", { bubbles: true }));
   });
 })();
