@@ -187,8 +187,8 @@ class _Round:
                 return None
             self._add_paper(paper)
         if len(self.papers) - before > FEW:
-            whole = [[*map(tuple.index, self.places, paper)] for paper in self.papers]
-            _KEPT.store_compiled(whole, *self.sources)
+            chosen_so_far = [[*map(tuple.index, self.places, paper)] for paper in self.papers]
+            _KEPT.store_compiled(chosen_so_far, *self.sources)
         return self.papers[place]
 
     def _add_paper(self, paper: tuple[Candidate, ...]) -> None:
