@@ -103,7 +103,7 @@ class FaultySolution:
         })  # fmt: skip
         solved = PartSolution(
             label="",
-            lines=(solution_step(Interpolator(self.drawn, lang), self.steps[self.place]),),
+            lines=(),
             shown=(),
             mistakes=(),
             scheme=tuple(SchemeLine(name, Fraction(1), idea) for name, idea in ideas[lang].items()),
