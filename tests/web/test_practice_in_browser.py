@@ -366,3 +366,24 @@ def test_boxes_are_labelled_by_what_they_ask(practised):
     page = practised("hsv-edit-from-pictures")
     labels = page.locator(".box label").all_text_contents()
     assert [one.split() for one in labels] == [["(1)", "V"], ["(2)", "S"], ["(3)", "H"]]
+
+
+def test_a_derivation_is_read_line_by_line_as_it_is_written(practised):
+    """By keyboard alone: Enter ends a line, Tab the last; what is said moves no focus."""
+    page = practised("derive-perspective-projection")
+    field = page.locator("textarea[data-rows]").first
+    read = page.locator(".read li")
+    field.focus()
+    page.keyboard.type("0 = 1\n")
+    expect(read).to_have_count(1)
+    expect(read.first).to_have_class("wrong")
+    expect(field).to_be_focused()
+    page.keyboard.type("1 = 1")
+    expect(read).to_have_count(1)
+    page.keyboard.press("Tab")
+    expect(read).to_have_count(2)
+    expect(read.nth(1)).to_have_class("correct")
+    expect(page.locator(".verdict")).to_have_count(0)
+    page.get_by_role(BUTTON, name="Check").click()
+    expect(page.locator(".verdict .judged li")).to_have_count(2)
+    expect(read).to_have_count(0)

@@ -81,6 +81,20 @@ document.addEventListener("keydown", (event) => {
   });
 })();
 
+// A field of lines: one that is finished - by Enter, by pasting, by leaving the field - is read back.
+(() => {
+  const told = new WeakMap();
+  const tell = (event) => {
+    const field = event.target;
+    if (!field.matches?.("textarea[data-rows]") || told.get(field) === field.value) { return; }
+    if (event.type === "input" && !/^(insertLineBreak|insertParagraph|insertFromPaste)$/.test(event.inputType)) { return; }
+    told.set(field, field.value);
+    field.dispatchEvent(new CustomEvent("quizgen:row"));
+  };
+  document.addEventListener("input", tell);
+  document.addEventListener("change", tell);
+})();
+
 // Signs that the keyboard of a phone hides, put where the last field had its caret. Once there, they
 // stay: whatever moved under a finger would not be pressed.
 (() => {
