@@ -35,7 +35,8 @@ from quizgen.maths.tolerance import RULES
 from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
 from quizgen.paper.grading import PartResult, QuestionGrader
 
-TO_DECIDE = frozenset({"open", "unreadable", "ambiguous"})
+UNREAD = "unreadable"
+TO_DECIDE = frozenset({"open", UNREAD, "ambiguous"})
 """What a person is asked about."""
 DROPPED = "dropped"
 KEPT = "kept: better with it"
@@ -278,7 +279,8 @@ def _apply_decisions(
     found: PartResult, part: KeyPart, item: str, rulings: list[Ruling], student: str
 ) -> GradedClassPart:
     """Return the mark of an answer after the rulings about it."""
-    asked = found.status in TO_DECIDE
+    unseen = not found.marks and is_on_paper(found.typed)  # to a gap the words are a wrong term
+    asked = unseen or found.status in TO_DECIDE
     kind = part.spec["kind"]
     words = kind == "rubric"
     group = ""
@@ -290,7 +292,7 @@ def _apply_decisions(
         found.id,
         item,
         found.typed,
-        found.status,
+        UNREAD if unseen and found.status not in TO_DECIDE else found.status,
         float(found.points),
         None if asked else float(found.marks or 0),
         found.verdict.note,

@@ -148,7 +148,7 @@ async def change_room(request: Request) -> Response:
 
 
 def _change_exam(room: ClassRoom, what: str) -> None:
-    """Change what holds for those, too, who have not begun."""
+    """Open, pause, resume or release the exam for the whole class, also for who comes later."""
     shared = room.store.shared
     if what == "open":
         shared.replace(OPENED, str(room.now()))

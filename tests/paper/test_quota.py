@@ -9,7 +9,7 @@ from itertools import combinations
 import pytest
 from msgspec.structs import replace
 from shelf import Shelf
-from sweep import together
+from sweep import draws, together
 
 from quizgen.core.errors import BlueprintError
 from quizgen.kinds import KINDS
@@ -127,7 +127,9 @@ def sums(paper):
     return found
 
 
-@pytest.mark.parametrize("seeds", [range(1, 4), pytest.param(range(4, 61), marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "seeds", [range(1, 4), pytest.param(range(4, draws(20, full=61)), marks=pytest.mark.slow)]
+)
 def test_a_mock_has_its_points_minutes_and_verbs(bank, seeds):
     """As printed: the points of every part, and the minutes of the cover."""
     for seed in seeds:
@@ -167,7 +169,9 @@ def test_over_two_hundred_mocks_every_template_comes_and_none_crowds_out(bank):
     assert all(one & part for one in topics for part in sections)
 
 
-@pytest.mark.parametrize("seeds", [range(3), pytest.param(range(3, 40), marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "seeds", [range(3), pytest.param(range(3, draws(20, full=40)), marks=pytest.mark.slow)]
+)
 def test_a_trial_has_the_shapes_of_the_real_one(bank, seeds):
     trial, found = load_blueprint("trial"), set()
     for seed in seeds:
@@ -180,7 +184,9 @@ def test_a_trial_has_the_shapes_of_the_real_one(bank, seeds):
     assert len(found) > 1
 
 
-@pytest.mark.parametrize("seeds", [range(1, 3), pytest.param(range(3, 20), marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "seeds", [range(1, 3), pytest.param(range(3, draws(6, full=20)), marks=pytest.mark.slow)]
+)
 def test_a_paper_turned_round_is_not_ticked(bank, seeds):
     turned = load_blueprint("mock")
     for seed in seeds:

@@ -33,7 +33,7 @@ CALCULATING = [
 SEEDS = [range(2), pytest.param(range(2, 4), marks=pytest.mark.slow)]
 
 
-@pytest.fixture(scope="module", params=spread(CALCULATING, 12, slow=24))
+@pytest.fixture(scope="module", params=spread(CALCULATING, 12, slow=12))
 def template(request):
     return builtin_bank().template(request.param)
 

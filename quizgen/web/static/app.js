@@ -44,8 +44,9 @@ document.addEventListener("htmx:after:swap", () => {
   if (document.activeElement && document.activeElement !== document.body) { return; }
   document.querySelector(TO_FILL)?.focus({ preventScroll: true });
 });
-// With a mouse there is a keyboard, too; on a phone the focus would lift one over the figure.
-if (document.body.classList.contains("play") && matchMedia("(pointer: fine)").matches) {
+// With a mouse there is a keyboard, too; on a phone the focus would lift one over the figure. What has
+// it already keeps it: somebody went on by keys while this was on its way.
+if (document.body.classList.contains("play") && matchMedia("(pointer: fine)").matches && document.activeElement === document.body) {
   document.querySelector(TO_FILL)?.focus({ preventScroll: true });
 }
 
