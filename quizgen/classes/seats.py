@@ -55,6 +55,8 @@ class HandedPaper:
         Working time.
     seconds : mapping of str to float
         Number of a question to the time for which it was on the screen.
+    decimal : str
+        The decimal sign that the student declared, or ``auto``.
     """
 
     student: RosterStudent
@@ -63,6 +65,7 @@ class HandedPaper:
     answers: Mapping[str, str]
     minutes: float
     seconds: Mapping[str, float] = field(default_factory=dict)
+    decimal: str = "auto"
 
     @property
     def is_blank(self) -> bool:
@@ -117,7 +120,7 @@ def store_handed_papers(folder: ClassFolder, papers: Iterable[HandedPaper]) -> N
 def _build_form(paper: HandedPaper) -> bytes:
     """Return a filled form as JSON."""
     student = paper.student
-    about = FormStudent(student.name, student.id, paper.lang)
+    about = FormStudent(student.name, student.id, paper.lang, paper.decimal)
     form = FilledForm(
         dict(paper.answers), about, paper.code,
         minutes=round(paper.minutes, 1), seconds=dict(paper.seconds),

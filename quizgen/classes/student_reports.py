@@ -44,7 +44,6 @@ from quizgen.classes.submissions import has_problems, read_rivals
 from quizgen.core.errors import ClassError, KeyFileError
 from quizgen.core.files import PRIVATE, write_all
 from quizgen.core.untrusted import error_context, escape_control_characters
-from quizgen.figures.inks import write_theme_css
 from quizgen.grading.feedback import name_truth
 from quizgen.grading.options import GradingOptions
 from quizgen.kinds.grade import show_key
@@ -59,6 +58,7 @@ from quizgen.paper.answer_key import AnswerKey, KeyPart, KeyQuestion
 from quizgen.paper.grading import QuestionGrader
 from quizgen.render.fonts import bangla_faces
 from quizgen.render.layouts import jinja_environment
+from quizgen.render.page_look import write_page_look
 from quizgen.render.typst_document import (
     compile_pdf,
     document_files,
@@ -377,9 +377,9 @@ def report_environment() -> jinja2.Environment:
 
 @cache
 def report_css() -> Markup:
-    """Return the style sheet of those pages, with the colours of the theme."""
+    """Return the style sheet of those pages, in the look that all pages share."""
     page = (files(PACKAGE) / "pages" / "report.css").read_text(encoding="utf-8")
-    return Markup(write_theme_css() + page)
+    return Markup(write_page_look() + page)
 
 
 def report_to_pdf(

@@ -366,7 +366,7 @@ class ClassRoom:
         taken = max(0.0, (one.handed or one.begun) - one.begun - one.rested)
         lang = paper.items[0].wanted.lang
         times = taken / MINUTE, one.spent
-        return HandedPaper(self.students[seat.student], one.code, lang, typed, *times)
+        return HandedPaper(self.students[seat.student], one.code, lang, typed, *times, one.decimal)
 
     def release(self, *, on: bool) -> None:
         """Let students see their marks, or not any more.
