@@ -256,24 +256,50 @@ def _iter_report_rows(
     """
     lang = fallback_language(marks.lang)
     words = load_words(lang, "classes")["report"]
-    marker = QuestionGrader(question, GradingOptions(lang, marks.decimal))
     given = {part.item: part for part in marks.parts}
-    for part in question.parts:
-        found = given.get(item_name(question, part))
-        if found is None:
-            continue
-        again = marker.grade_part(part, found.typed)
-        full = again.is_blank or found.marks == found.points
-        message = "" if full or _is_persons(found) else again.verdict.message
+    pairs = [
+        (part, found)
+        for part in question.parts
+        if (found := given.get(item_name(question, part))) is not None
+    ]
+    messages = _explain_parts(question, pairs, GradingOptions(lang, marks.decimal))
+    for part, found in pairs:
         said = [_format_remark(found, words), *_iter_objection_lines(part.id, objections, words)]
         yield ReportPart(
             part.id.removeprefix(question.number),
             _format_typed_answer(found.typed, part.spec["kind"], words, lang),
             _format_right_answer(part, lang),
             _format_points(found, lang),
-            message,
+            messages.get(part.id, ""),
             "\n".join(filter(None, said)),
         )
+
+
+def _explain_parts(
+    question: KeyQuestion,
+    pairs: Sequence[tuple[KeyPart, GradedClassPart]],
+    options: GradingOptions,
+) -> dict[str, str]:
+    """Return what the machine says of those answers for which it took points, by part.
+
+    Nothing after the last of them is judged again; what stands before may be carried forward.
+    """
+    marker = QuestionGrader(question, options, proven=True)
+    asked = [part.id for part, found in pairs if _lost_points_by_machine(found)]
+    messages: dict[str, str] = {}
+    for part, found in pairs:
+        if len(messages) == len(asked):
+            break
+        if part.id in asked:
+            messages[part.id] = marker.grade_part(part, found.typed).verdict.message
+        elif question.chain is not None:
+            marker.judge_part(part, found.typed)
+    return messages
+
+
+def _lost_points_by_machine(part: GradedClassPart) -> bool:
+    """Return whether something was typed that is not worth all points, which no person said."""
+    return bool(part.typed.strip()) and part.marks != part.points and not _is_persons(part)
 
 
 def _is_persons(part: GradedClassPart) -> bool:

@@ -10,13 +10,15 @@ from markupsafe import Markup, escape
 
 from quizgen import typeset
 from quizgen.core.errors import FormulaError
-from quizgen.grading.options import DECIMALS
-from quizgen.grading.reading.derivations import DerivedLine, LineReadError
+from quizgen.grading.judge import explain_verdict
+from quizgen.grading.options import DECIMALS, GradingOptions
+from quizgen.grading.verdict import Verdict
 from quizgen.kinds.derivation import DerivationSpec
 from quizgen.kinds.grade import grade_answer
 from quizgen.locale import localise_numbers
 from quizgen.maths.notation import FormulaReadError, parse_formula
 from quizgen.maths.notation.pretty import format_number
+from quizgen.maths.precision import working_precision
 from quizgen.maths.units import SHOWN, SIMPLE, format_unit
 from quizgen.paper.answer_key import KeyQuestion
 from quizgen.practice.input_fields import join_fields
@@ -44,8 +46,6 @@ def preview_reading(
     """Return how an answer is read, typeset; empty if it is incomplete or unreadable."""
     part = next(part for part in key.parts if part.id == field.id)
     spec = part.parse_spec()
-    if isinstance(spec, DerivationSpec):
-        return _typeset_lines(spec, "\n".join(values), lang, decimal)
     boxes = bool(field.control.boxes)
     there = [bool(value.strip()) for value in values]
     if boxes and any(there):  # an empty box beside it must not change how a value is read
@@ -59,26 +59,22 @@ def preview_reading(
     return _typeset_values(verdict.read_as, lang, boxes=boxes, filled=there)
 
 
-def _typeset_lines(spec: DerivationSpec, typed: str, lang: str, decimal: str) -> Markup:
-    """Return the lines of a derivation, typeset, up to the one that is still being written."""
-    while typed.strip():
-        try:
-            lines = spec.reader(decimal).read(typed)
-        except (LineReadError, FormulaReadError):
-            typed = typed.rpartition("\n")[0]
-            continue
-        shown = (_typeset_line(line, lang) for line in lines if line.relations)
-        return Markup().join(Markup('<span class="line">{}</span>').format(one) for one in shown)
-    return Markup()
-
-
-def _typeset_line(line: DerivedLine, lang: str) -> Markup:
-    """Return a line of a derivation, typeset."""
-    try:
-        laid_out = [typeset.lay_out(relation.tree) for relation in line.relations]
-    except FormulaError:
-        return escape(line.display_text)
-    return Markup("; ").join(Markup(typeset.to_mathml(one, lang)) for one in laid_out)
+def preview_lines(
+    field: FieldView,
+    key: KeyQuestion,
+    values: Sequence[str],
+    lang: str,
+    decimal: str = DECIMALS[0],
+    *,
+    judged: bool,
+) -> tuple[Verdict, ...]:
+    """Return how the lines of a derivation are read, and if wished which hold; none for others."""
+    spec = next(part for part in key.parts if part.id == field.id).parse_spec()
+    if not isinstance(spec, DerivationSpec) or not values:
+        return ()
+    with working_precision():
+        lines = spec.follow(values[0], GradingOptions(decimal), judged=judged)
+    return tuple(explain_verdict(spec, line, lang, reveal=False) for line in lines)
 
 
 def _typeset_values(

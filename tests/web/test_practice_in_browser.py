@@ -32,7 +32,8 @@ def practised(opened, served):
 
 def test_from_the_first_visit_to_a_verdict_in_two_clicks(opened):
     page = opened()
-    page.get_by_role(BUTTON, name="Start").click()
+    with page.expect_navigation():
+        page.get_by_role(BUTTON, name="Start").click()
     part = page.locator("section.part").first
     fields = part.locator("input:not([type=hidden]), textarea, select")
     if fields.first.get_attribute("type") in {"radio", "checkbox"}:
@@ -62,7 +63,8 @@ def test_wrong_hint_language_right_and_a_variant(practised):
     expect(page.locator("html")).to_have_attribute("lang", "bn")
     expect(page.locator("input[type=text]").first).to_have_value("123")
     expect(page.locator(".hints li")).to_have_count(1)
-    page.get_by_role(BUTTON, name="English").click()
+    with page.expect_navigation():
+        page.get_by_role(BUTTON, name="English").click()
     before = page.locator(".stem").inner_text()
     page.get_by_role(BUTTON, name="Solution").click()
     expect(page.locator(".result")).to_be_visible()
@@ -122,7 +124,8 @@ def test_chosen_options_and_an_order_outlive_a_reload(practised):
 def test_working_it_through_goes_from_part_to_part(practised):
     page = practised()
     page.get_by_text("More", exact=True).click()
-    page.get_by_role(BUTTON, name="step by step").click()
+    with page.expect_navigation():
+        page.get_by_role(BUTTON, name="step by step").click()
     expect(page.locator("section.part")).to_have_count(1)
     first = page.locator("section.part").get_attribute("id")
     while page.locator("[value=solution]").count() == 0:
@@ -376,3 +379,24 @@ def test_gaps_are_filled_in_their_sentences(practised, barriers):
     expect(page.locator(".verdict.wrong")).to_contain_text("1, 2, 3, 4")
     expect(gaps.first).to_have_value("violet")
     assert barriers(page) == []
+
+
+def test_a_derivation_is_read_line_by_line_as_it_is_written(practised):
+    """By keyboard alone: Enter ends a line, Tab the last; what is said moves no focus."""
+    page = practised("derive-perspective-projection")
+    field = page.locator("textarea[data-rows]").first
+    read = page.locator(".read li")
+    field.focus()
+    page.keyboard.type("0 = 1\n")
+    expect(read).to_have_count(1)
+    expect(read.first).to_have_class("wrong")
+    expect(field).to_be_focused()
+    page.keyboard.type("1 = 1")
+    expect(read).to_have_count(1)
+    page.keyboard.press("Tab")
+    expect(read).to_have_count(2)
+    expect(read.nth(1)).to_have_class("correct")
+    expect(page.locator(".verdict")).to_have_count(0)
+    page.get_by_role(BUTTON, name="Check").click()
+    expect(page.locator(".verdict .judged li")).to_have_count(2)
+    expect(read).to_have_count(0)
