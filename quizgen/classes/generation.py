@@ -204,8 +204,7 @@ def replace_template(
     ClassError
         If there is no such question, or nothing else that may stand there.
     """
-    if not 1 <= number <= len(settings.templates):
-        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
+    _find_asked_template(settings, number)
     chosen = [family[0] for family in settings.templates]
     without = settings.without
     if template and template not in bank.template_paths:
@@ -254,9 +253,7 @@ def replace_by_comparable(
     ClassError
         If nothing is known of the question, or of nothing that may stand there.
     """
-    if not 1 <= number <= len(settings.templates):
-        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
-    now = settings.templates[number - 1][0]
+    now = _find_asked_template(settings, number)
     if now not in difficulties:
         raise ClassError(f"no earlier class was asked {now}, of question {number}")
     others = (difficulties.keys() - {now}) & bank.template_paths.keys()
@@ -264,6 +261,13 @@ def replace_by_comparable(
         with suppress(ClassError):
             return replace_template(settings, bank, blueprint, number, other)
     raise ClassError(f"nothing that earlier classes were asked can stand for question {number}")
+
+
+def _find_asked_template(settings: ClassSettings, number: int) -> str:
+    """Return the template of a question, from 1; ``ClassError`` if there is no such question."""
+    if not 1 <= number <= len(settings.templates):
+        raise ClassError(f"no question {number} (there are {len(settings.templates)})")
+    return settings.templates[number - 1][0]
 
 
 def make_preview(settings: ClassSettings, blueprint: Blueprint, exam: ExamDetails) -> Paper:

@@ -156,7 +156,7 @@ _CODES = {
     "QG123": Rule("A given quantity of the solver is not drawn.",
                   "write a line for it under [draw]"),
     "QG124": Rule("The bank asks for another version of quizgen.",
-                  "write a sign before the version, as in >=0.1, or install one that fits"),
+                  "write a sign before the version, as in >=1.0, or install one that fits"),
     "QG125": Rule("Two things have one name.", "rename one of them"),
     "QG126": Rule("There is no such solver.", "mend the name, or write the file"),
     "QG127": Rule("There is no such figure, or no ``data.py``.",

@@ -54,9 +54,6 @@ MOST_SOLVED_WIDTH = 80
 MOST_UNDER_A_COVER = 8
 """Questions of a paper whose first questions stand on the page of its cover."""
 
-SURE_TO_FIT = 80
-"""Characters of a typed formula that is no wider than the page: none takes more than 5.5 pt."""
-
 
 class _TypstPaper:
     """Typst source of one paper or its solutions, and the pictures that it refers to."""

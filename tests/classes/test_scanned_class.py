@@ -1,13 +1,12 @@
 """A class on paper: how much of it is read, how much asked, and that nothing is lost.
 
-A few students with every kind of damage. ``SCANNED=60`` in the environment is the full size, by
+A few students with every kind of damage. ``QUIZGEN_SWEEP=full`` in the environment is the full size, by
 which what docs/class.md says was measured.
 """
 
 from __future__ import annotations
 
 import json
-import os
 import random
 import shutil
 import time
@@ -17,6 +16,7 @@ import pytest
 from made import run
 from paper_and_pen import Pen, fill_sheet, rasterise, save_scan, scan, spoil
 from PIL import Image
+from sweep import IS_FULL, draws
 from test_scan import read_answers, read_marks
 
 from quizgen.classes import generation
@@ -28,8 +28,8 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(not shutil.which("pdftoppm"), reason="rasterises with poppler"),
 ]
-FULL = int(os.environ.get("SCANNED", "0"))
-STUDENTS = {"--sheet": FULL or 8, "--scan": FULL // 4 or 2}
+STUDENTS = {"--sheet": draws(8, full=60), "--scan": draws(2, full=15)}
+FULL = IS_FULL
 FOLDERS = {"--sheet": "sheets", "--scan": "papers"}
 FLAT = ("300", "200", "150", "150", "skew", "upside down", "stain", "punch", "staple")
 HARD = ("fold", "phone")
