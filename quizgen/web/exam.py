@@ -38,7 +38,7 @@ from quizgen.web.forms import (
     read_form,
     read_ticked_criteria,
 )
-from quizgen.web.live_preview import preview_reading
+from quizgen.web.live_preview import preview_lines, preview_reading
 from quizgen.web.papers import MakePaper
 from quizgen.web.question_attempt import share_of_part
 from quizgen.web.question_view import PaperView, PartView, QuestionView
@@ -437,7 +437,10 @@ async def preview_exam_answer(request: Request) -> Response:
     part, place = _get_part(paper, request.path_params["part"])
     values = read_answer(form, FIELDS + part.field.id)
     lang = request_language(request)
-    read = preview_reading(part.field, paper.items[place].key, values, lang, sitting.decimal)
+    key = paper.items[place].key
+    if lines := preview_lines(part.field, key, values, lang, sitting.decimal, judged=False):
+        return page_response(request, "lines_so_far.html.j2", lines=lines)
+    read = preview_reading(part.field, key, values, lang, sitting.decimal)
     return HTMLResponse(translate_page(lang, "practice.read", value=read) if read else "")
 
 

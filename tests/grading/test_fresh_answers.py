@@ -19,6 +19,7 @@ from typing import Any
 import pytest
 
 import quizgen
+from quizgen.paper import one_part
 
 ANSWERS = Path(__file__).parent / "fresh_answers.toml"
 LATER = [Path(__file__).parent / f"{name}_answers.toml" for name in ("later", "new")]
@@ -310,6 +311,22 @@ def open_template(bank: str, name: str) -> Any:
     root = ANSWERED if bank == "answered" else EXAMPLES / bank
     opened = quizgen.Bank(root, trusted=True) if bank else quizgen.builtin_bank()
     return opened.template(name)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def composed_once():
+    """Each question is composed for its first answer alone: that takes five times as long as marking."""
+    compose, kept = one_part.single_question_paper, {}
+
+    def once(template: Any, seed: str | int, lang: str, **how: Any) -> Any:
+        asked = id(template), seed, lang  # open_template keeps all templates
+        if asked not in kept:
+            kept[asked] = compose(template, seed, lang, **how)
+        return kept[asked]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(one_part, "single_question_paper", once)
+        yield
 
 
 def find_kind(row: Row) -> str:
