@@ -303,8 +303,11 @@ SHARES = {"found": Fraction(1), "half": HALF, "follows": Fraction(1)}
 def _sum_up(found: list[Evidence]) -> tuple[Status, Evidence | None]:
     """Return what all clauses together suggest, and the evidence that it goes by.
 
-    A contradiction outweighs what is right: both together say nothing.
+    A contradiction outweighs what is right: both together say nothing. One whose words lie far
+    apart does not, where the idea is said.
     """
+    if any(one.meaning == "said" for one in found):
+        found = [one for one in found if one.meaning != "denied" or not one.is_loose]
     for meaning, status in (
         ("denied", "refused"), ("said", "found"), ("half", "half"), ("open", "open"),
     ):  # fmt: skip

@@ -28,11 +28,11 @@ from quizgen.paper.constraints import READING
 
 ROUND = 200
 """Papers of a round: seeds in a row that know of each other."""
-TRIES, PASSES, GOOD = 60, 6, 6
+TRIES, PASSES, GOOD = 60, 6, 12
 """Beginnings of a paper that are tried, how often each is gone through, how many have to do."""
 FEW = 8
 """Papers that are made again rather than kept."""
-TOO_MANY = 20
+TOO_MANY = 100
 """What a question more than may be shared costs, compared with one that may."""
 
 _KEPT = CompileCache("rounds", list[list[int]])
@@ -166,7 +166,7 @@ class _Round:
         told = repr((self.demands, self.shared, number, names, self.apart))
         self.sources = told.encode(), Path(__file__).read_bytes()
         """What the papers follow from."""
-        costs = [3**count * (1 if count <= self.shared else TOO_MANY)
+        costs = [4**count * (1 if count <= self.shared else TOO_MANY)
                  for count in range(len(places) + 2)]  # fmt: skip
         self.steps = [after - before for before, after in pairwise(costs)]
         """What one more question adds for a paper that shares so many already."""

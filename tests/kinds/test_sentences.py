@@ -114,6 +114,22 @@ def test_the_suggestion_is_what_the_examiner_gave(table):
     assert sum(got == wanted for got, wanted in pairs) >= 0.85 * len(pairs)
 
 
+@pytest.mark.slow
+def test_blind_sentences_get_about_the_points_of_the_examiner():
+    """Of questions alone, marks were given without the scheme: a point is one idea of several."""
+    rows = tomllib.loads((Path(__file__).parent / "blind_sentences.toml").read_text("utf-8"))
+    away, possible = 0.0, 0.0
+    for template, points, sentence in rows["rows"]:
+        drawn = draw_variant(builtin_bank().template(template), 1)
+        asked = (ask_part(drawn, n).spec for n in range(len(drawn.template.rules.part)))
+        spec = next(one for one in asked if one.kind == "rubric")
+        made = spec.suggest(sentence)
+        away += abs(float(made.points) - points)
+        possible += float(parse_written_number(spec.full))
+        assert made.touched or not points
+    assert away <= 0.1 * possible
+
+
 @pytest.mark.parametrize("question", SCHEMES)
 @pytest.mark.parametrize("table", TABLES, ids=lambda table: table.stem)
 def test_what_is_denied_is_never_found_and_what_is_right_is_never_overlooked(table, question):

@@ -31,6 +31,10 @@ Meaning = Literal["said", "half", "denied", "open"]
 
 WIDEST = 3
 """Clauses next to each other that one example may be spread over."""
+LONGEST_NOUN = 3
+"""Words of what is missing where a clause begins with *without*; more are what then holds."""
+LOOSE = 3
+"""Words for each that was recognised, from which on they may belong to several statements."""
 SHORTEST = 4
 """Letters of a word that others may go on from; fewer in scripts that write fewer letters."""
 
@@ -121,6 +125,7 @@ class _Vocabulary:
     breaks: frozenset[str]
     denials: frozenset[str]
     ahead: frozenset[str]
+    conditions: frozenset[str]
     harmless: frozenset[tuple[str, ...]]
     frames: tuple[tuple[str, ...], ...]
     corrections: frozenset[tuple[str, ...]]
@@ -160,6 +165,7 @@ def _vocabulary() -> _Vocabulary:
         words("breaks"),
         words("denials"),
         words("ahead"),
+        words("conditions"),
         frozenset(rows("harmless")),
         tuple(rows("frames")),
         frozenset(rows("corrections")),
@@ -531,6 +537,12 @@ class Evidence:
     places: tuple[int, ...]
     turned: bool = False
 
+    @property
+    def is_loose(self) -> bool:
+        """Return whether it is spread over clauses, and most of their words are others."""
+        apart = self.last > self.first
+        return apart and self.places[-1] - self.places[0] >= LOOSE * len(self.places)
+
 
 class Statement:
     """A text of a learner, cut into clauses.
@@ -593,7 +605,20 @@ class Statement:
             return True
         before = self.tokens[place - 1].text if place else ""
         after = self.tokens[place + 1] if place + 1 < len(self.tokens) else None
-        return len(before) > 1 and before not in {"vs", "etc", "ca"} and not (after and after.tied)
+        if after and after.tied:
+            return False
+        if len(before) == 1:
+            return place > 1 and after is not None and self._is_capitalised(place - 1, place + 1)
+        return bool(before) and before not in {"vs", "etc", "ca"}
+
+    def _is_capitalised(self, last: int, place: int) -> bool:
+        """Return whether a word begins a sentence after a number, or a name of one letter.
+
+        After other letters it may be part of an abbreviation: ``z. B.``.
+        """
+        word, before = self.tokens[place], self.typed[self.tokens[last].start]
+        begins = len(word.text) > 1 and self.typed[word.start].isupper()
+        return begins and (before.isdigit() or before.isupper())
 
     def _pauses(self, place: int) -> bool:
         """Return whether a sign parts two clauses."""
@@ -628,7 +653,7 @@ class Statement:
             if word in known.denials:
                 clause.denials.append(place)
                 clause.whole += self._is_whole(words, index)
-            elif word in known.ahead:
+            elif word in known.ahead and not self._is_condition(words, index):
                 clause.ahead.append(place)
             if word in known.than and any(
                 name == "amount" for one in words[:index] for name, _ in _scales_of(one)
@@ -636,6 +661,10 @@ class Statement:
                 clause.compared |= set(clause.places[index + 1 :])
             elif word in known.than_behind and index:
                 clause.compared |= set(clause.places[max(index - 1, 0) : index])
+
+    def _is_condition(self, words: Sequence[str], index: int) -> bool:
+        """Return whether a word says under what condition a clause holds: *without a lens, ...*."""
+        return index == 0 and len(words) > LONGEST_NOUN + 1 and words[0] in _vocabulary().conditions
 
     def _is_whole(self, words: Sequence[str], index: int) -> bool:
         """Return whether a denial covers its clause, not just what follows: ``thin, not thick``."""
