@@ -11,9 +11,11 @@ from __future__ import annotations
 import argparse
 import ast
 import gc
+import importlib
 import io
 import os
 import pickle
+import pkgutil
 import random
 import shutil
 import signal
@@ -164,8 +166,11 @@ class Runner:
         found = Path("tests.pickle")
         run_child(lambda: self._map(session.items, mutant_switch, found), 1e5)
         meets, seconds = pickle.loads(found.read_bytes())  # noqa: S301 - written just now
+        import_all_modules()
         with self.out.open("w", encoding="utf-8", buffering=1) as table:
-            for number, mutant in enumerate(self.mutants):
+            each = len(self.mutants) // len(ROOMS)
+            for number in sorted(range(len(self.mutants)), key=lambda n: n % each):  # rooms in turn
+                mutant = self.mutants[number]
                 tests = [t for t in session.items if number in meets.get(t.nodeid, ())]
                 near = choose_tests(mutant, tests, seconds)
                 os.environ["MUTANT"] = str(number)
@@ -218,6 +223,15 @@ def choose_tests(mutant: Mutant, items: list[Any], seconds: dict[str, float]) ->
             chosen.append(item)
             spent += seconds[item.nodeid]
     return chosen
+
+
+def import_all_modules() -> None:
+    """Import what tests import, once for all processes that are forked off."""
+    import quizgen
+
+    for found in pkgutil.walk_packages(quizgen.__path__, "quizgen."):
+        if not found.name.endswith(("__main__", "_build_hook", "migrations.env")):
+            importlib.import_module(found.name)
 
 
 def run_child(work: Callable[[], int], seconds: float) -> int:
