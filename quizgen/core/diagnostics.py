@@ -328,6 +328,8 @@ _CODES = {
     "QG611": Rule("A picture is too large to be that of a page.", "scan it with 150 to 300 dpi"),
     "QG612": Rule("What was typed beside scanned sheets, or kept of them, cannot be read.",
                   "mend the line that the message names"),
+    "QG613": Rule("A picture cannot be assigned to a page by hand.",
+                  "name a picture and a page that the page of pictures shows"),
     "QG650": Rule("A rubric or the list of markers of a class cannot be read.",
                   "mend the file, or delete it: decisions stand in rulings.csv"),
     "QG651": Rule("A table of earlier classes cannot be read.",

@@ -149,11 +149,11 @@ async def change_room(request: Request) -> Response:
 
 def _change_exam(room: ClassRoom, what: str) -> None:
     """Open, pause, resume or release the exam for the whole class, also for who comes later."""
-    seats = room.store.seats
+    shared = room.store.shared
     if what == "open":
-        seats.share(OPENED, str(room.now()))
+        shared.replace(OPENED, str(room.now()))
     elif what in {"pause", "go-on"}:
-        seats.share(HELD, "1" if what == "pause" else "")
+        shared.replace(HELD, "1" if what == "pause" else "")
     else:
         room.release(on=what == "release")
 
