@@ -74,6 +74,8 @@ def test_the_streams_of_the_generator_never_change():
     assert ours.normal(3, 2, 4).tolist() == state.normal(3, 2, 4).tolist()
     assert ours.integers(5, 9, 6).tolist() == state.randint(5, 9, 6).tolist()
     assert ours.permutation(7).tolist() == state.permutation(7).tolist()
+    assert ours.poisson(4, 5).tolist() == state.poisson(4, 5).tolist()
+    assert ours.binomial(9, 0.3, 5).tolist() == state.binomial(9, 0.3, 5).tolist()
     assert ours.multinomial(20, [0.5, 0.25, 0.25]).sum() == 20
     assert FrozenGenerator("another").random() != FrozenGenerator("a key").random()
 
