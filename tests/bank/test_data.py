@@ -224,6 +224,7 @@ def test_data_that_is_never_given_is_named(tmp_path, monkeypatch):
     [
         ('[draw]\nx = { normal = ["1", "2"], size = 5 }\n', "normal needs decimals"),
         ('[draw]\nx = { normal = ["1", "2"], decimals = 1 }\n', "normal needs size"),
+        ('[draw]\nx = { normal = ["1", "2"], size = 5, decimals = 99 }\n', "must be 0 to"),
         ("[draw]\nx = { sample = [1, 2], size = 3 }\n", "a sample of 3 out of 2"),
         ('[draw]\nx = { table = "no.csv" }\n', "no.csv"),
         ('[draw]\nx = { table = "../no.csv" }\n', "no .csv or .json beside"),
