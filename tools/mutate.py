@@ -163,10 +163,10 @@ class Runner:
         """Find who meets which mutant, then try each."""
         import mutant_switch  # type: ignore[import-not-found]
 
+        import_all_modules()
         found = Path("tests.pickle")
         run_child(lambda: self._map(session.items, mutant_switch, found), 1e5)
         meets, seconds = pickle.loads(found.read_bytes())  # noqa: S301 - written just now
-        import_all_modules()
         with self.out.open("w", encoding="utf-8", buffering=1) as table:
             each = len(self.mutants) // len(ROOMS)
             for number in sorted(range(len(self.mutants)), key=lambda n: n % each):  # rooms in turn
