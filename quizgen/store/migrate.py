@@ -20,7 +20,7 @@ from sqlalchemy import (
 from quizgen.core.errors import StoreError
 from quizgen.store.schema import METADATA
 
-OLDEST, NEWEST = "0005", "0010"
+OLDEST, NEWEST = "0005", "0011"
 """The first and the last step in ``migrations/versions``."""
 _VERSIONS = Table(
     "alembic_version",

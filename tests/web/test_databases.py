@@ -51,6 +51,7 @@ ROWS = {
     "0008": {},
     "0009": {},
     "0010": {},
+    "0011": {},
 }  # fmt: skip
 """What each release keeps, in the tables that it has added."""
 
