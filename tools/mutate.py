@@ -26,13 +26,14 @@ import tempfile
 import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 ROOMS = ("grading", "kinds", "bank", "paper", "classes", "web")
 FEWEST, MOST, SECONDS, PATIENCE = 20, 200, 40.0, 150.0
 """Tests that a mutant meets at least and at most, how long beyond the fewest, when it hangs."""
+CACHED = type(cache(int))
 SWAPS: dict[type, type] = {
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq,
     ast.NotEq: ast.Eq, ast.In: ast.NotIn, ast.NotIn: ast.In, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
@@ -184,8 +185,8 @@ class Runner:
         """Return how a mutant ends; a test that fails here without it, too, says nothing."""
         while True:
             code = run_child(partial(self._try, items, switch, number), PATIENCE)
-            if code <= 0:
-                return "hung" if code else "SURVIVED"
+            if not 0 < code <= len(items):
+                return {0: "SURVIVED", -1: "hung"}.get(code, "killed")
             one = items[code - 1]
             if one in self.sound or not run_child(partial(self._try, [one], switch, -1), PATIENCE):
                 self.sound.add(one)
@@ -213,7 +214,7 @@ class Runner:
         if "/bank/" in self.mutants[number].file:
             os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(dir=".")
             for one in gc.get_objects():
-                if callable(getattr(one, "cache_clear", None)) and "quizgen" in one.__module__:
+                if isinstance(one, CACHED) and "quizgen" in (one.__module__ or ""):
                     one.cache_clear()
         for place, item in enumerate(items):
             following = items[place + 1] if item is not items[-1] else None
