@@ -283,7 +283,7 @@ def test_the_analysis_shows_the_class(decided, capsys):
     assert "Cohen&#39;s kappa" in page or "Cohen's kappa" in page
     assert "12 minutes (median)" in page
     assert page.count("<svg") >= 2
-    assert '"QuizBangla", Georgia, "Times New Roman"' in page[: page.index("</style>")]
+    assert '"QuizText", "QuizBangla", system-ui' in page[: page.index("</style>")]
 
 
 def test_what_is_wrong_in_a_file_is_named_and_changes_nothing(decided, tmp_path, capsys):

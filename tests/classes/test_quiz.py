@@ -69,7 +69,7 @@ def test_the_analysis_speaks_the_language_that_is_asked_for(taken, lang, said):
     page = (taken / "results/analysis.html").read_text("utf-8")
     assert f'<html lang="{lang}">' in page
     assert f"<th>{said}</th>" in page
-    assert ("@font-face" in page) == (lang == "bn")
+    assert (page.count("@font-face") > 1) == (lang == "bn")
     page = re.sub(r"<svg.*?</svg>", "", page, flags=re.DOTALL)
     # 27, 14.25 and 27 points: 22.75 each, 7.36 apart
     assert [said in page for said in ("22,8", "7,4")] == [lang == "de"] * 2

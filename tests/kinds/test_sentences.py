@@ -14,7 +14,7 @@ import pytest
 
 from quizgen.bank.bank import builtin_bank
 from quizgen.bank.variant import draw_variant
-from quizgen.grading.judging.statements import Statement
+from quizgen.grading.judging.statements import Statement, read_subject, split_tokens
 from quizgen.maths.numbers import parse_written_number
 from quizgen.question.part_context import ask_part
 
@@ -175,3 +175,11 @@ def test_the_clause_that_is_gone_by_is_quoted():
         "I think the DoF shrinks", "the image gets brighter",
     ]  # fmt: skip
     assert made.points == parse_written_number("2")
+
+
+@pytest.mark.parametrize("word", ["পড়তে", "reading", "sensing", "lighted"])
+def test_a_word_of_two_groups_is_of_the_one_that_has_it(word):
+    others = {"পড়তে": "পড়া", "reading": "reads", "sensing": "sense", "lighted": "lights"}
+    mine, other = (word,), (others[word],)
+    for groups in ((mine, other), (other, mine)):
+        assert read_subject(groups).find(split_tokens(word), 0) == (((word,),), 1)
