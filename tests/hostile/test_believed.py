@@ -254,6 +254,13 @@ def test_a_blueprint_that_nobody_means_is_one_located_line(tmp_path, slot, words
     assert re.match(rf"{place}(:\d+)?: {re.escape(words or 'not valid TOML')}", str(caught.value))
 
 
+def test_a_reference_of_a_blueprint_is_never_a_path(tmp_path):
+    path = tmp_path / "week3.toml"
+    path.write_text('title = { en = "Week 3" }\nreference = ["../x"]\n[[slot]]\ncount = 1\n')
+    with pytest.raises(BlueprintError, match=r"reference: '\.\./x' is no name"):
+        load_blueprint(str(path))
+
+
 def test_a_name_in_a_code_is_never_a_path(tmp_path):
     marks = tmp_path / "marks.json"
     marks.write_text(json.dumps({"code": "/dev/zero-1-en-000000", "parts": []}))
