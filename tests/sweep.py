@@ -1,6 +1,7 @@
 """How far a sweep goes: little by default, more with ``-m slow``, and all of it if one says so.
 
-``QUIZGEN_SEEDS`` says how many draws, ``QUIZGEN_SWEEP=full`` takes every item of every list.
+``QUIZGEN_SEEDS`` says how many draws, ``QUIZGEN_SWEEP=full`` takes every item of every list, and as many
+draws as a sweep names for it.
 """
 
 from __future__ import annotations
@@ -13,10 +14,12 @@ from typing import Any
 
 import pytest
 
+IS_FULL = os.environ.get("QUIZGEN_SWEEP") == "full"
 
-def draws(usual: int) -> int:
-    """Return how many draws a sweep takes: as many as CI does, or what ``QUIZGEN_SEEDS`` says."""
-    return int(os.environ.get("QUIZGEN_SEEDS", usual))
+
+def draws(usual: int, full: int | None = None) -> int:
+    """Return how many draws a sweep takes: as many as CI does, ``full``, or ``QUIZGEN_SEEDS``."""
+    return int(os.environ.get("QUIZGEN_SEEDS", full if IS_FULL and full else usual))
 
 
 def spread(items: Iterable[Any], usual: int, slow: int | None = None) -> list[Any]:
@@ -28,7 +31,7 @@ def spread(items: Iterable[Any], usual: int, slow: int | None = None) -> list[An
     every = list(items)
     chosen = _choose(len(every), usual)
     others = [place for place in range(len(every)) if place not in chosen]
-    if slow is not None and os.environ.get("QUIZGEN_SWEEP") != "full":
+    if slow is not None and not IS_FULL:
         others = [others[place] for place in sorted(_choose(len(others), slow))]
     return [
         every[place]

@@ -50,7 +50,7 @@ def make_spec(shape: type[S], part: PartContext, **given: object) -> S:
         If the answer has a key that the kind does not define, or one of the wrong type.
     """
     answer = part.answer
-    fields = {field.encode_name for field in msgspec.structs.fields(shape)} - {"of"}
+    fields = {*shape.__struct_encode_fields__} - {"of"}
     table = {name: value for name, value in answer.items() if name in fields}
     if "accept" in answer:
         table["accept"] = [format_for_key(part.evaluate(str(bound))) for bound in answer["accept"]]

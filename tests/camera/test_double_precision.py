@@ -22,7 +22,7 @@ from quizgen.figures.svg import encode_png
 from quizgen.numerics.gamma import srgb_decode
 
 SCENE = Path(__file__).parents[2] / "quizgen/camera/scenes/texture.toml"
-SEEDS = [range(20), pytest.param(range(20, draws(200)), marks=pytest.mark.slow)]
+SEEDS = [range(20), pytest.param(range(20, draws(100, full=400)), marks=pytest.mark.slow)]
 JUMPS = {"quantisation", "shot noise", "impulse noise", "dark current", "blooming"}
 """Where the last bit may make a whole code or electron, so that pictures are not compared."""
 

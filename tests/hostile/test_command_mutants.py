@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
@@ -14,11 +13,12 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 
 from command_mutants import BASES, COMMANDS, LARGEST, LONGEST, try_mutants_of_base
+from sweep import draws
 
 from quizgen.cli.classes import class_
 from quizgen.cli.main import COMMANDS as ALL
 
-FEW, MANY = 30, int(os.environ.get("QUIZGEN_MUTANTS", "300"))
+FEW, MANY = 15, draws(100, full=3000)
 NO_FILE = {"doctor", "schema", "tradeoff"}
 """Commands that read no file of a user."""
 ONLY_BEFORE_PAPERS = {"redraw"}

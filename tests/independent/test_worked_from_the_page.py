@@ -32,7 +32,7 @@ LANGS = ("en", "bn")
 QUICK = (1,)
 SEEDS = [
     pytest.param(seed, marks=[pytest.mark.slow] * (seed not in QUICK))
-    for seed in range(1, draws(5) + 1)
+    for seed in range(1, draws(3, full=50) + 1)
 ]
 HERE = Path(__file__).parent
 for module in sorted(HERE.glob("hand_*.py")):

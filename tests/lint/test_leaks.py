@@ -39,7 +39,10 @@ CHOICE = '[[part]]\nanswer = { kind = "choice", options = { x = true, y = false 
 TF = '[claims]\nx = true\n[[part]]\nanswer = { kind = "tf", from = "claims" }\n'
 PAPERS = [
     range(6),
-    *(pytest.param(range(n, n + 20), marks=pytest.mark.slow) for n in range(6, draws(26), 20)),
+    *(
+        pytest.param(range(n, n + 6), marks=pytest.mark.slow)
+        for n in range(6, draws(12, full=300), 6)
+    ),
 ]
 """Seeds, in batches that several processes can share."""
 

@@ -24,7 +24,7 @@ PAPERS = [
     *((name, 0) for name in BLUEPRINTS),
     *(
         pytest.param(BLUEPRINTS[seed % 2], seed, marks=pytest.mark.slow)
-        for seed in range(1, draws(6))
+        for seed in range(1, draws(4, full=50))
     ),
 ]
 """One of each blueprint by default, then the two in turn."""
@@ -36,7 +36,7 @@ def at(level, name="trial"):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("level", LEVELS)
-@pytest.mark.parametrize("seed", range(1, draws(3)))
+@pytest.mark.parametrize("seed", range(1, draws(2, full=5)))
 def test_what_is_printed_is_marked_right_from_files(bank, tmp_path, level, seed):
     desk = Desk(tmp_path, all_templates(bank, seed, level=level))
     for lang in ("en", "bn"):

@@ -36,19 +36,19 @@ def test_threads_that_begin_together_make_what_one_makes():
 
 @pytest.mark.slow
 def test_sixteen_threads_make_what_one_makes():
-    papers = draws(15)
+    papers = draws(8, full=200)
     assert made(16, papers, USUAL, "html") == made(1, papers, USUAL, "html")
 
 
 @pytest.mark.slow
 def test_typesetting_in_threads_is_what_it_is_in_one():
-    assert made(8, 12, HASTY, "html", "pdf") == made(1, 12, USUAL, "html", "pdf")
+    assert made(8, 6, HASTY, "html", "pdf") == made(1, 6, USUAL, "html", "pdf")
 
 
 @pytest.mark.slow
 def test_cold_starts_do_not_crash():
     alone = made(1, 4, USUAL, "html")
-    starts = min(draws(4), 20)
+    starts = min(draws(2), 20)
     assert [made(4, 4, HASTY, "html") for _ in range(starts)] == [alone] * starts
 
 

@@ -25,7 +25,7 @@ CALCULATING = [
 SEEDS = [1, pytest.param(0, marks=pytest.mark.slow)]
 
 
-@pytest.fixture(scope="module", params=spread(CALCULATING, 12, slow=24))
+@pytest.fixture(scope="module", params=spread(CALCULATING, 12, slow=12))
 def template(request):
     return builtin_bank().template(request.param)
 

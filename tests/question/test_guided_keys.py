@@ -22,12 +22,12 @@ CALCULATING = [
     name for name in builtin_bank().template_paths
     if builtin_bank().rules(name).solver and "guided" in builtin_bank().rules(name).levels
 ]  # fmt: skip
-SEEDS = [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, draws(3) + 1))]
+SEEDS = [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, draws(2, full=8) + 1))]
 UNITS_ALONE = [1, 180 / sympy.pi]
 """Between two values of one formula in different units; powers of ten also come by chance."""
 
 
-@pytest.fixture(scope="module", params=spread(CALCULATING, 12, slow=32))
+@pytest.fixture(scope="module", params=spread(CALCULATING, 12, slow=20))
 def template(request):
     return builtin_bank().template(request.param)
 

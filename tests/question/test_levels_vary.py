@@ -119,7 +119,7 @@ def test_a_change_goes_either_way(name):
 
 @together("name", spread(CALCULATING, 0, slow=30))
 def test_no_answer_is_right_in_nearly_every_draw(name):
-    assert one_sided(name, draws(50), FEWEST) == set()
+    assert one_sided(name, draws(50, full=200), FEWEST) == set()
 
 
 def test_two_changes_are_of_different_quantities():

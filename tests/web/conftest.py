@@ -148,7 +148,7 @@ def sections():
 @pytest.fixture(scope="module")
 def served(database):
     """A server in a process of its own."""
-    server = Served(database())
+    server = Served(database(), "--workers", "1")  # each takes seconds to begin
     yield server
     server.kill()
 

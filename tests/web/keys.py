@@ -23,6 +23,7 @@ class Keys:
         self._until("element => document.activeElement === element", locator.element_handle())
 
     def _until(self, reached: str, what: object) -> None:
+        self.page.wait_for_load_state()  # then the scripts listen, and move the focus no more
         for _ in range(MOST):
             self.page.keyboard.press("Tab")
             if self.page.evaluate(reached, what):

@@ -112,10 +112,9 @@ def test_the_printed_answer_is_right(wrong, template):
     assert wrong(template, str(place), lang, level) == []
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("template", NAMES)
+@pytest.mark.parametrize("template", spread(NAMES, 0, slow=64))
 def test_printed_answers_of_more_draws_are_right(wrong, template):
-    for place in range(draws(1)):
+    for place in range(draws(1, full=20)):
         seed = str(place)
         for turn, level in enumerate(levels(template, seed), place):
             assert wrong(template, seed, ("en", "bn")[turn % 2], level) == []

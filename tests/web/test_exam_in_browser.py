@@ -65,7 +65,6 @@ def typed(page, number: int, text: str):
     expect(page.locator("#kept")).to_have_text(SAVED)
 
 
-@pytest.mark.both_databases
 def test_a_reload_and_the_way_back_keep_what_was_typed(exam, served):
     page = exam(paper="mock")
     typed(page, 0, "12.5")
@@ -137,7 +136,6 @@ def test_enter_keeps_and_changes_nothing_else(exam):
     expect(page.locator(".flagged")).to_have_count(0)
 
 
-@pytest.mark.both_databases
 def test_a_page_that_was_open_before_loses_nothing_of_another(exam):
     one = exam()
     two = one.context.new_page()
@@ -150,7 +148,6 @@ def test_a_page_that_was_open_before_loses_nothing_of_another(exam):
     expect(two.locator(".typed", has_text="222")).to_have_count(1)
 
 
-@pytest.mark.both_databases
 def test_what_is_typed_while_the_server_is_dead_arrives_when_it_is_back(exam, served, opened):
     page = exam()
     typed(page, 0, "1.5")
@@ -179,7 +176,6 @@ def test_what_is_typed_without_a_network_arrives_when_it_is_back(exam, opened):
     forgive(opened)
 
 
-@pytest.mark.both_databases
 def test_a_browser_that_ends_while_the_server_is_dead_still_sends_it_later(exam, served, opened):
     page = exam()
     at = page.url
@@ -206,7 +202,6 @@ def end_in(page, served, seconds: float):
     page.reload()
 
 
-@pytest.mark.both_databases
 def test_the_clock_counts_to_zero_and_hands_the_paper_in(exam, served):
     page = exam(clock=True)
     expect(page.locator(".clock")).to_have_text(re.compile(r"^\d+ min left$"))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import pytest
+from sweep import IS_FULL
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 WIDTH, HEIGHT = 390, 844
-EVERY = 8
+EVERY = 1 if IS_FULL else 24
 """Of so many templates one is looked at, of all topics."""
 BOTTOM = "document.querySelector('section.part').getBoundingClientRect().bottom + scrollY"
 

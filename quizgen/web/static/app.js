@@ -44,8 +44,9 @@ document.addEventListener("htmx:after:swap", () => {
   if (document.activeElement && document.activeElement !== document.body) { return; }
   document.querySelector(TO_FILL)?.focus({ preventScroll: true });
 });
-// With a mouse there is a keyboard, too; on a phone the focus would lift one over the figure.
-if (document.body.classList.contains("play") && matchMedia("(pointer: fine)").matches) {
+// With a mouse there is a keyboard, too; on a phone the focus would lift one over the figure. What has
+// it already keeps it: somebody went on by keys while this was on its way.
+if (document.body.classList.contains("play") && matchMedia("(pointer: fine)").matches && document.activeElement === document.body) {
   document.querySelector(TO_FILL)?.focus({ preventScroll: true });
 }
 
@@ -80,6 +81,20 @@ document.addEventListener("keydown", (event) => {
   });
 })();
 
+// A field of lines: one that is finished - by Enter, by pasting, by leaving the field - is read back.
+(() => {
+  const told = new WeakMap();
+  const tell = (event) => {
+    const field = event.target;
+    if (!field.matches?.("textarea[data-rows]") || told.get(field) === field.value) { return; }
+    if (event.type === "input" && !/^(insertLineBreak|insertParagraph|insertFromPaste)$/.test(event.inputType)) { return; }
+    told.set(field, field.value);
+    field.dispatchEvent(new CustomEvent("quizgen:row"));
+  };
+  document.addEventListener("input", tell);
+  document.addEventListener("change", tell);
+})();
+
 // Signs that the keyboard of a phone hides, put where the last field had its caret. Once there, they
 // stay: whatever moved under a finger would not be pressed.
 (() => {
@@ -91,10 +106,14 @@ document.addEventListener("keydown", (event) => {
   } });
   document.addEventListener("click", (event) => {
     const sign = event.target.closest("[data-put]");
-    const field = last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])");
+    const field = document.getElementById(sign?.dataset.into) ?? (last?.isConnected ? last : document.querySelector("section.part input[type=text]:not([readonly])"));
     if (!sign || !field) { return; }
-    field.setRangeText(sign.dataset.put, field.selectionStart, field.selectionEnd, "end");
+    const [from, to] = [field.selectionStart, field.selectionEnd];
+    const [before, after] = sign.dataset.put.split("|");
+    field.setRangeText(before + (after ? field.value.slice(from, to) + after : ""), from, to, "end");
     field.focus();
+    const inside = from === to ? from + before.length : field.selectionEnd - after?.endsWith("()");
+    if (after) { field.setSelectionRange(inside, inside); }
     field.dispatchEvent(new Event("input", { bubbles: true }));
   });
 })();
