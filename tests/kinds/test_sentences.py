@@ -1,7 +1,8 @@
-"""What is suggested of sentences, beside what an examiner gave them: four tables of sentences.
+"""What is suggested of sentences, beside what an examiner gave them: five tables of sentences.
 
-``given.toml`` was written by somebody who did not write the mark schemes, ``own_a.toml`` and
-``own_b.toml`` after they stood, ``own_c.toml`` before they did. A row is a sentence and its points, criterion by criterion.
+``given.toml`` was written by somebody who did not write the mark schemes, ``own_a.toml``,
+``own_b.toml`` and ``own_d.toml`` after they stood, ``own_c.toml`` before they did. A row is a
+sentence and its points, criterion by criterion.
 """
 
 from __future__ import annotations
